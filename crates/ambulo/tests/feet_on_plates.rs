@@ -12,7 +12,7 @@ use ambulo::model::{BodyId, BySide, Side};
 use ambulo::motion::{MarkerRecording, PlateRecording};
 use ambulo::spatial::Vec3;
 use free_bodies::{DOWN_Y, free_bodies};
-use marker_walk::{Load, place, plate, plate_under, stances, walk};
+use marker_walk::{Load, climb, place, plate, plate_under, stair, stances, walk};
 
 const R: Side = Side::Right;
 const L: Side = Side::Left;
@@ -68,6 +68,44 @@ fn two_feet_on_one_plate_are_reported_and_the_load_is_assigned_to_neither() {
     let (assigned, _) = judge(&walk(), std::slice::from_ref(&big), &[(0, L)]);
     assert_eq!(assigned.contacts[0].side, Some(L));
     assert_eq!(assigned.recordings(&[big], bodies)[0].body, bodies.left);
+}
+
+/// Four steps, each on a plate that reaches under the next step, on stairs of this rise [m].
+fn four_stairs(rise_m: f64) -> Vec<PlateRecording> {
+    let steps = [(R, 0), (L, 0), (R, 1), (L, 1)];
+    let under = |(side, k): (Side, i32)| {
+        let x = place(side, k).x;
+        plate([x - 0.2, -0.4], [x + 1.0, 0.4], stair(side, k, rise_m), &[Load::whole(side, k)])
+    };
+    steps.into_iter().map(under).collect()
+}
+
+#[test]
+fn a_foot_on_the_next_step_of_stairs_is_not_on_the_plate_below() {
+    const RISE_M: f64 = 0.195;
+    let (up, findings) = judge(&climb(RISE_M), &four_stairs(RISE_M), &[]);
+    let sides: Vec<_> = up.contacts.iter().map(|c| (c.side, c.quality)).collect();
+    let clean = |side| (Some(side), ContactQuality::Clean);
+    assert_eq!(sides, [clean(R), clean(L), clean(R), clean(L)], "{up:?}");
+    assert!(!findings.has(Code::PlatesTwoFeet) && !up.windows.is_empty(), "{findings:?}");
+    // Down the same stairs, with the time reversed: the foot on the step below does not count either.
+    let mut down = climb(RISE_M);
+    let mut plates = four_stairs(RISE_M);
+    let last = down.times[down.frames() - 1];
+    down.markers.iter_mut().for_each(|marker| marker.positions.reverse());
+    for plate in &mut plates {
+        assert!((plate.times[plate.times.len() - 1] - last).abs() < 1e-9);
+        plate.force.reverse();
+        plate.moment.reverse();
+    }
+    let (down, _) = judge(&down, &plates, &[]);
+    assert!(down.contacts.iter().all(|c| c.quality != ContactQuality::TwoFeet), "{down:?}");
+    let sides: Vec<_> = down.contacts.iter().map(|c| c.side).collect();
+    assert_eq!(sides, [Some(R), Some(L), Some(R), Some(L)], "{down:?}");
+    // The same plates on level ground carry two feet.
+    let (level, findings) = judge(&climb(0.0), &four_stairs(0.0), &[]);
+    assert!(level.contacts.iter().all(|c| c.quality == ContactQuality::TwoFeet), "{level:?}");
+    assert!(findings.has(Code::PlatesTwoFeet));
 }
 
 #[test]

@@ -48,6 +48,51 @@ fn codes(findings: &Findings) -> Vec<(Code, usize)> {
 
 const NAMES: &str = "time\tpelvis_rx\tpelvis_tx\n";
 
+/// Twenty frames at 100 Hz of a pelvis that turns by 1 degree and moves by 10 mm per frame, changed by `change`.
+fn turning(change: impl Fn(usize, &mut [f64; 2])) -> Table {
+    let row = |i: usize| {
+        let mut values = [170.0 + i as f64, 0.01 * i as f64];
+        change(i, &mut values);
+        format!("{}\t{}\t{}\n", 0.01 * i as f64, values[0], values[1])
+    };
+    storage("inDegrees=yes\n", &format!("{NAMES}{}", (0..20).map(row).collect::<String>()))
+}
+
+#[test]
+fn whole_turns_are_removed_from_angles() {
+    let (whole, none) = import(&turning(|_, _| ()));
+    assert!(none.as_slice().is_empty(), "{none:?}");
+    let wrapped = turning(|_, [angle, _]| *angle -= if *angle > 180.0 { 360.0 } else { 0.0 });
+    let (motion, findings) = import(&wrapped);
+    assert_eq!(codes(&findings), [(Code::MotionUnwrapped, 1)], "{findings:?}");
+    let message = &findings.as_slice()[0].message;
+    assert!(message.contains("`pelvis_rx`") && message.contains("between frames 11 and 12 (0.1100 s)"), "{message}");
+    let columns = |motion: &Result<Motion, MotionError>| motion.as_ref().unwrap().columns[0].clone().unwrap();
+    for (found, expected) in columns(&motion).iter().zip(columns(&whole)) {
+        assert_near(*found, expected, 1e-9, "angle without whole turns");
+    }
+    // A single frame that is a whole turn off comes back as well, and the others stay.
+    let (motion, findings) = import(&turning(|i, [angle, _]| *angle += if i == 7 { -720.0 } else { 0.0 }));
+    assert_eq!(codes(&findings), [(Code::MotionUnwrapped, 1)], "{findings:?}");
+    assert!(findings.as_slice()[0].message.contains("and once more"), "{findings:?}");
+    assert_near(columns(&motion)[7], 177f64.to_radians(), 1e-9, "the frame that was off");
+}
+
+#[test]
+fn jumps_are_named_with_frame_and_column() {
+    let (motion, findings) = import(&turning(|i, [angle, _]| *angle += if i >= 12 { 40.0 } else { 0.0 }));
+    assert_eq!(codes(&findings), [(Code::MotionJump, 1)], "{findings:?}");
+    let message = &findings.as_slice()[0].message;
+    assert!(message.contains("`pelvis_rx` jumps by 41.000 deg between frames 12 and 13 (0.1200 s)"), "{message}");
+    assert_near(motion.unwrap().columns[0].as_ref().unwrap()[13], 223f64.to_radians(), 1e-9, "a jump stays");
+    let (_, findings) = import(&turning(|i, [_, x]| *x += if i == 5 { 0.3 } else { 0.0 }));
+    assert_eq!(codes(&findings), [(Code::MotionJump, 1)], "{findings:?}");
+    assert!(findings.as_slice()[0].message.contains("`pelvis_tx` jumps by 0.310 m"), "{findings:?}");
+    // A fast movement is no jump: its neighbours are fast too.
+    let fast = turning(|i, [angle, _]| *angle += 60.0 * (0.4 * i as f64).sin());
+    assert!(import(&fast).1.as_slice().is_empty());
+}
+
 #[test]
 fn degrees_become_radians_and_lengths_stay() {
     let rows = format!("{NAMES}0.0\t90\t0.5\n0.1\t-45\t0.6\n");

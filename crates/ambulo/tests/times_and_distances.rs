@@ -9,7 +9,7 @@ use ambulo::findings::Findings;
 use ambulo::kinematics::Trajectory;
 use ambulo::model::Model;
 use ambulo::motion::{Smoother, coordinates_from_table, force_recordings};
-use ambulo::study::{self, MeasuredForces, Settings, Source};
+use ambulo::study::{self, ForceFilter, MeasuredForces, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use common::assert_near;
@@ -26,7 +26,7 @@ fn walk() -> (Model, Analysis) {
     let loads = ExternalLoads::read(&read("walk_grf.xml")).unwrap().0;
     let plates = force_recordings(&model, &loads, &table("walk_grf.mot"), &mut findings).unwrap();
     let source = Source::coordinates(model, motion).with_forces(MeasuredForces::OnBodies(plates));
-    let settings = Settings { smoother: Smoother::Off, force_filter: None, ..Settings::default() };
+    let settings = Settings { smoother: Smoother::Off, force_filter: ForceFilter::Off, ..Settings::default() };
     let outcome = study::run(&source, &settings, &mut findings).unwrap();
     (outcome.body, outcome.analysis)
 }

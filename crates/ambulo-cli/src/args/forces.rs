@@ -1,7 +1,7 @@
 //! Options of `ambulo forces`.
 
 use super::PrintArgs;
-use super::values::{AddedMassArg, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
+use super::values::{AddedMassArg, Cutoff, FootColumns, ForceCutoff, PlateFoot, order, seconds, zero_or_more_seconds};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::study::Settings;
 use clap::{Args as ClapArgs, ValueEnum};
@@ -66,13 +66,13 @@ pub(crate) struct ForcesArgs {
     /// Low-pass filter of the motion: cut-off in Hz of one pass of the zero-phase Butterworth filter, or off.
     #[arg(long, value_name = "HZ|off", default_value_t = Cutoff(Some(Settings::LOW_PASS.cutoff_hz)), allow_hyphen_values = true)]
     pub(crate) cutoff: Cutoff,
-    /// Low-pass filter of the measured forces [default: as for the motion; 20 Hz, order 2 when compared with a prediction].
-    #[arg(long, value_name = "HZ|off", allow_hyphen_values = true)]
-    pub(crate) force_cutoff: Option<Cutoff>,
+    /// Low-pass filter of the measured forces: cut-off in Hz, `same` for the filter of the motion, or off [default: 25 Hz for walking; the motion's, at least 8 Hz, for running and landing; off with --cutoff off; 20 Hz, order 2, when compared with a prediction].
+    #[arg(long, value_name = "same|HZ|off", allow_hyphen_values = true)]
+    pub(crate) force_cutoff: Option<ForceCutoff>,
     /// Order of one pass of the Butterworth filters (1 to 8).
     #[arg(long, value_name = "N", default_value_t = Settings::LOW_PASS.order, value_parser = order)]
     pub(crate) order: usize,
-    /// How the motion is smoothed. `spline`: quintic, stiffness by generalised cross-validation; --cutoff then applies to the forces only.
+    /// How the motion is smoothed. `spline`: quintic, stiffness by generalised cross-validation; --cutoff then applies only to forces with --force-cutoff same.
     #[arg(long, value_enum, default_value_t = Filter::Butterworth)]
     pub(crate) filter: Filter,
     /// Residual reduction: change the motion within its noise until it agrees with the measured forces (docs/CONSISTENCY.md). `motion`: the motion only; `body`: also the body mass and the mass centre of the trunk [without a value: body].

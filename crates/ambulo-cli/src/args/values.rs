@@ -67,6 +67,29 @@ impl FromStr for Cutoff {
     }
 }
 
+/// How measured forces are filtered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ForceCutoff {
+    /// As the motion.
+    Same,
+    /// With this cut-off frequency [Hz].
+    Hz(f64),
+    /// Not at all.
+    Off,
+}
+
+impl FromStr for ForceCutoff {
+    type Err = String;
+    fn from_str(text: &str) -> Result<ForceCutoff, String> {
+        match (text.to_ascii_lowercase().as_str(), text.parse::<f64>()) {
+            ("same", _) => Ok(ForceCutoff::Same),
+            ("off", _) => Ok(ForceCutoff::Off),
+            (_, Ok(hz)) if (1.0..=500.0).contains(&hz) => Ok(ForceCutoff::Hz(hz)),
+            _ => Err("expected a frequency from 1 to 500 Hz, `same` (as the motion) or `off`".into()),
+        }
+    }
+}
+
 /// A body and the prefix of the columns that act on it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct FootColumns {

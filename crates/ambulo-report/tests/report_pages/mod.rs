@@ -6,7 +6,7 @@
 use ambulo::findings::Findings;
 use ambulo::model::Model;
 use ambulo::motion::{Smoother, coordinates_from_table, force_recordings};
-use ambulo::study::{self, GroundSettings, MeasuredForces, Settings, Source};
+use ambulo::study::{self, ForceFilter, GroundSettings, MeasuredForces, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_report::outcome_figures;
@@ -53,7 +53,7 @@ fn folder_of(body: &[u8], motion: &[u8], ground: &[u8], loads: &ExternalLoads, f
     let source = Source::coordinates(model, motion).with_forces(MeasuredForces::OnBodies(plates));
     let settings = Settings {
         smoother: Smoother::Off,
-        force_filter: None,
+        force_filter: ForceFilter::Off,
         comparison_filter: None,
         ground: forces,
         ..Settings::default()

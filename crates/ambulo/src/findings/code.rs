@@ -68,6 +68,12 @@ codes! {
     MotionRadiansAsDegrees "motion.radians_as_degrees" Warning
         "Angles were read as degrees but are as small as radians would be."
         "Set `inDegrees=no` in the header.";
+    MotionUnwrapped "motion.unwrapped" Note
+        "An angle jumps by a whole turn between two frames; the turns were removed."
+        "Nothing to do.";
+    MotionJump "motion.jump" Warning
+        "A coordinate jumps between two frames; rates and forces are wrong there."
+        "Correct these frames, or leave them out.";
     MotionUnknownCoordinate "motion.unknown_coordinate" Warning
         "Columns of the recording have names that the model has no coordinate for; they were not used."
         "Check that recording and model belong together, or rename the columns.";

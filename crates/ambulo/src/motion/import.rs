@@ -1,5 +1,6 @@
 //! Reads the coordinates of a model from a table.
 
+use super::jumps;
 use super::recording::{Motion, MotionError};
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateKind, Model};
@@ -15,7 +16,8 @@ const ENOUGH_ROTATIONS: usize = 4;
 /// Reads the coordinates of `model` from a table. Columns are coordinate names or absolute state paths
 /// (`/jointset/hip_r/hip_flexion_r/value`); rotations are converted from degrees if the header states degrees.
 ///
-/// Unknown columns, repeated rows and angles in the wrong unit are findings.
+/// Whole turns between two frames are removed from angles. Unknown columns, repeated rows, angles in the wrong unit and jumps are
+/// findings.
 ///
 /// # Errors
 /// Times that do not increase, two different rows at one time, no known column.
@@ -54,7 +56,10 @@ pub fn coordinates_from_table(
         return Err(no_coordinate(model, table));
     }
     report_unknown(model, &unknown, &motion, findings);
-    report_wrong_unit(model, &motion, in_degrees, findings);
+    if is_usual_unit(model, &motion, in_degrees, findings) {
+        jumps::without_whole_turns(model, &mut motion, findings);
+        jumps::report_jumps(model, &motion, findings);
+    }
     Ok(motion)
 }
 
@@ -125,7 +130,8 @@ fn report_unknown(model: &Model, unknown: &[&str], motion: &Motion, findings: &m
     findings.report(Code::MotionUnknownCoordinate, message);
 }
 
-fn report_wrong_unit(model: &Model, motion: &Motion, in_degrees: bool, findings: &mut Findings) {
+/// Whether the angles can be in the unit that the header states; a finding otherwise.
+fn is_usual_unit(model: &Model, motion: &Motion, in_degrees: bool, findings: &mut Findings) -> bool {
     let recorded = model.coordinates().iter().zip(&motion.columns);
     let rotations: Vec<(&Coordinate, f64)> = recorded
         .filter(|(c, _)| c.kind == CoordinateKind::Rotation)
@@ -147,13 +153,15 @@ fn report_wrong_unit(model: &Model, motion: &Motion, in_degrees: bool, findings:
             );
             findings.report(Code::MotionDegreesAsRadians, message);
         }
-        return;
+        return large.is_empty();
     }
     let moving: Vec<f64> = rotations.iter().map(|(_, largest)| largest.to_degrees()).filter(|x| *x > 0.0).collect();
-    if moving.len() >= ENOUGH_ROTATIONS && moving.iter().all(|x| *x < SMALLEST_PLAUSIBLE_SPAN_DEG) {
+    let is_too_small = moving.len() >= ENOUGH_ROTATIONS && moving.iter().all(|x| *x < SMALLEST_PLAUSIBLE_SPAN_DEG);
+    if is_too_small {
         let message = format!(
             "no angle exceeds {SMALLEST_PLAUSIBLE_SPAN_DEG} under a header that states degrees; the angles look like radians. hint: set inDegrees=no in the header"
         );
         findings.report(Code::MotionRadiansAsDegrees, message);
     }
+    !is_too_small
 }

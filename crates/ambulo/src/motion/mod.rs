@@ -11,6 +11,7 @@ mod force_recording;
 mod gait_event;
 pub(crate) mod gaps;
 mod import;
+mod jumps;
 mod laboratory;
 pub mod landmarks;
 mod marker_recording;

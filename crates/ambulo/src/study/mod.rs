@@ -16,6 +16,7 @@
 
 mod error;
 mod events;
+mod force_filter;
 mod force_table;
 mod laboratory_file;
 mod mass;
@@ -28,6 +29,7 @@ mod source;
 
 pub use crate::analysis::{Stage, Stopped};
 pub use error::{Input, StudyError};
+pub use force_filter::ForceFilter;
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
 pub use mass::{MassKnowledge, standing_mass_kg};
 pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};

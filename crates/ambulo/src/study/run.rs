@@ -149,7 +149,7 @@ fn processing(observation: &Observation, settings: &Settings, findings: &mut Fin
     }
     let force_filter = match observation.is_predicted(settings) {
         true => settings.comparison_filter.filter(|_| !observation.forces.is_empty()),
-        false => settings.force_filter,
+        false => settings.force_filter.of(&observation.model, &observation.forces, settings.smoother),
     };
     let window = if settings.window == whole { known_window(&observation.origin, findings) } else { settings.window };
     analysis::AnalysisSettings {

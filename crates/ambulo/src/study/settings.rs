@@ -1,5 +1,6 @@
 //! How a recording is processed.
 
+use super::force_filter::ForceFilter;
 use crate::analysis::Adjustable;
 use crate::analysis::feasibility::Thresholds;
 use crate::ground::predict::PredictSettings;
@@ -12,8 +13,8 @@ use crate::motion::{Smoother, Window};
 pub struct Settings {
     /// How the motion is smoothed.
     pub smoother: Smoother,
-    /// Low-pass of the measured forces that joint forces are computed from; `None` leaves them as recorded.
-    pub force_filter: Option<LowPass>,
+    /// Low-pass of the measured forces that joint forces are computed from.
+    pub force_filter: ForceFilter,
     /// Low-pass of the measured forces that a prediction is compared with; `None` leaves them as recorded. It differs from the
     /// filter of the motion, because it must keep what plates measure.
     pub comparison_filter: Option<LowPass>,
@@ -47,7 +48,7 @@ pub enum GroundSettings {
 }
 
 impl Settings {
-    /// Low-pass of recorded motion and of the forces with it: zero-phase Butterworth, 6 Hz, third order.
+    /// Low-pass of recorded motion: zero-phase Butterworth, 6 Hz, third order.
     pub const LOW_PASS: LowPass = LowPass::MOTION;
     /// Low-pass of measured forces that a prediction is compared with: 20 Hz, second order.
     pub const COMPARISON_LOW_PASS: LowPass = LowPass::COMPARED_PLATES;
@@ -57,7 +58,7 @@ impl Default for Settings {
     fn default() -> Settings {
         Settings {
             smoother: Smoother::Butterworth(Settings::LOW_PASS),
-            force_filter: Some(Settings::LOW_PASS),
+            force_filter: ForceFilter::ByMovement,
             comparison_filter: Some(Settings::COMPARISON_LOW_PASS),
             window: Window::default(),
             rate_hz: None,

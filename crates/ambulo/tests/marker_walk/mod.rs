@@ -47,29 +47,39 @@ pub(crate) fn place(side: Side, k: i32) -> Vec3 {
     Vec3::new(SPEED_M_S * middle, 0.0, lateral(side))
 }
 
-/// Reference point of the foot at a time [m].
-fn foot(side: Side, t: f64) -> Vec3 {
+/// Height of the stair under the foot in its stance number `k`: every step is one stair higher [m].
+pub(crate) fn stair(side: Side, k: i32, rise_m: f64) -> f64 {
+    rise_m * f64::from(2 * k + i32::from(side == Side::Left))
+}
+
+/// Reference point of the foot at a time, on stairs of this rise [m].
+fn foot(side: Side, t: f64, rise_m: f64) -> Vec3 {
     let stride = (t - first_strike(side)) / STRIDE_S;
     let (k, phase) = (stride.floor() as i32, stride - stride.floor());
-    let here = place(side, k);
+    let on_stair = |k: i32| place(side, k) + Vec3::y() * stair(side, k, rise_m);
+    let here = on_stair(k);
     if phase <= STANCE {
         return here;
     }
     let u = (phase - STANCE) / (1.0 - STANCE);
     let share = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
-    let next = place(side, k + 1);
-    here + (next - here) * share + Vec3::y() * (0.1 * (std::f64::consts::PI * u).sin())
+    here + (on_stair(k + 1) - here) * share + Vec3::y() * (0.1 * (std::f64::consts::PI * u).sin())
 }
 
-/// Markers of the pelvis and both feet, in world axes.
+/// Markers of the pelvis and both feet on level ground, in world axes.
 pub(crate) fn walk() -> MarkerRecording {
+    climb(0.0)
+}
+
+/// The same walk up stairs of this rise [m].
+pub(crate) fn climb(rise_m: f64) -> MarkerRecording {
     let times: Vec<f64> = (0..=(DURATION_S * RATE_HZ) as usize).map(|i| i as f64 / RATE_HZ).collect();
     let path = |name: &str, at: &dyn Fn(f64) -> Vec3| MarkerPath {
         name: name.to_owned(),
         positions: times.iter().map(|&t| at(t)).collect(),
     };
-    let pelvis = |offset: Vec3| move |t: f64| Vec3::new(SPEED_M_S * t, 1.0, 0.0) + offset;
-    let on_foot = |side: Side, ahead: f64| move |t: f64| foot(side, t) + Vec3::new(ahead, 0.04, 0.0);
+    let pelvis = |offset: Vec3| move |t: f64| Vec3::new(SPEED_M_S * t, 1.0 + 2.0 * rise_m * t / STRIDE_S, 0.0) + offset;
+    let on_foot = |side: Side, ahead: f64| move |t: f64| foot(side, t, rise_m) + Vec3::new(ahead, 0.04, 0.0);
     let markers = vec![
         path("RASI", &pelvis(Vec3::new(0.1, 0.0, 0.12))),
         path("LASI", &pelvis(Vec3::new(0.1, 0.0, -0.12))),

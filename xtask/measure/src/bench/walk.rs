@@ -6,7 +6,7 @@ use crate::workspace::{self, Walk};
 use ambulo::findings::Findings;
 use ambulo::model::from_osim;
 use ambulo::motion::{coordinates_from_table, force_recordings};
-use ambulo::study::{self, MeasuredForces, Outcome, Settings, Source};
+use ambulo::study::{self, ForceFilter, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
@@ -74,7 +74,7 @@ fn main_job(files: &Files, stage: &mut dyn FnMut(&'static str)) -> Result<(), Bo
         ControlFlow::Continue(())
     };
     // As OpenSim's inverse dynamics tool treats this recording: forces are not filtered.
-    let settings = Settings { force_filter: None, ..Settings::default() };
+    let settings = Settings { force_filter: ForceFilter::Off, ..Settings::default() };
     let outcome = study::run_observed(&source, &settings, &mut findings, &mut watch)?;
     let Outcome { body, analysis, .. } = &outcome;
     black_box((output_files(body, analysis, None)?, figure_files(body, analysis, None)?));

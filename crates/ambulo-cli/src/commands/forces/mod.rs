@@ -8,7 +8,7 @@ mod skeleton;
 
 use super::run_files::{RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
-use crate::args::{Adjusted, Filter, ForcesArgs, MarkerFitting};
+use crate::args::{Adjusted, Filter, ForceCutoff, ForcesArgs, MarkerFitting};
 use crate::{Completion, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
@@ -16,7 +16,7 @@ use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, Window};
-use ambulo::study::{self, AddedMass, ForceOrigin, GroundSettings, Outcome, Settings, Source};
+use ambulo::study::{self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, Outcome, Settings, Source};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use ambulo_results::{GroundSource, Input, OutputFile};
@@ -162,11 +162,17 @@ fn settings(args: &ForcesArgs) -> Result<Settings> {
         (Filter::Butterworth, Some(filter)) => Smoother::Butterworth(filter),
         (Filter::Butterworth, None) => Smoother::Off,
     };
+    let of_forces = args.force_cutoff.map(|cutoff| match cutoff {
+        ForceCutoff::Same => low_pass(args.cutoff.0),
+        ForceCutoff::Hz(hz) => low_pass(Some(hz)),
+        ForceCutoff::Off => None,
+    });
     let defaults = Settings::default();
     Ok(Settings {
         smoother,
-        force_filter: low_pass(args.force_cutoff.unwrap_or(args.cutoff).0),
-        comparison_filter: args.force_cutoff.map_or(defaults.comparison_filter, |cutoff| low_pass(cutoff.0)),
+        force_filter: of_forces
+            .map_or(defaults.force_filter, |asked| asked.map_or(ForceFilter::Off, ForceFilter::LowPass)),
+        comparison_filter: of_forces.unwrap_or(defaults.comparison_filter),
         window: Window { from_s: args.from, to_s: args.to },
         rate_hz: args.rate,
         ground: match (args.no_ground, args.predict) {

@@ -1,6 +1,6 @@
 //! Assigns one contact to a foot and decides how much of the foot's load the plate measured.
 
-use super::feet::Feet;
+use super::feet::{Feet, OVER_EDGE_M};
 use super::{ContactQuality, PlateContact};
 use crate::ground::phases::{Contact, contacts_from_force};
 use crate::model::Side;
@@ -13,8 +13,6 @@ const FARTHEST_M: f64 = 0.2;
 const SAME_EVENT_S: f64 = 0.1;
 /// A second foot on a plate for less than this is an error of its events [s].
 const SECOND_FOOT_S: f64 = 0.08;
-/// A marker further than this beyond an edge is off the plate [m]; heel markers are behind the heel.
-const OVER_EDGE_M: f64 = 0.02;
 
 /// The times during which a plate is loaded.
 pub(super) fn loaded_spans(plate: &PlateRecording) -> Vec<[f64; 2]> {
@@ -74,7 +72,7 @@ fn mean_distance(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: 
     for i in samples(plate, span) {
         let load = plate.vertical(i);
         if let Some(distance) =
-            feet.distance(side, plate.center_of_pressure(i), plate.up, plate.times[i]).filter(|d| d.is_finite())
+            feet.distance(side, plate.center_of_pressure(i), plate, plate.times[i]).filter(|d| d.is_finite())
         {
             sum += load * distance;
             weight += load;
@@ -122,11 +120,8 @@ fn both_feet(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2]) -> Option<
 
 /// How long the foot was on this plate during the span [s].
 fn time_on_plate(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
-    let on_plate = |t: f64| {
-        let line = feet.line(side, t);
-        feet.stands(side, t) && line.is_some_and(|l| l.iter().any(|p| plate.depth_inside(*p) > OVER_EDGE_M))
-    };
-    let frames = feet.markers.times.iter().filter(|t| (span[0]..=span[1]).contains(*t) && on_plate(**t)).count();
+    let times = feet.markers.times.iter().filter(|t| (span[0]..=span[1]).contains(*t));
+    let frames = times.filter(|t| feet.is_on(side, plate, **t)).count();
     frames as f64 / feet.markers.rate_hz
 }
 

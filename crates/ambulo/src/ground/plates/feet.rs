@@ -2,11 +2,16 @@
 
 use super::super::foot_motion::FootMotion;
 use crate::model::Side;
-use crate::motion::{Landmarks, MarkerRecording};
+use crate::motion::{Landmarks, MarkerRecording, PlateRecording};
 use crate::spatial::Vec3;
 
 /// The foot reaches this share of the distance from heel to toe marker beyond the toe marker.
 const BEYOND_TOE: f64 = 0.2;
+/// A marker further than this beyond an edge is off the plate [m]; heel markers are behind the heel.
+pub(super) const OVER_EDGE_M: f64 = 0.02;
+/// Heights above a plate of the lower one of heel and toe marker while the foot is on the plate [m]. A foot on the next step of stairs is
+/// outside: steps are at least 0.15 m high.
+const ON_PLATE_M: [f64; 2] = [-0.08, 0.14];
 
 /// Markers, the feet that they belong to, and the events that were detected from them.
 pub(super) struct Feet<'a> {
@@ -36,17 +41,25 @@ impl Feet<'_> {
         Some([heel, toe])
     }
 
-    /// Distance of a point from the foot along the ground [m].
-    pub(super) fn distance(&self, side: Side, point: Vec3, up: Vec3, time_s: f64) -> Option<f64> {
-        let [heel, toe] = self.line(side, time_s)?;
-        let level = |v: Vec3| v - up * v.dot(&up);
+    /// Distance of a point on a plate from the foot [m]: along the ground, and by how much the foot is too high or too low for the plate.
+    pub(super) fn distance(&self, side: Side, point: Vec3, plate: &PlateRecording, time_s: f64) -> Option<f64> {
+        let line = self.line(side, time_s)?;
+        let [heel, toe] = line;
+        let level = |v: Vec3| v - plate.up * v.dot(&plate.up);
         let along = level(toe - heel) * (1.0 + BEYOND_TOE);
         let to = level(point - heel);
         let share = (to.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        Some((to - along * share).norm())
+        Some((to - along * share).norm().hypot(off_level_m(&line, plate)))
     }
 
-    pub(super) fn stands(&self, side: Side, time_s: f64) -> bool {
+    /// Whether the foot is over the plate, at the height of a foot that stands on it.
+    pub(super) fn is_on(&self, side: Side, plate: &PlateRecording, time_s: f64) -> bool {
+        let Some(line) = self.line(side, time_s) else { return false };
+        let is_over = line.iter().any(|p| plate.depth_inside(*p) > OVER_EDGE_M);
+        is_over && off_level_m(&line, plate) == 0.0 && self.stands(side, time_s)
+    }
+
+    fn stands(&self, side: Side, time_s: f64) -> bool {
         self.stances(side).iter().any(|s| s[0] <= time_s && time_s <= s[1])
     }
 
@@ -64,4 +77,12 @@ impl Feet<'_> {
         let stances = self.stances(side).into_iter().filter(|s| overlap(s) > 0.0);
         stances.max_by(|a, b| overlap(a).total_cmp(&overlap(b)))
     }
+}
+
+/// By how much the lower end of a foot is above or below the heights of a foot on the plate [m].
+fn off_level_m(line: &[Vec3; 2], plate: &PlateRecording) -> f64 {
+    let height = |p: &Vec3| (p - plate.center()).dot(&plate.up);
+    let lower = height(&line[0]).min(height(&line[1]));
+    let [lowest, highest] = ON_PLATE_M;
+    (lowest - lower).max(lower - highest).max(0.0)
 }

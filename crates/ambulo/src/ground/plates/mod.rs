@@ -2,7 +2,7 @@
 //!
 //! A **contact** is a time during which a plate carries more than 20 N. It belongs to the foot whose line from heel to
 //! toe is nearest to the centre of pressure, averaged over the load, within 0.2 m (the limit in the documentation of
-//! Visual3D). It is
+//! Visual3D). Height counts: a foot on another step of stairs is not on the plate. The contact is
 //! - of **two feet** if the other foot was on the same plate as well,
 //! - **partial** if the foot was on the floor clearly before or after the force, or over the edge of the plate,
 //! - **shared** if it is partial alone and complete together with another plate under the same foot,

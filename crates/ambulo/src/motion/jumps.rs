@@ -1,0 +1,115 @@
+//! Jumps in recorded coordinates: whole turns of angles are removed, others are reported.
+
+use super::recording::Motion;
+use crate::findings::{Code, Findings};
+use crate::model::{CoordinateKind, Model};
+use crate::numerics::median;
+use std::f64::consts::{PI, TAU};
+
+/// An angle that is within this of its last value after whole turns are removed did not jump otherwise [rad].
+const SAME_ANGLE: f64 = 1.0;
+/// A jump is this many times larger than the usual change between the frames around it.
+const SUDDEN: f64 = 10.0;
+/// Frames before and after a change with which it is compared.
+const AROUND: usize = 5;
+/// Fewer changes than this around a change do not show what is usual.
+const ENOUGH_AROUND: usize = 4;
+
+/// What a jump is for one kind of coordinate.
+struct Limits {
+    /// Fastest movement of a person [rad/s or m/s].
+    fastest: f64,
+    /// A change is a jump above the fastest movement during one frame, between these bounds [rad or m].
+    bounds: [f64; 2],
+}
+
+/// Removes changes of angles by whole turns, with a note for each column.
+pub(super) fn without_whole_turns(model: &Model, motion: &mut Motion, findings: &mut Findings) {
+    for (coordinate, column) in model.coordinates().iter().zip(&mut motion.columns) {
+        let (CoordinateKind::Rotation, Some(column)) = (coordinate.kind, column) else { continue };
+        let turns = unwrapped(column);
+        if let [first, ..] = turns[..] {
+            let message = format!(
+                "`{}` jumps by a whole turn {}{}; the turns were removed",
+                coordinate.name,
+                place(&motion.times, first),
+                more(turns.len())
+            );
+            findings.report(Code::MotionUnwrapped, message);
+        }
+    }
+}
+
+/// Names every other jump.
+pub(super) fn report_jumps(model: &Model, motion: &Motion, findings: &mut Findings) {
+    for (coordinate, column) in model.coordinates().iter().zip(&motion.columns) {
+        let Some(column) = column else { continue };
+        let (limits, factor, unit) = match coordinate.kind {
+            CoordinateKind::Rotation => (Limits { fastest: 30.0, bounds: [0.1, 0.3] }, 1f64.to_degrees(), "deg"),
+            CoordinateKind::Translation => (Limits { fastest: 10.0, bounds: [0.03, 0.1] }, 1.0, "m"),
+            CoordinateKind::Coupled => continue,
+        };
+        let jumps = jumps(&motion.times, column, &limits);
+        if let [first, ..] = jumps[..] {
+            let change = factor * (column[first] - column[first - 1]);
+            let message = format!(
+                "`{}` jumps by {change:.3} {unit} {}{}; its rate, and the forces, are wrong there. hint: correct these frames, or leave them out",
+                coordinate.name,
+                place(&motion.times, first),
+                more(jumps.len())
+            );
+            findings.report(Code::MotionJump, message);
+        }
+    }
+}
+
+fn place(times: &[f64], frame: usize) -> String {
+    format!("between frames {} and {} ({:.4} s)", frame, frame + 1, times[frame])
+}
+
+fn more(count: usize) -> String {
+    match count {
+        0 | 1 => String::new(),
+        2 => " and once more".to_owned(),
+        _ => format!(" and {} more times", count - 1),
+    }
+}
+
+/// Removes whole turns; returns the frames where they began. Most of the angles keep their values.
+fn unwrapped(column: &mut [f64]) -> Vec<usize> {
+    let mut found = Vec::new();
+    let (mut turns, mut last) = (0.0, f64::NAN);
+    let mut removed = Vec::with_capacity(column.len());
+    for (frame, x) in column.iter_mut().enumerate() {
+        let change = *x - turns * TAU - last;
+        let whole = (change / TAU).round();
+        if change.abs() > PI && (change - whole * TAU).abs() < SAME_ANGLE {
+            turns += whole;
+            found.push(frame);
+        }
+        *x -= turns * TAU;
+        removed.push(turns);
+        if x.is_finite() {
+            last = *x;
+        }
+    }
+    let usual = median(removed).unwrap_or(0.0).round();
+    column.iter_mut().for_each(|x| *x += usual * TAU);
+    found
+}
+
+/// The frames after sudden changes.
+fn jumps(times: &[f64], column: &[f64], limits: &Limits) -> Vec<usize> {
+    let changes: Vec<f64> = column.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let is_jump = |i: &usize| {
+        let [least, most] = limits.bounds;
+        let allowed = (limits.fastest * (times[i + 1] - times[*i])).clamp(least, most);
+        let from = i.saturating_sub(AROUND);
+        let to = (i + AROUND + 1).min(changes.len());
+        let around = changes[from..*i].iter().chain(&changes[i + 1..to]).copied().filter(|change| change.is_finite());
+        let around: Vec<f64> = around.collect();
+        let is_known = around.len() >= ENOUGH_AROUND;
+        changes[*i] > allowed && is_known && changes[*i] > SUDDEN * median(around).unwrap_or(f64::INFINITY)
+    };
+    (0..changes.len()).filter(is_jump).map(|i| i + 1).collect()
+}
