@@ -131,7 +131,7 @@ const STEPS: [Step; 11] = [
 ];
 
 /// Steps of `--full`, after the others.
-const LONG_STEPS: [Step; 3] = [
+const LONG_STEPS: [Step; 4] = [
     Step {
         name: "fuzz corpus",
         tool: Tool::Cargo,
@@ -155,6 +155,14 @@ const LONG_STEPS: [Step; 3] = [
         second: None,
         variable: None,
         hint: "each line above is a command that failed and what it printed last",
+    },
+    Step {
+        name: "all numbers of all options",
+        tool: Tool::Cargo,
+        arguments: &["test", "--locked", "--package", "ambulo-cli", "--test", "option_sweep", "--", "--show-output"],
+        second: None,
+        variable: Some(("AMBULO_SWEEP", "all")),
+        hint: "the failing test names the command and its options; the range of a number belongs in the library",
     },
     Step {
         name: "benchmark",

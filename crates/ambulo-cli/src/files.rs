@@ -26,13 +26,16 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     if metadata.is_dir() {
         bail!("{shown}: this is a folder; expected a file");
     }
+    if !metadata.is_file() {
+        bail!("{shown}: this is a pipe or a device; expected a file. hint: save the data as a file first");
+    }
     if metadata.len() > LARGEST_FILE_BYTES {
         let (found, allowed) = (metadata.len() >> 20, LARGEST_FILE_BYTES >> 20);
         bail!("{shown}: {found} MB; expected at most {allowed} MB. hint: is this really a motion or a model?");
     }
     let mut bytes = Vec::new();
     let file = fs::File::open(path).with_context(|| format!("{shown}: cannot be opened"))?;
-    // The size in the metadata may be wrong (a device, a growing file).
+    // The size in the metadata may be wrong (a growing file).
     file.take(LARGEST_FILE_BYTES).read_to_end(&mut bytes).with_context(|| format!("{shown}: cannot be read"))?;
     Ok(bytes)
 }

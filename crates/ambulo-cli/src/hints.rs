@@ -75,7 +75,7 @@ fn of_analysis(error: &AnalysisError) -> Option<&'static str> {
 fn of_motion(error: &MotionError) -> Option<&'static str> {
     match error {
         MotionError::NoColumn { .. } => Some("`--right` and `--left` choose other columns"),
-        MotionError::Gap { .. } | MotionError::ForceNotFinite { .. } => Some(RANGE),
+        MotionError::Gap { .. } | MotionError::ForceNotFinite { .. } | MotionError::FarRange { .. } => Some(RANGE),
         _ => None,
     }
 }

@@ -1,6 +1,7 @@
 //! The `ambulo` command: reads files, calls the library, writes files and messages.
 
 mod args;
+mod bug_report;
 mod commands;
 mod files;
 mod hints;
@@ -11,6 +12,7 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    bug_report::install();
     let args = Args::parse();
     let done = match args.command {
         None => printer::guide().map(|()| Completion::Passed),

@@ -37,6 +37,30 @@ fn a_missing_file_is_named_once_with_a_hint() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn a_device_or_a_pipe_is_rejected_at_once() {
+    let bench = Workbench::new("device");
+    let made = std::process::Command::new("mkfifo").arg(bench.folder.join("pipe.toml")).status().unwrap();
+    assert!(made.success());
+    for args in [&["simulate", "/dev/zero"][..], &["simulate", "pipe.toml"], &["walk", "--gait", "pipe.toml"]] {
+        bench.run(args).refused(&["this is a pipe or a device; expected a file", "hint: "]);
+    }
+}
+
+#[test]
+fn control_codes_of_a_file_name_do_not_reach_the_terminal() {
+    let bench = Workbench::new("control_codes");
+    let name = "red\u{1b}[31m\u{7}\u{9b}.mot";
+    let run = bench.run(&["info", name]);
+    run.refused(&["red\u{fffd}[31m", "there is no such file"]);
+    bench.write(name, bench.read("walk.mot"));
+    let run = bench.run(&["info", name]).done();
+    for text in [run.stdout, run.stderr] {
+        assert!(!text.contains(|c: char| c.is_control() && c != '\n' && c != '\t'), "{text:?}");
+    }
+}
+
+#[test]
 fn unknown_and_missing_coordinates_give_warnings() {
     let bench = Workbench::new("unknown_coordinate");
     bench.edit("walk.mot", "knee_angle_r", "knee_flexion_r");

@@ -247,9 +247,16 @@ fn a_mass_carried_on_the_torso_loads_the_back_and_the_root_and_no_leg() {
     let hip = largest_difference(&before, &bench.table("shod/moments.sto"), "hip_flexion_r_moment");
     assert!(hip > 3.0, "a shoe of 1 kg changes the hip by {hip} N.m only");
     assert!(largest_difference(&before, &bench.table("shod/moments.sto"), "hip_flexion_l_moment") < 1e-9);
-    for (mass, words) in [("torso:-1000", "the mass is -1000 kg"), ("torso:nan", "the mass is NaN kg")] {
+    for (mass, words) in [
+        ("torso:-1000", "the mass is -1000 kg"),
+        ("torso:nan", "the mass is NaN kg"),
+        ("torso:1e308", "a mass of 1e308 kg on `torso`; expected at most 360 kg, five times the mass of the model"),
+        ("torso:361", "a mass of 361 kg"),
+        ("torso:1:0,-150,0", "150 m from the origin of `torso`; expected at most 5 m, because"),
+    ] {
         bench.forces(&["--add-mass", mass]).refused(&["--add-mass", words]);
     }
+    bench.forces(&[&RAW[..], &["--add-mass", "torso:100", "-o", "heavy"]].concat()).warned(&[]);
 }
 
 #[test]
@@ -272,6 +279,13 @@ fn from_and_to_cut_the_range_without_changing_a_number() {
     ]);
     bench.forces(&["--from", "2", "--to", "1"]).refused(&["--from 2 is after --to 1"]);
     bench.forces(&["--cutoff", "80"]).refused(&["cut-off is 80 Hz", "hint: "]);
+    // With 1e-308 Hz the filtered forces were not finite, and the verdict was feasible.
+    for option in ["--cutoff", "--force-cutoff"] {
+        for cutoff in ["1e-308", "1e-9", "0.09"] {
+            bench.forces(&[option, cutoff]).refused(&["cut-off is", "allowed are 0.1 Hz, because", "below 50 Hz"]);
+        }
+    }
+    bench.forces(&["--from", "-1e308"]).refused(&["starts or ends at -1e308 s", "near the recording", "--from"]);
     bench.forces(&["--order", "0"]).refused(&["expected a whole number from 1 to 8"]);
     bench.forces(&["--from", "nan"]).refused(&["expected a number of seconds"]);
     bench.forces(&["--cutoff", "-6"]).refused(&["expected a frequency above 0 in Hz, or `off`"]);

@@ -138,6 +138,11 @@ fn a_bad_scene_is_rejected_with_line_and_key() {
     bench.run(&["simulate", "."]).refused(&["this is a folder"]);
     bench.run(&["simulate", "pendulum.toml", "--step", "9"]).refused(&["the time step is 9 s, the duration 5 s"]);
     bench.run(&["simulate", "pendulum.toml", "--step", "1e-12"]).refused(&["1e9 time steps"]);
+    bench.run(&["simulate", "pendulum.toml", "--duration", "1e6"]).refused(&[
+        "1.0e8 rows of output",
+        "because of memory",
+        "hint: simulate a shorter time",
+    ]);
     let run = bench.run(&["simulate", "pendulum.toml", "--step", "0"]);
     assert!(run.code == Some(2) && run.stderr.contains("above 0"), "{}", run.stderr);
     bench.write("file", "");

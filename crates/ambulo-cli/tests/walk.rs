@@ -205,6 +205,24 @@ fn impossible_walks_are_rejected() {
     for speed in ["0", "-1", "nan", "inf"] {
         refused(&["--speed", speed], &["speed", "found", "expected"]);
     }
+    // These ended in panics, in an allocation of 46 GB, or in no frames with the verdict `feasible`.
+    for (option, values, range) in [
+        ("--speed", &["1e-308", "1e-9", "1e6", "1e308"][..], "0.05 to 5 m/s, because"),
+        ("--step-length", &["1e-9", "0.001", "1000", "1e308"], "0.02 to 3 m, because"),
+        ("--cadence", &["1e-308", "0.001", "1e308"], "5 to 1000 steps/min, because"),
+        ("--step-height", &["1e-308", "1e308"], "a factor from 0.1 to 10"),
+    ] {
+        for value in values {
+            for mode in ["corrected", "paper"] {
+                refused(&[option, value, "--mode", mode], &["found ", "expected ", range]);
+            }
+        }
+    }
+    refused(&["--cadence", "5"], &["resulting speed", "0.05 to 5 m/s"]);
+    refused(
+        &["--speed", "0.05", "--cycles", "1000", "--mode", "paper"],
+        &["expected at most 1200000 steps, because of memory", "hint: compute fewer cycles"],
+    );
     for (option, value) in [
         ("--step-length", "0"),
         ("--step-length", "-0.7"),

@@ -76,6 +76,20 @@ pub enum Error {
         /// What is needed.
         expected: String,
     },
+    /// A table of results has a number that is not finite, so that it is not written.
+    #[error(
+        "{table}: column `{column}`, row {row}: found {found}; expected a finite number. hint: a number of the recording or a setting is far outside of the usual range"
+    )]
+    NotFinite {
+        /// Name of the file.
+        table: String,
+        /// Name of the column.
+        column: String,
+        /// Row, counted from 1.
+        row: usize,
+        /// The number.
+        found: f64,
+    },
     /// A record made in memory cannot be written without loss.
     #[error("not a valid record: found {found}; expected {expected}")]
     Record {

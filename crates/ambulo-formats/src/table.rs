@@ -6,7 +6,7 @@
 //! | file | read | written |
 //! |---|---|---|
 //! | storage | versions 1-3 with one number per cell, and SIMM's header before them (`datacolumns`, `datarows`) | version 1 |
-//! | CSV | header row, then numbers; separated by commas, semicolons or tabs; an empty cell is not-a-number | commas |
+//! | CSV | header row, then numbers; separated by commas, semicolons or tabs; an empty cell is not-a-number | commas; an apostrophe before names that a spreadsheet would take for formulas |
 //!
 //! Numbers are written in the shortest form that reads back to the same bits.
 //! Not handled, and rejected: storage of vectors (`DataType=Vec3`), decimal commas, storage without a time column.
@@ -15,6 +15,8 @@
 mod csv;
 pub(crate) mod lines;
 mod storage;
+
+pub use csv::{guarded, unguarded};
 
 use crate::error::{Error, Remark, quoted};
 

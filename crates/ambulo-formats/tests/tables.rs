@@ -178,6 +178,17 @@ fn control_characters_in_names_of_a_csv_are_blanks_and_do_not_separate_when_writ
 }
 
 #[test]
+fn names_of_a_csv_are_no_formulas_for_a_spreadsheet() {
+    let names = ["=cmd|' /C calc'!A0", "+SUM(1)", "-x", "@a", "'=b", "''@c", "'d", "a=b", "-5", "x"];
+    let table = Table::new("", names.iter().map(|name| ((*name).to_owned(), vec![1.0])).collect()).unwrap();
+    let bytes = table.write_csv();
+    let text = String::from_utf8(bytes.clone()).unwrap();
+    let expected = "'=cmd|' /C calc'!A0,'+SUM(1),'-x,'@a,''=b,'''@c,'d,a=b,-5,x\n";
+    assert_eq!(text.split_inclusive('\n').next(), Some(expected));
+    assert_eq!(Table::read_csv(&bytes).unwrap().0.names(), names);
+}
+
+#[test]
 fn csv_of_an_old_macintosh_is_read_with_its_lines() {
     let (table, _) = Table::read_csv(b"\xef\xbb\xbftime,x\r0,1\r1,2\r").unwrap();
     assert_eq!((table.times(), table.line_of_row(1)), (Some(&[0.0, 1.0][..]), Some(3)));

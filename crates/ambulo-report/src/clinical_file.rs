@@ -35,12 +35,12 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
 /// `clinical.csv` of a run, and the convention of its angles.
 ///
 /// # Errors
-/// Column names that a table cannot store.
+/// Column names that a table cannot store, numbers that are not finite.
 pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> Result<(OutputFile, ConventionSummary), Error> {
     let (angles, convention) = angles_of(outcome, chosen);
     let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref());
     let table = Table::new("Clinical curves", curves.columns())?;
-    Ok((OutputFile::csv(CLINICAL, table), convention))
+    Ok((OutputFile::csv(CLINICAL, table)?, convention))
 }
 
 /// Angles of pelvis and hips in the clinical convention, if it is chosen and possible.

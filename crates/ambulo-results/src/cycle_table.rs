@@ -5,6 +5,7 @@ use ambulo::analysis::{Analysis, CYCLE_SAMPLES, Cycle, over_cycle};
 use ambulo::ground::{feet, upward};
 use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
 use ambulo::motion::TimeGrid;
+use ambulo_formats::table::{guarded, unguarded};
 
 /// One curve of one cycle: 101 values.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,7 +97,7 @@ pub(crate) fn csv(rows: &[CycleRow]) -> String {
     let mut text = format!("{HEAD}\n");
     for row in rows {
         for (percent, value) in row.values.iter().enumerate() {
-            let (quantity, side) = (&row.quantity, row.side.letter());
+            let (quantity, side) = (guarded(&row.quantity), row.side.letter());
             text += &format!("{quantity},{side},{},{percent},{value},{}\n", row.cycle, row.unit);
         }
     }
@@ -156,7 +157,7 @@ fn line(text: &str) -> Option<Line<'_>> {
     let unit = UNITS.into_iter().find(|known| *known == unit)?;
     let (cycle, percent) = (cycle.parse().ok()?, percent.parse().ok()?);
     let value = value.parse().ok().filter(|value| is_sound(*value))?;
-    Some(Line { quantity, side, cycle, percent, value, unit })
+    Some(Line { quantity: unguarded(quantity), side, cycle, percent, value, unit })
 }
 
 fn begun(line: &Line<'_>) -> CycleRow {

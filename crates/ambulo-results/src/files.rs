@@ -40,32 +40,50 @@ impl OutputFile {
     }
 
     /// A table as an OpenSim storage file.
-    #[must_use]
-    pub fn storage(name: impl Into<String>, table: Table) -> OutputFile {
-        OutputFile { name: name.into(), bytes: table.write_storage(), value: FileValue::Table(table) }
+    ///
+    /// # Errors
+    /// A table without rows, or with a number that is not finite.
+    pub fn storage(name: impl Into<String>, table: Table) -> Result<OutputFile, Error> {
+        let name = name.into();
+        check_table(&name, &table)?;
+        Ok(OutputFile { name, bytes: table.write_storage(), value: FileValue::Table(table) })
     }
 
     /// A table as comma-separated values.
-    #[must_use]
-    pub fn csv(name: impl Into<String>, table: Table) -> OutputFile {
-        OutputFile { name: name.into(), bytes: table.write_csv(), value: FileValue::Table(table) }
+    ///
+    /// # Errors
+    /// A table without rows, or with a number that is not finite.
+    pub fn csv(name: impl Into<String>, table: Table) -> Result<OutputFile, Error> {
+        let name = name.into();
+        check_table(&name, &table)?;
+        Ok(OutputFile { name, bytes: table.write_csv(), value: FileValue::Table(table) })
     }
 
     /// `events.csv`.
-    #[must_use]
-    pub fn events(events: &[Event]) -> OutputFile {
+    ///
+    /// # Errors
+    /// An instant that is not finite.
+    pub fn events(events: &[Event]) -> Result<OutputFile, Error> {
+        let times: Vec<f64> = events.iter().map(|event| event.time_s).collect();
+        check_column(EVENTS, "time", &times)?;
         let bytes = tables::events_csv(events).into_bytes();
-        OutputFile { name: EVENTS.to_owned(), bytes, value: FileValue::Events(events.to_vec()) }
+        Ok(OutputFile { name: EVENTS.to_owned(), bytes, value: FileValue::Events(events.to_vec()) })
     }
 
     /// `cycles.csv`.
-    #[must_use]
-    pub fn cycles(rows: Vec<CycleRow>) -> OutputFile {
-        OutputFile {
-            name: CYCLES.to_owned(),
-            bytes: cycle_table::csv(&rows).into_bytes(),
-            value: FileValue::Cycles(rows),
+    ///
+    /// # Errors
+    /// A number that is not finite.
+    pub fn cycles(rows: Vec<CycleRow>) -> Result<OutputFile, Error> {
+        for row in &rows {
+            check_column(
+                CYCLES,
+                &format!("{}, side {}, cycle {}", row.quantity, row.side.letter(), row.cycle),
+                &row.values,
+            )?;
         }
+        let bytes = cycle_table::csv(&rows).into_bytes();
+        Ok(OutputFile { name: CYCLES.to_owned(), bytes, value: FileValue::Cycles(rows) })
     }
 
     /// A model as an OpenSim file.
@@ -76,6 +94,23 @@ impl OutputFile {
         let bytes = to_osim(model)?.write()?;
         Ok(OutputFile { name: name.into(), bytes, value: FileValue::Body(Box::new(model.clone())) })
     }
+}
+
+/// Tables of results have rows and finite numbers. Gaps, such as the centre of pressure of an unloaded foot, have been filled by zeros, or
+/// their cells are empty (docs/OUTPUTS.md).
+fn check_table(name: &str, table: &Table) -> Result<(), Error> {
+    if table.rows() == 0 {
+        return Err(Error::Record {
+            found: format!("the table {name} without rows"),
+            expected: "one row or more".into(),
+        });
+    }
+    table.columns().try_for_each(|(column, values)| check_column(name, column, values))
+}
+
+pub(crate) fn check_column(table: &str, column: &str, values: &[f64]) -> Result<(), Error> {
+    let Some(row) = values.iter().position(|x| !x.is_finite()) else { return Ok(()) };
+    Err(Error::NotFinite { table: table.to_owned(), column: column.to_owned(), row: row + 1, found: values[row] })
 }
 
 /// Why a model cannot be written.
@@ -93,26 +128,56 @@ pub enum BodyFileError {
 /// entry per frame; the remaining forces of the body are written in addition to the total.
 ///
 /// # Errors
-/// Column names that a table cannot store.
+/// Column names that a table cannot store, numbers that are not finite.
 pub fn output_files(model: &Model, analysis: &Analysis, device: Option<&[Vec<f64>]>) -> Result<Vec<OutputFile>, Error> {
     let rows = cycle_rows(model, analysis);
     let mut files = vec![
-        OutputFile::storage("kinematics.mot", tables::kinematics(model, analysis)?),
-        OutputFile::storage("moments.sto", tables::moments(model, analysis, None)?),
-        OutputFile::storage("powers.sto", tables::powers(model, analysis)?),
-        OutputFile::storage("reactions.sto", tables::reactions(model, analysis)?),
+        OutputFile::storage("kinematics.mot", tables::kinematics(model, analysis)?)?,
+        OutputFile::storage("moments.sto", tables::moments(model, analysis, None)?)?,
+        OutputFile::storage("powers.sto", tables::powers(model, analysis)?)?,
+        OutputFile::storage("reactions.sto", tables::reactions(model, analysis)?)?,
     ];
     if let Some(device) = device {
         let biological = tables::moments(model, analysis, Some(device))?;
-        files.push(OutputFile::storage("moments_biological.sto", biological));
+        files.push(OutputFile::storage("moments_biological.sto", biological)?);
     }
     if !analysis.ground.bodies.is_empty() {
-        files.push(OutputFile::storage("grf.mot", tables::ground(model, analysis)?));
+        files.push(OutputFile::storage("grf.mot", tables::ground(model, analysis)?)?);
         files.push(OutputFile::new("external_loads.xml", tables::external_loads(model, analysis).write()));
-        files.push(OutputFile::events(&analysis.events));
+        files.push(OutputFile::events(&analysis.events)?);
     }
     if !rows.is_empty() {
-        files.push(OutputFile::cycles(rows));
+        files.push(OutputFile::cycles(rows)?);
     }
     Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(values: Vec<f64>) -> Table {
+        let rows = (0..values.len()).map(|row| row as f64).collect();
+        Table::new("t", vec![("time".to_owned(), rows), ("knee".to_owned(), values)]).unwrap()
+    }
+
+    #[test]
+    fn no_table_holds_a_number_that_is_not_finite() {
+        for found in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let error = OutputFile::storage("moments.sto", table(vec![1.0, found])).unwrap_err().to_string();
+            let words = format!("moments.sto: column `knee`, row 2: found {found}; expected a finite number");
+            assert!(error.starts_with(&words), "{error}");
+            assert!(OutputFile::csv("clinical.csv", table(vec![found])).is_err());
+            let event =
+                Event { side: ambulo::model::Side::Right, kind: ambulo::analysis::EventKind::Off, time_s: found };
+            assert!(OutputFile::events(&[event]).is_err());
+        }
+        assert!(OutputFile::storage("moments.sto", table(vec![1.0, f64::MAX])).is_ok());
+    }
+
+    #[test]
+    fn a_table_without_rows_is_no_result() {
+        let error = OutputFile::csv("clinical.csv", table(Vec::new())).unwrap_err().to_string();
+        assert!(error.contains("the table clinical.csv without rows; expected one row or more"), "{error}");
+    }
 }

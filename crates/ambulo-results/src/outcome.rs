@@ -14,12 +14,12 @@ use ambulo_formats::Error;
 /// Every table of a run, including those of a prediction.
 ///
 /// # Errors
-/// Column names that a table cannot store.
+/// Column names that a table cannot store, numbers that are not finite.
 pub fn outcome_tables(outcome: &Outcome) -> Result<Vec<OutputFile>, Error> {
     let mut files = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref())?;
     let walking = WalkingSummary::of(&outcome.times_and_distances);
     if !walking.quantities.is_empty() {
-        files.push(walking.file());
+        files.push(walking.file()?);
     }
     if let Some(predicted) = predicted_analysis(outcome) {
         files.extend(prediction_files(&outcome.body, &predicted)?);

@@ -11,13 +11,13 @@ use ambulo_formats::Error;
 /// `grf_sd.mot` and, with force plates, `grf_measured.mot`, at the instants of `kinematics.mot`.
 ///
 /// # Errors
-/// Column names that a table cannot store.
+/// Column names that a table cannot store, numbers that are not finite.
 pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis) -> Result<Vec<OutputFile>, Error> {
     let deviations = deviation_columns(&predicted.prediction.deviations, predicted.analysis.trajectory.grid().frames);
     let deviations = tables::table("Standard Deviations of Ground Reactions", &predicted.analysis, deviations)?;
-    let mut files = vec![OutputFile::storage("grf_sd.mot", deviations)];
+    let mut files = vec![OutputFile::storage("grf_sd.mot", deviations)?];
     if let Some(measured) = &predicted.measured {
-        files.push(OutputFile::storage("grf_measured.mot", tables::ground(model, measured)?));
+        files.push(OutputFile::storage("grf_measured.mot", tables::ground(model, measured)?)?);
     }
     Ok(files)
 }

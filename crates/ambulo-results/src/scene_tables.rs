@@ -5,7 +5,7 @@ use ambulo::simulation::scene::{Outputs, Scene, SceneFrame};
 use ambulo::simulation::{ContactForce, Owner, StepForces, TreeJoint, World, WorldState};
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3};
 use ambulo_formats::Error;
-use ambulo_formats::table::Table;
+use ambulo_formats::table::{Table, guarded};
 use nalgebra::{Rotation3, UnitQuaternion};
 use std::fmt::Write;
 
@@ -13,12 +13,12 @@ use std::fmt::Write;
 #[derive(Debug, Clone)]
 pub struct SceneTables {
     kept: Outputs,
-    poses: String,
-    joints: String,
-    reactions: String,
-    contacts: String,
-    closures: String,
-    energy: String,
+    poses: RowTable,
+    joints: RowTable,
+    reactions: RowTable,
+    contacts: RowTable,
+    closures: RowTable,
+    energy: RowTable,
     /// Instants and generalised forces of the figures, column by column.
     times: Vec<f64>,
     moments: Vec<(String, Vec<f64>)>,
@@ -36,13 +36,18 @@ impl SceneTables {
         });
         SceneTables {
             kept: scene.outputs().clone(),
-            poses: "time,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n".into(),
-            joints: "time,joint,coordinate,value,rate,effort,unit\n".into(),
-            reactions: "time,joint,body,fx,fy,fz,mx,my,mz,px,py,pz\n".into(),
-            contacts: "time,kind,first,second,px,py,pz,nx,ny,nz,fx,fy,fz,normal_force,friction_force,slip_m_s,gap_m\n"
-                .into(),
-            closures: "time,closure,fx,fy,fz,mx,my,mz,px,py,pz,gap_m\n".into(),
-            energy: "time,kinetic,gravity,springs,total,iterations,factorizations,residual,converged\n".into(),
+            poses: RowTable::new("poses.csv", "time,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz"),
+            joints: RowTable::new("joints.csv", "time,joint,coordinate,value,rate,effort,unit"),
+            reactions: RowTable::new("reactions.csv", "time,joint,body,fx,fy,fz,mx,my,mz,px,py,pz"),
+            contacts: RowTable::new(
+                "contacts.csv",
+                "time,kind,first,second,px,py,pz,nx,ny,nz,fx,fy,fz,normal_force,friction_force,slip_m_s,gap_m",
+            ),
+            closures: RowTable::new("closures.csv", "time,closure,fx,fy,fz,mx,my,mz,px,py,pz,gap_m"),
+            energy: RowTable::new(
+                "energy.csv",
+                "time,kinetic,gravity,springs,total,iterations,factorizations,residual,converged",
+            ),
             times: Vec::new(),
             moments: names.map(|name| (name, Vec::new())).collect(),
             rows: 0,
@@ -78,27 +83,27 @@ impl SceneTables {
     /// The files; files without content are left out.
     ///
     /// # Errors
-    /// Column names that a table cannot store.
+    /// Column names that a table cannot store, numbers that are not finite.
     pub fn files(self, scene: &Scene) -> Result<Vec<OutputFile>, Error> {
         let world = scene.world();
-        let (kept, jointed) = (&self.kept, !scene.world().joints.is_empty() || self.joints.lines().count() > 1);
+        let (kept, jointed) = (&self.kept, !scene.world().joints.is_empty() || self.joints.rows > 0);
         let mut files = Vec::new();
-        let mut add = |wanted: bool, name: &str, text: String| {
-            if wanted {
-                files.push(OutputFile::new(name, text.into_bytes()));
-            }
-        };
-        add(kept.poses, "poses.csv", self.poses);
-        add(kept.joints && jointed, "joints.csv", self.joints);
-        add(kept.joints && jointed, "reactions.csv", self.reactions);
-        add(kept.contacts && !world.surfaces.is_empty(), "contacts.csv", self.contacts);
-        add(kept.joints && !world.closures.is_empty(), "closures.csv", self.closures);
-        add(kept.energy, "energy.csv", self.energy);
+        let wanted = [
+            (kept.poses, self.poses),
+            (kept.joints && jointed, self.joints),
+            (kept.joints && jointed, self.reactions),
+            (kept.contacts && !world.surfaces.is_empty(), self.contacts),
+            (kept.joints && !world.closures.is_empty(), self.closures),
+            (kept.energy, self.energy),
+        ];
+        for (_, table) in wanted.into_iter().filter(|(wanted, _)| *wanted) {
+            files.push(table.file()?);
+        }
         if kept.joints && !self.moments.is_empty() && !self.times.is_empty() {
             let columns = std::iter::once(("time".to_owned(), self.times)).chain(self.moments).collect();
             let mut table = Table::new("Generalized Forces", columns)?;
             table.in_degrees = Some(false);
-            files.push(OutputFile::storage("moments.sto", table));
+            files.push(OutputFile::storage("moments.sto", table)?);
         }
         Ok(files)
     }
@@ -115,13 +120,13 @@ impl SceneTables {
     }
 
     fn add_pose(&mut self, time_s: f64, name: &str, pose: &Pose, twist: &Twist) {
-        let text = &mut self.poses;
-        begin(text, time_s, &[name]);
-        append(text, pose.translation.as_slice());
-        append(text, &quaternion(&pose.rotation));
-        append(text, twist.linear.as_slice());
-        append(text, twist.angular.as_slice());
-        text.push('\n');
+        let table = &mut self.poses;
+        table.begin(time_s, &[name]);
+        table.append(pose.translation.as_slice());
+        table.append(&quaternion(&pose.rotation));
+        table.append(twist.linear.as_slice());
+        table.append(twist.angular.as_slice());
+        table.end();
     }
 
     fn add_joints(&mut self, frame: &SceneFrame<'_>) {
@@ -143,14 +148,15 @@ impl SceneTables {
     }
 
     fn add_coordinate(&mut self, time_s: f64, joint: &str, name: &str, of: Coordinate, turns: bool) {
-        let text = &mut self.joints;
-        begin(text, time_s, &[joint, name]);
-        append(text, &[of.value, of.rate]);
+        let table = &mut self.joints;
+        table.begin(time_s, &[joint, name]);
+        table.append(&[of.value, of.rate]);
         match of.effort {
-            Some(effort) => append(text, &[effort]),
-            None => text.push(','),
+            Some(effort) => table.append(&[effort]),
+            None => table.word(""),
         }
-        text.push_str(if turns { ",N.m\n" } else { ",N\n" });
+        table.word(if turns { "N.m" } else { "N" });
+        table.end();
     }
 
     /// Coordinates of joints that follow a recording, and `moments.sto`.
@@ -184,12 +190,12 @@ impl SceneTables {
         let pose = state.poses[joint.child];
         let center = pose.place(joint.child_from_joint.translation);
         let wrench = forces.joints[joint.child].about(pose.translation - center);
-        let text = &mut self.reactions;
-        begin(text, state.time_s, &[&joint.name, &world.bodies[joint.child].name]);
-        append(text, wrench.force.as_slice());
-        append(text, wrench.moment.as_slice());
-        append(text, center.as_slice());
-        text.push('\n');
+        let table = &mut self.reactions;
+        table.begin(state.time_s, &[&joint.name, &world.bodies[joint.child].name]);
+        table.append(wrench.force.as_slice());
+        table.append(wrench.moment.as_slice());
+        table.append(center.as_slice());
+        table.end();
     }
 
     fn add_contacts(&mut self, frame: &SceneFrame<'_>) {
@@ -208,13 +214,13 @@ impl SceneTables {
         // The body comes first; the force is the one on it.
         let (first, second, sign) = if matches!(a, Owner::Obstacle(_)) { (b, a, -1.0) } else { (a, b, 1.0) };
         let friction = contact.force - contact.normal * contact.normal_force;
-        let text = &mut self.contacts;
-        begin(text, time_s, &[kind, world.owner_name(first), world.owner_name(second)]);
-        append(text, contact.point.as_slice());
-        append(text, (contact.normal * sign).as_slice());
-        append(text, (contact.force * sign).as_slice());
-        append(text, &[contact.normal_force, friction.norm(), contact.slip.norm(), contact.gap]);
-        text.push('\n');
+        let table = &mut self.contacts;
+        table.begin(time_s, &[kind, world.owner_name(first), world.owner_name(second)]);
+        table.append(contact.point.as_slice());
+        table.append((contact.normal * sign).as_slice());
+        table.append((contact.force * sign).as_slice());
+        table.append(&[contact.normal_force, friction.norm(), contact.slip.norm(), contact.gap]);
+        table.end();
     }
 
     fn add_closures(&mut self, frame: &SceneFrame<'_>) {
@@ -225,27 +231,29 @@ impl SceneTables {
             let pose = state.poses[closure.first];
             let point = pose.place(closure.first_from_joint.translation);
             let wrench = wrench.about(pose.translation - point);
-            let text = &mut self.closures;
-            begin(text, state.time_s, &[&closure.name]);
-            append(text, wrench.force.as_slice());
-            append(text, wrench.moment.as_slice());
-            append(text, point.as_slice());
-            append(text, &[frame.scene.closure_gap(*number)]);
-            text.push('\n');
+            let table = &mut self.closures;
+            table.begin(state.time_s, &[&closure.name]);
+            table.append(wrench.force.as_slice());
+            table.append(wrench.moment.as_slice());
+            table.append(point.as_slice());
+            table.append(&[frame.scene.closure_gap(*number)]);
+            table.end();
         }
     }
 
     fn add_energy(&mut self, frame: &SceneFrame<'_>) {
         let energy = &frame.energy;
-        let text = &mut self.energy;
-        begin(text, frame.scene.state().time_s, &[]);
-        append(text, &[energy.kinetic, energy.gravity, energy.springs, energy.total()]);
+        let table = &mut self.energy;
+        table.begin(frame.scene.state().time_s, &[]);
+        table.append(&[energy.kinetic, energy.gravity, energy.springs, energy.total()]);
         match frame.forces.as_ref().map(|forces| forces.convergence) {
             Some(c) => {
-                let _ = writeln!(text, ",{},{},{},{}", c.iterations, c.factorizations, c.residual, c.converged);
+                table.append(&[c.iterations as f64, c.factorizations as f64, c.residual]);
+                table.word(if c.converged { "true" } else { "false" });
             }
-            None => text.push_str(",,,,\n"),
+            None => (0..4).for_each(|_| table.word("")),
         }
+        table.end();
     }
 }
 
@@ -256,21 +264,60 @@ struct Coordinate {
     effort: Option<f64>,
 }
 
-fn begin(text: &mut String, time_s: f64, names: &[&str]) {
-    // 350 steps of 1 ms are 0.35000000000000003 s: the last digits are rounding errors.
-    let _ = write!(text, "{}", (time_s * 1e12).round() / 1e12);
-    for name in names {
-        if name.contains([',', '"']) {
-            let _ = write!(text, ",\"{}\"", name.replace('"', "\"\""));
-        } else {
-            let _ = write!(text, ",{name}");
-        }
-    }
+/// The text of a table, written row by row; remembers the first number that is not finite.
+#[derive(Debug, Clone)]
+struct RowTable {
+    name: &'static str,
+    head: &'static str,
+    text: String,
+    /// Complete rows.
+    rows: usize,
+    /// Cells of the present row.
+    cells: usize,
+    broken: Option<Error>,
 }
 
-fn append(text: &mut String, numbers: &[f64]) {
-    for number in numbers {
-        let _ = write!(text, ",{number}");
+impl RowTable {
+    fn new(name: &'static str, head: &'static str) -> RowTable {
+        RowTable { name, head, text: format!("{head}\n"), rows: 0, cells: 0, broken: None }
+    }
+
+    /// The instant and the names that a row begins with.
+    fn begin(&mut self, time_s: f64, names: &[&str]) {
+        // 350 steps of 1 ms are 0.35000000000000003 s: the last digits are rounding errors.
+        let _ = write!(self.text, "{}", (time_s * 1e12).round() / 1e12);
+        self.cells = 1;
+        names.iter().for_each(|name| self.word(name));
+    }
+
+    fn word(&mut self, word: &str) {
+        self.cells += 1;
+        let word = guarded(word);
+        if word.contains([',', '"']) {
+            let _ = write!(self.text, ",\"{}\"", word.replace('"', "\"\""));
+        } else {
+            let _ = write!(self.text, ",{word}");
+        }
+    }
+
+    fn append(&mut self, numbers: &[f64]) {
+        for &found in numbers {
+            if !found.is_finite() && self.broken.is_none() {
+                let column = self.head.split(',').nth(self.cells).unwrap_or_default().to_owned();
+                self.broken = Some(Error::NotFinite { table: self.name.to_owned(), column, row: self.rows + 1, found });
+            }
+            self.cells += 1;
+            let _ = write!(self.text, ",{found}");
+        }
+    }
+
+    fn end(&mut self) {
+        self.rows += 1;
+        self.text.push('\n');
+    }
+
+    fn file(self) -> Result<OutputFile, Error> {
+        self.broken.map_or_else(|| Ok(OutputFile::new(self.name, self.text.into_bytes())), Err)
     }
 }
 
@@ -280,4 +327,24 @@ fn quaternion(rotation: &Mat3) -> [f64; 4] {
     let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
     let v: Vec3 = q.imag() * sign;
     [q.w * sign, v.x, v.y, v.z]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_that_is_not_finite_is_reported_with_its_column_and_row() {
+        let mut table = RowTable::new("joints.csv", "time,joint,value,rate");
+        for rate in [1.0, f64::INFINITY, f64::NAN] {
+            table.begin(0.5, &["knee, \"left\""]);
+            table.append(&[2.0, rate]);
+            table.end();
+        }
+        assert!(table.text.contains("\n0.5,\"knee, \"\"left\"\"\",2,1\n"), "{}", table.text);
+        table.begin(0.6, &["=cmd|' /C calc'!A0"]);
+        assert!(table.text.ends_with("\n0.6,'=cmd|' /C calc'!A0"), "{}", table.text);
+        let error = table.file().unwrap_err().to_string();
+        assert!(error.starts_with("joints.csv: column `rate`, row 2: found inf; expected a finite number"), "{error}");
+    }
 }

@@ -1,8 +1,9 @@
 //! Times and distances of walking: `times_and_distances` of `summary.json`, and `times_and_distances.csv`.
 
-use crate::files::OutputFile;
+use crate::files::{OutputFile, check_column};
 use ambulo::analysis::{StrideQuantity, StrideStatistics, TimesAndDistances};
 use ambulo::model::Side;
+use ambulo_formats::Error;
 use serde::{Deserialize, Serialize};
 
 /// Times and distances of the strides of both feet.
@@ -87,22 +88,26 @@ impl WalkingSummary {
 
     /// `times_and_distances.csv`: `quantity,unit,side,mean,sd,strides` with side `r`, `l` or `both`; a cell is empty if its number is not
     /// known.
-    #[must_use]
-    pub fn file(&self) -> OutputFile {
+    ///
+    /// # Errors
+    /// A number that is not finite.
+    pub fn file(&self) -> Result<OutputFile, Error> {
         let mut text = String::from("quantity,unit,side,mean,sd,strides\n");
         for (quantity, speed) in [("speed", self.speed_m_s), ("path_speed", self.path_speed_m_s)] {
             if let Some(speed) = speed {
+                check_column(crate::TIMES_AND_DISTANCES, quantity, &[speed])?;
                 text += &format!("{quantity},m/s,both,{speed},,\n");
             }
         }
         for QuantitySummary { quantity, unit, right, left, both, .. } in &self.quantities {
             for (side, spread) in [("r", right), ("l", left), ("both", both)] {
                 let Some(SpreadSummary { mean, sd, strides }) = spread else { continue };
+                check_column(crate::TIMES_AND_DISTANCES, quantity, &[*mean, sd.unwrap_or_default()])?;
                 let sd = sd.map_or_else(String::new, |sd| sd.to_string());
                 text += &format!("{quantity},{unit},{side},{mean},{sd},{strides}\n");
             }
         }
-        OutputFile::new(crate::TIMES_AND_DISTANCES, text.into_bytes())
+        Ok(OutputFile::new(crate::TIMES_AND_DISTANCES, text.into_bytes()))
     }
 }
 

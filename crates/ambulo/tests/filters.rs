@@ -323,13 +323,17 @@ fn high_order_and_low_cutoff_stay_accurate() {
 // ---------------------------------------------------------------- errors
 
 #[test]
-fn a_cutoff_at_or_above_half_the_rate_is_rejected_with_the_limit() {
-    for cutoff in [50.0, 80.0, 0.0, -1.0, f64::NAN, f64::INFINITY] {
+fn a_cutoff_outside_of_its_range_is_rejected_with_the_limits() {
+    for cutoff in [50.0, 80.0, 0.0, 1e-308, 1e-9, 0.099, -1.0, f64::NAN, f64::INFINITY] {
         let error = low_pass(&[0.0; 10], RATE, butterworth(3, cutoff)).unwrap_err();
         assert!(matches!(error, FilterError::Cutoff { .. }), "{error}");
     }
     let message = low_pass(&[0.0; 10], RATE, butterworth(3, 80.0)).unwrap_err().to_string();
-    assert!(message.starts_with("cut-off is 80 Hz: allowed is above 0 and below 50 Hz"), "{message}");
+    let allowed = "allowed are 0.1 Hz, because less leaves no motion, to below 50 Hz, half of the sampling rate";
+    assert!(message.starts_with(&format!("cut-off is 80 Hz: {allowed}")), "{message}");
+    let message = low_pass(&[0.0; 10], RATE, butterworth(3, 1e-308)).unwrap_err().to_string();
+    assert!(message.starts_with(&format!("cut-off is 1e-308 Hz: {allowed}")), "{message}");
+    low_pass(&[0.0; 10], RATE, butterworth(3, 0.1)).unwrap();
 }
 
 #[test]

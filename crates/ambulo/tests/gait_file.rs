@@ -192,6 +192,21 @@ fn numbers_that_no_gait_can_have_are_refused() {
         let text = refused(&format!("name = \"a\"\nspeed = {speed}"));
         assert!(text.starts_with("line 2, `speed`: found ") && text.contains("expected a number above zero"), "{text}");
     }
+    assert_eq!(
+        refused("speed = 1e6"),
+        "line 1, `speed`: found 1e6; expected 0.05 to 5 m/s, because slower is standing and faster is running"
+    );
+    for (line, range) in [
+        ("step_length = 1e-9", "0.02 to 3 m"),
+        ("step_length = 75", "0.02 to 3 m"),
+        ("cadence = 0.001", "5 to 1000 steps/min"),
+        ("cycle_s = 1e-308", "5 to 1000 steps/min"),
+        ("cycle_s = 1000", "5 to 1000 steps/min"),
+        ("step_length_scale = 0.1\nstep_length = 0.19", "0.02 to 3 m"),
+    ] {
+        let text = refused(line);
+        assert!(text.contains(range) && text.contains("because"), "{text}");
+    }
     assert_eq!(refused("step_height = 30"), "line 1, `step_height`: found 30; expected a factor from 0.1 to 10");
     assert_eq!(
         refused("cadence_exponent = 1"),

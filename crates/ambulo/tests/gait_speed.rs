@@ -160,6 +160,8 @@ fn changes_that_cannot_be_made_are_refused() {
     );
     let error = walk.clone().with_speed_change(change(5.0, 1.0, 0.0), &mut findings).unwrap_err();
     assert_eq!(error.to_string(), "speed after a change [m/s]: found 0; expected a number above zero");
+    let error = walk.clone().with_speed_change(change(5.0, 1.0, 1e6), &mut findings).unwrap_err();
+    assert!(error.to_string().ends_with("expected 0.05 to 5 m/s, because slower is standing and faster is running"));
     for bad in [change(5.0, 0.0, 1.0), change(f64::NAN, 1.0, 1.0), change(5.0, 1.0, f64::NAN), change(-1.0, 1.0, 1.0)] {
         assert!(matches!(walk.clone().with_speed_change(bad, &mut findings), Err(GaitError::Number { .. })), "{bad:?}");
     }

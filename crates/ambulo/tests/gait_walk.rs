@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use ambulo::findings::{Code, Findings};
-use ambulo::gait::{Gait, GaitError, Jet, Speed, Walk, WalkPosture, walking_speeds};
+use ambulo::gait::{Gait, GaitError, Jet, Pace, Speed, Walk, WalkPosture, walking_speeds};
 use proptest::prelude::*;
 
 /// Leg of an adult [m].
@@ -62,6 +62,45 @@ fn numbers_that_no_gait_can_have_are_refused() {
         error.to_string(),
         "gait: found `freee`; expected one of standard, long, short, goose, slow, free, fast. hint: did you mean `free`?"
     );
+}
+
+#[test]
+fn paces_that_nobody_walks_with_are_refused_with_the_range_and_its_reason() {
+    let message = |change: &dyn Fn(&mut Pace)| {
+        let mut gait = Gait::named("free").unwrap();
+        change(&mut gait.pace);
+        Walk::new(&gait, LEG, &mut Findings::default()).map_err(|error| error.to_string())
+    };
+    let speed = |speed: f64| message(&|pace| pace.speed = Some(Speed::MetersPerSecond(speed)));
+    let expected = "expected 0.05 to 5 m/s, because slower is standing and faster is running";
+    for (found, shown) in [(1e-308, "1e-308"), (0.049, "0.049"), (5.1, "5.1"), (1e6, "1000000"), (1e308, "1e308")] {
+        assert_eq!(speed(found).unwrap_err(), format!("speed [m/s]: found {shown}; {expected}"));
+    }
+    let length = |length: f64| message(&|pace| pace.step_length = Some(length));
+    for found in [1e-9, 0.001, 1000.0, 1e308] {
+        let error = length(found).unwrap_err();
+        assert!(error.starts_with("step length [m]: found ") && error.contains("0.02 to 3 m, because"), "{error}");
+    }
+    let cadence = |cadence: f64| message(&|pace| pace.step_frequency = Some(cadence / 60.0));
+    for found in [1e-308, 0.001, 1e5, 1e306] {
+        let error = cadence(found).unwrap_err();
+        assert!(error.starts_with("cadence [steps/min]: found "), "{error}");
+        assert!(error.contains("5 to 1000 steps/min, because"), "{error}");
+    }
+    // A number that follows from others is checked as well, and factors too.
+    let both = |pace: &mut Pace| (pace.step_length, pace.step_frequency) = (Some(2.5), Some(4.0));
+    let error = message(&both).unwrap_err();
+    assert!(error.starts_with("resulting speed [m/s]: found "), "{error}");
+    let error = cadence(6.0).unwrap_err();
+    assert!(error.starts_with("resulting speed [m/s]: found 0.00"), "{error}");
+    let error = message(&|pace| pace.length_scale = 1e-9).unwrap_err();
+    assert_eq!(error, "factor on the step length: found 1e-9; expected a factor from 0.1 to 10");
+    // What people and children walk with is allowed, and the bounds themselves.
+    for walked in
+        [speed(0.05), speed(0.1), speed(2.5), speed(5.0), length(0.15), length(1.2), cadence(40.0), cadence(180.0)]
+    {
+        walked.unwrap();
+    }
 }
 
 #[test]

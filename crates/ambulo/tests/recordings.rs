@@ -512,9 +512,27 @@ fn numbers_that_are_not_finite_are_rejected_by_the_trajectory() {
     assert!(text.starts_with("coordinate `pelvis_rz` is not a finite number at 1.3000 s"), "{text}");
     let shape = |what, found, expected| TrajectoryError::Shape { what, found, expected };
     assert_eq!(Trajectory::new(&model, grid, vec![column(); 5]).unwrap_err(), shape("columns", 5, 6));
+    let none = TimeGrid { frames: 0, ..grid };
+    let empty = vec![[vec![], vec![], vec![]]; 6];
+    assert_eq!(Trajectory::new(&model, none, empty).unwrap_err(), TrajectoryError::NoFrames);
     let mut columns = vec![column(); 6];
     columns[4][0].pop();
     assert_eq!(Trajectory::new(&model, grid, columns).unwrap_err(), shape("frames", 3, 4));
+}
+
+#[test]
+fn a_range_far_away_from_the_recording_is_rejected() {
+    let motion = recorded(clock(), clock().into_iter().map(wave).collect());
+    let within = |from_s: f64, to_s: f64| {
+        let window = Window { from_s: Some(from_s), to_s: Some(to_s) };
+        let settings = SmoothSettings { smoother: Smoother::Off, window, rate_hz: None };
+        smooth(&pelvis(), &motion, settings, &mut Findings::default())
+    };
+    for (from_s, to_s) in [(-1e308, 1.0), (0.0, 1e308), (0.0, 1e9), (f64::NAN, 1.0)] {
+        let text = within(from_s, to_s).unwrap_err().to_string();
+        assert!(text.contains("expected an instant near the recording") && text.len() < 250, "{text}");
+    }
+    assert_eq!(within(-10.0, 99_999.0).unwrap().grid, within(0.0, 1000.0).unwrap().grid);
 }
 
 #[test]

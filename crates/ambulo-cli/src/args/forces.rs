@@ -1,7 +1,9 @@
 //! Options of `ambulo forces`.
 
 use super::PrintArgs;
-use super::values::{AddedMassArg, Cutoff, FootColumns, ForceCutoff, PlateFoot, order, seconds, zero_or_more_seconds};
+use super::values::{
+    AddedMassArg, Cutoff, FootColumns, ForceCutoff, PlateFoot, number, order, seconds, zero_or_more_seconds,
+};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::study::Settings;
 use clap::{Args as ClapArgs, ValueEnum};
@@ -61,9 +63,9 @@ pub(crate) struct ForcesArgs {
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) to: Option<f64>,
     /// Frame rate of the results [default: as recorded].
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
     pub(crate) rate: Option<f64>,
-    /// Low-pass filter of the motion: cut-off in Hz of one pass of the zero-phase Butterworth filter, or off.
+    /// Low-pass filter of the motion: cut-off in Hz (0.1 to half the frame rate) of one pass of the zero-phase Butterworth filter, or off.
     #[arg(long, value_name = "HZ|off", default_value_t = Cutoff(Some(Settings::LOW_PASS.cutoff_hz)), allow_hyphen_values = true)]
     pub(crate) cutoff: Cutoff,
     /// Low-pass filter of the measured forces: cut-off in Hz, `same` for the filter of the motion, or off [default: 25 Hz for walking; the motion's, at least 8 Hz, for running and landing; off with --cutoff off; 20 Hz, order 2, when compared with a prediction].
@@ -137,10 +139,10 @@ pub(crate) struct SubjectArgs {
     pub(crate) still: Option<PathBuf>,
     /// Body mass [kg]; a standing trial on force plates that differs by less than 5 % is used instead [default: as measured by the force
     /// plates or stated in the recording; with --model the model's].
-    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
     pub(crate) mass: Option<f64>,
     /// Stature [m] [default: as stated in the recording, or estimated from the markers].
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = SubjectArgs::DEFAULT_FIGURE)]

@@ -1,15 +1,26 @@
 //! Parsers of option values.
 
 use ambulo::model::Side;
+use ambulo::motion::filter::MAX_ORDER;
 use ambulo::spatial::Vec3;
 use ambulo::study::AddedMass;
 use std::fmt;
 use std::str::FromStr;
 
+/// Any number; the library checks its range.
+pub(super) fn number(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| "expected a number, such as 1.2".into())
+}
+
+/// Any whole number; the library checks its range.
+pub(super) fn whole_number(text: &str) -> Result<usize, String> {
+    text.trim().parse().map_err(|_| "expected a whole number, such as 3".into())
+}
+
 pub(super) fn order(text: &str) -> Result<usize, String> {
     match text.parse() {
-        Ok(order @ 1..=8) => Ok(order),
-        _ => Err("expected a whole number from 1 to 8".into()),
+        Ok(order) if (1..=MAX_ORDER).contains(&order) => Ok(order),
+        _ => Err(format!("expected a whole number from 1 to {MAX_ORDER}, because higher orders ring")),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Options of `ambulo walk` and `ambulo demo`.
 
 use super::PrintArgs;
+use super::values::{number, whole_number};
 use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
@@ -50,11 +51,11 @@ pub(crate) struct WalkArgs {
     /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = super::forces::AngleConvention::Clinical)]
     pub(crate) convention: super::forces::AngleConvention,
-    /// Whole gait cycles per foot.
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    /// Whole gait cycles per foot, 1 to 1000.
+    #[arg(long, value_name = "N", default_value_t = 3, allow_negative_numbers = true, value_parser = whole_number)]
     pub(crate) cycles: usize,
-    /// Frame rate of the results.
-    #[arg(long, value_name = "HZ", default_value_t = 100.0, allow_negative_numbers = true)]
+    /// Frame rate of the results, 20 to 5000 Hz.
+    #[arg(long, value_name = "HZ", default_value_t = 100.0, allow_negative_numbers = true, value_parser = number)]
     pub(crate) rate: f64,
     /// Only print the state machine of the gait.
     #[arg(long)]
@@ -75,17 +76,17 @@ pub(crate) struct GaitArgs {
     /// Name of a gait (standard, long, short, goose, slow, free, fast) or a gait file (docs/GAITS.md).
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "free")]
     pub(crate) gait: String,
-    /// Walking speed [m/s] [default: the gait's].
-    #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
+    /// Walking speed, 0.05 to 5 m/s [default: the gait's].
+    #[arg(long, value_name = "M/S", allow_negative_numbers = true, value_parser = number)]
     pub(crate) speed: Option<f64>,
-    /// Step length, foot strike to opposite foot strike [m] [default: the gait's].
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    /// Step length, foot strike to opposite foot strike, 0.02 to 3 m [default: the gait's].
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub(crate) step_length: Option<f64>,
-    /// Steps per minute [default: the gait's].
-    #[arg(long, value_name = "STEPS/MIN", allow_negative_numbers = true)]
+    /// Steps per minute, 5 to 1000 [default: the gait's].
+    #[arg(long, value_name = "STEPS/MIN", allow_negative_numbers = true, value_parser = number)]
     pub(crate) cadence: Option<f64>,
-    /// Foot clearance as a multiple of the natural one [default: the gait's].
-    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    /// Foot clearance as a multiple of the natural one, 0.1 to 10 [default: the gait's].
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = number)]
     pub(crate) step_height: Option<f64>,
     /// How joint curves are interpolated between their knots: 1997 or knots [default: the gait's].
     #[arg(long, value_name = "1997|knots")]
@@ -99,10 +100,10 @@ pub(crate) struct FigureArgs {
     #[arg(long, value_name = "NAME", default_value = "de-leva-male")]
     pub(crate) figure: String,
     /// Body mass [kg] [default: 75, de-leva-female 60, faure-1997 80].
-    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
     pub(crate) mass: Option<f64>,
     /// Stature [m] [default: 1.75, de-leva-female 1.65, faure-1997 1.80].
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub(crate) height: Option<f64>,
     /// Use feet of one segment, without a toe joint.
     #[arg(long)]

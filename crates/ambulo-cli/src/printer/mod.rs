@@ -22,13 +22,23 @@ use crate::hints;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::findings::{Finding, Findings};
 use anyhow::Result;
+use std::borrow::Cow;
 use std::io::{ErrorKind, Write, stdout};
 
 /// Prints a line on standard output. A closed pipe (`ambulo ... | head`) is not an error.
 fn print_line(line: &str) -> Result<()> {
-    match writeln!(stdout(), "{line}") {
+    match writeln!(stdout(), "{}", visible(line)) {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(e.into()),
         _ => Ok(()),
+    }
+}
+
+/// The text without control codes, which a file name could have and which could change the terminal.
+fn visible(text: &str) -> Cow<'_, str> {
+    let is_code = |c: char| c.is_control() && c != '\n' && c != '\t';
+    match text.contains(is_code) {
+        true => Cow::Owned(text.replace(is_code, "\u{fffd}")),
+        false => Cow::Borrowed(text),
     }
 }
 
@@ -59,7 +69,7 @@ pub(crate) fn guide() -> Result<()> {
 /// Prints an error: where and what on the first line, what to do on the second.
 pub(crate) fn error(error: &anyhow::Error) {
     let message = error.chain().map(ToString::to_string).collect::<Vec<_>>().join(": ");
-    eprintln!("error: {}", with_hint(&message, hints::of_error(error)));
+    eprintln!("error: {}", visible(&with_hint(&message, hints::of_error(error))));
 }
 
 /// Prints which long computation begins, unless the output is JSON.
@@ -86,7 +96,7 @@ fn print_findings(findings: &[Finding]) {
         let times = if finding.count > 1 { format!(" ({} times)", finding.count) } else { String::new() };
         let severity = finding.severity();
         let message = with_hint(&format!("{}{times}", finding.message), hints::of_finding(finding.code));
-        eprintln!("{severity}: {message}");
+        eprintln!("{severity}: {}", visible(&message));
     }
 }
 

@@ -139,11 +139,21 @@ impl Workbench {
 
     /// Runs the program with at most a gigabyte of address space.
     pub(crate) fn run_in_a_gigabyte(&self, args: &[&str]) -> Run {
+        self.run_after("ulimit -v 1048576", args)
+    }
+
+    /// Runs the program with at most a gigabyte of address space and ten seconds of processor time, which a busy machine does not shorten.
+    pub(crate) fn run_within_limits(&self, args: &[&str]) -> Run {
+        self.run_after("ulimit -v 1048576; ulimit -t 10", args)
+    }
+
+    /// Runs the program after a command of the shell that limits it.
+    fn run_after(&self, limit: &str, args: &[&str]) -> Run {
         if !cfg!(target_os = "linux") {
             return self.run(args);
         }
-        let limited = ["-c", "ulimit -v 1048576; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_ambulo")];
-        self.wait(Command::new("sh").args(limited).args(args), args)
+        let script = format!("{limit}; exec \"$0\" \"$@\"");
+        self.wait(Command::new("sh").args(["-c", &script, env!("CARGO_BIN_EXE_ambulo")]).args(args), args)
     }
 
     fn wait(&self, command: &mut Command, args: &[&str]) -> Run {

@@ -93,7 +93,8 @@ fn line_of(record: &ByteRecord, bytes: &[u8]) -> usize {
 }
 
 fn read_names(record: &ByteRecord, line: usize) -> Result<Vec<String>, Error> {
-    let names: Vec<String> = record.iter().map(|cell| one_line(&crate::xml::decode(cell))).collect();
+    let names: Vec<String> =
+        record.iter().map(|cell| unguarded(&one_line(&crate::xml::decode(cell))).to_owned()).collect();
     let fail = |found, expected: &str| Err(Error::Line { line, found, expected: expected.into() });
     if let Some(empty) = names.iter().position(String::is_empty) {
         return fail(format!("no name for column {}", empty + 1), "a name for every column");
@@ -132,6 +133,23 @@ fn read_row(record: &ByteRecord, line: usize, table: &mut Table) -> Result<usize
     Ok(gaps)
 }
 
+/// Spreadsheets take a cell that begins with one of these for a formula.
+const FORMULA: [char; 4] = ['=', '+', '-', '@'];
+
+fn is_formula(name: &str) -> bool {
+    name.trim_start_matches('\'').starts_with(FORMULA) && number(name).is_none()
+}
+
+/// A name as a cell of a CSV file: with an apostrophe in front if a spreadsheet would take it for a formula.
+pub fn guarded(name: &str) -> Cow<'_, str> {
+    if is_formula(name) { Cow::Owned(format!("'{name}")) } else { Cow::Borrowed(name) }
+}
+
+/// The name in a cell of a CSV file, without the apostrophe of [`guarded`].
+pub fn unguarded(cell: &str) -> &str {
+    cell.strip_prefix('\'').filter(|name| is_formula(name)).unwrap_or(cell)
+}
+
 /// Writes names and numbers, separated by commas.
 pub(super) fn write(table: &Table) -> Vec<u8> {
     // A semicolon in a name could be taken for the separator; quotes prevent that.
@@ -139,7 +157,8 @@ pub(super) fn write(table: &Table) -> Vec<u8> {
     let style = if quote { QuoteStyle::NonNumeric } else { QuoteStyle::Necessary };
     let mut writer = WriterBuilder::new().quote_style(style).from_writer(Vec::new());
     let in_memory = "writing to memory does not fail";
-    writer.write_record(&table.names).expect(in_memory);
+    let names = table.names.iter().map(|name| guarded(name).into_owned());
+    writer.write_record(names).expect(in_memory);
     for row in 0..table.rows() {
         writer.write_record(table.data.iter().map(|column| format!("{:?}", column[row]))).expect(in_memory);
     }

@@ -5,7 +5,7 @@
 
 use crate::stage::folder_motion;
 use ambulo::model::{CoordinateKind, Model};
-use ambulo_formats::table::Table;
+use ambulo_formats::table::{Table, guarded};
 use ambulo_results::{Folder, ResultsError};
 use std::fmt::Write;
 
@@ -87,5 +87,6 @@ fn load<'a>(table: &'a Table, name: &str) -> Option<&'a [f64]> {
 }
 
 fn quoted(name: &str) -> String {
-    if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() }
+    let name = guarded(name);
+    if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into_owned() }
 }

@@ -1,5 +1,6 @@
 //! Reads rows of the tables of a scene, which contain names and numbers.
 
+use ambulo_formats::table::unguarded;
 use ambulo_results::{EXPECTED, Folder, ResultsError, is_sound};
 
 /// A row with its number in the file.
@@ -29,7 +30,10 @@ impl<'a> Row<'a> {
 
     /// The text of a cell.
     pub(crate) fn word(&self, column: usize) -> Result<&str, ResultsError> {
-        self.cells.get(column).map(String::as_str).ok_or_else(|| self.refused(column, "the end of the line", "a name"))
+        self.cells
+            .get(column)
+            .map(|cell| unguarded(cell))
+            .ok_or_else(|| self.refused(column, "the end of the line", "a name"))
     }
 
     /// Valid numbers from a column on.

@@ -13,7 +13,9 @@ use crate::ground::{self, BodyForces, GroundForces};
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::{Model, Side};
 use crate::motion::filter::LowPass;
-use crate::motion::{ForceRecording, Motion, MotionError, SmoothSettings, Smoother, Window, interpolate, smooth};
+use crate::motion::{
+    ForceRecording, Motion, MotionError, SmoothSettings, Smoother, Window, check_range, interpolate, smooth,
+};
 use crate::spatial::Vec3;
 
 /// How a recording is analysed.
@@ -158,6 +160,7 @@ pub(super) fn trajectory_within(
     window: Window,
     findings: &mut Findings,
 ) -> Result<Trajectory, AnalysisError> {
+    check_range(motion, settings.window).map_err(AnalysisError::Motion)?;
     let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
     let smoothed = smooth(model, motion, smoothing, findings)
         .map_err(|e| AnalysisError::Motion(with_requested_window(e, settings.window, motion, plates)))?;

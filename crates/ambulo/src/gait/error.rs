@@ -1,5 +1,6 @@
 //! Errors of gaits.
 
+use crate::numerics::Shown;
 use crate::toml_reader::TomlError;
 
 /// A gait is not possible. The message contains what was found, what was expected, and a hint.
@@ -20,7 +21,7 @@ pub enum GaitError {
         hint: String,
     },
     /// A number is not possible.
-    #[error("{what}: found {found}; expected {expected}")]
+    #[error("{what}: found {}; expected {expected}", Shown(*found))]
     Number {
         /// Quantity and unit.
         what: &'static str,

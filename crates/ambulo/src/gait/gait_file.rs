@@ -6,7 +6,7 @@ use super::error::GaitError;
 use super::gait_settings::{Gait, KnotChange, Pace, Pelvis, Speed, Style};
 use super::joint::LegJoint;
 use super::laws::{DOCUMENT, Laws, checked_speeds};
-use super::pace::AGREEMENT;
+use super::pace::{AGREEMENT, CADENCE, FACTOR, Range, SPEED, STEP_LENGTH};
 use super::walk::changed;
 use crate::toml_reader::{Source, Table, TomlError, Value, nearest};
 
@@ -30,8 +30,6 @@ const KEYS: [&str; 17] = [
     "knee",
     "ankle",
 ];
-/// Accepted factors on steps; others are probably typing errors.
-const SCALES: [f64; 2] = [0.1, 10.0];
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Gait {
@@ -84,22 +82,21 @@ fn base(root: &Table<'_>) -> Result<Gait, GaitError> {
 fn pace(root: &Table<'_>, base: Pace) -> Result<Pace, TomlError> {
     let speed = one_of(root, "speed", "dimensionless_speed")?;
     let frequency = one_of(root, "cadence", "cycle_s")?;
-    let above_zero = |value: Option<Value<'_>>| value.map(|value| value.above_zero()).transpose();
-    let mut pace = base;
+    let length_scale = scale_or(root, "step_length_scale", base.length_scale)?;
+    let cadence_scale = scale_or(root, "cadence_scale", base.cadence_scale)?;
+    let mut pace = Pace { length_scale, cadence_scale, ..base };
     if speed.is_some() || frequency.is_some() || root.get("step_length").is_some() {
         pace.speed = match root.get("dimensionless_speed") {
             Some(value) => Some(Speed::Dimensionless(value.above_zero()?)),
-            None => above_zero(root.get("speed"))?.map(Speed::MetersPerSecond),
+            None => within(root, "speed", &SPEED, length_scale * cadence_scale)?.map(Speed::MetersPerSecond),
         };
-        pace.step_length = above_zero(root.get("step_length"))?;
+        pace.step_length = within(root, "step_length", &STEP_LENGTH, length_scale)?;
         pace.step_frequency = match root.get("cycle_s") {
-            Some(value) => Some(2.0 / value.above_zero()?),
-            None => above_zero(root.get("cadence"))?.map(|steps_per_minute| steps_per_minute / 60.0),
+            Some(value) => Some(2.0 / cycle_s(&value, cadence_scale)?),
+            None => within(root, "cadence", &CADENCE, cadence_scale)?.map(|steps_per_minute| steps_per_minute / 60.0),
         };
         refuse_contradiction(root, &pace)?;
     }
-    pace.length_scale = scale_or(root, "step_length_scale", pace.length_scale)?;
-    pace.cadence_scale = scale_or(root, "cadence_scale", pace.cadence_scale)?;
     if let Some(value) = root.get("cadence_exponent") {
         let exponent = value.number()?;
         if !(0.0..1.0).contains(&exponent) {
@@ -108,6 +105,23 @@ fn pace(root: &Table<'_>, base: Pace) -> Result<Pace, TomlError> {
         pace.cadence_exponent = Some(exponent);
     }
     Ok(pace)
+}
+
+/// The number of a key; times its factor it must be in the range.
+fn within(root: &Table<'_>, key: &str, range: &Range, factor: f64) -> Result<Option<f64>, TomlError> {
+    let Some(value) = root.get(key) else { return Ok(None) };
+    let number = value.above_zero()?;
+    if range.contains(number * factor) { Ok(Some(number)) } else { Err(value.wrong(range.expected)) }
+}
+
+/// The duration of a cycle [s], whose cadence must be in the range.
+fn cycle_s(value: &Value<'_>, cadence_scale: f64) -> Result<f64, TomlError> {
+    let duration_s = value.above_zero()?;
+    if CADENCE.contains(120.0 / duration_s * cadence_scale) {
+        Ok(duration_s)
+    } else {
+        Err(value.wrong(&format!("a cycle of two steps with {}", CADENCE.expected)))
+    }
 }
 
 /// The value of one of two keys; an error if both are present.
@@ -138,7 +152,7 @@ fn refuse_contradiction(root: &Table<'_>, pace: &Pace) -> Result<(), TomlError> 
 fn scale_or(root: &Table<'_>, key: &str, default: f64) -> Result<f64, TomlError> {
     let Some(value) = root.get(key) else { return Ok(default) };
     let factor = value.above_zero()?;
-    if (SCALES[0]..=SCALES[1]).contains(&factor) { Ok(factor) } else { Err(value.wrong("a factor from 0.1 to 10")) }
+    if FACTOR.contains(factor) { Ok(factor) } else { Err(value.wrong(FACTOR.expected)) }
 }
 
 /// Adds the changes of the file to those of the base.

@@ -12,7 +12,7 @@ use super::gait_settings::{Gait, KnotChange, Pelvis, Style};
 use super::jet::Jet;
 use super::joint::{LegJoint, STANDING_TILT};
 use super::laws::{Laws, LegCurves, checked_speeds};
-use super::pace::{above_zero, number, resolve};
+use super::pace::{above_zero, check_steps, number, resolve};
 use super::speed_plan::{Clock, SpeedChange, SpeedPlan};
 use super::stride::{StrideLaw, walking_speeds};
 use crate::findings::{Code, Findings};
@@ -97,7 +97,7 @@ impl Walk {
     /// The same walk with another change of speed, after all others.
     ///
     /// # Errors
-    /// A speed or a duration that is not above zero, or a start before the end of the previous change.
+    /// A speed outside of the range of walking, a duration that is not above zero, or a start before the end of the previous change.
     pub fn with_speed_change(mut self, change: SpeedChange, findings: &mut Findings) -> Result<Walk, GaitError> {
         above_zero("speed after a change [m/s]", change.speed)?;
         above_zero("duration of a change of speed [s]", change.duration_s)?;
@@ -108,8 +108,10 @@ impl Walk {
         if let Some(earliest_s) = self.plan.end_s().filter(|end| change.start_s < *end) {
             return Err(GaitError::OverlappingChange { start_s: change.start_s, earliest_s });
         }
+        let law_speed = self.plan.law().law_speed(change.speed);
+        check_steps(self.plan.law(), law_speed)?;
         report_range(change.speed, self.leg_length(), findings);
-        self.plan.add(change.start_s, change.duration_s, self.plan.law().law_speed(change.speed));
+        self.plan.add(change.start_s, change.duration_s, law_speed);
         Ok(self)
     }
 

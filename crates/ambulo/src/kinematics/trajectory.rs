@@ -37,6 +37,9 @@ pub enum TrajectoryError {
         /// The instant [s].
         time_s: f64,
     },
+    /// A motion without frames.
+    #[error("the motion has no frames; expected at least one")]
+    NoFrames,
     /// A wrong number of columns or frames.
     #[error("found {found} {what}; expected {expected}")]
     Shape {
@@ -56,8 +59,11 @@ impl Trajectory {
     /// Makes a trajectory from complete columns: per coordinate its value, rate and acceleration, one entry per frame.
     ///
     /// # Errors
-    /// Wrong numbers of columns or frames, numbers that are not finite.
+    /// No frames, wrong numbers of columns or frames, numbers that are not finite.
     pub fn new(model: &Model, grid: TimeGrid, columns: Vec<[Vec<f64>; 3]>) -> Result<Trajectory, TrajectoryError> {
+        if grid.frames == 0 {
+            return Err(TrajectoryError::NoFrames);
+        }
         let expected = model.coordinates().len();
         if columns.len() != expected {
             return Err(TrajectoryError::Shape { what: "columns", found: columns.len(), expected });

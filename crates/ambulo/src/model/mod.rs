@@ -29,6 +29,7 @@ pub use scaled::ScaleError;
 pub use side::Side;
 pub use simm_spline::SimmSpline;
 
+use crate::numerics::Shown;
 use crate::spatial::{Inertia, InertiaError, Vec3};
 use std::sync::Arc;
 
@@ -194,7 +195,36 @@ pub enum ModelError {
         /// Why.
         source: InertiaError,
     },
+    /// A point mass that is too heavy for a person.
+    #[error(
+        "a mass of {} kg on `{body}`; expected at most {most_kg:.0} kg, five times the mass of the model, because nobody walks with more", Shown(*found_kg)
+    )]
+    PointMass {
+        /// The body that should carry it.
+        body: String,
+        /// The mass [kg].
+        found_kg: f64,
+        /// Largest allowed mass [kg].
+        most_kg: f64,
+    },
+    /// A point mass that is too far away from its body.
+    #[error(
+        "a mass {} m from the origin of `{body}`; expected at most {most_m} m, because nobody holds a mass farther away. hint: positions are in metres", Shown(*found_m)
+    )]
+    PointMassPlace {
+        /// The body that should carry it.
+        body: String,
+        /// Its distance [m].
+        found_m: f64,
+        /// Largest allowed distance [m].
+        most_m: f64,
+    },
 }
+
+/// Largest point mass, in masses of the model: nobody walks with more.
+const MOST_BODY_MASSES: f64 = 5.0;
+/// Largest distance of a point mass from the origin of its body [m].
+const FARTHEST_POINT_MASS_M: f64 = 5.0;
 
 impl Model {
     /// Assembles a model. Gravity is in world axes [m/s²]; parents precede their children.
@@ -321,8 +351,16 @@ impl Model {
     /// The model with a point mass [kg] fixed to a body at a position in its frame [m]: a shoe, a battery, a load.
     ///
     /// # Errors
-    /// A negative mass, or numbers that are not finite.
+    /// A negative mass, more than five times the mass of the model, a place more than 5 m away, or numbers that are not finite.
     pub fn with_point_mass(&self, body: BodyId, mass: f64, place: Vec3) -> Result<Model, ModelError> {
+        let (most_kg, found_m) = (MOST_BODY_MASSES * self.mass(), place.amax());
+        let named = || self.bodies[body.0].name.clone();
+        if mass.is_finite() && mass > most_kg {
+            return Err(ModelError::PointMass { body: named(), found_kg: mass, most_kg });
+        }
+        if found_m.is_finite() && found_m > FARTHEST_POINT_MASS_M {
+            return Err(ModelError::PointMassPlace { body: named(), found_m, most_m: FARTHEST_POINT_MASS_M });
+        }
         let mut model = self.clone();
         let Body { inertia, name, .. } = &mut model.bodies[body.0];
         *inertia = inertia

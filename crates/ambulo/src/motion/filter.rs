@@ -26,10 +26,13 @@
 //! Not handled: uneven sampling (resample first), gaps (an error).
 //! Pinned by: tests/filters.rs
 
+use crate::numerics::Shown;
 use std::f64::consts::PI;
 
-/// Highest order.
-const MAX_ORDER: usize = 8;
+/// Highest order: the sections of higher orders ring.
+pub const MAX_ORDER: usize = 8;
+/// Lowest cut-off [Hz]: below it a filter leaves nothing of a recording of a few seconds.
+pub const LOWEST_CUTOFF_HZ: f64 = 0.1;
 
 /// Smallest number of samples that can be filtered: OpenSim's limit.
 const MIN_SAMPLES: usize = 4;
@@ -82,10 +85,10 @@ pub enum FilterError {
         /// The rate found (Hz).
         found: f64,
     },
-    /// The cut-off is not between 0 and half of the sampling rate.
+    /// The cut-off is not between [`LOWEST_CUTOFF_HZ`] and half of the sampling rate.
     #[error(
-        "cut-off is {found} Hz: allowed is above 0 and below {allowed} Hz, half of the sampling rate\n\
-         hint: lower the cut-off or switch the filter off"
+        "cut-off is {} Hz: allowed are {LOWEST_CUTOFF_HZ} Hz, because less leaves no motion, to below {} Hz, half of the sampling rate\n\
+         hint: choose a cut-off in this range or switch the filter off", Shown(*found), Shown(*allowed)
     )]
     Cutoff {
         /// The cut-off found (Hz).
@@ -149,7 +152,7 @@ fn check(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<(), FilterErr
         return Err(FilterError::Rate { found: rate_hz });
     }
     let allowed = 0.5 * rate_hz;
-    if !(filter.cutoff_hz > 0.0 && filter.cutoff_hz < allowed) {
+    if !(filter.cutoff_hz >= LOWEST_CUTOFF_HZ && filter.cutoff_hz < allowed) {
         return Err(FilterError::Cutoff { found: filter.cutoff_hz, allowed });
     }
     if samples.len() < MIN_SAMPLES {

@@ -33,6 +33,7 @@ pub use laboratory::{Heading, Laboratory, laboratory};
 pub use landmarks::Landmarks;
 pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 pub use recording::{Motion, MotionError};
+pub(crate) use smooth::check_range;
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
 pub use straightened::straightened;
 pub use subject_parameters::{SubjectParameters, subject_from_c3d};

@@ -2,7 +2,7 @@
 
 use super::filter::FilterError;
 use crate::model::CoordinateId;
-use crate::numerics::SplineError;
+use crate::numerics::{Shown, SplineError};
 
 /// Coordinates over time as in the file: SI units, increasing times, gaps as not-a-number.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,7 +125,7 @@ pub enum MotionError {
     },
     /// A frame rate of the results that is not possible.
     #[error(
-        "a frame rate of {found_hz} Hz was requested; expected a rate above 0 and at most {highest_hz} Hz, with at least two frames in the range"
+        "a frame rate of {} Hz was requested; expected a rate above 0, with at least two frames in the range, and at most {highest_hz} Hz, because of memory", Shown(*found_hz)
     )]
     Rate {
         /// The rate [Hz].
@@ -142,6 +142,20 @@ pub enum MotionError {
         load: String,
         /// The time [s].
         time_s: f64,
+    },
+    /// A range that ends far away from the recording.
+    #[error(
+        "the range starts or ends at {} s; expected an instant near the recording, which lasts from {first_s} s to {last_s} s, at most {farthest_s} s away", Shown(*found_s)
+    )]
+    FarRange {
+        /// Start or end of the requested range [s].
+        found_s: f64,
+        /// First recorded time [s].
+        first_s: f64,
+        /// Last recorded time [s].
+        last_s: f64,
+        /// Largest allowed distance from the recording [s].
+        farthest_s: f64,
     },
     /// Too few frames in the range.
     #[error(

@@ -53,6 +53,8 @@ const FEWEST_SAMPLES: usize = 6;
 const HIGHEST_RATE_HZ: f64 = 20_000.0;
 /// Largest number of frames, because of memory: ten minutes at the highest rate are 12 million, of 100 columns each.
 const MOST_FRAMES: f64 = 2e6;
+/// Farthest end of a range from the recording [s]: 11 days. Numbers beyond it are typing errors, and pages could not show them.
+const FARTHEST_S: f64 = 1e6;
 /// Largest number of resampled frames per sample of a recording with uneven time steps.
 const MOST_FRAMES_PER_SAMPLE: f64 = 4.0;
 
@@ -76,6 +78,7 @@ pub fn smooth(
     findings: &mut Findings,
 ) -> Result<SmoothMotion, MotionError> {
     let SmoothSettings { smoother, window, rate_hz } = settings;
+    check_range(motion, window)?;
     let motion = &usable(model, motion, window);
     let whole = uniform_grid(motion, window, findings)?;
     let resampled = TimeGrid::through(&motion.times).is_none();
@@ -109,6 +112,16 @@ pub fn smooth(
         out.noise.push(spline.noise_standard_deviation());
     }
     Ok(out)
+}
+
+/// Rejects a range that ends far away from the recording.
+pub(crate) fn check_range(motion: &Motion, window: Window) -> Result<(), MotionError> {
+    let (Some(&first_s), Some(&last_s)) = (motion.times.first(), motion.times.last()) else { return Ok(()) };
+    let near = first_s - FARTHEST_S..=last_s + FARTHEST_S;
+    match window.from_s.into_iter().chain(window.to_s).find(|end| !near.contains(end)) {
+        Some(found_s) => Err(MotionError::FarRange { found_s, first_s, last_s, farthest_s: FARTHEST_S }),
+        None => Ok(()),
+    }
 }
 
 /// The part of the recording around the window that has all the numbers in use.

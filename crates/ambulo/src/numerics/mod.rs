@@ -10,6 +10,7 @@ mod least_squares;
 mod median;
 mod natural_spline;
 mod periodic_spline;
+mod shown;
 mod spline_fitter;
 mod spline_grid;
 mod uniform_spline;
@@ -21,6 +22,7 @@ pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
 pub use median::median;
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
 pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues};
+pub(crate) use shown::Shown;
 pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};
 pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};
 

@@ -62,6 +62,7 @@ pub use table::{SegmentTable, UnknownTable};
 
 use super::anatomy::Sole;
 use super::{Model, ModelError, Side};
+use crate::numerics::Shown;
 use crate::spatial::InertiaError;
 
 /// Range of body masses [kg]: from infants to the heaviest people who walk.
@@ -89,7 +90,7 @@ pub struct Build {
 #[non_exhaustive]
 pub enum BuildError {
     /// An implausible mass.
-    #[error("the body mass is {found} kg; expected {min} to {max} kg")]
+    #[error("the body mass is {} kg; expected {min} to {max} kg", Shown(*found))]
     Mass {
         /// Requested mass [kg].
         found: f64,
@@ -99,7 +100,7 @@ pub enum BuildError {
         max: f64,
     },
     /// An implausible stature.
-    #[error("the height is {found} m; expected {min} to {max} m. hint: metres, not centimetres")]
+    #[error("the height is {} m; expected {min} to {max} m. hint: metres, not centimetres", Shown(*found))]
     Height {
         /// Requested stature [m].
         found: f64,

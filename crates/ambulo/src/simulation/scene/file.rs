@@ -94,7 +94,7 @@ const GRAVITY: Vec3 = Vec3::new(0.0, -STANDARD_GRAVITY, 0.0);
 /// Default output rate; one row per step if steps are longer.
 const OUTPUT_RATE_HZ: f64 = 100.0;
 /// More steps are a mistake: eleven days at a microsecond per step would be 1e12.
-const MOST_STEPS: f64 = 1e9;
+pub(super) const MOST_STEPS: f64 = 1e9;
 /// Rounding of 1/step, relative.
 const RATE_SLACK: f64 = 1e-9;
 

@@ -2,12 +2,14 @@
 
 use super::build::Scene;
 use super::event::EventAction;
+use super::file::MOST_STEPS;
 use super::model_figure::{Placed, PlacedFigure};
 use super::output::Outputs;
 use super::walk_recorder::FigureWalk;
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::findings::{Code, Findings};
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
+use crate::numerics::Shown;
 use crate::simulation::energy::{Energy, energy};
 use crate::simulation::forces::{ContactForce, StepForces};
 use crate::simulation::projection::{closure_errors, largest_joint_error};
@@ -19,6 +21,8 @@ use crate::spatial::{Pose, Wrench};
 
 /// Times closer than this share of a step are simultaneous: for rounded times in files.
 const SAME_INSTANT: f64 = 1e-6;
+/// Largest number of rows of output, counted for each body, joint and closure: they take about 200 bytes each.
+const MOST_ROWS: f64 = 1e7;
 
 /// Why a scene could not be simulated to its end.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -27,6 +31,26 @@ pub enum RunError {
     /// Joints that do not form trees.
     #[error(transparent)]
     Links(#[from] LinkError),
+    /// No time step, or too many.
+    #[error("the time step is {} s, the duration {} s; expected 1 to 1e9 time steps", Shown(*step_s), Shown(*duration_s))]
+    Steps {
+        /// Time step [s].
+        step_s: f64,
+        /// Duration [s].
+        duration_s: f64,
+    },
+    /// More output than fits into memory.
+    #[error(
+        "a duration of {} s gives {rows:.1e} rows of output for each of {things} bodies, joints and closures; expected at most {MOST_ROWS:e} rows together, because of memory. hint: simulate a shorter time, or lower `output_rate`", Shown(*duration_s)
+    )]
+    TooLong {
+        /// Duration [s].
+        duration_s: f64,
+        /// Rows of output for each body, joint and closure.
+        rows: f64,
+        /// Number of bodies, joints and closures.
+        things: usize,
+    },
     /// A number that is not finite.
     #[error("at {time_s:.6} s position or velocity of `{body}` is not a finite number. hint: use a shorter time step")]
     NotFinite {
@@ -142,12 +166,13 @@ impl Scene {
     /// run had this frame.
     ///
     /// # Errors
-    /// Joints that do not form trees, motion that is not finite.
+    /// No time step or too many, more output than fits into memory, joints that do not form trees, motion that is not finite.
     pub fn run(
         &mut self,
         findings: &mut Findings,
         mut visit: impl FnMut(&SceneFrame<'_>),
     ) -> Result<RunStatistics, RunError> {
+        self.check_length()?;
         let mut statistics = RunStatistics::default();
         let mut impacts = Vec::new();
         if self.steps == 0 {
@@ -165,6 +190,20 @@ impl Scene {
             }
         }
         Ok(statistics)
+    }
+
+    fn check_length(&self) -> Result<(), RunError> {
+        let (step_s, duration_s) = (self.settings.step_s, self.duration_s);
+        let is_possible = step_s > 0.0 && step_s <= duration_s && duration_s / step_s <= MOST_STEPS;
+        if !is_possible {
+            return Err(RunError::Steps { step_s, duration_s });
+        }
+        let things = self.world.bodies.len() + self.world.joints.len() + self.world.closures.len();
+        let rows = duration_s * self.output_rate_hz.min(1.0 / step_s);
+        if rows * things as f64 > MOST_ROWS {
+            return Err(RunError::TooLong { duration_s, rows, things });
+        }
+        Ok(())
     }
 
     /// Applies the events that are due, then makes one step.

@@ -3,6 +3,7 @@
 use crate::gait::{Gait, GaitError};
 use crate::kinematics::TrajectoryError;
 use crate::model::anthropometry::{Build, BuildError};
+use crate::numerics::Shown;
 use crate::simulation::consistent_walk::ConsistentWalkError;
 use crate::simulation::walking::WalkingError;
 use std::fmt;
@@ -82,13 +83,13 @@ impl SyntheticWalkSettings<'_> {
 #[non_exhaustive]
 pub enum SyntheticError {
     /// A number of cycles outside the allowed range.
-    #[error("found {found} cycles; expected 1 to {MOST_CYCLES}")]
+    #[error("found {found} cycles; expected 1 to {MOST_CYCLES}, because a walk repeats its cycles")]
     Cycles {
         /// Number of cycles.
         found: usize,
     },
     /// A frame rate outside the allowed range.
-    #[error("found a frame rate of {found_hz} Hz; expected {} to {} Hz", RATES_HZ[0], RATES_HZ[1])]
+    #[error("found a frame rate of {} Hz; expected {} to {} Hz, because a slower rate misses foot strikes and a faster one needs too much memory", Shown(*found_hz), RATES_HZ[0], RATES_HZ[1])]
     Rate {
         /// Frame rate [Hz].
         found_hz: f64,

@@ -285,6 +285,18 @@ pub enum WalkingError {
         /// Time step [s].
         step_s: f64,
     },
+    /// A walk with more time steps than fit into memory.
+    #[error(
+        "a walk of {duration_s:.1} s in steps of {step_s} s; expected at most {most} steps, because of memory. hint: compute fewer cycles or a lower frame rate"
+    )]
+    TooLong {
+        /// Duration [s].
+        duration_s: f64,
+        /// Time step [s].
+        step_s: f64,
+        /// Largest allowed number of steps.
+        most: usize,
+    },
     /// A sole with an invalid radius.
     #[error(transparent)]
     Sole(#[from] ShapeError),

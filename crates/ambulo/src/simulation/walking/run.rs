@@ -10,6 +10,9 @@ use crate::motion::TimeGrid;
 use crate::simulation::{Impact, Integrator, Owner, StepSettings, StepWorkspace, World, WorldState, step};
 use crate::spatial::{Pose, Twist, Vec3};
 
+/// Largest number of steps, because of memory: a step takes about 2 kB, with the results that are made from it.
+const MOST_STEPS: usize = 1_200_000;
+
 /// A recording under way.
 struct Recorder<'a> {
     walker: &'a Walker,
@@ -24,7 +27,7 @@ impl Walker {
     /// Walks for `duration_s`, with steps of impulses whatever the integrator of the settings.
     ///
     /// # Errors
-    /// If the duration has no whole step, or the motion is not finite.
+    /// If the duration has no whole step or more than 1.2 million, or the motion is not finite.
     pub fn walk(
         &self,
         settings: &StepSettings,
@@ -35,6 +38,9 @@ impl Walker {
         let rows = (duration_s / step_s + 1e-9).floor();
         if !(step_s > 0.0 && rows >= 1.0 && rows.is_finite()) {
             return Err(WalkingError::Duration { duration_s, step_s });
+        }
+        if rows > MOST_STEPS as f64 {
+            return Err(WalkingError::TooLong { duration_s, step_s, most: MOST_STEPS });
         }
         let settings = StepSettings { integrator: Integrator::Impulse, ..*settings };
         let (mut state, mut w) = (WorldState::new(&self.world), StepWorkspace::default());
