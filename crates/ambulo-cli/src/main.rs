@@ -3,8 +3,11 @@
 mod args;
 mod commands;
 mod files;
+mod folder_lock;
 mod hints;
 mod printer;
+mod record;
+mod replacement;
 
 use args::{Args, Command};
 use clap::Parser;
