@@ -4,24 +4,32 @@
 //! |------------|------------------------------------------------------------------------------------------------------|
 //! | examples   | every scene in `examples/` can be simulated, every program in `crates/*/examples` ends without error |
 //! | recordings | `ambulo info` on every file of the data folder, and `ambulo forces` on every recording with markers or a skeleton, end with an exit code of their own: 0, 1 or 2, never by a panic |
-//! | kills      | after a run that was killed at any time, the same command gives the same files as in an empty folder |
+//! | kills      | after a run that was killed at a random time while it replaced other results, a folder has all old or all new results and the user's own files, and the same command then gives the same files as in an empty folder |
 
 use crate::workspace;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-/// Runs that are killed, spread evenly over the time of a whole run.
-const KILLS: u32 = 20;
+/// Runs that are killed at random times: every fourth at any time, the others while they write files.
+const KILLS: u64 = 200;
+/// Every how many kills the run is repeated.
+const REPEATED: u64 = 10;
+/// Folder in the folder of the results that exists while files are written.
+const NEW: &str = ".ambulo-new";
+/// Files of the user in the folder of the results.
+const OWN: [&str; 2] = ["notes.txt", "figures/mine.svg"];
+/// The lock that a killed run leaves; the next one removes it.
+const LOCK: &str = ".ambulo-lock";
 /// Files of recordings that `ambulo forces` takes without a model.
 const RECORDINGS: [&str; 3] = ["c3d", "trc", "bvh"];
 /// Endings of files that `ambulo info` describes.
 const DESCRIBED: [&str; 8] = ["c3d", "trc", "bvh", "mot", "sto", "csv", "osim", "xml"];
-/// Files with measured times, which differ between runs.
-const TIMED: [&str; 2] = ["summary.json", "report.html"];
+/// A file with measured times, which differ between runs. `ambulo view` compares it with all other files.
+const TIMED: &str = "summary.json";
 
 /// Runs all parts; the error lists every run that failed.
 #[expect(clippy::print_stdout, reason = "counts and failures are the command's result")]
@@ -54,7 +62,6 @@ pub(crate) fn run() -> Result<(), String> {
     }
     println!("recordings: {} described, {} computed", with(&DESCRIBED).len(), with(&RECORDINGS).len());
     failures.extend(kills(&program, &scratch.0)?);
-    println!("kills: {KILLS} runs killed and repeated");
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
 
@@ -116,39 +123,105 @@ fn failure(mut command: Command, codes: &[i32]) -> Result<Option<String>, String
     Ok(Some(format!("{command:?}: {}\n    {last}", output.status)))
 }
 
-/// Kills `ambulo demo` at several times and repeats it into the same folder.
+/// Kills `ambulo demo` at random times while it replaces the results of `ambulo walk`.
+#[expect(clippy::print_stdout, reason = "the counts are the command's result")]
 fn kills(program: &Path, scratch: &Path) -> Result<Vec<String>, String> {
-    let whole = scratch.join("whole");
+    let (old, new) = (scratch.join("old"), scratch.join("new"));
     let demo = |folder: &Path| ambulo(program, &["demo", "-o", &text(folder)]);
+    let mut failures = Vec::new();
+    failures.extend(failure(ambulo(program, &["walk", "--speed", "0.7", "-o", &text(&old)]), &[0, 1])?);
+    write_own(&old)?;
+    copy(&old, &new)?;
     let start = Instant::now();
-    let mut failures: Vec<String> = failure(demo(&whole), &[0])?.into_iter().collect();
-    let duration = start.elapsed();
-    let expected = contents(&whole)?;
-    for kill in 0..KILLS {
-        let folder = scratch.join(format!("killed-{kill}"));
-        let mut child =
-            demo(&folder).stderr(Stdio::null()).spawn().map_err(|e| format!("ambulo: cannot start: {e}"))?;
-        sleep(duration * kill / KILLS);
+    let mut child = started(demo(&new))?;
+    wait_for_files(&new, &mut child);
+    let computing = start.elapsed();
+    child.wait().map_err(|e| format!("ambulo: {e}"))?;
+    let writing = start.elapsed() - computing;
+    let whole = [contents(&old)?, contents(&new)?];
+    let mut counts = [0; 3];
+    for (kill, random) in (0..KILLS).zip(seeded()) {
+        let folder = scratch.join("killed");
+        copy(&old, &folder)?;
+        let mut child = started(demo(&folder))?;
+        if kill % 4 == 0 {
+            sleep(computing.mul_f64(random));
+        } else {
+            wait_for_files(&folder, &mut child);
+            sleep(writing.mul_f64(random));
+        }
         // A run that ended before it was killed is as good.
         let _ = child.kill();
         child.wait().map_err(|e| format!("ambulo: {e}"))?;
-        failures.extend(failure(demo(&folder), &[0])?);
-        if contents(&folder)? != expected {
-            failures.push(format!(
-                "demo, killed at {kill}/{KILLS} of its time and repeated: other files than in an empty folder"
-            ));
+        let mut view = ambulo(program, &["view", &text(&folder)]);
+        view.env("BROWSER", "none");
+        failures.extend(failure(view, &[0])?);
+        let found = contents(&folder)?;
+        let state = whole.iter().position(|files| *files == found).unwrap_or(2);
+        counts[state] += 1;
+        if state == 2 {
+            failures.push(format!("demo, kill {kill}: neither all old nor all new files"));
+        }
+        if kill % REPEATED == 0 {
+            failures.extend(failure(demo(&folder), &[0])?);
+            if contents(&folder)? != whole[1] {
+                failures.push(format!("demo, kill {kill}, repeated: other files than usual"));
+            }
         }
     }
+    let [old, new, torn] = counts;
+    println!(
+        "kills: {KILLS}, of which {old} left all old files, {new} all new files, {torn} a torn or mixed folder or a lost file"
+    );
     Ok(failures)
 }
 
-/// Names and bytes of the files of a folder; of files with measured times only the names.
+fn started(mut command: Command) -> Result<Child, String> {
+    command.stderr(Stdio::null()).spawn().map_err(|e| format!("ambulo: cannot start: {e}"))
+}
+
+/// Waits until a run begins to write files, or has ended.
+fn wait_for_files(folder: &Path, child: &mut Child) {
+    while !folder.join(NEW).exists() && matches!(child.try_wait(), Ok(None)) {
+        sleep(Duration::from_micros(200));
+    }
+}
+
+/// Numbers from 0 to 1 that look random and are the same in every run.
+fn seeded() -> impl Iterator<Item = f64> {
+    let next = |x: &u64| Some(x.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407));
+    std::iter::successors(Some(5), next).skip(1).map(|x| (x >> 11) as f64 / (1_u64 << 53) as f64)
+}
+
+/// Adds files of the user.
+fn write_own(folder: &Path) -> Result<(), String> {
+    let written = OWN.iter().map(|name| (folder.join(name), fs::write(folder.join(name), "mine")));
+    written.into_iter().try_for_each(|(path, done)| done.map_err(|e| format!("{}: {e}", path.display())))
+}
+
+/// Makes a folder a copy of another one.
+fn copy(from: &Path, to: &Path) -> Result<(), String> {
+    let failed = |e: std::io::Error| format!("{}: cannot be copied: {e}", from.display());
+    if to.exists() {
+        fs::remove_dir_all(to).map_err(failed)?;
+    }
+    for path in below(from)? {
+        let target = to.join(path.strip_prefix(from).unwrap_or(&path));
+        fs::create_dir_all(target.parent().unwrap_or(to)).map_err(failed)?;
+        fs::copy(&path, target).map_err(failed)?;
+    }
+    Ok(())
+}
+
+/// Names and bytes of the files of a folder; of the file with measured times only the name.
 fn contents(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut files = BTreeMap::new();
-    for path in below(folder)? {
-        let is_timed = path.file_name().is_some_and(|name| TIMED.iter().any(|timed| name == *timed));
-        let bytes =
-            if is_timed { Vec::new() } else { fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))? };
+    for path in below(folder)?.into_iter().filter(|path| !path.ends_with(LOCK)) {
+        let bytes = if path.ends_with(TIMED) {
+            Vec::new()
+        } else {
+            fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?
+        };
         files.insert(path.strip_prefix(folder).unwrap_or(&path).to_owned(), bytes);
     }
     Ok(files)

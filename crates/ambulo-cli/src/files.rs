@@ -1,9 +1,9 @@
 //! Reading and writing of files; every error names its file.
 
+use crate::replacement::{Existing, is_input, recover, write_through};
 use ambulo::findings::{Code, Findings};
 use ambulo_formats::Remark;
 use ambulo_formats::table::Table;
-use ambulo_results::OutputFile;
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::io::{ErrorKind, Read};
@@ -12,8 +12,10 @@ use std::path::{Path, PathBuf};
 /// Larger files are rejected before they are read, which bounds the memory; no recording of walking needs more.
 const LARGEST_FILE_BYTES: u64 = 512 << 20;
 
+/// Reads a file. If it is in a result folder, an interrupted run is finished or undone first.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     let shown = path.display();
+    folders_around(path).iter().try_for_each(|folder| recover(folder))?;
     let metadata = match fs::metadata(path) {
         Ok(metadata) => metadata,
         Err(e) if e.kind() == ErrorKind::NotFound => {
@@ -40,6 +42,11 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// The folders that may be the result folder of a file: its own, and the one around that.
+pub(crate) fn folders_around(path: &Path) -> Vec<PathBuf> {
+    path.canonicalize().map_or(Vec::new(), |path| path.ancestors().skip(1).take(2).map(Path::to_owned).collect())
+}
+
 /// The extension of a file name in lower case, without the point; empty if there is none.
 pub(crate) fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
@@ -47,98 +54,59 @@ pub(crate) fn ending(path: &Path) -> String {
 
 /// Reads a table as CSV or as OpenSim storage, depending on the extension.
 pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
-    let bytes = read(path)?;
+    parse_table(path, &read(path)?)
+}
+
+/// The table in the content of a file.
+pub(crate) fn parse_table(path: &Path, bytes: &[u8]) -> Result<(Table, Vec<Remark>)> {
     let csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
-    let read = if csv { Table::read_csv(&bytes) } else { Table::read_storage(&bytes) };
+    let read = if csv { Table::read_csv(bytes) } else { Table::read_storage(bytes) };
     read.with_context(|| path.display().to_string())
 }
 
-/// Every file that a run may write in addition to its summary. Those of an earlier run are removed, so that a folder never contains
-/// results of two runs.
-const RESULTS: &[&str] = &[
-    "report.html",
-    "kinematics.mot",
-    "moments.sto",
-    "moments_biological.sto",
-    "powers.sto",
-    "reactions.sto",
-    "grf.mot",
-    "grf_measured.mot",
-    "grf_sd.mot",
-    "external_loads.xml",
-    "events.csv",
-    "clinical.csv",
-    "times_and_distances.csv",
-    "cycles.csv",
-    "figures/kinematics.svg",
-    "figures/moments.svg",
-    "figures/powers.svg",
-    "figures/ground_forces.svg",
-    "figures/sagittal_2col.svg",
-    "figures/sagittal_1col.svg",
-    "figures/quality.svg",
-    "figures/prediction.svg",
-    "figures/gait.svg",
-    "figure.osim",
-    "subject.osim",
-    "shapes.json",
-    "poses.csv",
-    "joints.csv",
-    "reactions.csv",
-    "contacts.csv",
-    "closures.csv",
-    "energy.csv",
-    "figures/energy.svg",
-    "figures/solver.svg",
-    "figures/contacts.svg",
-    "figures/joints.svg",
-    "figures/bodies.svg",
-    "figures/closures.svg",
-    "claims.json",
-    "muscles.csv",
-    "torques.csv",
-    "torques.toml",
-    "assumptions.csv",
-    "figures/figure1.svg",
-    "figures/figure1.csv",
-    "figures/figure2.svg",
-    "figures/figure2.csv",
-    "figures/figure3.svg",
-    "figures/figure3.csv",
-    "figures/figure4.svg",
-    "figures/figure4.csv",
-    "figures/figure5.svg",
-    "figures/figure5.csv",
-    "figures/figure6.svg",
-    "figures/figure6.csv",
-    "figures/figure7.svg",
-    "figures/figure7.csv",
-];
-
-/// Replaces the results of an earlier run, unless this would overwrite an input of the present one.
-pub(crate) fn replace_results(folder: &Path, files: &[OutputFile], read: &[PathBuf]) -> Result<()> {
-    let inputs: Vec<PathBuf> = read.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
-    for name in RESULTS.iter().chain(&["summary.json"]) {
-        let target = folder.join(name);
-        if fs::canonicalize(&target).is_ok_and(|path| inputs.contains(&path)) {
-            bail!("{}: this input file would be overwritten. hint: choose another folder with -o", target.display());
-        }
+/// Refuses to write over an input, a folder, and with [`Existing::Kept`] over any file.
+pub(crate) fn check_target(path: &Path, inputs: &[PathBuf], existing: Existing) -> Result<()> {
+    let shown = path.display();
+    if is_input(path, inputs) {
+        bail!("{shown}: this input file would be overwritten. hint: choose another name");
     }
-    for stale in RESULTS.iter().map(|name| folder.join(name)).filter(|path| path.is_file()) {
-        fs::remove_file(&stale).with_context(|| format!("{}: cannot be replaced", stale.display()))?;
+    if path.is_dir() {
+        bail!("{shown}: this is a folder; expected the name of a file");
     }
-    files.iter().try_for_each(|file| write(&folder.join(&file.name), &file.bytes))
+    if path.is_file() && existing == Existing::Kept {
+        bail!("{shown}: this file already exists. hint: --force overwrites it");
+    }
+    Ok(())
 }
 
-/// Writes a file; creates its folder if necessary.
+/// Writes a file as a whole or not at all; creates its folder if necessary.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
+    // A link stays, and a device or a pipe is written to directly.
+    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     if let Some(folder) = path.parent() {
         if folder.is_file() {
             bail!("{}: this is a file; expected a folder for the results", folder.display());
         }
         fs::create_dir_all(folder).with_context(|| format!("{}: this folder cannot be created", folder.display()))?;
     }
-    fs::write(path, bytes).with_context(|| format!("{}: cannot be written", path.display()))
+    let whole = || {
+        if path.exists() && !path.is_file() {
+            return fs::write(path, bytes);
+        }
+        let part = path.with_file_name(format!(".{}.ambulo-part", last(path)));
+        let written = write_through(&part, bytes).and_then(|()| fs::rename(&part, path));
+        if written.is_err() {
+            // The error is the one of writing.
+            let _ = fs::remove_file(&part);
+        }
+        written
+    };
+    whole().with_context(|| format!("{}: cannot be written", path.display()))
+}
+
+/// The last part of a path.
+pub(crate) fn last(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// Reports the remarks of a reader as findings.

@@ -4,8 +4,11 @@ mod args;
 mod bug_report;
 mod commands;
 mod files;
+mod folder_lock;
 mod hints;
 mod printer;
+mod record;
+mod replacement;
 
 use args::{Args, Command};
 use clap::Parser;

@@ -74,6 +74,8 @@ fn anything_but_a_result_folder_is_rejected_with_a_hint() {
     bench.run(&["view", "nothing"]).refused(&["no such file or folder"]);
     bench.run(&["convert", "nothing", "x.glb"]).refused(&["no such file or folder"]);
     bench.run(&["convert", "empty", "x.glb"]).refused(&["found no summary.json"]);
+    bench.write("out/summary.json", bench.text("out/summary.json").replace("\"run_id\"", "\"run\""));
+    bench.run(&["report", "out"]).refused(&["summary.json: found no valid `run_id`", "an earlier version", "--force"]);
     bench.write("out/summary.json", "{");
     bench.run(&["report", "out"]).refused(&["summary.json"]);
 }

@@ -233,15 +233,22 @@ fn impossible_conversions_of_a_folder_are_rejected() {
     for file in ["kinematics.mot", "summary.json", "grf.mot"] {
         bench.write(&format!("cut/{file}"), bench.read(&format!("demo/{file}")));
     }
+    bench.run(&["convert", "cut", "x.glb"]).refused(&["cut/figure.osim: this file of the run is missing"]);
+    bench.record("cut");
     bench.run(&["convert", "cut", "x.glb"]).refused(&["There is no body (subject.osim or figure.osim)"]);
+    bench.write("cut/summary.json", bench.read("demo/summary.json"));
     bench.write("cut/figure.osim", &bench.read("demo/figure.osim")[..900]);
+    bench.run(&["convert", "cut", "x.glb"]).refused(&["these files belong to two runs: figure.osim"]);
+    bench.record("cut");
     bench.run(&["convert", "cut", "x.glb"]).refused(&["cut/figure.osim: "]);
     bench.write("cut/figure.osim", bench.read("demo/figure.osim"));
     let rows = bench.text("demo/grf.mot");
     bench.write("cut/grf.mot", rows.lines().take(100).collect::<Vec<_>>().join("\n") + "\n");
+    bench.record("cut");
     bench.run(&["convert", "cut", "x.glb"]).refused(&["cut/grf.mot: "]);
     // The scale of the arrows is stated if there are arrows.
     std::fs::remove_file(bench.folder.join("cut/grf.mot")).unwrap();
+    bench.record("cut");
     for (folder, arrows) in [("demo", true), ("cut", false)] {
         let said = bench.run(&["convert", folder, "said.glb", "--force"]).done();
         assert_eq!(said.stderr.contains("arrows are 1 m for 1000 N"), arrows, "{folder}: {}", said.stderr);

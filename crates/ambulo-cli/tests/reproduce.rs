@@ -16,6 +16,8 @@ fn the_paper_is_recomputed_into_the_documented_files() {
     let bench = Workbench::empty("reproduce");
     let run = bench.run(&["reproduce", "--brief", "-o", "paper"]).done();
     assert!(run.stdout.contains("a1  holds") && run.stdout.contains(" of 22 hold"), "{}", run.stdout);
+    bench.run(&["view", "paper"]).done();
+    bench.run(&["report", "paper"]).refused(&["`ambulo reproduce` wrote this folder"]);
     let claims = bench.json("paper/claims.json");
     let rows = claims.as_array().unwrap();
     assert_eq!(rows.len(), 22);

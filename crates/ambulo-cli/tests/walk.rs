@@ -176,6 +176,7 @@ fn the_demo_needs_no_input_and_its_walk_can_be_read_as_a_recording() {
     for file in FILES {
         assert!(!bench.read(&format!("demo/{file}")).is_empty(), "{file}");
     }
+    assert_eq!(bench.json("demo/summary.json")["files"]["input/walk.c3d"], bench.hash("demo/input/walk.c3d"));
     let model = ["forces", "demo/input/walk.mot", "--model", "demo/input/figure.osim"];
     bench.run(&[&model[..], &["--loads", "demo/input/walk_grf.xml", "-o", "again"], &RAW].concat()).done();
     let (made, read) = (bench.table("demo/moments.sto"), bench.table("again/moments.sto"));

@@ -14,6 +14,12 @@ use std::collections::BTreeMap;
 pub struct SceneSummary {
     /// Version of the program.
     pub version: String,
+    /// Identifies the run: SHA-256 of version, options and the content of the input files. Empty until files are written.
+    #[serde(default)]
+    pub run_id: String,
+    /// SHA-256 of every other file of the run, by name.
+    #[serde(default)]
+    pub files: BTreeMap<String, String>,
     /// Input files.
     pub input: SceneInput,
     /// Title of the scene.
@@ -232,6 +238,8 @@ impl SceneExtremes {
         let each = |count: usize| count as f64 / statistics.steps.max(1) as f64;
         SceneSummary {
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            run_id: String::new(),
+            files: BTreeMap::new(),
             input,
             title: Some(scene.title().to_owned()).filter(|title| !title.is_empty()),
             world: WorldSummary {

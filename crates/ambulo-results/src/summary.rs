@@ -22,6 +22,12 @@ use std::fmt;
 pub struct Summary {
     /// Version of the program.
     pub version: String,
+    /// Identifies the run: SHA-256 of version, options and the content of the input files. Empty until files are written.
+    #[serde(default)]
+    pub run_id: String,
+    /// SHA-256 of every other file of the run, by name.
+    #[serde(default)]
+    pub files: BTreeMap<String, String>,
     /// Input files and settings.
     pub input: Input,
     /// Name of the model.
@@ -303,6 +309,8 @@ pub fn summary(
     };
     Summary {
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        run_id: String::new(),
+        files: BTreeMap::new(),
         input,
         model: model.name().to_owned(),
         mass_kg: analysis.mass.kg,

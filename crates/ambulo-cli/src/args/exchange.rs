@@ -1,6 +1,6 @@
 //! Options of `ambulo convert` and `ambulo events`.
 
-use super::PrintArgs;
+use super::{PrintArgs, ReplaceArgs};
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ Conversions:
   folder       of results to .glb (figure or scene, ground forces as arrows), .bvh (figure) or .csv (time, quantity, unit, value)
 
 Data that the new format cannot hold are reported. Positions are in metres in .csv, in millimetres in .trc and .c3d. An existing output
-is only overwritten with --force, the input never.")]
+is only overwritten with --force, the input never. A folder whose files belong to two runs is refused.")]
 pub(crate) struct ConvertArgs {
     /// The file to read, or a folder of results.
     pub(crate) input: PathBuf,
@@ -36,9 +36,8 @@ pub(crate) struct ConvertArgs {
     /// The OpenSim model (.osim) of the coordinates in a .mot or .sto; needed for .bvh and .glb.
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
-    /// Overwrite an existing output.
-    #[arg(long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
@@ -64,9 +63,11 @@ are left out where a foot was only partly on a plate or shared it with the other
 pub(crate) struct EventsArgs {
     /// The recording.
     pub(crate) input: PathBuf,
-    /// Also write the events to a .csv with side, event, time and source.
+    /// Also write the events to a .csv with side, event, time and source; an existing one is only overwritten with --force.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

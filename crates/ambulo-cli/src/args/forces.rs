@@ -1,15 +1,15 @@
 //! Options of `ambulo forces`.
 
-use super::PrintArgs;
 use super::values::{
     AddedMassArg, Cutoff, FootColumns, ForceCutoff, PlateFoot, number, order, seconds, zero_or_more_seconds,
 };
+use super::{PrintArgs, ReplaceArgs};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::study::Settings;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
   ambulo forces demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 -o out
   ambulo forces demo/input/walk.trc --model demo/input/figure.osim --loads demo/input/walk_grf.xml -o out
@@ -22,8 +22,8 @@ were not measured, they are predicted from the motion; with --predict, the predi
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
 clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body
-used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict and force plates grf_measured.mot. Results of
-an earlier run in DIR are removed. docs/OUTPUTS.md describes the files.
+used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict and force plates grf_measured.mot. The results of an earlier run in DIR are replaced as a whole;
+other files stay. docs/OUTPUTS.md describes the files.
 
 Exit code: 0 if a person could make this motion, 1 if not (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
 residual forces; docs/FEASIBILITY.md), 2 if nothing could be computed.")]
@@ -93,6 +93,8 @@ pub(crate) struct ForcesArgs {
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
     #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
 
@@ -132,7 +134,7 @@ pub(crate) enum Filter {
 }
 
 /// The recorded person, and how markers are processed.
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct SubjectArgs {
     /// Standing trial of the same person: .c3d or .trc.
     #[arg(long = "static", value_name = "FILE")]

@@ -14,6 +14,7 @@ pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
 pub(crate) use values::{FootColumns, ForceCutoff, PlateFoot};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, WalkArgs, WalkMode};
 
+use crate::replacement::Existing;
 use clap::{Args as ClapArgs, Parser, Subcommand};
 
 /// Forces behind human walking: motion in, forces out.
@@ -50,8 +51,22 @@ pub(crate) enum Command {
     Compare(CompareArgs),
 }
 
+/// Whether files that Ambulo did not write are replaced.
+#[derive(Debug, Clone, Copy, Default, ClapArgs)]
+pub(crate) struct ReplaceArgs {
+    /// Also replace files that are in the way and that no run of Ambulo wrote, or that were changed since; never an input.
+    #[arg(long)]
+    force: bool,
+}
+
+impl ReplaceArgs {
+    pub(crate) fn existing(self) -> Existing {
+        if self.force { Existing::Replaced } else { Existing::Kept }
+    }
+}
+
 /// How much a command prints, and in which form.
-#[derive(Debug, Clone, Copy, ClapArgs)]
+#[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct PrintArgs {
     /// Print JSON on standard output instead of text.
     #[arg(long)]

@@ -1,17 +1,18 @@
 //! Options of `ambulo simulate`, `info`, `compare` and `reproduce`.
 
-use super::PrintArgs;
 use super::values::{above_zero, limit, seconds};
+use super::{PrintArgs, ReplaceArgs};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 #[command(after_help = "Example (in the source folder, which contains examples/):
   ambulo simulate examples/pendulum.toml --plot -o out
 
 Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, shapes.json, summary.json, report.html
 (open it with `ambulo view DIR`); moments.sto if the scene has figures; figures/*.svg with --plot. Files that would be empty are not
-written. Results of an earlier run in DIR are removed. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]
+written. The results of an earlier run in DIR are replaced as a whole;
+other files stay. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]
 pub(crate) struct SimulateArgs {
     /// The scene (.toml).
     pub(crate) scene: PathBuf,
@@ -27,12 +28,14 @@ pub(crate) struct SimulateArgs {
     /// Time step [s] [default: as in the scene].
     #[arg(long, value_name = "S", value_parser = above_zero)]
     pub(crate) step: Option<f64>,
-    /// Save the final state to a file.
+    /// Save the final state to a file; an existing one is only overwritten with --force.
     #[arg(long, value_name = "FILE")]
     pub(crate) save: Option<PathBuf>,
     /// Continue from a state that --save wrote; the results begin with the row after its last one.
     #[arg(long, value_name = "FILE")]
     pub(crate) resume: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
@@ -83,8 +86,8 @@ pub(crate) struct CompareArgs {
 The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking. Files written to DIR: report.html (all results on one
 page; open it with `ambulo view DIR`), claims.json (each claim with the numbers computed, whether it holds, and why), figures/figure1 to
 figure7 as .svg and .csv, muscles.csv (what net moments imply about muscles), torques.csv and torques.toml (torque curves as harmonics),
-assumptions.csv (values that the paper does not give, and how other values change its claims). Results of an earlier run in DIR are
-removed. docs/REPRODUCTION.md describes the files.
+assumptions.csv (values that the paper does not give, and how other values change its claims). The results of an earlier run in DIR are replaced as a whole;
+other files stay. docs/REPRODUCTION.md describes the files.
 
 Exit code: 0 whether or not claims hold, 2 if nothing could be computed.")]
 pub(crate) struct ReproduceArgs {
@@ -94,6 +97,8 @@ pub(crate) struct ReproduceArgs {
     /// Skip the sensitivity to values that the paper does not give, which takes most of the time.
     #[arg(long)]
     pub(crate) brief: bool,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

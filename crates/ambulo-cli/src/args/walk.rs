@@ -1,7 +1,7 @@
 //! Options of `ambulo walk` and `ambulo demo`.
 
-use super::PrintArgs;
 use super::values::{number, whole_number};
+use super::{PrintArgs, ReplaceArgs};
 use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
@@ -17,10 +17,12 @@ pub(crate) struct DemoArgs {
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
     #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 #[command(after_help = "Examples:
   ambulo walk -o out
   ambulo walk --speed 1.0 --figure de-leva-female --mass 60 --height 1.65 -o out
@@ -36,8 +38,8 @@ Two of --speed, --step-length and --cadence determine the third. With one of the
 and cadence to speed (docs/GAITS.md, which also describes gait files). In both cases the gait's own values are ignored.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. Results of an
-earlier run in DIR are removed. docs/OUTPUTS.md describes the files.
+clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The results of an earlier run in DIR are replaced as a whole;
+other files stay. docs/OUTPUTS.md describes the files.
 
 Exit code: 0 if a person could make this motion, 1 if not (docs/FEASIBILITY.md), 2 if nothing could be computed.")]
 pub(crate) struct WalkArgs {
@@ -67,11 +69,13 @@ pub(crate) struct WalkArgs {
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
 
 /// The gait to synthesise.
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct GaitArgs {
     /// Name of a gait (standard, long, short, goose, slow, free, fast) or a gait file (docs/GAITS.md).
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "free")]
@@ -94,7 +98,7 @@ pub(crate) struct GaitArgs {
 }
 
 /// The body that walks.
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct FigureArgs {
     /// Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = "de-leva-male")]

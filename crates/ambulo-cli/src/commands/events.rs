@@ -16,7 +16,6 @@ use ambulo_formats::bvh::Bvh;
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 use std::fmt::Write;
-use std::fs;
 
 pub(crate) fn run(args: &EventsArgs) -> Result<Completion> {
     let bytes = files::read(&args.input)?;
@@ -31,9 +30,7 @@ pub(crate) fn run(args: &EventsArgs) -> Result<Completion> {
     };
     let sources = read.with_context(|| shown.clone())?;
     if let Some(output) = &args.output {
-        if fs::canonicalize(output).is_ok_and(|path| fs::canonicalize(&args.input).is_ok_and(|input| input == path)) {
-            bail!("{}: this input file would be overwritten. hint: choose another name", output.display());
-        }
+        files::check_target(output, std::slice::from_ref(&args.input), args.replace.existing())?;
         files::write(output, csv(&sources).as_bytes())?;
     }
     printer::events(&sources, &agreements(&sources), &findings, args.print)?;

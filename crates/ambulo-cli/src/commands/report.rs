@@ -1,16 +1,14 @@
 //! `ambulo report`: the page of a result folder, and the page that the other commands write.
 
-use super::result_folder::{ResultFolder, last};
+use super::result_folder::{PAGE, ResultFolder};
 use crate::args::ReportArgs;
+use crate::replacement::{Existing, ResultTarget};
 use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Finding};
 use ambulo_report::page::report_page;
 use ambulo_results::{Folder, OutputFile, RunSummary};
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
-
-/// Name of the page in a result folder.
-pub(super) const PAGE: &str = "report.html";
 
 /// Further folders that a page can show.
 const MOST_COMPARED: usize = 2;
@@ -24,13 +22,26 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Completion> {
     if !matches!(files::ending(&output).as_str(), "html" | "htm") {
         bail!("{}: expected a name that ends in .html for the page", output.display());
     }
-    files::write(&output, page_of_folders(&folders)?.as_bytes())?;
+    if args.output.is_some() {
+        files::check_target(&output, &[], args.replace.existing())?;
+        files::write(&output, page_of_folders(&folders)?.as_bytes())?;
+    } else {
+        write_page(&folders, args.replace.existing())?;
+    }
     printer::report(&output, args.print)?;
     Ok(Completion::Passed)
 }
 
+/// Writes the page of folders into the first of them.
+pub(super) fn write_page(folders: &[&Path], existing: Existing) -> Result<()> {
+    ResultFolder::open(folders[0])?;
+    // Taken before the files are read, so that the page belongs to them.
+    let target = ResultTarget::open(folders[0], existing)?;
+    target.replace_one(OutputFile::new(PAGE, page_of_folders(folders)?.into_bytes()))
+}
+
 /// The page of result folders, from their files.
-pub(super) fn page_of_folders(paths: &[&Path]) -> Result<String> {
+fn page_of_folders(paths: &[&Path]) -> Result<String> {
     let opened = paths.iter().map(|path| ResultFolder::open(path)).collect::<Result<Vec<_>>>()?;
     let names: Vec<String> = opened.iter().map(ResultFolder::name).collect();
     let readers: Vec<_> = opened.iter().map(|folder| |name: &str| folder.read(name)).collect();
@@ -54,6 +65,6 @@ pub(super) fn page_not_written(reason: &anyhow::Error) -> Finding {
 
 /// The page of a run that is being written; `name` is that of its folder.
 pub(super) fn page_of_run(name: &Path, written: &[OutputFile], summary: RunSummary) -> Result<OutputFile> {
-    let html = report_page(&[Folder::of_run(last(name), written, summary)])?;
+    let html = report_page(&[Folder::of_run(files::last(name), written, summary)])?;
     Ok(OutputFile::new(PAGE, html.into_bytes()))
 }

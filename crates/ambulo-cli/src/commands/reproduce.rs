@@ -1,15 +1,20 @@
 //! `ambulo reproduce`: recomputes the claims and figures of the 1997 paper.
 
 use crate::args::ReproduceArgs;
-use crate::{Completion, files, printer};
+use crate::record::{Record, run_id};
+use crate::replacement::ResultTarget;
+use crate::{Completion, printer};
 use ambulo::reproduction::{
     Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities,
 };
 use ambulo_report::{reproduction_files, reproduction_page};
+use ambulo_results::{OutputFile, SUMMARY, summary_json};
 use anyhow::Result;
+use serde_json::json;
 use std::time::Instant;
 
 pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
+    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
     let start = Instant::now();
     let clock = move || start.elapsed().as_secs_f64();
     let mut mode = |trial: &TrialSettings<'_>| paper_walk(trial);
@@ -25,10 +30,13 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     };
     let mut written = reproduction_files(&claims, &paper, Some(&corrected), &others)?;
     written.push(reproduction_page(&claims, &others, &written));
-    files::replace_results(&args.output, &written, &[])?;
     let mut json = serde_json::to_vec_pretty(&claims)?;
     json.push(b'\n');
-    files::write(&args.output.join("claims.json"), &json)?;
+    written.push(OutputFile::new("claims.json", json));
+    let Record { run_id, files } = Record::of_run(run_id(&format!("reproduce brief={}", args.brief), &[])?, &written);
+    let summary = json!({ "version": env!("CARGO_PKG_VERSION"), "run_id": run_id, "files": files });
+    written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));
+    target.replace(&written, &[])?;
     printer::reproduce(&claims, &others, &args.output, args.print)?;
     Ok(Completion::Passed)
 }

@@ -1,54 +1,87 @@
 //! A result folder on disk, for functions that read its files by name.
 
 use crate::files;
+use crate::record::Record;
+use crate::replacement::recover;
+use ambulo_results::SUMMARY;
 use anyhow::{Error, Result, bail};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-/// A result folder. The error of an existing file that cannot be read is kept for [`ResultFolder::check`].
+/// Name of the page in a result folder.
+pub(super) const PAGE: &str = "report.html";
+/// Name of the file that only `ambulo reproduce` writes.
+const CLAIMS: &str = "claims.json";
+const OF_THE_PAPER: &str = "`ambulo reproduce` wrote this folder, and its report.html cannot be written again";
+const HINT: &str = "hint: `ambulo demo -o demo` writes one";
+
+/// A result folder whose files belong to one run. The error of a file that cannot be read is kept for [`ResultFolder::check`].
 pub(super) struct ResultFolder {
     path: PathBuf,
+    summary: Vec<u8>,
+    record: Record,
     failure: RefCell<Option<Error>>,
 }
 
 impl ResultFolder {
-    /// Opens a folder with a `summary.json`; anything else is an error with a hint.
+    /// Opens the folder of a recording, a synthetic walk or a scene; anything else is an error with a hint.
     pub(super) fn open(path: &Path) -> Result<ResultFolder> {
+        let folder = ResultFolder::of_any_run(path)?;
+        if folder.record.files.contains_key(CLAIMS) {
+            bail!("{}: {OF_THE_PAPER}", path.display());
+        }
+        Ok(folder)
+    }
+
+    /// The same, or the folder of `ambulo reproduce`. Finishes or undoes an interrupted run first.
+    pub(super) fn of_any_run(path: &Path) -> Result<ResultFolder> {
         let shown = path.display();
-        let hint = "hint: `ambulo demo -o demo` writes one";
-        if path.is_file() {
-            let folder = path.parent().filter(|folder| folder.join(SUMMARY).is_file());
-            let hint =
-                folder.map_or_else(|| hint.to_owned(), |folder| format!("hint: its folder is {}", folder.display()));
-            bail!("{shown}: this is a file; expected a result folder. {hint}");
-        }
-        if !path.is_dir() {
-            bail!("{shown}: there is no such folder; expected a result folder. {hint}");
-        }
+        refuse_other_paths(path)?;
+        recover(path)?;
         if !path.join(SUMMARY).is_file() {
-            let other = if path.join("claims.json").is_file() {
-                "; `ambulo reproduce` wrote this folder, and its report.html cannot be written again"
-            } else {
-                ""
-            };
+            let other = if path.join(CLAIMS).is_file() { format!("; {OF_THE_PAPER}") } else { String::new() };
             bail!(
-                "{shown}: found no {SUMMARY}{other}; expected a folder that `ambulo forces`, `walk`, `demo` or `simulate` wrote. {hint}"
+                "{shown}: found no {SUMMARY}{other}; expected a folder that `ambulo forces`, `walk`, `demo` or `simulate` wrote. {HINT}"
             );
         }
-        Ok(ResultFolder { path: path.to_owned(), failure: RefCell::new(None) })
+        let summary = files::read(&path.join(SUMMARY))?;
+        let Some(record) = Record::from_summary(&summary) else {
+            bail!(
+                "{shown}/{SUMMARY}: found no valid `run_id` and `files`, so the file is damaged, or an earlier version of Ambulo wrote it. hint: run the command that wrote this folder again, with --force"
+            );
+        };
+        record.check_all_but(path, PAGE)?;
+        Ok(ResultFolder { path: path.to_owned(), summary, record, failure: RefCell::default() })
     }
 
+    /// Whether the run wrote this file and it still exists.
     pub(super) fn has(&self, name: &str) -> bool {
-        self.path.join(name).is_file()
+        self.record.files.contains_key(name) && self.path.join(name).is_file()
     }
 
-    /// The content of a file of the folder, if it exists.
+    /// The content of a file of the run; other files of the folder are not results.
     pub(super) fn read(&self, name: &str) -> Option<Vec<u8>> {
-        let path = self.path.join(name);
-        if !path.exists() {
+        if name == SUMMARY {
+            return Some(self.summary.clone());
+        }
+        if !self.record.files.contains_key(name) {
             return None;
         }
-        files::read(&path).map_err(|error| self.failure.borrow_mut().get_or_insert(error).to_string()).ok()
+        self.checked(name).map_err(|error| self.failure.borrow_mut().get_or_insert(error).to_string()).ok()
+    }
+
+    /// The content of a recorded file, which must be the one of the run.
+    pub(super) fn checked(&self, name: &str) -> Result<Vec<u8>> {
+        let path = self.path.join(name);
+        if !path.exists() {
+            bail!(
+                "{}: this file of the run is missing. hint: run the command that wrote the folder again",
+                path.display()
+            );
+        }
+        let bytes = files::read(&path)?;
+        self.record.check(&self.path, name, &bytes)?;
+        Ok(bytes)
     }
 
     /// The path as it was typed.
@@ -58,7 +91,7 @@ impl ResultFolder {
 
     /// The folder's own name.
     pub(super) fn name(&self) -> String {
-        last(&self.path)
+        files::last(&self.path)
     }
 
     /// Returns the error of the first file that could not be read.
@@ -67,9 +100,29 @@ impl ResultFolder {
     }
 }
 
-const SUMMARY: &str = "summary.json";
+/// Refuses files and paths where nothing is.
+fn refuse_other_paths(path: &Path) -> Result<()> {
+    let shown = path.display();
+    if path.is_file() {
+        let folder = path.parent().filter(|folder| folder.join(SUMMARY).is_file());
+        let hint = folder.map_or_else(|| HINT.to_owned(), |folder| format!("hint: its folder is {}", folder.display()));
+        bail!("{shown}: this is a file; expected a result folder. {hint}");
+    }
+    if !path.is_dir() {
+        bail!("{shown}: there is no such folder; expected a result folder. {HINT}");
+    }
+    Ok(())
+}
 
-/// Name of a folder without its path.
-pub(super) fn last(folder: &Path) -> String {
-    folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy().into_owned()
+/// Reads a file; if it is part of a result folder (its own folder, or the one around it), it must be the one of the run there.
+pub(super) fn read_checked(path: &Path) -> Result<Vec<u8>> {
+    let bytes = files::read(path)?;
+    for folder in &files::folders_around(path) {
+        let Some(record) = Record::of_folder(folder) else { continue };
+        let name = path.canonicalize()?.strip_prefix(folder)?.to_string_lossy().replace('\\', "/");
+        if record.files.contains_key(&name) {
+            record.check(folder, &name, &bytes)?;
+        }
+    }
+    Ok(bytes)
 }

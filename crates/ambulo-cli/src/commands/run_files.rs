@@ -3,16 +3,22 @@
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
 use crate::args::PrintArgs;
+use crate::record::{Record, run_id};
+use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::study::Outcome;
 use ambulo_report::{clinical_file, outcome_figures};
 use ambulo_results::{
-    Convention, Input, OutputFile, RunSummary, Summary, WalkSummary, outcome_summary, outcome_tables, summary_json,
+    Convention, Input, OutputFile, RunSummary, SUMMARY, Summary, WalkSummary, outcome_summary, outcome_tables,
+    summary_json,
 };
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
+
+/// Makes files from other files of the same run.
+pub(super) type MoreFiles = dyn Fn(&[OutputFile]) -> Result<Vec<OutputFile>>;
 
 /// An outcome with everything else that is written to the result folder.
 pub(super) struct RunFiles<'a> {
@@ -24,34 +30,39 @@ pub(super) struct RunFiles<'a> {
     pub(super) walk: Option<WalkSummary>,
     /// Files that only this kind of run has.
     pub(super) files: Vec<OutputFile>,
+    /// Makes further files from the tables and figures of the run.
+    pub(super) more: &'a MoreFiles,
     /// Every file that was read; none of them is overwritten.
     pub(super) read: &'a [PathBuf],
+    /// The command with the options that matter for the results.
+    pub(super) options: String,
     pub(super) findings: Findings,
     pub(super) clock: Stopwatch,
 }
 
 impl RunFiles<'_> {
     /// Writes all files and prints the outcome.
-    pub(super) fn write(self, output: &Path, print: PrintArgs) -> Result<Completion> {
-        let RunFiles { outcome, input, convention, walk, files, read, findings, mut clock } = self;
+    pub(super) fn write(self, target: &ResultTarget, print: PrintArgs) -> Result<Completion> {
+        let RunFiles { outcome, input, convention, walk, files, more, read, options, findings, mut clock } = self;
         let mut written = outcome_tables(outcome)?;
         let figures = outcome_figures(outcome, convention)?;
         let (clinical, convention) = clinical_file(outcome, convention)?;
         written.push(clinical);
         written.extend(figures);
         written.extend(files);
-        files::replace_results(output, &written, read)?;
-        clock.lap("write");
+        clock.lap("tables");
         let mut summary = Summary { walk, convention: Some(convention), ..outcome_summary(outcome, input, &findings) };
-        let page = page_of_run(output, &written, RunSummary::Motion(Box::new(summary.clone())));
-        clock.lap("report");
-        match page {
-            Ok(page) => files::write(&output.join(&page.name), &page.bytes)?,
+        match page_of_run(target.folder(), &written, RunSummary::Motion(Box::new(summary.clone()))) {
+            Ok(page) => written.push(page),
             Err(reason) => summary.findings.push(page_not_written(&reason)),
         }
+        clock.lap("report");
+        written.extend(more(&written)?);
+        Record { run_id: summary.run_id, files: summary.files } = Record::of_run(run_id(&options, read)?, &written);
         summary.timing_ms = clock.into_laps();
-        files::write(&output.join("summary.json"), &summary_json(&summary)?)?;
-        printer::forces(&summary, output, print)?;
+        written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));
+        target.replace(&written, read)?;
+        printer::forces(&summary, target.folder(), print)?;
         Ok(if outcome.verdict.feasible { Completion::Passed } else { Completion::Failed })
     }
 }

@@ -3,18 +3,21 @@
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
+use crate::record::{Record, run_id};
+use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::analysis::scene_verdict;
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
 use ambulo_report::{SceneCurves, scene_shapes};
-use ambulo_results::{RunSummary, SceneExtremes, SceneInput, SceneTables, summary_json};
+use ambulo_results::{OutputFile, RunSummary, SUMMARY, SceneExtremes, SceneInput, SceneTables, summary_json};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
+    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
     let mut findings = Findings::default();
     let mut input = SceneInput { scene: args.scene.display().to_string(), ..SceneInput::default() };
     let mut inputs = vec![args.scene.clone()];
@@ -25,7 +28,9 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
         inputs.push(path.clone());
         input.resumed = Some(path.display().to_string());
     }
-    refuse_to_overwrite(args.save.as_deref(), &inputs)?;
+    if let Some(save) = &args.save {
+        files::check_target(save, &inputs, args.replace.existing())?;
+    }
     clock.lap("read");
 
     let (mut tables, mut extremes) = (SceneTables::new(&scene), SceneExtremes::default());
@@ -52,21 +57,22 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     if let Some(curves) = &curves {
         written.extend(curves.files(&scene, verdict.as_ref())?);
     }
-    files::replace_results(&args.output, &written, &inputs)?;
-    if let Some(path) = &args.save {
-        write_json(path, &scene.save())?;
-    }
-    clock.lap("write");
+    clock.lap("tables");
     let mut summary = extremes.summary(&scene, &statistics, input, &findings);
     summary.verdict = verdict;
-    summary.timing_ms = clock.into_laps();
-    let page = page_of_run(&args.output, &written, RunSummary::Scene(Box::new(summary.clone())));
-    match page {
-        Ok(page) => files::write(&args.output.join(&page.name), &page.bytes)?,
+    match page_of_run(target.folder(), &written, RunSummary::Scene(Box::new(summary.clone()))) {
+        Ok(page) => written.push(page),
         Err(reason) => summary.findings.push(page_not_written(&reason)),
     }
-    write_json(&args.output.join("summary.json"), &summary)?;
-    printer::simulate(&summary, &args.output, args.print)?;
+    Record { run_id: summary.run_id, files: summary.files } =
+        Record::of_run(run_id(&options(args), &inputs)?, &written);
+    summary.timing_ms = clock.into_laps();
+    written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));
+    target.replace(&written, &inputs)?;
+    if let Some(path) = &args.save {
+        files::write(path, &summary_json(&scene.save())?)?;
+    }
+    printer::simulate(&summary, target.folder(), args.print)?;
     Ok(if feasible { Completion::Passed } else { Completion::Failed })
 }
 
@@ -105,15 +111,8 @@ fn resume(scene: &mut Scene, path: &Path) -> Result<()> {
     Ok(())
 }
 
-fn refuse_to_overwrite(save: Option<&Path>, inputs: &[PathBuf]) -> Result<()> {
-    let Some(save) = save else { return Ok(()) };
-    let same = |path: &PathBuf| path.canonicalize().is_ok_and(|path| save.canonicalize().is_ok_and(|s| s == path));
-    if inputs.iter().any(same) {
-        bail!("{}: this input file would be overwritten. hint: choose another name for --save", save.display());
-    }
-    Ok(())
-}
-
-fn write_json(path: &Path, content: &impl serde::Serialize) -> Result<()> {
-    files::write(path, &summary_json(content)?)
+/// The command with the options that matter for the results.
+fn options(args: &SimulateArgs) -> String {
+    let (output, replace, print) = Default::default();
+    format!("simulate {:?}", SimulateArgs { output, replace, print, save: None, ..args.clone() })
 }

@@ -1,7 +1,9 @@
 //! `ambulo view`: opens the page of a result folder in the browser.
 
-use super::report::{PAGE, page_of_folders};
+use super::report::write_page;
+use super::result_folder::{PAGE, ResultFolder, read_checked};
 use crate::args::ViewArgs;
+use crate::replacement::Existing;
 use crate::{Completion, files, printer};
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
@@ -20,8 +22,10 @@ fn page(path: &Path) -> Result<PathBuf> {
     let shown = path.display();
     if path.is_dir() {
         let page = path.join(PAGE);
-        if !page.is_file() {
-            files::write(&page, page_of_folders(&[path])?.as_bytes())?;
+        let folder = ResultFolder::of_any_run(path)?;
+        match page.is_file() {
+            true => _ = folder.checked(PAGE)?,
+            false => write_page(&[path], Existing::Kept)?,
         }
         return Ok(page);
     }
@@ -29,7 +33,7 @@ fn page(path: &Path) -> Result<PathBuf> {
         _ if !path.exists() => {
             bail!("{shown}: there is no such file or folder. hint: `ambulo demo -o demo`, then `ambulo view demo`")
         }
-        "html" | "htm" => Ok(path.to_owned()),
+        "html" | "htm" => read_checked(path).map(|_| path.to_owned()),
         "c3d" | "trc" | "bvh" => bail!(
             "{shown}: this is a recording, not a page; expected a result folder or .html. hint: `ambulo forces {shown} -o out`, then `ambulo view out`"
         ),

@@ -1,8 +1,9 @@
 //! `ambulo walk`: synthesises a walk and computes its forces.
 
-use super::run_files::{RunFiles, read_thresholds};
+use super::run_files::{MoreFiles, RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
 use crate::args::{FigureArgs, GaitArgs, PrintArgs, WalkArgs, WalkMode};
+use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::findings::Findings;
@@ -27,10 +28,14 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
         let walk = Walk::new(&gait, human.dimensions.leg_length, &mut findings)?;
         if let Some(output) = &args.output {
             let file = gait_file(&walk)?;
-            files::write(&output.join(&file.name), &file.bytes)?;
+            let path = output.join(&file.name);
+            files::check_target(&path, &read, args.replace.existing())?;
+            files::write(&path, &file.bytes)?;
         }
         return printer::states(&state_table(&walk), &findings, args.print).map(|()| Completion::Passed);
     }
+    let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
+    let target = ResultTarget::for_run(output, args.replace.existing())?;
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
     read.extend(args.thresholds.clone());
     let gait = if args.mode == WalkMode::Corrected { style_for_correction(gait, &args.gait) } else { gait };
@@ -44,9 +49,16 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
         thresholds,
         convention: args.convention.into(),
         read: &read,
+        options: options(args),
+        more: &|_| Ok(Vec::new()),
     };
-    let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
-    run.analyse_and_write(findings, clock, output, args.print)
+    run.analyse_and_write(findings, clock, &target, args.print)
+}
+
+/// The command with the options that matter for the results.
+fn options(args: &WalkArgs) -> String {
+    let (output, replace, print) = Default::default();
+    format!("walk {:?}", WalkArgs { output, replace, print, ..args.clone() })
 }
 
 const DEFAULT_OUTPUT: &str = "out";
@@ -59,6 +71,10 @@ pub(super) struct SyntheticRun<'a> {
     /// How angles of pelvis and hips are measured.
     pub(super) convention: Convention,
     pub(super) read: &'a [PathBuf],
+    /// The command with the options that matter for the results.
+    pub(super) options: String,
+    /// Makes further files from the tables and figures of the run.
+    pub(super) more: &'a MoreFiles,
 }
 
 impl SyntheticRun<'_> {
@@ -67,7 +83,7 @@ impl SyntheticRun<'_> {
         self,
         mut findings: Findings,
         mut clock: Stopwatch,
-        output: &Path,
+        target: &ResultTarget,
         print: PrintArgs,
     ) -> Result<Completion> {
         let settings = Settings { thresholds: self.thresholds.clone(), ..Settings::default() };
@@ -82,11 +98,13 @@ impl SyntheticRun<'_> {
             convention: self.convention,
             walk: Some(WalkSummary::new(&self.walk.human.model, &self.walk.report)),
             files: self.files()?,
+            more: self.more,
             read: self.read,
+            options: self.options,
             findings,
             clock,
         };
-        files.write(output, print)
+        files.write(target, print)
     }
 
     /// The walk with the ground forces of its simulation or correction.

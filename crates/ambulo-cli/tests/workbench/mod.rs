@@ -5,6 +5,7 @@
 
 use ambulo_formats::table::Table;
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -115,6 +116,44 @@ impl Workbench {
         serde_json::from_slice(&self.read(name)).unwrap()
     }
 
+    /// Records the present files of a result folder as those of its run, which then may lack files or have broken ones.
+    pub(crate) fn record(&self, folder: &str) {
+        let mut summary = self.json(&format!("{folder}/summary.json"));
+        let recorded: Vec<String> = summary["files"].as_object().unwrap().keys().cloned().collect();
+        let found = recorded.into_iter().filter(|name| self.exists(&format!("{folder}/{name}")));
+        summary["files"] =
+            found.map(|name| (name.clone(), Value::from(self.hash(&format!("{folder}/{name}"))))).collect();
+        self.write(&format!("{folder}/summary.json"), serde_json::to_vec_pretty(&summary).unwrap());
+    }
+
+    /// SHA-256 of a file.
+    pub(crate) fn hash(&self, name: &str) -> String {
+        Sha256::digest(self.read(name)).iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// Names of all files in a folder and below, sorted.
+    pub(crate) fn names(&self, folder: &str) -> Vec<String> {
+        let mut names = Vec::new();
+        for entry in fs::read_dir(self.folder.join(folder)).unwrap() {
+            let (path, name) = entry.map(|entry| (entry.path(), entry.file_name().into_string().unwrap())).unwrap();
+            match path.is_dir() {
+                true => {
+                    names.extend(self.names(&format!("{folder}/{name}")).iter().map(|inner| format!("{name}/{inner}")))
+                }
+                false => names.push(name),
+            }
+        }
+        names.sort();
+        names
+    }
+
+    /// A command of the program in this folder, not yet started, without output.
+    pub(crate) fn command(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ambulo"));
+        command.args(args).current_dir(&self.folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        command
+    }
+
     /// Replaces text in a file, which must contain the old text.
     pub(crate) fn edit(&self, name: &str, old: &str, new: &str) {
         let text = self.text(name);
@@ -154,6 +193,12 @@ impl Workbench {
         }
         let script = format!("{limit}; exec \"$0\" \"$@\"");
         self.wait(Command::new("sh").args(["-c", &script, env!("CARGO_BIN_EXE_ambulo")]).args(args), args)
+    }
+
+    /// Runs the program with files of at most so many kilobytes, as on a disk that becomes full.
+    pub(crate) fn run_on_a_small_disk(&self, kilobytes: usize, args: &[&str]) -> Run {
+        let limit = format!("trap '' XFSZ; ulimit -f {}; exec \"$0\" \"$@\"", 2 * kilobytes);
+        self.wait(Command::new("sh").args(["-c", &limit, env!("CARGO_BIN_EXE_ambulo")]).args(args), args)
     }
 
     fn wait(&self, command: &mut Command, args: &[&str]) -> Run {

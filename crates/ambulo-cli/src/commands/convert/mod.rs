@@ -9,8 +9,7 @@ use crate::args::ConvertArgs;
 use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Findings};
 use anyhow::{Result, bail};
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Each input format with its output formats.
 const PAIRS: [(&str, &[&str]); 6] = [
@@ -31,8 +30,9 @@ struct Converted {
 pub(crate) fn run(args: &ConvertArgs) -> Result<Completion> {
     let (from, to) = (files::ending(&args.input), files::ending(&args.output));
     let converted = if args.input.is_dir() { of_folder(args, &to) } else { of_file(args, &from, &to) }?;
+    let inputs: Vec<PathBuf> = [Some(&args.input), args.model.as_ref()].into_iter().flatten().cloned().collect();
     for (path, _) in &converted.files {
-        check_target(path, args)?;
+        files::check_target(path, &inputs, args.replace.existing())?;
     }
     for (path, bytes) in &converted.files {
         files::write(path, bytes)?;
@@ -97,20 +97,6 @@ fn check_options(args: &ConvertArgs, from: &str, to: &str) -> Result<()> {
     }
     if moves_a_body && args.model.is_none() {
         bail!("a .{to} needs the model of these coordinates; expected --model FILE.osim");
-    }
-    Ok(())
-}
-
-/// Refuses to overwrite an input, and any other file without --force.
-fn check_target(path: &Path, args: &ConvertArgs) -> Result<()> {
-    let inputs = [Some(&args.input), args.model.as_ref()].into_iter().flatten();
-    let inputs: Vec<PathBuf> = inputs.filter_map(|path| fs::canonicalize(path).ok()).collect();
-    let shown = path.display();
-    if fs::canonicalize(path).is_ok_and(|path| inputs.contains(&path)) {
-        bail!("{shown}: this input file would be overwritten. hint: choose another name");
-    }
-    if path.exists() && !args.force {
-        bail!("{shown}: this file already exists. hint: --force overwrites it");
     }
     Ok(())
 }

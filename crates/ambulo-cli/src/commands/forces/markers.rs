@@ -38,7 +38,7 @@ fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBody> {
         table: figure.parse().context("--figure").with_context(|| args.input.display().to_string())?,
         mass_kg: *mass,
         height_m: *height,
-        set: markers.as_deref().map(read_set).transpose()?,
+        set: markers.as_deref().map(|set| read_set(set, reading)).transpose()?,
     })
 }
 
@@ -88,11 +88,12 @@ fn read_standing_trial(path: &Path, reading: &mut Reading) -> Result<LaboratoryF
 }
 
 /// A marker set by its name, or from a file.
-fn read_set(name_or_file: &str) -> Result<MarkerSet> {
+fn read_set(name_or_file: &str, reading: &mut Reading) -> Result<MarkerSet> {
     let path = Path::new(name_or_file);
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         return MarkerSet::named(name_or_file).context("--markers");
     }
     let text = String::from_utf8(files::read(path)?).with_context(|| name_or_file.to_owned())?;
+    reading.read.push(path.to_owned());
     MarkerSet::from_toml(&text).with_context(|| name_or_file.to_owned())
 }

@@ -9,6 +9,7 @@ mod skeleton;
 use super::run_files::{RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
 use crate::args::{Adjusted, Filter, ForceCutoff, ForcesArgs, MarkerFitting};
+use crate::replacement::ResultTarget;
 use crate::{Completion, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
@@ -30,6 +31,7 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
     {
         bail!("--from {from} is after --to {to}; expected a start before the end");
     }
+    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
     let mut reading = Reading {
         findings: Findings::default(),
         clock: Stopwatch::new(),
@@ -44,7 +46,7 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
     let source = Source { device: read_device(args, &mut reading)?, ..source };
     let settings = settings(args)?;
     reading.read.extend(args.device.iter().chain(&args.thresholds).cloned());
-    compute(args, &source, &settings, reading)
+    compute(args, &source, &settings, reading, &target)
 }
 
 /// The kinds of recording, by the extension of the file name.
@@ -86,7 +88,13 @@ struct Reading {
     ground: Option<PathBuf>,
 }
 
-fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Reading) -> Result<Completion> {
+fn compute(
+    args: &ForcesArgs,
+    source: &Source,
+    settings: &Settings,
+    reading: Reading,
+    target: &ResultTarget,
+) -> Result<Completion> {
     let Reading { mut findings, mut clock, read, ground } = reading;
     let mut watch = |stage: study::Stage| {
         clock.lap(stage.word());
@@ -101,11 +109,19 @@ fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Rea
         convention: args.convention.into(),
         walk: None,
         files: body.into_iter().collect(),
+        more: &|_| Ok(Vec::new()),
         read: &read,
+        options: options(args),
         findings,
         clock,
     };
-    files.write(&args.output, args.print)
+    files.write(target, args.print)
+}
+
+/// The command with the options that matter for the results.
+fn options(args: &ForcesArgs) -> String {
+    let (output, replace, print) = Default::default();
+    format!("forces {:?}", ForcesArgs { output, replace, print, ..args.clone() })
 }
 
 /// The body that was used as an OpenSim model; a note if it cannot be written.

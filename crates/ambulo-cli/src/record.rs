@@ -1,0 +1,112 @@
+//! The record of a run in its `summary.json`: the id of the run and the SHA-256 of every other file, as `sha256sum` prints it.
+//!
+//! The id is made from version, command, options and the content of all inputs, so the same run has the same id everywhere and always.
+
+use ambulo_results::{OutputFile, SUMMARY};
+use anyhow::{Context, Result, bail};
+use serde::Deserialize;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+/// Which run wrote a folder, and the hashes of its files by name.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+pub(crate) struct Record {
+    pub(crate) run_id: String,
+    pub(crate) files: BTreeMap<String, String>,
+}
+
+impl Record {
+    /// The record of the files of a run, without its summary.
+    pub(crate) fn of_run(run_id: String, written: &[OutputFile]) -> Record {
+        let files = written.iter().map(|file| (file.name.clone(), hash(&file.bytes))).collect();
+        Record { run_id, files }
+    }
+
+    /// The record in the content of a `summary.json`; `None` if Ambulo did not write one there.
+    pub(crate) fn from_summary(bytes: &[u8]) -> Option<Record> {
+        let record: Record = serde_json::from_slice(bytes).ok()?;
+        record.files.keys().all(|name| is_inside(name)).then_some(record)
+    }
+
+    /// The record of a folder; `None` if its summary is missing or has none.
+    pub(crate) fn of_folder(folder: &Path) -> Option<Record> {
+        Record::from_summary(&fs::read(folder.join(SUMMARY)).ok()?)
+    }
+
+    /// Checks the content of a file of the folder, which must be recorded.
+    pub(crate) fn check(&self, folder: &Path, name: &str, bytes: &[u8]) -> Result<()> {
+        if self.files.get(name).is_some_and(|recorded| *recorded == hash(bytes)) {
+            return Ok(());
+        }
+        let (shown, run) = (folder.display(), short(&self.run_id));
+        if Record::of_folder(folder).as_ref() != Some(self) {
+            bail!("{shown}: another run replaced these results while they were read. hint: try again");
+        }
+        bail!(
+            "{shown}: these files belong to two runs: {name} is not the file that {SUMMARY} of run {run} records; it was changed, or another run wrote it. hint: run the command that wrote this folder again, with --force"
+        )
+    }
+
+    /// Checks all recorded files of the folder itself that exist, except the one named. Subfolders have pictures and inputs, which no
+    /// command takes for results.
+    pub(crate) fn check_all_but(&self, folder: &Path, except: &str) -> Result<()> {
+        let names = self.files.keys().filter(|name| *name != except && !name.contains('/'));
+        for (name, path) in names.map(|name| (name, folder.join(name))).filter(|(_, path)| path.exists()) {
+            let bytes = fs::read(&path).with_context(|| format!("{}: cannot be read", path.display()))?;
+            self.check(folder, name, &bytes)?;
+        }
+        Ok(())
+    }
+}
+
+/// The id of a run: `options` are the command with all its options but those that only choose the folder and the printout.
+pub(crate) fn run_id(options: &str, inputs: &[PathBuf]) -> Result<String> {
+    let mut text = format!("{}\n{options}\n", env!("CARGO_PKG_VERSION"));
+    // A pipe can be read only once.
+    for input in inputs.iter().filter(|input| input.is_file()) {
+        let bytes = fs::read(input).with_context(|| format!("{}: cannot be read again", input.display()))?;
+        text += &hash(&bytes);
+    }
+    Ok(hash(text.as_bytes()))
+}
+
+/// SHA-256 in hexadecimal digits.
+pub(crate) fn hash(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
+        // Writing to memory does not fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+/// The beginning of a hash, for messages.
+pub(crate) fn short(hash: &str) -> String {
+    hash.chars().take(8).collect()
+}
+
+/// Whether a name leads to a file inside the folder.
+pub(crate) fn is_inside(name: &str) -> bool {
+    !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hash_is_the_sha_256_of_the_standard() {
+        assert_eq!(hash(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+
+    #[test]
+    fn a_record_that_names_a_file_outside_of_its_folder_is_none() {
+        let of =
+            |name: &str| Record::from_summary(format!(r#"{{"run_id": "1", "files": {{"{name}": "2"}}}}"#).as_bytes());
+        assert!(of("figures/energy.svg").is_some());
+        assert_eq!([of("../mine.txt"), of("/etc/passwd"), of("")], [None, None, None]);
+        assert_eq!(Record::from_summary(b"{}"), None);
+    }
+}

@@ -1,0 +1,549 @@
+//! Replaces the results in a folder as a whole: after a kill at any moment, or on a full disk, the old or the new results are complete.
+//!
+//! | step | change | after a kill, the next command |
+//! |---|---|---|
+//! | 1 | the new files are written to `DIR/.ambulo-new/`, through to the disk | undoes: removes `.ambulo-new`; all old |
+//! | 2 | `.ambulo-new/manifest.json`, which lists them, appears by a rename | finishes: repeats steps 3 to 5; all new |
+//! | 3 | the old `summary.json` is removed, then the old files that have no successor | finishes |
+//! | 4 | the new files are moved to `DIR`, each by a rename, `summary.json` last | finishes |
+//! | 5 | the manifest is removed, then `.ambulo-new` | finishes |
+//!
+//! Steps 3 to 5 can be repeated: what is already removed or moved is left out. A lock ([`FolderLock`]) keeps other commands out. Only files that the
+//! old `summary.json` records with their present content are replaced; any other file needs `--force`, and an input is never replaced.
+//! The folder itself is never replaced, so it may be a mount point or `.`.
+//!
+//! Tests: every step interrupted, also while an interrupted run is finished (below); kills, a full disk and two runs at once (tests/folders.rs).
+
+use crate::folder_lock::FolderLock;
+use crate::record::{Record, hash, is_inside};
+use ambulo_results::{OutputFile, SUMMARY};
+use anyhow::{Context, Result, bail};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// Folder of the new files until all of them are complete.
+const NEW: &str = ".ambulo-new";
+/// In [`NEW`]: the list of its files. A run is complete as soon as this file exists.
+const MANIFEST: &str = "manifest.json";
+
+/// What happens to a file that is in the way and that no earlier run recorded as its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Existing {
+    /// It stays, and nothing is written.
+    Kept,
+    /// It is replaced (`--force`).
+    Replaced,
+}
+
+/// A folder that this process alone writes to.
+pub(crate) struct ResultTarget {
+    folder: PathBuf,
+    existing: Existing,
+    _lock: FolderLock,
+}
+
+impl ResultTarget {
+    /// Takes the folder for a run, before anything is computed; finishes or undoes an interrupted run in it.
+    pub(crate) fn for_run(folder: &Path, existing: Existing) -> Result<ResultTarget> {
+        let target = ResultTarget::open(folder, existing)?;
+        let record = target.record()?;
+        target.refuse_foreign(record.as_ref(), record.iter().flat_map(|record| record.files.keys()))?;
+        Ok(target)
+    }
+
+    /// The same for a change of one file.
+    pub(crate) fn open(folder: &Path, existing: Existing) -> Result<ResultTarget> {
+        let shown = folder.display();
+        if folder.is_file() {
+            bail!("{shown}: this is a file; expected a folder for the results");
+        }
+        let Some(lock) = FolderLock::take(folder)? else {
+            bail!(
+                "{shown}: another ambulo command is writing to this folder; expected one at a time. hint: wait until it has ended, or choose another folder with -o"
+            );
+        };
+        settle(&Disk, folder)?;
+        Ok(ResultTarget { folder: folder.to_owned(), existing, _lock: lock })
+    }
+
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Replaces the results of an earlier run by these files; one of them is the summary, which records the others.
+    pub(crate) fn replace(&self, written: &[OutputFile], inputs: &[PathBuf]) -> Result<()> {
+        let record = self.record()?;
+        let old = record.as_ref().map(|record| &record.files);
+        let names = || old.into_iter().flat_map(BTreeMap::keys).chain(written.iter().map(|file| &file.name));
+        if let Some(name) = names().find(|name| is_input(&self.folder.join(name), inputs)) {
+            let path = self.folder.join(name);
+            bail!("{}: this input file would be overwritten. hint: choose another folder with -o", path.display());
+        }
+        self.refuse_foreign(record.as_ref(), names())?;
+        let stale =
+            old.into_iter().flat_map(BTreeMap::keys).filter(|name| written.iter().all(|file| file.name != **name));
+        let removed = stale.filter_map(|name| Some((name.clone(), hash(&fs::read(self.folder.join(name)).ok()?))));
+        replace(&Disk, &self.folder, written, removed.collect())
+    }
+
+    /// Replaces one file of a run, and its hash in the summary.
+    pub(crate) fn replace_one(&self, file: OutputFile) -> Result<()> {
+        self.refuse_foreign(self.record()?.as_ref(), [&file.name])?;
+        let path = self.folder.join(SUMMARY);
+        let mut summary: Value = serde_json::from_slice(&read(&path)?).with_context(|| path.display().to_string())?;
+        summary["files"][&file.name] = hash(&file.bytes).into();
+        let summary = OutputFile::new(SUMMARY, ambulo_results::summary_json(&summary)?);
+        replace(&Disk, &self.folder, &[file, summary], BTreeMap::new())
+    }
+
+    /// The record of the run in this folder. A summary without one is replaced only with `--force`.
+    fn record(&self) -> Result<Option<Record>> {
+        let record = Record::of_folder(&self.folder);
+        let summary = self.folder.join(SUMMARY);
+        if record.is_none() && self.existing == Existing::Kept && summary.symlink_metadata().is_ok() {
+            bail!(
+                "{}: this file does not record the files of a run, so it may be yours or that of an earlier version. hint: choose another folder with -o; --force replaces files that have the name of a result",
+                summary.display()
+            );
+        }
+        Ok(record)
+    }
+
+    /// Refuses to replace a file that the run in this folder did not write, or that was changed since.
+    fn refuse_foreign<'a>(&self, record: Option<&Record>, names: impl IntoIterator<Item = &'a String>) -> Result<()> {
+        for name in names {
+            let path = self.folder.join(name);
+            let shown = path.display();
+            let hint = "hint: choose another folder with -o; --force replaces it";
+            let parent = path.parent().unwrap_or(&self.folder);
+            if parent.symlink_metadata().is_ok() && !parent.is_dir() {
+                bail!("{}: this is a file; expected a folder for the results", parent.display());
+            }
+            match path.symlink_metadata() {
+                Err(_) => {}
+                Ok(found) if found.is_dir() => bail!("{shown}: this is a folder; expected the name of a file"),
+                Ok(_) if self.existing == Existing::Replaced => {}
+                // With a record it is the summary of a run.
+                Ok(_) if name == SUMMARY && record.is_some() => {}
+                Ok(_) => match record.and_then(|record| record.files.get(name)) {
+                    None => {
+                        bail!("{shown}: no run of Ambulo recorded this file as its own, so it is not replaced. {hint}")
+                    }
+                    Some(recorded) if *recorded != hash(&read(&path)?) => {
+                        bail!(
+                            "{shown}: this file was changed after the run that wrote it, so it is not replaced. {hint}"
+                        )
+                    }
+                    Some(_) => {}
+                },
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Finishes or undoes an interrupted run before the files of a folder are read.
+pub(crate) fn recover(folder: &Path) -> Result<()> {
+    let shown = folder.display();
+    let is_complete = || folder.join(NEW).join(MANIFEST).is_file();
+    if !folder.join(NEW).exists() {
+        return Ok(());
+    }
+    let settled = match FolderLock::take(folder) {
+        Ok(Some(_lock)) => settle(&Disk, folder),
+        Ok(None) if is_complete() => {
+            bail!("{shown}: another ambulo command is replacing these results. hint: try again when it has ended")
+        }
+        Ok(None) => Ok(()),
+        Err(error) => Err(error),
+    };
+    match settled {
+        // Until the new results are complete, the old ones are.
+        Err(error) if is_complete() => Err(error.context(format!(
+            "{shown}: an interrupted run has left new results in {NEW}, which must be moved to their places by a command that may write here"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// The files of a complete run in [`NEW`].
+#[derive(Serialize, Deserialize)]
+struct Manifest {
+    /// Names of the new files.
+    files: Vec<String>,
+    /// Old files without a successor, with their hashes.
+    removed: BTreeMap<String, String>,
+}
+
+/// Steps 1 to 5.
+fn replace(
+    disk: &impl Changes,
+    folder: &Path,
+    written: &[OutputFile],
+    removed: BTreeMap<String, String>,
+) -> Result<()> {
+    let files = written.iter().map(|file| file.name.clone()).collect();
+    let manifest = Manifest { files, removed };
+    if let Err(error) = stage(disk, folder, written, &manifest) {
+        // What remains is removed by the next command.
+        let _ = disk.remove_dir(&folder.join(NEW));
+        return Err(error.context(format!("{}: no results were written; earlier ones are unchanged", folder.display())));
+    }
+    finish(disk, folder, &manifest).with_context(|| {
+        format!(
+            "{}: the new results are complete, but still in {NEW}; the next command here moves them",
+            folder.display()
+        )
+    })
+}
+
+/// Steps 1 and 2.
+fn stage(disk: &impl Changes, folder: &Path, written: &[OutputFile], manifest: &Manifest) -> Result<()> {
+    let new = folder.join(NEW);
+    for OutputFile { name, bytes, .. } in written {
+        let path = new.join(name);
+        let failed = || format!("{}: cannot be written", path.display());
+        disk.create_dir(path.parent().unwrap_or(&new)).with_context(failed)?;
+        disk.write(&path, bytes).with_context(failed)?;
+    }
+    let [part, complete] = ["manifest.part", MANIFEST].map(|name| new.join(name));
+    let failed = || format!("{}: cannot be written", complete.display());
+    disk.write(&part, &serde_json::to_vec(manifest)?).with_context(failed)?;
+    disk.rename(&part, &complete).with_context(failed)?;
+    disk.sync_dir(&new);
+    Ok(())
+}
+
+/// Steps 3 to 5, as far as they have not been done.
+fn finish(disk: &impl Changes, folder: &Path, manifest: &Manifest) -> Result<()> {
+    let new = folder.join(NEW);
+    let old_summary = folder.join(SUMMARY);
+    if new.join(SUMMARY).is_file() && old_summary.is_file() {
+        disk.remove_file(&old_summary).with_context(|| format!("{}: cannot be replaced", old_summary.display()))?;
+    }
+    for (name, recorded) in &manifest.removed {
+        let path = folder.join(name);
+        if fs::read(&path).is_ok_and(|bytes| hash(&bytes) == *recorded) {
+            disk.remove_file(&path).with_context(|| format!("{}: cannot be removed", path.display()))?;
+        }
+    }
+    let (last, first): (Vec<&String>, Vec<&String>) = manifest.files.iter().partition(|name| *name == SUMMARY);
+    for name in first.into_iter().chain(last).filter(|name| new.join(name).is_file()) {
+        let path = folder.join(name);
+        let failed = || format!("{}: cannot be replaced", path.display());
+        disk.create_dir(path.parent().unwrap_or(folder)).with_context(failed)?;
+        disk.rename(&new.join(name), &path).with_context(failed)?;
+    }
+    for parent in
+        manifest.removed.keys().filter_map(|name| Path::new(name).parent()).filter(|parent| *parent != Path::new(""))
+    {
+        // A subfolder stays if it has other files.
+        let _ = fs::remove_dir(folder.join(parent));
+    }
+    disk.sync_dir(folder);
+    // All results are in place; what remains is removed by the next command.
+    let _ = disk.remove_file(&new.join(MANIFEST)).and_then(|()| disk.remove_dir(&new));
+    Ok(())
+}
+
+/// Finishes a run that is complete in [`NEW`], or removes an incomplete one.
+fn settle(disk: &impl Changes, folder: &Path) -> Result<()> {
+    let new = folder.join(NEW);
+    let path = new.join(MANIFEST);
+    if !new.exists() {
+        return Ok(());
+    }
+    if !path.is_file() {
+        return disk
+            .remove_dir(&new)
+            .with_context(|| format!("{}: this rest of a run cannot be removed", new.display()));
+    }
+    let manifest: Manifest = serde_json::from_slice(&read(&path)?).with_context(|| path.display().to_string())?;
+    if let Some(name) = manifest.files.iter().chain(manifest.removed.keys()).find(|name| !is_inside(name)) {
+        bail!("{}: found the file `{name}`; expected files inside the folder", path.display());
+    }
+    finish(disk, folder, &manifest)
+}
+
+/// Whether a path leads to one of these files.
+pub(crate) fn is_input(path: &Path, inputs: &[PathBuf]) -> bool {
+    let same = |input: &PathBuf| fs::canonicalize(input).ok() == fs::canonicalize(path).ok();
+    path.exists() && inputs.iter().any(same)
+}
+
+/// The content of a file of the folder.
+fn read(path: &Path) -> Result<Vec<u8>> {
+    fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))
+}
+
+/// Changes of a file system, one by one; tests fail each of them.
+trait Changes {
+    /// Makes a folder and those around it, if they do not exist.
+    fn create_dir(&self, path: &Path) -> io::Result<()>;
+    /// Writes a file; returns when it is on the disk.
+    fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()>;
+    /// Moves a file, and replaces the one at its new place.
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
+    /// Removes a file.
+    fn remove_file(&self, path: &Path) -> io::Result<()>;
+    /// Removes a folder with its files.
+    fn remove_dir(&self, path: &Path) -> io::Result<()>;
+    /// Waits until the names in a folder are on the disk, where the file system can do that.
+    fn sync_dir(&self, _: &Path) {}
+}
+
+/// The file system itself.
+struct Disk;
+
+impl Changes for Disk {
+    fn create_dir(&self, path: &Path) -> io::Result<()> {
+        fs::create_dir_all(path)
+    }
+
+    fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        write_through(path, bytes)
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        match fs::rename(from, to) {
+            // A subfolder may be a link to another disk or a mount point.
+            Err(error) if error.kind() == ErrorKind::CrossesDevices => {
+                let part = to.with_extension("ambulo-part");
+                write_through(&part, &fs::read(from)?)?;
+                fs::rename(&part, to)?;
+                fs::remove_file(from)
+            }
+            moved => moved,
+        }
+    }
+
+    fn remove_file(&self, path: &Path) -> io::Result<()> {
+        fs::remove_file(path)
+    }
+
+    fn remove_dir(&self, path: &Path) -> io::Result<()> {
+        fs::remove_dir_all(path)
+    }
+
+    fn sync_dir(&self, path: &Path) {
+        // Without it, only a power cut can undo a rename, never a kill.
+        let _ = File::open(path).and_then(|folder| folder.sync_all());
+    }
+}
+
+/// Writes a file and returns when its bytes are on the disk.
+pub(crate) fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell;
+
+    /// A disk that fails after some changes: for good, as after a kill, or for writing only, as when it is full.
+    struct Failing {
+        left: Cell<usize>,
+        only_writing: bool,
+    }
+
+    impl Failing {
+        fn after(changes: usize) -> Failing {
+            Failing { left: Cell::new(changes), only_writing: false }
+        }
+
+        fn fails(&self) -> bool {
+            let left = self.left.get();
+            self.left.set(left.saturating_sub(1));
+            left == 0
+        }
+    }
+
+    /// More changes than a run makes.
+    const MOST: usize = 32;
+
+    fn stopped<T>() -> io::Result<T> {
+        Err(io::Error::other("stopped"))
+    }
+
+    impl Changes for Failing {
+        fn create_dir(&self, path: &Path) -> io::Result<()> {
+            if !self.only_writing && self.fails() { stopped() } else { fs::create_dir_all(path) }
+        }
+
+        fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+            if self.fails() {
+                fs::write(path, &bytes[..bytes.len() / 2])?;
+                return stopped();
+            }
+            fs::write(path, bytes)
+        }
+
+        fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+            if !self.only_writing && self.fails() { stopped() } else { fs::rename(from, to) }
+        }
+
+        fn remove_file(&self, path: &Path) -> io::Result<()> {
+            if !self.only_writing && self.fails() { stopped() } else { fs::remove_file(path) }
+        }
+
+        fn remove_dir(&self, path: &Path) -> io::Result<()> {
+            if !self.only_writing && self.fails() {
+                let first = fs::read_dir(path)?.flatten().map(|entry| entry.path()).find(|path| path.is_file());
+                first.map_or(Ok(()), fs::remove_file)?;
+                return stopped();
+            }
+            fs::remove_dir_all(path)
+        }
+    }
+
+    const OLD: [(&str, &str); 4] =
+        [("moments.sto", "old"), ("cycles.csv", "old"), ("figures/moments.svg", "old"), ("input/walk.c3d", "old")];
+    const NEWER: [(&str, &str); 4] = [
+        ("moments.sto", "newer"),
+        ("grf.mot", "newer"),
+        ("figures/moments.svg", "newer"),
+        ("figures/gait.svg", "newer"),
+    ];
+    const MINE: [(&str, &str); 3] = [("notes.txt", "mine"), ("claims.json", "mine"), ("figures/mine.svg", "mine")];
+
+    /// The files of a run with their summary.
+    fn run(files: &[(&str, &str)]) -> Vec<OutputFile> {
+        let mut written: Vec<OutputFile> =
+            files.iter().map(|(name, text)| OutputFile::new(*name, text.as_bytes().to_vec())).collect();
+        let record = Record::of_run(hash(files[0].1.as_bytes()), &written);
+        let summary = serde_json::json!({ "run_id": record.run_id, "files": record.files });
+        written.push(OutputFile::new(SUMMARY, summary.to_string().into_bytes()));
+        written
+    }
+
+    fn fresh(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("ambulo-replacement-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(folder.join("figures")).unwrap();
+        for (name, text) in MINE {
+            fs::write(folder.join(name), text).unwrap();
+        }
+        replace(&Failing::after(usize::MAX), &folder, &run(&OLD), BTreeMap::new()).unwrap();
+        folder
+    }
+
+    /// Old files that the new run does not replace.
+    fn stale() -> BTreeMap<String, String> {
+        ["cycles.csv", "input/walk.c3d"].map(|name| (name.to_owned(), hash(b"old"))).into()
+    }
+
+    fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+        let mut found = BTreeMap::new();
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            match path.is_dir() {
+                true => {
+                    found.extend(contents(&path).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)))
+                }
+                false => _ = found.insert(name, fs::read(&path).unwrap()),
+            }
+        }
+        found
+    }
+
+    fn expected(files: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> {
+        let mine = MINE.map(|(name, text)| (name.to_owned(), text.as_bytes().to_vec()));
+        run(files).into_iter().map(|file| (file.name, file.bytes)).chain(mine).collect()
+    }
+
+    #[test]
+    fn a_run_stopped_after_any_change_leaves_all_old_or_all_new_even_if_its_recovery_is_stopped_too() {
+        let (mut old, mut new) = (0, 0);
+        for changes in 0..MOST {
+            let mut again = 0;
+            loop {
+                let folder = fresh("stopped");
+                let first = replace(&Failing::after(changes), &folder, &run(&NEWER), stale());
+                assert!(changes < MOST - 1 || first.is_ok(), "a run makes fewer changes");
+                let complete = first.is_ok() || folder.join(NEW).join(MANIFEST).exists();
+                // Stopped or not, another recovery completes it.
+                let _ = settle(&Failing::after(again), &folder);
+                let recovered = !folder.join(NEW).exists();
+                settle(&Disk, &folder).unwrap();
+                let found = contents(&folder);
+                assert!(found == expected(if complete { &NEWER } else { &OLD }), "{changes}, {again}: {found:?}");
+                (old, new) = (old + usize::from(!complete), new + usize::from(complete));
+                fs::remove_dir_all(folder).unwrap();
+                again += 1;
+                if recovered {
+                    break;
+                }
+            }
+        }
+        assert!(old > 20 && new > 50, "{old} old, {new} new");
+    }
+
+    #[test]
+    fn a_full_disk_leaves_the_old_results_at_once() {
+        for writes in 0..NEWER.len() + 2 {
+            let folder = fresh("full");
+            let full = Failing { left: Cell::new(writes), only_writing: true };
+            let error = replace(&full, &folder, &run(&NEWER), stale()).unwrap_err();
+            let message = format!("{error:#}");
+            assert!(message.contains("earlier ones are unchanged") && message.contains(NEW), "{message}");
+            assert!(contents(&folder) == expected(&OLD), "{writes}");
+            fs::remove_dir_all(folder).unwrap();
+        }
+    }
+
+    #[test]
+    fn files_of_others_need_force_and_inputs_always_stay() {
+        let folder = fresh("foreign");
+        let target = |existing| ResultTarget::open(&folder, existing).unwrap();
+        let claims = run(&[("claims.json", "newer")]);
+        let refusal =
+            |existing, inputs: &[PathBuf]| target(existing).replace(&claims, inputs).map_err(|error| error.to_string());
+        assert!(refusal(Existing::Kept, &[]).unwrap_err().contains("claims.json: no run of Ambulo recorded this file"));
+        let inputs = [folder.join("claims.json")];
+        assert!(refusal(Existing::Replaced, &inputs).unwrap_err().contains("input file would be overwritten"));
+        fs::write(folder.join("cycles.csv"), "edited").unwrap();
+        let edited = ResultTarget::for_run(&folder, Existing::Kept).err().unwrap().to_string();
+        assert!(edited.contains("cycles.csv: this file was changed"), "{edited}");
+        assert_eq!(fs::read(folder.join("claims.json")).unwrap(), b"mine");
+        refusal(Existing::Replaced, &[]).unwrap();
+        target(Existing::Kept).replace(&run(&NEWER), &[]).unwrap();
+        assert!(!folder.join("claims.json").exists(), "it was recorded");
+        refusal(Existing::Kept, &[]).unwrap();
+        assert_eq!(fs::read(folder.join("claims.json")).unwrap(), b"newer");
+        assert!(!folder.join("cycles.csv").exists() && folder.join("notes.txt").exists());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_folder_is_taken_by_one_command_at_a_time() {
+        let folder = fresh("taken");
+        let first = ResultTarget::open(&folder, Existing::Kept).unwrap();
+        let second = ResultTarget::open(&folder, Existing::Kept).err().unwrap().to_string();
+        assert!(second.contains("another ambulo command is writing to this folder"), "{second}");
+        drop(first);
+        drop(ResultTarget::open(&folder, Existing::Kept).unwrap());
+        assert!(contents(&folder) == expected(&OLD), "the lock leaves no file");
+        // A folder that was made for the lock is removed with it.
+        let made = folder.join("a/b");
+        drop(ResultTarget::open(&made, Existing::Kept).unwrap());
+        assert!(!folder.join("a").exists());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_manifest_that_names_a_file_outside_is_refused() {
+        let folder = fresh("outside");
+        fs::create_dir_all(folder.join(NEW)).unwrap();
+        fs::write(folder.join(NEW).join(MANIFEST), r#"{"files": [], "removed": {"../mine": "0"}}"#).unwrap();
+        let error = recover(&folder).unwrap_err();
+        assert!(format!("{error:#}").contains("expected files inside the folder"), "{error:#}");
+        fs::remove_dir_all(folder).unwrap();
+    }
+}
