@@ -50,6 +50,14 @@ pub(crate) enum Command {
     Compare(CompareArgs),
 }
 
+/// Whether the result sets the exit code.
+#[derive(Debug, Clone, Copy, ClapArgs)]
+pub(crate) struct CheckArgs {
+    /// Exit with 1 if the motion is infeasible.
+    #[arg(long)]
+    pub(crate) check: bool,
+}
+
 /// How much a command prints, and in which form.
 #[derive(Debug, Clone, Copy, ClapArgs)]
 pub(crate) struct PrintArgs {

@@ -1,7 +1,7 @@
 //! Options of `ambulo simulate`, `info`, `compare` and `reproduce`.
 
-use super::PrintArgs;
 use super::values::{above_zero, limit, seconds};
+use super::{CheckArgs, PrintArgs};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
@@ -33,6 +33,8 @@ pub(crate) struct SimulateArgs {
     /// Continue from a state that --save wrote; the results begin with the row after its last one.
     #[arg(long, value_name = "FILE")]
     pub(crate) resume: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

@@ -1,6 +1,6 @@
 //! Options of `ambulo walk` and `ambulo demo`.
 
-use super::PrintArgs;
+use super::{CheckArgs, PrintArgs};
 use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
@@ -15,6 +15,8 @@ pub(crate) struct DemoArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
@@ -38,7 +40,8 @@ Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, gr
 clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. Results of an
 earlier run in DIR are removed. docs/OUTPUTS.md describes the files.
 
-Exit code: 0 if a person could make this motion, 1 if not (docs/FEASIBILITY.md), 2 if nothing could be computed.")]
+The verdict says whether a person could make this motion (docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could
+be computed; with --check, 1 if the motion is infeasible.")]
 pub(crate) struct WalkArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArgs,
@@ -65,6 +68,8 @@ pub(crate) struct WalkArgs {
     /// Folder for the results [default: out]; with --states, for the figure of the gait [default: none].
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

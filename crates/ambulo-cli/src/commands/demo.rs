@@ -33,6 +33,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
         thresholds: Thresholds::default(),
         convention: Convention::default(),
         read: &[],
+        check: args.check,
     };
     let verdict = run.analyse_and_write(findings, clock, &args.output, args.print)?;
     write_input(&args.output)?;

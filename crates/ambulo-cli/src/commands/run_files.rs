@@ -2,9 +2,9 @@
 
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
-use crate::args::PrintArgs;
+use crate::args::{CheckArgs, PrintArgs};
 use crate::{Completion, files, printer};
-use ambulo::analysis::feasibility::Thresholds;
+use ambulo::analysis::feasibility::{Thresholds, VerdictState};
 use ambulo::findings::Findings;
 use ambulo::study::Outcome;
 use ambulo_report::{clinical_file, outcome_figures};
@@ -28,12 +28,13 @@ pub(super) struct RunFiles<'a> {
     pub(super) read: &'a [PathBuf],
     pub(super) findings: Findings,
     pub(super) clock: Stopwatch,
+    pub(super) check: CheckArgs,
 }
 
 impl RunFiles<'_> {
     /// Writes all files and prints the outcome.
     pub(super) fn write(self, output: &Path, print: PrintArgs) -> Result<Completion> {
-        let RunFiles { outcome, input, convention, walk, files, read, findings, mut clock } = self;
+        let RunFiles { outcome, input, convention, walk, files, read, findings, mut clock, check } = self;
         let mut written = outcome_tables(outcome)?;
         let figures = outcome_figures(outcome, convention)?;
         let (clinical, convention) = clinical_file(outcome, convention)?;
@@ -52,8 +53,13 @@ impl RunFiles<'_> {
         summary.timing_ms = clock.into_laps();
         files::write(&output.join("summary.json"), &summary_json(&summary)?)?;
         printer::forces(&summary, output, print)?;
-        Ok(if outcome.verdict.feasible { Completion::Passed } else { Completion::Failed })
+        Ok(completion(outcome.verdict.state, check))
     }
+}
+
+/// Results were written; only a check makes an infeasible motion a failure.
+pub(super) fn completion(state: VerdictState, check: CheckArgs) -> Completion {
+    if check.check && state == VerdictState::Infeasible { Completion::Failed } else { Completion::Passed }
 }
 
 /// The thresholds of a file, or the built-in ones.

@@ -1,10 +1,11 @@
 //! `ambulo simulate`: simulates a scene file.
 
 use super::report::{page_not_written, page_of_run};
+use super::run_files::completion;
 use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
 use crate::{Completion, files, printer};
-use ambulo::analysis::feasibility::Thresholds;
+use ambulo::analysis::feasibility::{Thresholds, VerdictState};
 use ambulo::analysis::scene_verdict;
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
@@ -45,7 +46,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     clock.lap("simulate");
 
     let verdict = scene_verdict(&scene, &Thresholds::default(), &mut findings)?;
-    let feasible = verdict.as_ref().is_none_or(|verdict| verdict.feasible);
+    let state = verdict.as_ref().map_or(VerdictState::Feasible, |verdict| verdict.state);
     clock.lap("feasibility");
 
     let mut written = tables.files(&scene)?;
@@ -70,7 +71,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     }
     write_json(&args.output.join("summary.json"), &summary)?;
     printer::simulate(&summary, &args.output, args.print)?;
-    Ok(if feasible { Completion::Passed } else { Completion::Failed })
+    Ok(completion(state, args.check))
 }
 
 /// Builds the scene and reads every file that it names; adds their paths to `inputs`.

@@ -2,7 +2,7 @@
 
 use super::run_files::{RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
-use crate::args::{FigureArgs, GaitArgs, PrintArgs, WalkArgs, WalkMode};
+use crate::args::{CheckArgs, FigureArgs, GaitArgs, PrintArgs, WalkArgs, WalkMode};
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::findings::Findings;
@@ -44,6 +44,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
         thresholds,
         convention: args.convention.into(),
         read: &read,
+        check: args.check,
     };
     let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
     run.analyse_and_write(findings, clock, output, args.print)
@@ -59,6 +60,7 @@ pub(super) struct SyntheticRun<'a> {
     /// How angles of pelvis and hips are measured.
     pub(super) convention: Convention,
     pub(super) read: &'a [PathBuf],
+    pub(super) check: CheckArgs,
 }
 
 impl SyntheticRun<'_> {
@@ -85,6 +87,7 @@ impl SyntheticRun<'_> {
             read: self.read,
             findings,
             clock,
+            check: self.check,
         };
         files.write(output, print)
     }

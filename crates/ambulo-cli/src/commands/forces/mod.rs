@@ -104,6 +104,7 @@ fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Rea
         read: &read,
         findings,
         clock,
+        check: args.check,
     };
     files.write(&args.output, args.print)
 }
