@@ -106,10 +106,10 @@ export function makePages(folder) {
   return folder;
 }
 
-/** Runs the program; exit code 1 (motion not feasible) is accepted. */
+/** Runs the program. */
 function run(command, args) {
   const { status, stderr, error } = spawnSync(command, [...args, "--quiet"], { encoding: "utf8" });
-  if (error || (status !== 0 && status !== 1)) {
+  if (error || status !== 0) {
     throw new Error(`${command} ${args.join(" ")}\nended with ${status}: ${error ?? stderr}`);
   }
 }

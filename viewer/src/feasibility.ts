@@ -1,11 +1,18 @@
 import { chapter } from "./chapter";
 import type { Context } from "./context";
-import type { Feasibility, RedSpan, Session } from "./contract";
+import type { Feasibility, PageVerdict, RedSpan, Session } from "./contract";
 import { sideName } from "./drawing";
 import { button, element } from "./element";
 import { foldButton, MANY } from "./fold";
 import type { Panels } from "./panels";
 import { tableSection } from "./table";
+
+/** Mark and look of a verdict. */
+const LOOKS: Readonly<Record<PageVerdict, readonly [string, string]>> = {
+  feasible: ["✓", "good"],
+  infeasible: ["✗", "bad"],
+  not_judged: ["?", "unsure"],
+};
 
 /** The feasibility section: verdict, red spans over the recording, and reasons as text. */
 export function feasibility(context: Context, panels: Panels): HTMLElement[] {
@@ -25,8 +32,9 @@ export function feasibility(context: Context, panels: Panels): HTMLElement[] {
 
 function one(context: Context, panels: Panels, session: Session, verdict: Feasibility): HTMLElement[] {
   const name = context.page.sessions.length > 1 ? [element("h3", {}, session.name)] : [];
-  const mark = element("span", { class: "mark", "aria-hidden": "true" }, verdict.feasible ? "✓" : "✗");
-  const sentence = element("p", { class: `verdict ${verdict.feasible ? "good" : "bad"}` }, mark, verdict.sentence);
+  const [sign, look] = LOOKS[verdict.state];
+  const mark = element("span", { class: "mark", "aria-hidden": "true" }, sign);
+  const sentence = element("p", { class: `verdict ${look}` }, mark, verdict.sentence);
   const seek = (span: RedSpan): void => {
     context.clock.pause();
     context.clock.seek(span.from_s + context.first.time.start_s - session.time.start_s);

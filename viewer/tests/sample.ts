@@ -162,7 +162,7 @@ function session(block: Block, variant: Variant): Session {
       assumptions: ["In double support the forces are shared by a smooth transition.", "The floor is level at 0 m."],
     },
     feasibility: {
-      feasible: !variant.red,
+      state: variant.red ? "infeasible" : "feasible",
       sentence: variant.red
         ? "A person of this size could not do this: 3 spans exceed the limits."
         : "A person could do this.",

@@ -46,6 +46,6 @@ fn main() -> ExitCode {
 enum Completion {
     /// Exit code 0.
     Passed,
-    /// Infeasible motion or exceeded limit: exit code 1.
+    /// An infeasible motion with --check, or an exceeded limit: exit code 1.
     Failed,
 }

@@ -16,7 +16,7 @@ fn a_feasible_motion_exits_with_zero_and_reports_its_closest_limit() {
     let run = bench.forces(&RAW).done();
     assert!(run.stdout.contains("  verdict   feasible: at most "), "{}", run.stdout);
     let verdict = &bench.json("out/summary.json")["verdict"];
-    assert_eq!(verdict["feasible"], true);
+    assert_eq!(verdict["state"], "feasible");
     assert_eq!(verdict["reasons"], serde_json::json!([]));
     let closest = verdict["closest"].as_array().unwrap();
     assert!(closest.iter().any(|c| c["check"] == "strength" && c["share"].as_f64().unwrap() < 1.0), "{closest:?}");
@@ -33,7 +33,7 @@ fn sliding_feet_are_detected_with_the_built_in_limits() {
     assert!(run.stdout.contains("sliding: the loaded left foot slides at 1.0"), "{}", run.stdout);
     assert!(run.stdout.contains("more in summary.json"), "{}", run.stdout);
     let verdict = bench.json("out/summary.json")["verdict"].clone();
-    assert_eq!(verdict["feasible"], false);
+    assert_eq!(verdict["state"], "infeasible");
     for reason in verdict["reasons"].as_array().unwrap() {
         for key in ["check", "quantity", "unit", "message", "side"] {
             assert!(reason[key].is_string(), "no `{key}` in {reason}");
@@ -49,6 +49,33 @@ fn sliding_feet_are_detected_with_the_built_in_limits() {
     assert_eq!(bench.read("out/moments.sto"), bench.read("lenient/moments.sto"));
     let quiet = bench.run(&[STRICT, &RAW, &["--quiet"]].concat()).infeasible();
     assert!(quiet.stdout.is_empty() && quiet.stderr.is_empty());
+}
+
+#[test]
+fn an_infeasible_motion_changes_the_exit_code_only_with_a_check() {
+    let bench = Workbench::new("check");
+    bench.run(&[STRICT, &RAW].concat()).infeasible();
+    let run = bench.run(&[STRICT, &RAW, &["--check"]].concat());
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    bench.forces(&[&RAW[..], &["--check", "-o", "feasible"]].concat()).done();
+}
+
+#[test]
+fn plates_without_a_load_are_not_called_feasible() {
+    let bench = Workbench::new("unloaded");
+    let loaded = bench.text("walk_grf.mot");
+    let (head, rows) = loaded.split_once("endheader\n").unwrap();
+    let (names, rows) = rows.split_once('\n').unwrap();
+    let unloaded = rows.lines().map(|row| {
+        let cells = row.split('\t').enumerate().map(|(i, cell)| if i == 0 { cell } else { "0" });
+        cells.collect::<Vec<_>>().join("\t") + "\n"
+    });
+    bench.write("walk_grf.mot", &format!("{head}endheader\n{names}\n{}", unloaded.collect::<String>()));
+    let run = bench.forces(&RAW).done();
+    assert!(run.stdout.contains("  verdict   not judged: "), "{}", run.stdout);
+    let verdict = bench.json("out/summary.json")["verdict"].clone();
+    assert_eq!(verdict["state"], "not_judged");
+    assert!(verdict["judged_share"].as_f64().unwrap() < 0.9 && !verdict["undecided"].as_array().unwrap().is_empty());
 }
 
 #[test]

@@ -227,7 +227,7 @@ fn reasons_of_the_verdict_are_marked_on_their_panels() {
             json!({"check": check, "quantity": quantity, "side": side, "time_s": [0.3, 0.4], "at_s": 0.35, "value": 3.0,
                 "limit": 2.0, "unit": "N.m", "message": format!("{quantity} is too much")})
         };
-        summary["verdict"]["feasible"] = json!(false);
+        summary["verdict"]["state"] = json!("infeasible");
         summary["verdict"]["reasons"] = json!([
             reason("strength", "knee_angle_l_moment", Some("l")),
             reason("range", "hip_flexion_r", Some("r")),

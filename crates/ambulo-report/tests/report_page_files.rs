@@ -89,8 +89,8 @@ fn a_summary_with_wrong_types_is_rejected_with_its_key() {
         (|s| s["ground"] = json!("none"), "`ground`: invalid type: string \"none\", expected struct Ground"),
         (|s| s["verdict"] = json!(5), "`verdict`: invalid type: integer `5`, expected struct Verdict"),
         (
-            |s| s["verdict"]["feasible"] = json!("yes"),
-            "`verdict.feasible`: invalid type: string \"yes\", expected a boolean",
+            |s| s["verdict"]["state"] = json!("yes"),
+            "`verdict.state`: unknown variant `yes`, expected one of `feasible`, `infeasible`, `not_judged`",
         ),
         (|s| s["verdict"]["reasons"] = json!({}), "`verdict.reasons`: invalid type: map, expected a sequence"),
         (

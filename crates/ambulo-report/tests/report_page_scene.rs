@@ -46,7 +46,7 @@ fn scene() -> Files {
         "contacts": {"points_max": 4, "normal_force_max_n": 100.0, "overlap_max_m": 0.001, "obstacles_force_max_n": 400.0, "impacts": 0},
         "peaks": [{"quantity": "ann/hip_flexion_r_moment", "unit": "N.m", "max": 58.8, "max_at_s": 0.98, "min": 0.0, "min_at_s": 0.0}],
         "convergence": {"iterations_mean": 2.0, "iterations_max": 2, "factorizations_mean": 1.0, "residual_max": 1e-12, "not_converged": 3}, "findings": [],
-        "verdict": {"feasible": false, "figures": [{"figure": "ann", "feasible": false, "reasons": [reason],
+        "verdict": {"state": "infeasible", "figures": [{"figure": "ann", "state": "infeasible", "judged_share": 1.0, "undecided": [], "reasons": [reason],
             "closest": [{"check": "strength", "quantity": "hip_flexion_l_moment", "at_s": 0.3, "value": 300.0, "limit": 160.0,
                 "unit": "N.m", "share": 1.875}], "not_judged": [], "frames": 50, "frames_unmeasured": 0,
             "mass_kg": 60.0, "height_m": 1.7}]},

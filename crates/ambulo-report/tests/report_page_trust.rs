@@ -18,29 +18,37 @@ fn a_verdict_on_part_of_the_motion_says_so() {
         facts.into_iter().find(|fact| fact["label"] == "Residual force, RMS").unwrap()
     };
     assert!(fact(&whole)["good"].is_boolean() && fact(&whole)["allowed"].is_string());
-    let judge = |summary: &mut Value, feasible: bool, unmeasured: usize, residual_bw: f64| {
+    let judge = |summary: &mut Value, state: &str, unmeasured: usize, residual_bw: f64| {
         let range = json!({"check": "range", "quantity": "hip_flexion_r", "at_s": 0.1, "value": 3.0, "limit": 9.0,
             "unit": "deg", "share": 0.3});
-        summary["verdict"] = json!({"feasible": feasible, "reasons": [], "closest": [range], "not_judged": [],
-            "frames": 100, "frames_unmeasured": unmeasured, "mass_kg": 75.0, "height_m": 1.75});
+        summary["verdict"] = json!({"state": state, "judged_share": 1.0, "undecided": [], "reasons": [],
+            "closest": [range], "not_judged": [], "frames": 100, "frames_unmeasured": unmeasured, "mass_kg": 75.0, "height_m": 1.75});
         summary["residual"]["force_rms_bw"] = json!(residual_bw);
     };
     let feasible = "A person of 75.0 kg and 1.75 m could do this: all checks that could be made passed.";
     let part = "44 % of the time was not judged, because a foot may have been on the ground outside the force plates";
     let trust = "the residual force is 63 % of body weight: motion, forces and body are not consistent, so do not rely on the moments.";
-    with_summary(&mut files, |summary| judge(summary, true, 0, 0.05));
+    with_summary(&mut files, |summary| judge(summary, "feasible", 0, 0.05));
     assert_eq!(sentence(&Shown::of(&files)), feasible);
     for (unmeasured, residual_bw, ends) in [
         (44, 0.05, format!("but {part}.")),
         (0, 0.63, format!("but {trust}")),
         (44, 0.63, format!("but {part}; {trust}")),
     ] {
-        with_summary(&mut files, |summary| judge(summary, true, unmeasured, residual_bw));
+        with_summary(&mut files, |summary| judge(summary, "feasible", unmeasured, residual_bw));
         let found = sentence(&Shown::of(&files));
         assert!(found.starts_with("All checks passed for a person of 75.0 kg"), "{found}");
         assert!(found.ends_with(&ends) && !found.contains("could do"), "{found}");
     }
-    with_summary(&mut files, |summary| judge(summary, false, 0, 0.63));
+    with_summary(&mut files, |summary| {
+        judge(summary, "not_judged", 44, 0.05);
+        summary["verdict"]["undecided"] = json!(["ground forces are known in 56 % of the frames; 90 % are needed"]);
+    });
+    let found = sentence(&Shown::of(&files));
+    assert!(found.starts_with("Not judged for a person of 75.0 kg") && found.contains("56 % of the frames"), "{found}");
+    assert!(!found.contains("could do"), "{found}");
+    assert_eq!(Shown::of(&files).session()["feasibility"]["state"], "not_judged");
+    with_summary(&mut files, |summary| judge(summary, "infeasible", 0, 0.63));
     let found = sentence(&Shown::of(&files));
     assert!(
         found.contains("could not do this") && found.contains("The residual force is 63 % of body weight"),
@@ -59,8 +67,8 @@ fn without_ground_forces_there_is_no_verdict_on_the_whole_motion() {
     with_summary(&mut files, |summary| {
         summary["ground"]["source"] = json!("none");
         summary["speed_m_s"] = Value::Null;
-        summary["verdict"] = json!({"feasible": true, "reasons": [], "closest": [range], "not_judged": [],
-            "frames": 100, "frames_unmeasured": 0, "mass_kg": 75.0, "height_m": 1.75});
+        summary["verdict"] = json!({"state": "not_judged", "judged_share": 0.0, "reasons": [],
+            "undecided": ["the ground forces are unknown"], "closest": [range], "not_judged": [], "frames": 100, "frames_unmeasured": 0, "mass_kg": 75.0, "height_m": 1.75});
         summary["residual"]["force_rms_bw"] = json!(1.02);
     });
     let shown = Shown::of(&files);

@@ -11,7 +11,7 @@ mod common;
 
 use ambulo::analysis::feasibility::{
     Check, CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, Hill, MotionAndForces, Person,
-    StrengthCurve, Thresholds, Verdict, check, check_frame,
+    StrengthCurve, Thresholds, Verdict, VerdictState, check, check_frame,
 };
 use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::dynamics::{Workspace, inverse};
@@ -387,7 +387,7 @@ const HALF: f64 = 0.5 * 72.6 * GRAVITY;
 #[test]
 fn standing_is_feasible_and_the_verdict_has_the_closest_values() {
     let (verdict, findings) = judged(|_, _| Vec3::new(0.0, HALF, 0.0), &Thresholds::default());
-    assert!(verdict.feasible && verdict.reasons.is_empty(), "{:?}", verdict.reasons);
+    assert!(verdict.state == VerdictState::Feasible && verdict.reasons.is_empty(), "{:?}", verdict);
     assert!(findings.as_slice().is_empty());
     assert_near(verdict.height_m, 1.80, 1e-12, "height");
     let closest: Vec<Check> = verdict.closest.iter().map(|c| c.check).collect();
@@ -395,6 +395,49 @@ fn standing_is_feasible_and_the_verdict_has_the_closest_values() {
     assert!(verdict.closest.iter().all(|c| c.share <= 1.0));
     let unknown = verdict.not_judged.iter().find(|n| n.check == Check::Strength).unwrap();
     assert!(unknown.why.contains("lumbar_extension") && unknown.why.contains("arm_flex_r"), "{}", unknown.why);
+}
+
+#[test]
+fn a_motion_is_called_feasible_only_if_nearly_all_of_it_was_judged() {
+    // From this frame on the plates measure nothing; 81 frames count, the first and the last 0.1 s do not.
+    let off = |from: usize| {
+        judged(move |i, _| Vec3::new(0.0, if i < from { HALF } else { 0.0 }, 0.0), &Thresholds::default()).0
+    };
+    let nearly_all = off(84);
+    assert_eq!(nearly_all.state, VerdictState::Feasible, "{nearly_all:?}");
+    assert_near(nearly_all.judged_share, 74.0 / 81.0, 1e-12, "judged share");
+    for (from, share) in [(80, 70.0 / 81.0), (0, 0.0)] {
+        let verdict = off(from);
+        assert_eq!(verdict.state, VerdictState::NotJudged, "{verdict:?}");
+        assert_near(verdict.judged_share, share, 1e-12, "judged share");
+        assert!(verdict.reasons.is_empty() && verdict.undecided.iter().any(|why| why.contains("90 % are needed")));
+    }
+}
+
+#[test]
+fn forces_that_do_not_belong_to_the_motion_give_no_feasible_verdict() {
+    let scaled = |share: f64| judged(move |_, _| Vec3::new(0.0, share * HALF, 0.0), &Thresholds::default()).0;
+    assert_eq!(scaled(0.85).state, VerdictState::Feasible);
+    let verdict = scaled(0.75);
+    assert_eq!(verdict.state, VerdictState::NotJudged, "{verdict:?}");
+    assert!(verdict.undecided[0].contains("25 % of body weight"), "{:?}", verdict.undecided);
+    let nothing = judged(|_, _| Vec3::repeat(f64::NAN), &Thresholds::default()).0;
+    assert_eq!(nothing.state, VerdictState::NotJudged, "{nothing:?}");
+}
+
+#[test]
+fn the_first_and_last_tenth_of_a_second_are_not_judged() {
+    // The feet are pushed apart, with three times the allowed friction.
+    let push = |frames: std::ops::Range<usize>| {
+        let force = move |i: usize, side: Side| {
+            let share = if frames.contains(&i) { 0.3 } else { 0.0 };
+            Vec3::new(if side == Side::Right { share } else { -share } * HALF, HALF, 0.0)
+        };
+        judged(force, &Thresholds { friction: 0.1, ..Thresholds::default() }).0.state
+    };
+    assert_eq!(push(0..10), VerdictState::Feasible);
+    assert_eq!(push(91..101), VerdictState::Feasible);
+    assert_eq!(push(5..15), VerdictState::Infeasible);
 }
 
 #[test]
@@ -411,7 +454,7 @@ fn a_reason_has_times_worst_value_and_message_and_short_violations_are_noise() {
     };
     let thresholds = Thresholds { friction: 0.1, ..Thresholds::default() };
     let (verdict, _) = judged(push, &thresholds);
-    assert!(!verdict.feasible);
+    assert_eq!(verdict.state, VerdictState::Infeasible);
     assert_eq!(verdict.reasons.len(), 2, "{:?}", verdict.reasons);
     for (reason, side) in verdict.reasons.iter().zip(["r", "l"]) {
         assert_eq!((reason.check, reason.quantity.as_str()), (Check::Friction, format!("friction_{side}").as_str()));
@@ -448,7 +491,7 @@ fn too_long_a_flight_is_reported_with_its_duration() {
 fn frames_with_missing_forces_are_not_checked_and_reported() {
     let load = |i: usize, _: Side| Vec3::new(0.0, if (40..60).contains(&i) { 0.0 } else { HALF }, 0.0);
     let (verdict, findings) = judged(load, &Thresholds::default());
-    assert!(verdict.feasible, "{:?}", verdict.reasons);
+    assert_eq!(verdict.state, VerdictState::Feasible, "{:?} {:?}", verdict.reasons, verdict.undecided);
     let text = &findings.as_slice()[0].message;
     assert!(text.contains("not checked in 20 of 101 frames (the first at 2.400 s)"), "{text}");
 }
@@ -461,7 +504,7 @@ fn a_skipped_check_gives_no_reason() {
     assert!(found.contains(&Check::Friction), "{found:?}");
     let skip = vec![Check::Friction, Check::Strength];
     let (verdict, _) = judged(push, &Thresholds { skip, ..Thresholds::default() });
-    assert!(verdict.feasible, "{:?}", verdict.reasons);
+    assert_eq!(verdict.state, VerdictState::Feasible, "{:?} {:?}", verdict.reasons, verdict.undecided);
 }
 
 // ---- thresholds ----
@@ -687,7 +730,7 @@ fn recorded_walks_are_feasible() {
     let Some(data) = data() else { return };
     for (name, subject) in walkers(&data) {
         let verdict = verdict(&subject, &Thresholds::default());
-        assert!(verdict.feasible, "{name}: {:?}", verdict.reasons);
+        assert_eq!(verdict.state, VerdictState::Feasible, "{name}: {:?} {:?}", verdict.reasons, verdict.undecided);
         println!("{name}, {:.1} kg, {:.3} m", verdict.mass_kg, verdict.height_m);
         for c in &verdict.closest {
             println!(
@@ -745,7 +788,7 @@ fn three_times_the_mass_and_forces_exceed_the_strength() {
             }
         }
         // A person of that mass would be strong enough; this person (who could carry one more, as porters do) cannot carry two.
-        assert!(verdict(&subject, &Thresholds::default()).feasible, "{name}");
+        assert_eq!(verdict(&subject, &Thresholds::default()).state, VerdictState::Feasible, "{name}");
         let (mass_kg, height_m) = (Some(person.mass_kg), Some(person.height_m));
         let found = verdict(&subject, &Thresholds { mass_kg, height_m, ..Thresholds::default() });
         assert_eq!(checks(&found), [Check::Strength], "{name}");
@@ -761,6 +804,6 @@ fn the_same_walk_at_twice_the_pace_is_infeasible() {
         subject.plates.iter_mut().for_each(|plate| hurry(&mut plate.times));
         let found = verdict(&subject, &Thresholds::default());
         println!("{name}: {:?}", checks(&found));
-        assert!(!found.feasible, "{name}");
+        assert_eq!(found.state, VerdictState::Infeasible, "{name}");
     }
 }

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
-use ambulo::analysis::feasibility::{Check, Thresholds};
+use ambulo::analysis::feasibility::{Check, Thresholds, VerdictState};
 use ambulo::analysis::{SceneVerdict, scene_verdict};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Pace, Speed, Walk};
@@ -96,7 +96,7 @@ fn a_walker_follows_its_consistent_walk() {
     assert!((speed - 1.2).abs() < 0.02, "{speed} m/s");
     // At a strike, for a millisecond: a third of what is taken to be in balance.
     assert!(trunk < 0.5 * 60.0, "{trunk} N.m");
-    assert!(verdict(&scene).feasible);
+    assert_eq!(verdict(&scene).state, VerdictState::Feasible);
 }
 
 #[test]
@@ -104,7 +104,10 @@ fn curves_as_they_are_cannot_be_walked_without_a_hand_that_holds() {
     let mut scene = scene(&alone(", mode = \"curves\"", 1.2));
     run(&mut scene, |_| {});
     let verdict = verdict(&scene);
-    assert!(!verdict.feasible && verdict.figures[0].verdict.reasons.iter().any(|r| r.check == Check::Balance));
+    assert!(
+        verdict.state == VerdictState::Infeasible
+            && verdict.figures[0].verdict.reasons.iter().any(|r| r.check == Check::Balance)
+    );
 }
 
 #[test]
@@ -130,10 +133,10 @@ fn a_walk_that_hits_a_kerb_is_infeasible_from_then_on_and_feasible_without_it() 
     let hit_s = hit_s.unwrap();
     let found = verdict(&stumbling);
     let beside = &found.figures[1].verdict;
-    assert!(beside.feasible && found.figures[1].figure == "eve", "{:?}", beside.reasons);
+    assert!(beside.state == VerdictState::Feasible && found.figures[1].figure == "eve", "{:?}", beside.reasons);
     let reasons = &found.figures[0].verdict.reasons;
     println!("hit at {hit_s} s; {} reasons, the first: {}", reasons.len(), reasons[0].message);
-    assert!(!found.feasible && found.figures[0].figure == "ann");
+    assert!(found.state == VerdictState::Infeasible && found.figures[0].figure == "ann");
     // Rows carry the instant at which their step begins.
     assert!(reasons.iter().all(|r| r.time_s[0] > hit_s - 0.0015), "{reasons:#?}");
     assert!(reasons[0].time_s[0] < hit_s + 0.05);
@@ -171,7 +174,7 @@ fn two_walk_hand_in_hand() {
         assert!((speed - 1.25).abs() < 0.03, "{name}: {speed} m/s");
     }
     let verdict = verdict(&scene);
-    assert!(verdict.feasible && verdict.figures.len() == 2, "{verdict:#?}");
+    assert!(verdict.state == VerdictState::Feasible && verdict.figures.len() == 2, "{verdict:#?}");
 }
 
 /// Mirror images of each other, half a cycle apart: forward and upward motions are equal.
@@ -232,7 +235,7 @@ fn a_walker_carries_a_box_in_both_hands() {
     assert!((place(&scene, "box").y - height).abs() < 0.1);
     // The box's weight 0.45 m before the hips, and the arms'.
     assert!((15.0..40.0).contains(&trunk), "{trunk} N.m");
-    assert!(verdict(&scene).feasible);
+    assert_eq!(verdict(&scene).state, VerdictState::Feasible);
 }
 
 #[test]

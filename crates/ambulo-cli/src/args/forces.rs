@@ -3,7 +3,7 @@
 use super::values::{
     AddedMassArg, Cutoff, FootColumns, ForceCutoff, PlateFoot, number, order, seconds, zero_or_more_seconds,
 };
-use super::{PrintArgs, ReplaceArgs};
+use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::study::Settings;
 use clap::{Args as ClapArgs, ValueEnum};
@@ -25,8 +25,9 @@ clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `
 used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict and force plates grf_measured.mot. The results of an earlier run in DIR are replaced as a whole;
 other files stay. docs/OUTPUTS.md describes the files.
 
-Exit code: 0 if a person could make this motion, 1 if not (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
-residual forces; docs/FEASIBILITY.md), 2 if nothing could be computed.")]
+The verdict says whether a person could make this motion (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
+residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the motion
+is infeasible.")]
 pub(crate) struct ForcesArgs {
     /// The recording: markers (.c3d, .trc), coordinates (.mot, .sto) or a skeleton (.bvh).
     pub(crate) input: PathBuf,
@@ -94,6 +95,8 @@ pub(crate) struct ForcesArgs {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

@@ -65,6 +65,14 @@ impl ReplaceArgs {
     }
 }
 
+/// Whether the result sets the exit code.
+#[derive(Debug, Clone, Copy, Default, ClapArgs)]
+pub(crate) struct CheckArgs {
+    /// Exit with 1 if the motion is infeasible.
+    #[arg(long)]
+    pub(crate) check: bool,
+}
+
 /// How much a command prints, and in which form.
 #[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct PrintArgs {

@@ -1,7 +1,7 @@
 //! Options of `ambulo simulate`, `info`, `compare` and `reproduce`.
 
 use super::values::{above_zero, limit, seconds};
-use super::{PrintArgs, ReplaceArgs};
+use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
@@ -36,6 +36,8 @@ pub(crate) struct SimulateArgs {
     pub(crate) resume: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

@@ -1,7 +1,7 @@
 //! Options of `ambulo walk` and `ambulo demo`.
 
 use super::values::{number, whole_number};
-use super::{PrintArgs, ReplaceArgs};
+use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
@@ -18,6 +18,8 @@ pub(crate) struct DemoArgs {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
@@ -41,7 +43,8 @@ Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, gr
 clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The results of an earlier run in DIR are replaced as a whole;
 other files stay. docs/OUTPUTS.md describes the files.
 
-Exit code: 0 if a person could make this motion, 1 if not (docs/FEASIBILITY.md), 2 if nothing could be computed.")]
+The verdict says whether a person could make this motion (docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could
+be computed; with --check, 1 if the motion is infeasible.")]
 pub(crate) struct WalkArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArgs,
@@ -70,6 +73,8 @@ pub(crate) struct WalkArgs {
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

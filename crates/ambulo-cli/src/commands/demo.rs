@@ -37,6 +37,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
         read: &[],
         options: "demo".to_owned(),
         more: &move |written| Ok([coordinate_files(written)?, recording.clone()].concat()),
+        check: args.check,
     };
     run.analyse_and_write(findings, clock, &target, args.print)
 }

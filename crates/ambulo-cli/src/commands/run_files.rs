@@ -2,11 +2,11 @@
 
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
-use crate::args::PrintArgs;
+use crate::args::{CheckArgs, PrintArgs};
 use crate::record::{Record, run_id};
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
-use ambulo::analysis::feasibility::Thresholds;
+use ambulo::analysis::feasibility::{Thresholds, VerdictState};
 use ambulo::findings::Findings;
 use ambulo::study::Outcome;
 use ambulo_report::{clinical_file, outcome_figures};
@@ -38,12 +38,14 @@ pub(super) struct RunFiles<'a> {
     pub(super) options: String,
     pub(super) findings: Findings,
     pub(super) clock: Stopwatch,
+    pub(super) check: CheckArgs,
 }
 
 impl RunFiles<'_> {
     /// Writes all files and prints the outcome.
     pub(super) fn write(self, target: &ResultTarget, print: PrintArgs) -> Result<Completion> {
-        let RunFiles { outcome, input, convention, walk, files, more, read, options, findings, mut clock } = self;
+        let RunFiles { outcome, input, convention, walk, files, more, read, options, findings, mut clock, check } =
+            self;
         let mut written = outcome_tables(outcome)?;
         let figures = outcome_figures(outcome, convention)?;
         let (clinical, convention) = clinical_file(outcome, convention)?;
@@ -63,8 +65,13 @@ impl RunFiles<'_> {
         written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));
         target.replace(&written, read)?;
         printer::forces(&summary, target.folder(), print)?;
-        Ok(if outcome.verdict.feasible { Completion::Passed } else { Completion::Failed })
+        Ok(completion(outcome.verdict.state, check))
     }
+}
+
+/// Results were written; only a check makes an infeasible motion a failure.
+pub(super) fn completion(state: VerdictState, check: CheckArgs) -> Completion {
+    if check.check && state == VerdictState::Infeasible { Completion::Failed } else { Completion::Passed }
 }
 
 /// The thresholds of a file, or the built-in ones.

@@ -1,12 +1,13 @@
 //! `ambulo simulate`: simulates a scene file.
 
 use super::report::{page_not_written, page_of_run};
+use super::run_files::completion;
 use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
 use crate::record::{Record, run_id};
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
-use ambulo::analysis::feasibility::Thresholds;
+use ambulo::analysis::feasibility::{Thresholds, VerdictState};
 use ambulo::analysis::scene_verdict;
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
@@ -47,7 +48,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     clock.lap("simulate");
 
     let verdict = scene_verdict(&scene, &Thresholds::default(), &mut findings)?;
-    let feasible = verdict.as_ref().is_none_or(|verdict| verdict.feasible);
+    let state = verdict.as_ref().map_or(VerdictState::Feasible, |verdict| verdict.state);
     clock.lap("feasibility");
 
     let mut written = tables.files(&scene)?;
@@ -73,7 +74,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
         files::write(path, &summary_json(&scene.save())?)?;
     }
     printer::simulate(&summary, target.folder(), args.print)?;
-    Ok(if feasible { Completion::Passed } else { Completion::Failed })
+    Ok(completion(state, args.check))
 }
 
 /// Builds the scene and reads every file that it names; adds their paths to `inputs`.
@@ -113,6 +114,6 @@ fn resume(scene: &mut Scene, path: &Path) -> Result<()> {
 
 /// The command with the options that matter for the results.
 fn options(args: &SimulateArgs) -> String {
-    let (output, replace, print) = Default::default();
+    let (output, replace, check, print) = Default::default();
     format!("simulate {:?}", SimulateArgs { output, replace, print, save: None, ..args.clone() })
 }

@@ -2,7 +2,7 @@
 
 use super::run_files::{MoreFiles, RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
-use crate::args::{FigureArgs, GaitArgs, PrintArgs, WalkArgs, WalkMode};
+use crate::args::{CheckArgs, FigureArgs, GaitArgs, PrintArgs, WalkArgs, WalkMode};
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
@@ -51,14 +51,15 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
         read: &read,
         options: options(args),
         more: &|_| Ok(Vec::new()),
+        check: args.check,
     };
     run.analyse_and_write(findings, clock, &target, args.print)
 }
 
 /// The command with the options that matter for the results.
 fn options(args: &WalkArgs) -> String {
-    let (output, replace, print) = Default::default();
-    format!("walk {:?}", WalkArgs { output, replace, print, ..args.clone() })
+    let (output, replace, check, print) = Default::default();
+    format!("walk {:?}", WalkArgs { output, replace, check, print, ..args.clone() })
 }
 
 const DEFAULT_OUTPUT: &str = "out";
@@ -75,6 +76,7 @@ pub(super) struct SyntheticRun<'a> {
     pub(super) options: String,
     /// Makes further files from the tables and figures of the run.
     pub(super) more: &'a MoreFiles,
+    pub(super) check: CheckArgs,
 }
 
 impl SyntheticRun<'_> {
@@ -103,6 +105,7 @@ impl SyntheticRun<'_> {
             options: self.options,
             findings,
             clock,
+            check: self.check,
         };
         files.write(target, print)
     }

@@ -19,7 +19,7 @@ pub(crate) use tools::{ComparedColumn, EventSource, SourceAgreement, compare, co
 
 use crate::args::PrintArgs;
 use crate::hints;
-use ambulo::analysis::feasibility::Verdict;
+use ambulo::analysis::feasibility::{Verdict, VerdictState};
 use ambulo::findings::{Finding, Findings};
 use anyhow::Result;
 use std::borrow::Cow;
@@ -110,11 +110,14 @@ fn with_hint(message: &str, of_command: Option<&str>) -> String {
     }
 }
 
-/// Prints the verdict: feasible with the check that came closest to its limit, or infeasible with the reasons.
+/// Prints the verdict: feasible with the check that came closest to its limit, infeasible with the reasons, or why it is not judged.
 fn print_verdict(verdict: &Verdict) -> Result<()> {
     /// Longer lists are in summary.json.
     const MOST: usize = 6;
-    if verdict.feasible {
+    if verdict.state == VerdictState::NotJudged {
+        return print_line(&format!("  verdict   not judged: {}", verdict.undecided.join("; ")));
+    }
+    if verdict.state == VerdictState::Feasible {
         let nearest = verdict.closest.iter().max_by(|a, b| a.share.total_cmp(&b.share));
         let nearest = nearest.map_or_else(String::new, |c| {
             format!(

@@ -242,10 +242,11 @@ impl Run {
         self
     }
 
-    /// Asserts exit code 1, for an infeasible motion, and returns the run.
+    /// Asserts exit code 0 and, unless nothing was printed, the verdict that the motion is infeasible; returns the run.
     #[track_caller]
     pub(crate) fn infeasible(self) -> Run {
-        assert_eq!(self.code, Some(1), "{}", self.stderr);
+        assert_eq!(self.code, Some(0), "{}", self.stderr);
+        assert!(self.stdout.is_empty() || self.stdout.contains("infeasible"), "{}", self.stdout);
         self
     }
 

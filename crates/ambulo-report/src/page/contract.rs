@@ -5,6 +5,7 @@
 //!
 //! World: x forward, y up, z to the right, metres. Times are seconds of the recording.
 
+use ambulo::analysis::feasibility::VerdictState;
 use serde::{Deserialize, Serialize};
 
 /// Version of the contract; a bundle refuses a page of another one.
@@ -349,12 +350,35 @@ pub struct PageFinding {
     pub count: usize,
 }
 
+/// The three verdicts on a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "snake_case"))]
+pub enum PageVerdict {
+    /// Enough of the motion was judged and no check failed.
+    Feasible,
+    /// A check failed.
+    Infeasible,
+    /// No check failed, but too little was judged.
+    NotJudged,
+}
+
+impl From<VerdictState> for PageVerdict {
+    fn from(state: VerdictState) -> PageVerdict {
+        match state {
+            VerdictState::Feasible => PageVerdict::Feasible,
+            VerdictState::Infeasible => PageVerdict::Infeasible,
+            VerdictState::NotJudged => PageVerdict::NotJudged,
+        }
+    }
+}
+
 /// Whether a person could do this.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Feasibility {
     /// The verdict.
-    pub feasible: bool,
+    pub state: PageVerdict,
     /// The verdict in a sentence.
     pub sentence: String,
     /// What stands against the motion.
@@ -529,6 +553,7 @@ mod tests {
             Session::decl(&config),
             Fact::decl(&config),
             PageSource::decl(&config),
+            PageVerdict::decl(&config),
             TimeAxis::decl(&config),
             PageEvent::decl(&config),
             PageCycle::decl(&config),

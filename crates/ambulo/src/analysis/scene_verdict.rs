@@ -1,6 +1,6 @@
 //! The verdict on the walking figures of a scene.
 
-use crate::analysis::feasibility::{MotionAndForces, Person, Thresholds, Verdict, check};
+use crate::analysis::feasibility::{MotionAndForces, Person, Thresholds, Verdict, VerdictState, check};
 use crate::dynamics::{Forces, JointReaction};
 use crate::findings::Findings;
 use crate::ground::{BodyForces, GroundForces, upward};
@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SceneVerdict {
-    /// Whether all figures are feasible.
-    pub feasible: bool,
+    /// Infeasible if one figure is, else not judged if one figure is, else feasible.
+    pub state: VerdictState,
     /// One entry per figure, in the order of the file.
     pub figures: Vec<FigureVerdict>,
 }
@@ -46,8 +46,9 @@ pub fn scene_verdict(
         FigureVerdict { figure: walk.name, verdict }
     };
     let figures: Vec<FigureVerdict> = scene.walks()?.into_iter().map(judged).collect();
-    let feasible = figures.iter().all(|figure| figure.verdict.feasible);
-    Ok((!figures.is_empty()).then_some(SceneVerdict { feasible, figures }))
+    let any = |state| figures.iter().any(|figure| figure.verdict.state == state);
+    let worst = [VerdictState::Infeasible, VerdictState::NotJudged].into_iter().find(|state| any(*state));
+    Ok((!figures.is_empty()).then_some(SceneVerdict { state: worst.unwrap_or(VerdictState::Feasible), figures }))
 }
 
 fn judged(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {

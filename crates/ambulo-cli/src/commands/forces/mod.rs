@@ -114,14 +114,15 @@ fn compute(
         options: options(args),
         findings,
         clock,
+        check: args.check,
     };
     files.write(target, args.print)
 }
 
 /// The command with the options that matter for the results.
 fn options(args: &ForcesArgs) -> String {
-    let (output, replace, print) = Default::default();
-    format!("forces {:?}", ForcesArgs { output, replace, print, ..args.clone() })
+    let (output, replace, check, print) = Default::default();
+    format!("forces {:?}", ForcesArgs { output, replace, check, print, ..args.clone() })
 }
 
 /// The body that was used as an OpenSim model; a note if it cannot be written.

@@ -28,7 +28,7 @@ pub struct FeasibilityLimits {
     /// Upward unit vector.
     up: Vec3,
     /// Weight [N].
-    weight: f64,
+    pub(super) weight: f64,
     coordinates: Vec<CoordinateLimits>,
 }
 

@@ -5,7 +5,7 @@ use super::ground_speed::over_ground;
 use super::person::Person;
 use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
-use super::verdict::{Check, Closest, NotJudged, Reason, Verdict};
+use super::verdict::{Check, Closest, NotJudged, Reason, Verdict, VerdictState};
 use crate::dynamics::{Forces, Roots};
 use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, GroundForces, feet, upward};
@@ -13,6 +13,13 @@ use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::Vec3;
+
+/// A feasible motion was judged in at least this share of its frames.
+const LEAST_JUDGED_SHARE: f64 = 0.9;
+/// Above this residual force, forces and motion do not belong together and nothing can be called feasible [body weights, rms].
+const DECISIVE_RESIDUAL_BW: f64 = 0.2;
+/// Filters and splines have no neighbours on one side of the first and last frames, so these are not judged [s].
+const EDGE_S: f64 = 0.1;
 
 /// A recorded or synthetic motion with its forces.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +46,7 @@ pub fn check(
 ) -> Verdict {
     let MotionAndForces { model, trajectory, .. } = *motion;
     let limits = FeasibilityLimits::new(model, person, thresholds);
-    let (tracks, frames_unmeasured) = measure(motion, &limits, findings);
+    let (tracks, coverage) = measure(motion, &limits, findings);
     let grid = trajectory.grid();
     let (mut reasons, mut closest) = (Vec::new(), Vec::new());
     for (slot, track) in tracks.iter().enumerate() {
@@ -63,13 +70,16 @@ pub fn check(
             }
         }));
     }
+    let undecided = coverage.undecided(motion, &limits);
     Verdict {
-        feasible: reasons.is_empty(),
+        state: VerdictState::of(&reasons, &undecided),
+        judged_share: coverage.judged_share(motion),
+        undecided,
         reasons,
         closest,
         not_judged: not_judged(motion, &limits),
         frames: grid.frames,
-        frames_unmeasured,
+        frames_unmeasured: coverage.unmeasured,
         mass_kg: thresholds.mass_kg.unwrap_or(person.mass_kg),
         height_m: thresholds.height_m.unwrap_or(person.height_m),
     }
@@ -104,8 +114,67 @@ fn check_of(model: &Model, slot: usize) -> Check {
     }
 }
 
-/// Checks every frame. Returns the tracks and the number of frames in which ground forces may be missing.
-fn measure(motion: &MotionAndForces<'_>, limits: &FeasibilityLimits, findings: &mut Findings) -> (Vec<Track>, usize) {
+/// How much of a motion was judged.
+#[derive(Debug, Clone, Copy, Default)]
+struct Coverage {
+    /// All frames in which ground forces may be missing.
+    unmeasured: usize,
+    /// Frames that count: all without the first and last moments.
+    counted: usize,
+    /// Of those, frames in which all checks were made.
+    judged: usize,
+    /// Values or limits that are not a number.
+    not_numbers: usize,
+    /// Sum of the squared residual forces of the judged frames [N^2].
+    residual_n2: f64,
+}
+
+impl Coverage {
+    /// Share of the counted frames that were judged; without ground forces most checks cannot be made, so it is zero.
+    fn judged_share(&self, motion: &MotionAndForces<'_>) -> f64 {
+        if motion.ground.bodies.is_empty() || self.counted == 0 {
+            0.0
+        } else {
+            self.judged as f64 / self.counted as f64
+        }
+    }
+
+    /// Why this motion cannot be called feasible.
+    fn undecided(&self, motion: &MotionAndForces<'_>, limits: &FeasibilityLimits) -> Vec<String> {
+        let mut list = Vec::new();
+        let judged = self.judged_share(motion);
+        if motion.ground.bodies.is_empty() {
+            list.push("the ground forces are unknown".to_owned());
+        } else if self.counted == 0 {
+            list.push(format!("the motion is too short: the first and the last {EDGE_S} s are not judged"));
+        } else if judged < LEAST_JUDGED_SHARE {
+            list.push(format!(
+                "ground forces are known in {:.0} % of the frames; {:.0} % are needed",
+                100.0 * judged,
+                100.0 * LEAST_JUDGED_SHARE
+            ));
+        }
+        let residual_bw = (self.residual_n2 / self.judged.max(1) as f64).sqrt() / limits.weight;
+        if residual_bw > DECISIVE_RESIDUAL_BW {
+            list.push(format!(
+                "the residual force is {:.0} % of body weight; above {:.0} %, motion, body and ground forces do not belong together",
+                100.0 * residual_bw,
+                100.0 * DECISIVE_RESIDUAL_BW
+            ));
+        }
+        if self.not_numbers > 0 {
+            list.push(format!("{} checked values are not a number", self.not_numbers));
+        }
+        list
+    }
+}
+
+/// Checks every frame.
+fn measure(
+    motion: &MotionAndForces<'_>,
+    limits: &FeasibilityLimits,
+    findings: &mut Findings,
+) -> (Vec<Track>, Coverage) {
     let MotionAndForces { model, trajectory, forces, ground, device } = *motion;
     let up = upward(model);
     let count = OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len();
@@ -120,7 +189,9 @@ fn measure(motion: &MotionAndForces<'_>, limits: &FeasibilityLimits, findings: &
     let [mut q, mut qd, mut tau, mut power] = [0; 4].map(|_| vec![0.0; n]);
     let height = ground_height(&feet, up);
     let lasting = frames_that_last(limits.thresholds.shortest_s, trajectory.grid());
-    let (mut unmeasured, mut first_unmeasured) = (0, None);
+    let (mut coverage, mut first_unmeasured) = (Coverage::default(), None);
+    let edge = (EDGE_S / trajectory.grid().step_s).round() as usize;
+    let inner = edge..trajectory.grid().frames.saturating_sub(edge);
     each_body_motion(model, trajectory, |i, bodies| {
         for (c, id) in model.coordinate_ids().enumerate() {
             (q[c], qd[c]) = (trajectory.values(id)[i], trajectory.rates(id)[i]);
@@ -142,15 +213,24 @@ fn measure(motion: &MotionAndForces<'_>, limits: &FeasibilityLimits, findings: &
             walking: froude.is_none_or(|froude| froude < limits.thresholds.running_froude),
         };
         let whole = check_frame(limits, &frame, |m| {
-            if let Some(slot) = slot(model, &m) {
+            coverage.not_numbers += usize::from(m.share.is_nan());
+            if let Some(slot) = slot(model, &m).filter(|_| inner.contains(&i)) {
                 tracks[slot].add(i, m, lasting);
             }
         });
         if !whole {
-            unmeasured += 1;
+            coverage.unmeasured += 1;
             first_unmeasured.get_or_insert(i);
         }
+        if inner.contains(&i) {
+            coverage.counted += 1;
+            if whole {
+                coverage.judged += 1;
+                coverage.residual_n2 += frame.residual.force.norm_squared();
+            }
+        }
     });
+    let unmeasured = coverage.unmeasured;
     if let Some(first) = first_unmeasured {
         let message = format!(
             "moments, powers, flight, support and balance were not checked in {unmeasured} of {} frames (the first at {:.3} s), because a foot may be on the ground outside the force plates",
@@ -159,7 +239,7 @@ fn measure(motion: &MotionAndForces<'_>, limits: &FeasibilityLimits, findings: &
         );
         findings.report(Code::FeasibilityUnmeasuredSupport, message);
     }
-    (tracks, unmeasured)
+    (tracks, coverage)
 }
 
 /// Number of consecutive frames that is not noise.

@@ -2,7 +2,7 @@
 //! residual force and moment.
 //!
 //! [`check`] judges a whole recording or synthetic walk and returns a [`Verdict`]; [`check_frame`] checks one frame without allocating.
-//! An infeasible motion is a result, not an error. Defaults, their sources and the file format of [`Thresholds`]: docs/FEASIBILITY.md.
+//! An infeasible motion is a result, not an error. A motion is called feasible only if nearly all of it was judged. Defaults, their sources and the file format of [`Thresholds`]: docs/FEASIBILITY.md.
 
 mod frame;
 mod ground_speed;
@@ -18,6 +18,6 @@ pub use judgement::{MotionAndForces, check};
 pub use person::Person;
 pub use strength::{Hill, StrengthCurve};
 pub use thresholds::Thresholds;
-pub use verdict::{Check, Closest, NotJudged, Reason, Verdict};
+pub use verdict::{Check, Closest, NotJudged, Reason, Verdict, VerdictState};
 
 pub(super) use ground_speed::over_ground;

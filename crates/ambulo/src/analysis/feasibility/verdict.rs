@@ -83,12 +83,50 @@ impl fmt::Display for Check {
     }
 }
 
+/// Whether a person could make a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum VerdictState {
+    /// No check failed, and enough of the motion was judged.
+    Feasible,
+    /// A check failed.
+    Infeasible,
+    /// No check failed, but too little was judged to call the motion feasible.
+    NotJudged,
+}
+
+impl VerdictState {
+    /// A failed check decides; without one, the motion is feasible unless something is undecided.
+    pub(super) fn of(reasons: &[Reason], undecided: &[String]) -> VerdictState {
+        match (reasons, undecided) {
+            ([], []) => VerdictState::Feasible,
+            ([], _) => VerdictState::NotJudged,
+            _ => VerdictState::Infeasible,
+        }
+    }
+
+    /// The words of reports.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            VerdictState::Feasible => "feasible",
+            VerdictState::Infeasible => "infeasible",
+            VerdictState::NotJudged => "not judged",
+        }
+    }
+}
+
 /// Whether a motion is feasible, and why not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Verdict {
-    /// Whether no check failed.
-    pub feasible: bool,
+    /// Feasible, infeasible or not judged.
+    pub state: VerdictState,
+    /// Share of the frames in which every check was made; the first and the last 0.1 s are not counted.
+    pub judged_share: f64,
+    /// Why the motion is not called feasible although no check failed.
+    pub undecided: Vec<String>,
     /// Why the motion is infeasible, in order of time.
     pub reasons: Vec<Reason>,
     /// For each check, the instant closest to its limit (or furthest beyond).
@@ -111,7 +149,7 @@ impl Verdict {
     pub fn add_reasons(&mut self, reasons: &[Reason]) {
         self.reasons.extend_from_slice(reasons);
         self.reasons.sort_by(|a, b| a.time_s[0].total_cmp(&b.time_s[0]).then(a.check.cmp(&b.check)));
-        self.feasible = self.reasons.is_empty();
+        self.state = VerdictState::of(&self.reasons, &self.undecided);
     }
 }
 

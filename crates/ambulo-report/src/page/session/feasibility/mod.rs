@@ -8,7 +8,7 @@ use super::cells::{Column, listed, name, number, table, text, unit};
 use super::{sides, words};
 use crate::clinical::ClinicalQuantity;
 use crate::page::contract::{Feasibility, Group, RedSpan, Table};
-use ambulo::analysis::feasibility::{Check, Closest, Reason, Verdict};
+use ambulo::analysis::feasibility::{Check, Closest, Reason, Verdict, VerdictState};
 
 /// Panels of the checks that do not belong to a coordinate.
 const PANELS: [(Check, &str); 5] = [
@@ -24,9 +24,14 @@ pub(super) const QUANTITY: usize = 1;
 
 /// The verdict as shown; `None` if nothing was judged, or too little for a verdict on the whole motion.
 pub(super) fn feasibility(verdict: &Verdict, basis: &Basis, quantities: &[ClinicalQuantity]) -> Option<Feasibility> {
-    let feasible = Some(verdict.feasible).filter(|feasible| !(*feasible && basis.no_ground))?;
+    let state = Some(verdict.state).filter(|state| *state == VerdictState::Infeasible || !basis.no_ground)?;
     let red: Vec<RedSpan> = verdict.reasons.iter().map(|reason| span(reason, quantities)).collect();
-    Some(Feasibility { feasible, sentence: sentence(verdict, basis), closest: closest(verdict, quantities), red })
+    Some(Feasibility {
+        state: state.into(),
+        sentence: sentence(verdict, basis),
+        closest: closest(verdict, quantities),
+        red,
+    })
 }
 
 /// Why there is no verdict although checks were made, and how near they come to their limits.
@@ -35,7 +40,7 @@ pub(super) fn partly_judged(
     basis: &Basis,
     quantities: &[ClinicalQuantity],
 ) -> Option<(String, Table)> {
-    let passed = verdict.feasible && basis.no_ground;
+    let passed = verdict.state != VerdictState::Infeasible && basis.no_ground;
     passed.then(|| {
         let sentence = format!("{} All checks that could be made passed.", without_ground(verdict));
         (format!("No verdict: {sentence}"), closest(verdict, quantities))
@@ -63,11 +68,16 @@ fn without_ground(verdict: &Verdict) -> String {
 fn sentence(verdict: &Verdict, basis: &Basis) -> String {
     let person = format!("person of {:.1} kg and {:.2} m", verdict.mass_kg, verdict.height_m);
     let limits = basis.limits();
-    if verdict.feasible {
-        return match limits {
-            None => format!("A {person} could do this: all checks that could be made passed."),
-            Some(limits) => format!("All checks passed for a {person}, but {limits}."),
-        };
+    match (verdict.state, &limits) {
+        (VerdictState::Infeasible, _) => {}
+        (VerdictState::NotJudged, _) => {
+            let why = verdict.undecided.join("; ");
+            return format!("Not judged for a {person}: {why}. All checks that could be made passed.");
+        }
+        (VerdictState::Feasible, None) => {
+            return format!("A {person} could do this: all checks that could be made passed.");
+        }
+        (VerdictState::Feasible, Some(limits)) => return format!("All checks passed for a {person}, but {limits}."),
     }
     let mut checks: Vec<String> = verdict.reasons.iter().map(|reason| in_words(reason.check)).collect();
     checks.sort_unstable();

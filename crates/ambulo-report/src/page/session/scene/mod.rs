@@ -58,7 +58,7 @@ pub(super) fn session(folder: &Folder<'_>, summary: &SceneSummary, block: &mut B
 
 /// Combines the verdicts of all figures.
 fn verdict(summary: &SceneSummary, figures: &[moments::Figure]) -> Option<Feasibility> {
-    let feasible = summary.verdict.as_ref()?.feasible;
+    let state = summary.verdict.as_ref()?.state.into();
     let quantities = |figure: &moments::Figure| -> Vec<ClinicalQuantity> { figure.quantities.clone() };
     let (mut red, mut sentences, mut closest): (Vec<RedSpan>, Vec<String>, Option<Table>) = Default::default();
     for figure in figures {
@@ -75,7 +75,7 @@ fn verdict(summary: &SceneSummary, figures: &[moments::Figure]) -> Option<Feasib
         closest = Some(joined(closest, one.closest, &figure.name));
     }
     Some(Feasibility {
-        feasible,
+        state,
         sentence: sentences.join(" "),
         red,
         closest: closest.unwrap_or_else(feasibility::no_checks),
