@@ -115,5 +115,5 @@ fn resume(scene: &mut Scene, path: &Path) -> Result<()> {
 /// The command with the options that matter for the results.
 fn options(args: &SimulateArgs) -> String {
     let (output, replace, check, print) = Default::default();
-    format!("simulate {:?}", SimulateArgs { output, replace, print, save: None, ..args.clone() })
+    format!("simulate {:?}", SimulateArgs { output, replace, check, print, save: None, ..args.clone() })
 }
