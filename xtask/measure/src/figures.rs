@@ -46,6 +46,8 @@ pub(crate) fn run() -> Result<(), String> {
         Some(walk) => walk.command(&program, &folder),
         None => demo(&program, &folder),
     };
+    // The folder may have results of an earlier version.
+    command.arg("--force");
     // Exit code 1: the run ended with an infeasible verdict; its figures exist.
     let status =
         command.stdout(Stdio::null()).status().map_err(|e| format!("{}: cannot start: {e}", program.display()))?;

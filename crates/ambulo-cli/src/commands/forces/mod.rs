@@ -44,9 +44,8 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
         RecordingKind::Skeleton => skeleton::read(args, &mut reading)?,
     };
     let source = Source { device: read_device(args, &mut reading)?, ..source };
-    let settings = settings(args)?;
     reading.read.extend(args.device.iter().chain(&args.thresholds).cloned());
-    compute(args, &source, &settings, reading, &target)
+    compute(args, &source, reading, &target)
 }
 
 /// The kinds of recording, by the extension of the file name.
@@ -88,19 +87,14 @@ struct Reading {
     ground: Option<PathBuf>,
 }
 
-fn compute(
-    args: &ForcesArgs,
-    source: &Source,
-    settings: &Settings,
-    reading: Reading,
-    target: &ResultTarget,
-) -> Result<Completion> {
+fn compute(args: &ForcesArgs, source: &Source, reading: Reading, target: &ResultTarget) -> Result<Completion> {
+    let settings = settings(args)?;
     let Reading { mut findings, mut clock, read, ground } = reading;
     let mut watch = |stage: study::Stage| {
         clock.lap(stage.word());
         ControlFlow::Continue(())
     };
-    let outcome = study::run_observed(source, settings, &mut findings, &mut watch)
+    let outcome = study::run_observed(source, &settings, &mut findings, &mut watch)
         .map_err(|error| errors::with_file(error, args, ground.as_deref()))?;
     let body = body_file(&outcome.body, &mut findings);
     let files = RunFiles {
