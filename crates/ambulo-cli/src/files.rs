@@ -1,6 +1,7 @@
 //! Reading and writing of files; every error names its file.
 
-use crate::replacement::{Existing, is_input, recover, write_through};
+use crate::args::Existing;
+use crate::replacement::{is_input, recover, write_through};
 use ambulo::findings::{Code, Findings};
 use ambulo_formats::Remark;
 use ambulo_formats::table::Table;

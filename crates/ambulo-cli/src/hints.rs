@@ -21,6 +21,10 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         }
         Code::ResidualLarge => RANGE,
         Code::LoadsGuessed => "`--right`, `--left` or `--loads` choose other columns",
+        Code::LoadsUnderOtherFoot => {
+            "`--grf` alone, without `--loads`, `--right` and `--left`, assigns loads without a side by their centre of pressure"
+        }
+        Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
         Code::MassStandingMismatch | Code::PredictionMass => "`--mass KG` sets the mass",

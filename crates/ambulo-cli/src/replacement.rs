@@ -14,6 +14,7 @@
 //!
 //! Tests: every step interrupted, also while an interrupted run is finished (below); kills, a full disk and two runs at once (tests/folders.rs).
 
+use crate::args::Existing;
 use crate::folder_lock::FolderLock;
 use crate::record::{Record, hash, is_inside};
 use ambulo_results::{OutputFile, SUMMARY};
@@ -29,15 +30,6 @@ use std::path::{Path, PathBuf};
 const NEW: &str = ".ambulo-new";
 /// In [`NEW`]: the list of its files. A run is complete as soon as this file exists.
 const MANIFEST: &str = "manifest.json";
-
-/// What happens to a file that is in the way and that no earlier run recorded as its own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Existing {
-    /// It stays, and nothing is written.
-    Kept,
-    /// It is replaced (`--force`).
-    Replaced,
-}
 
 /// A folder that this process alone writes to.
 pub(crate) struct ResultTarget {

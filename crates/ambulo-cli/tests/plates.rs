@@ -1,4 +1,5 @@
-//! Force plates of a C3D: assignment of feet by the user, ignored plates, and the resulting cycles and mass.
+//! Measured forces: plates of a C3D, assigned by the user or ignored, and the resulting cycles and mass; force tables with any names of
+//! their columns; loads on the wrong foot; the filter of the forces.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -7,7 +8,7 @@ mod workbench;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
-use workbench::Workbench;
+use workbench::{RAW, Workbench};
 
 /// Runs `forces` on the demo's C3D, whose nine plates each catch one step: 1 to 4 right, 5 to 9 left.
 fn forces(bench: &Workbench, options: &[&str]) -> (Value, String) {
@@ -79,4 +80,154 @@ fn the_user_can_assign_a_foot_to_a_plate() {
     let run = bench.run(&["forces", "demo/input/walk.c3d", "--mass", "75", "--plate", "12=r", "-o", "out"]);
     assert_eq!(run.code, Some(2));
     assert!(run.stderr.contains("--plate 12") && run.stderr.contains("9 force plates"), "{}", run.stderr);
+}
+
+/// The arguments of a run without filters on a table of forces, without statements about its columns.
+const ON_TABLE: [&str; 12] = [
+    "forces",
+    "walk.mot",
+    "--model",
+    "figure.osim",
+    "--thresholds",
+    "thresholds.toml",
+    "--grf",
+    "table.mot",
+    "--cutoff",
+    "off",
+    "--force-cutoff",
+    "off",
+];
+
+/// The moments with the loads that the built-in input states.
+fn stated_moments(bench: &Workbench) -> Vec<u8> {
+    bench.forces(&RAW).done();
+    bench.read("out/moments.sto")
+}
+
+#[test]
+fn columns_of_a_force_table_are_recognised_in_any_spelling_and_assigned_by_the_centre_of_pressure() {
+    let bench = Workbench::new("spellings");
+    let expected = stated_moments(&bench);
+    let spellings = [
+        (
+            ["ground_force_1_v", "ground_force_1_p", "ground_force_1_m"],
+            ["ground_force_2_v", "ground_force_2_p", "ground_torque_2_"],
+        ),
+        // The habit of OpenSim's examples would call the unnumbered load the right foot's.
+        (
+            ["1_ground_force_v", "1_ground_force_p", "1_ground_torque_"],
+            ["ground_force_v", "ground_force_p", "ground_torque_"],
+        ),
+        (
+            ["R_ground_force_v", "R_ground_force_p", "R_ground_torque_"],
+            ["L_ground_force_v", "L_ground_force_p", "L_ground_torque_"],
+        ),
+        (["GRF_Right_F", "CoP_Right_", "Moment_Right_"], ["GRF_left_F", "CoP_left_", "Moment_left_"]),
+        (["FP7_F", "FP7_P", "FP7_M"], ["FP12_F", "FP12_P", "FP12_M"]),
+    ];
+    for (right, left) in spellings {
+        let mut text = bench.text("walk_grf.mot");
+        for (usual, name) in ["ground_force_r_v", "ground_force_r_p", "ground_torque_r_"].iter().zip(right) {
+            text = text.replace(usual, name);
+        }
+        for (usual, name) in ["ground_force_l_v", "ground_force_l_p", "ground_torque_l_"].iter().zip(left) {
+            text = text.replace(usual, name);
+        }
+        bench.write("table.mot", text);
+        let run = bench.run(&ON_TABLE).done();
+        assert!(bench.read("out/moments.sto") == expected, "{right:?}, {left:?}: {}", run.stderr);
+        run.reports(&["taken as ground forces: "]);
+        assert!(!run.stderr.contains("lies under"), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn one_force_may_serve_changing_feet() {
+    let bench = Workbench::new("changing_feet");
+    stated_moments(&bench);
+    let expected = bench.table("out/moments.sto");
+    let text = bench.text("walk_grf.mot");
+    let (head, rows) = text.split_once("endheader\n").unwrap();
+    // Three plates, on which the steps of both feet follow each other in turn.
+    let mut names = vec!["time".to_owned()];
+    for plate in 1..=3 {
+        for part in
+            [format!("ground_force_{plate}_v"), format!("ground_force_{plate}_p"), format!("ground_torque_{plate}_")]
+        {
+            names.extend(["x", "y", "z"].map(|axis| format!("{part}{axis}")));
+        }
+    }
+    let (mut steps, mut plate_of, mut was_loaded) = (0, [0, 0], [false, false]);
+    let mut lines = vec![names.join("\t")];
+    for row in rows.lines().skip(1) {
+        let cells: Vec<&str> = row.split('\t').collect();
+        let mut plates = [["0"; 9]; 3];
+        for foot in 0..2 {
+            let own = &cells[1 + 9 * foot..10 + 9 * foot];
+            let is_loaded = own[1].parse::<f64>().unwrap() > 0.0;
+            if is_loaded && !was_loaded[foot] {
+                plate_of[foot] = steps % 3;
+                steps += 1;
+            }
+            was_loaded[foot] = is_loaded;
+            if is_loaded {
+                plates[plate_of[foot]].copy_from_slice(own);
+            }
+        }
+        lines.push([&cells[..1], &plates.concat()[..]].concat().join("\t"));
+    }
+    assert!(steps >= 4, "{steps} steps: no plate serves both feet");
+    let head = head.replace("nColumns=19", "nColumns=28");
+    bench.write("table.mot", format!("{head}endheader\n{}\n", lines.join("\n")));
+    let run = bench.run(&ON_TABLE).done();
+    run.reports(&["`ground_force_1_...` on calcn_r by the centre of pressure", "`ground_force_1_...` on calcn_l by"]);
+    let found = bench.table("out/moments.sto");
+    for ((name, found), (_, expected)) in found.columns().zip(expected.columns()) {
+        let worst = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-6, "{name}: {worst}");
+    }
+}
+
+#[test]
+fn a_load_far_from_both_feet_is_assigned_to_neither() {
+    let bench = Workbench::new("far_load");
+    let text = bench.text("walk_grf.mot").replace("_r_", "_1_").replace("_l_", "_2_");
+    bench.write("table.mot", text);
+    bench.edit_rows("table.mot", |mut rows| {
+        rows.iter_mut().for_each(|cells| cells[15] = (cells[15].parse::<f64>().unwrap() - 3.0).to_string());
+        rows
+    });
+    let run = bench.run(&ON_TABLE);
+    run.warned(&[
+        "`ground_force_2_...`",
+        "its load was not assigned to a foot: no foot is near its centre of pressure",
+    ]);
+}
+
+#[test]
+fn external_loads_on_the_wrong_foot_are_recognised() {
+    let bench = Workbench::new("wrong_foot");
+    assert!(!bench.forces(&RAW).done().stderr.contains("lies under"));
+    bench.edit("walk_grf.xml", "calcn_l", "calcn_r");
+    let run = bench.forces(&RAW);
+    run.warned(&["the second load (`left`) lies under the left foot", "acts on `calcn_r`; it was used as stated"]);
+    assert!(!run.stderr.contains("the first load"), "{}", run.stderr);
+}
+
+#[test]
+fn the_filter_of_the_forces_is_chosen_and_printed() {
+    let bench = Workbench::new("force_cutoff");
+    let printed = |options: &[&str]| {
+        let run = bench.forces(options);
+        let line = run.stdout.lines().find(|line| line.trim_start().starts_with("filter")).map(str::to_owned);
+        line.unwrap_or_else(|| panic!("no filter in: {}{}", run.stdout, run.stderr))
+    };
+    assert!(printed(&[]).contains("forces butterworth 25 Hz (order 3"), "{}", printed(&[]));
+    assert!(printed(&["--force-cutoff", "same"]).contains("forces butterworth 6 Hz"));
+    assert!(printed(&["--force-cutoff", "SAME", "--cutoff", "off"]).ends_with("forces off"));
+    assert!(printed(&["--force-cutoff", "12.5", "--order", "2"]).contains("forces butterworth 12.5 Hz (order 2"));
+    assert!(printed(&["--force-cutoff", "off"]).ends_with("forces off"));
+    for wrong in ["1e-308", "0.5", "501", "-3", "nan", "sometimes"] {
+        bench.forces(&["--force-cutoff", wrong]).refused(&["from 1 to 500 Hz, `same` (as the motion) or `off`"]);
+    }
 }

@@ -36,7 +36,7 @@ pub(crate) struct ForcesArgs {
     pub(crate) model: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) subject: SubjectArgs,
-    /// Measured ground forces: .mot, .sto or .csv [default: the file named in --loads]. Columns are recognised by their usual names unless --loads or --right and --left are given.
+    /// Measured ground forces: .mot, .sto or .csv [default: the file named in --loads]. Columns are recognised by their names, and loads without a side are assigned by the centre of pressure, unless --loads or --right and --left are given.
     #[arg(long, value_name = "FILE")]
     pub(crate) grf: Option<PathBuf>,
     /// OpenSim external loads (.xml): which columns act on which body.

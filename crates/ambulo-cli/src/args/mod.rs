@@ -14,7 +14,6 @@ pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
 pub(crate) use values::{FootColumns, ForceCutoff, PlateFoot};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, WalkArgs, WalkMode};
 
-use crate::replacement::Existing;
 use clap::{Args as ClapArgs, Parser, Subcommand};
 
 /// Forces behind human walking: motion in, forces out.
@@ -57,6 +56,15 @@ pub(crate) struct ReplaceArgs {
     /// Also replace files that are in the way and that no run of Ambulo wrote, or that were changed since; never an input.
     #[arg(long)]
     force: bool,
+}
+
+/// What happens to a file that is in the way and that no earlier run recorded as its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Existing {
+    /// It stays, and nothing is written.
+    Kept,
+    /// It is replaced (`--force`).
+    Replaced,
 }
 
 impl ReplaceArgs {

@@ -1,8 +1,9 @@
 //! `ambulo report`: the page of a result folder, and the page that the other commands write.
 
 use super::result_folder::{PAGE, ResultFolder};
+use crate::args::Existing;
 use crate::args::ReportArgs;
-use crate::replacement::{Existing, ResultTarget};
+use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Finding};
 use ambulo_report::page::report_page;

@@ -2,8 +2,8 @@
 
 use super::report::write_page;
 use super::result_folder::{PAGE, ResultFolder, read_checked};
+use crate::args::Existing;
 use crate::args::ViewArgs;
-use crate::replacement::Existing;
 use crate::{Completion, files, printer};
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};

@@ -289,7 +289,7 @@ codes! {
         "Record steps on plates, or predict the forces.";
     // Loads from files.
     LoadsGuessed "loads.guessed" Note
-        "The columns of the ground forces and the feet they act on were guessed from names."
+        "The columns of the ground forces were recognised by their names, the feet by names or by the centre of pressure."
         "State them if the guess is wrong.";
     LoadsWorldAxes "loads.world_axes" Note
         "Forces from a table are not in the markers' axes; they are read as x forward, y up, z right."
@@ -318,6 +318,12 @@ codes! {
     LoadsFarFromFoot "loads.far_from_foot" Warning
         "A force acts nearer to the other foot than to its own; right and left may be exchanged."
         "Exchange the bodies on which the loads act.";
+    LoadsUnderOtherFoot "loads.under_other_foot" Warning
+        "A load lies under the other foot than the one that its file or its name states; it was used as stated."
+        "Correct the body of the load, or leave out the statement, so that the centre of pressure decides.";
+    LoadsUnassigned "loads.unassigned" Warning
+        "A load of a force table is near neither foot and was left out at this time."
+        "State the foot, or check that forces and motion have the same origin and clock.";
     // Devices.
     DeviceShorterThanMotion "device.shorter_than_motion" Warning
         "The device was recorded for a part of the motion only; elsewhere its contribution is zero."

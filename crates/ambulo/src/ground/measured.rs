@@ -287,7 +287,7 @@ fn low_pass_all(recording: &ForceRecording, columns: &mut [Vec<f64>; 6], filter:
 }
 
 /// Median height of the loaded points above the world's origin [m].
-fn surface_height(recording: &ForceRecording, up: Vec3) -> f64 {
+pub(super) fn surface_height(recording: &ForceRecording, up: Vec3) -> f64 {
     let loaded = recording.force.iter().zip(&recording.point).filter(|(f, _)| f.dot(&up) > CENTER_OF_PRESSURE_LOAD_N);
     let mut heights: Vec<f64> = loaded.map(|(_, p)| p.dot(&up)).filter(|h| h.is_finite()).collect();
     heights.sort_by(f64::total_cmp);
@@ -325,7 +325,7 @@ fn combine(body: BodyId, parts: &[SensorWrench<'_>], up: Vec3) -> BodyForces {
 }
 
 /// Centre of pressure [m] and free moment [N.m] of a wrench about the origin; not a number below the threshold.
-fn center_of_pressure(force: Vec3, moment: Vec3, up: Vec3, height: f64) -> (Vec3, Vec3) {
+pub(super) fn center_of_pressure(force: Vec3, moment: Vec3, up: Vec3, height: f64) -> (Vec3, Vec3) {
     let vertical = force.dot(&up);
     if vertical < CENTER_OF_PRESSURE_LOAD_N {
         return (Vec3::repeat(f64::NAN), Vec3::repeat(f64::NAN));

@@ -2,11 +2,13 @@
 
 pub mod foot_motion;
 pub mod footfalls;
+mod load_sides;
 mod measured;
 pub mod phases;
 pub mod plates;
 pub mod predict;
 pub mod stream;
 
+pub(crate) use load_sides::{FootPaths, LoadedSpan};
 pub use measured::upward;
 pub use measured::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, feet, measured};

@@ -1,41 +1,186 @@
 //! Ground forces as a table: which columns act on which body, and in which axes they are.
 
 use super::error::StudyError;
+use super::force_columns::{LoadColumns, load_columns};
 use super::source::ForceTable;
 use crate::findings::{Code, Findings};
-use crate::model::{BySide, Model};
-use crate::motion::{ForceRecording, force_recordings};
+use crate::ground::{FootPaths, LoadedSpan};
+use crate::kinematics::Trajectory;
+use crate::model::anatomy::Sole;
+use crate::model::{BodyId, BySide, Model, Side};
+use crate::motion::{ForceRecording, Motion, SmoothSettings, Smoother, Window, force_recordings, smooth};
 use crate::spatial::{Mat3, Vec3};
-use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
+use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 
-/// Column prefixes that laboratories use, right and left; tried in this order when nothing was said.
-const USUAL_PREFIXES: [(&str, &str); 4] = [
-    ("ground_force_r_", "ground_force_l_"),
-    ("R_ground_force_", "L_ground_force_"),
-    ("ground_force_", "1_ground_force_"),
-    ("ground_force_", "l_ground_force_"),
-];
+/// The body on whose feet the forces act, in its motion.
+pub(super) struct Walker<'a> {
+    pub(super) model: &'a Model,
+    pub(super) motion: &'a Motion,
+    pub(super) soles: &'a BySide<Option<Sole>>,
+    /// The longest time without gaps.
+    pub(super) window: Window,
+    /// From the axes of the markers to those of the world.
+    pub(super) world_from_lab: Option<&'a Mat3>,
+}
 
-/// The forces of a table on the bodies of a model.
-pub(super) fn forces_of_table(
-    model: &Model,
-    ForceTable { table, loads }: &ForceTable,
-    findings: &mut Findings,
-) -> Result<Vec<ForceRecording>, StudyError> {
-    let usual;
-    let loads = match loads {
-        Some(loads) => loads,
-        None => {
-            usual = usual_loads(model, table, findings)?;
-            &usual
+impl Walker<'_> {
+    /// The forces of a table on the bodies of the model.
+    pub(super) fn forces_of_table(
+        &self,
+        ForceTable { table, loads }: &ForceTable,
+        findings: &mut Findings,
+    ) -> Result<Vec<ForceRecording>, StudyError> {
+        let paths = self.foot_paths();
+        if let Some(stated) = loads {
+            let forces = self.read(stated, table, findings)?;
+            self.report_other_feet(&forces, paths.as_ref(), findings);
+            return Ok(forces);
         }
+        let columns = load_columns(table);
+        let unknown = || StudyError::ForceColumns { found: table.names().iter().map(ToString::to_string).collect() };
+        let feet = self.model.anatomy().feet().filter(|_| !columns.is_empty()).ok_or_else(unknown)?;
+        let name = |body: BodyId| self.model.bodies()[body.index()].name.as_str();
+        let of = |load: &LoadColumns| load.on_body(name(feet[load.side.unwrap_or(Side::Right)]));
+        let recognised =
+            ExternalLoads { name: "feet".into(), datafile: None, forces: columns.iter().map(of).collect() };
+        let forces = self.read(&recognised, table, findings)?;
+        let forces = self.on_feet(forces, &columns, paths.as_ref(), findings).ok_or_else(unknown)?;
+        self.report_other_feet(&forces, paths.as_ref(), findings);
+        Ok(forces)
+    }
+
+    fn read(
+        &self,
+        loads: &ExternalLoads,
+        table: &Table,
+        findings: &mut Findings,
+    ) -> Result<Vec<ForceRecording>, StudyError> {
+        let mut forces = force_recordings(self.model, loads, table, findings).map_err(StudyError::ForceTable)?;
+        if let Some(world_from_lab) = self.world_from_lab {
+            turn_to_world(&mut forces, world_from_lab, findings);
+        }
+        Ok(forces)
+    }
+
+    /// Loads of a side that their names state, or else under the foot that is nearest to the centre of pressure. `None` if nothing shows the feet.
+    fn on_feet(
+        &self,
+        forces: Vec<ForceRecording>,
+        columns: &[LoadColumns],
+        paths: Option<&FootPaths>,
+        findings: &mut Findings,
+    ) -> Option<Vec<ForceRecording>> {
+        let feet = self.model.anatomy().feet()?;
+        let spans = match paths {
+            Some(paths) => paths.spans(&forces),
+            None => vec![Vec::new(); forces.len()],
+        };
+        let is_shown = spans.iter().any(|spans| !spans.is_empty());
+        let (mut out, mut taken) = (Vec::new(), Vec::new());
+        for ((force, load), spans) in forces.into_iter().zip(columns).zip(&spans) {
+            let by_name = load.side.or_else(|| usual_side(load, columns).filter(|_| !is_shown));
+            let parts = match by_name {
+                Some(side) => vec![(side, force)],
+                None if !is_shown => return None,
+                None => divided(&force, load, spans, findings),
+            };
+            for (side, force) in parts {
+                let how = if by_name.is_some() { "" } else { " by the centre of pressure" };
+                taken.push(format!("`{}...` on {}{how}", load.prefix, self.model.bodies()[feet[side].index()].name));
+                out.push(ForceRecording { body: feet[side], ..force });
+            }
+        }
+        findings.report(Code::LoadsGuessed, format!("taken as ground forces: {}", taken.join(", ")));
+        Some(out)
+    }
+
+    /// The feet over time; `None` if the motion cannot be used before it is smoothed.
+    fn foot_paths(&self) -> Option<FootPaths> {
+        let settings = SmoothSettings { smoother: Smoother::Off, window: self.window, rate_hz: None };
+        let unheard = &mut Findings::default();
+        let smoothed = smooth(self.model, self.motion, settings, unheard).ok()?;
+        let trajectory = Trajectory::complete(self.model, &smoothed, unheard).ok()?;
+        FootPaths::new(self.model, &trajectory, self.soles)
+    }
+
+    /// Reports loads that lie under the other foot than the one that they act on.
+    fn report_other_feet(&self, forces: &[ForceRecording], paths: Option<&FootPaths>, findings: &mut Findings) {
+        let Some(paths) = paths else { return };
+        for (k, (force, spans)) in forces.iter().zip(paths.spans(forces)).enumerate() {
+            let Some(stated) = self.model.anatomy().body_side(force.body) else { continue };
+            let is_other = |span: &&LoadedSpan| span.side() == Some(stated.other());
+            let wrong: Vec<&LoadedSpan> = spans.iter().filter(is_other).collect();
+            let Some(first) = wrong.first() else { continue };
+            let when = match wrong.len() == spans.len() {
+                true => String::new(),
+                false => format!(" from {:.3} to {:.3} s{}", first.span[0], first.span[1], more(wrong.len())),
+            };
+            let (name, body) = (&force.name, &self.model.bodies()[force.body.index()].name);
+            let message = format!(
+                "the {} load (`{name}`) lies under the {} foot{when} ({:.2} m from it, {:.2} m from the {stated} foot), but acts on `{body}`; it was used as stated. hint: correct the body, or leave out the statement, so that the centre of pressure decides",
+                ordinal(k),
+                stated.other(),
+                first.distance_m[stated.other()],
+                first.distance_m[stated],
+            );
+            findings.report(Code::LoadsUnderOtherFoot, message);
+        }
+    }
+}
+
+fn more(count: usize) -> String {
+    if count > 1 { format!(" and {} more times", count - 1) } else { String::new() }
+}
+
+fn ordinal(index: usize) -> String {
+    const WORDS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
+    WORDS.get(index).map_or_else(|| format!("{}th", index + 1), ToString::to_string)
+}
+
+/// The side by the habit of OpenSim's examples, if nothing else shows it: of two loads, one without a number or letter is the right foot's.
+fn usual_side(load: &LoadColumns, all: &[LoadColumns]) -> Option<Side> {
+    let is_plain = |load: &LoadColumns| load.key.is_empty();
+    let [first, second] = all else { return None };
+    (is_plain(first) != is_plain(second)).then(|| if is_plain(load) { Side::Right } else { Side::Left })
+}
+
+/// The load of each foot. The signal between two loaded times belongs to the nearer one.
+fn divided(
+    force: &ForceRecording,
+    load: &LoadColumns,
+    spans: &[LoadedSpan],
+    findings: &mut Findings,
+) -> Vec<(Side, ForceRecording)> {
+    for LoadedSpan { span: [from, to], distance_m: BySide { right, left } } in
+        spans.iter().filter(|s| s.side().is_none())
+    {
+        let message = format!(
+            "`{}...`, {from:.3}-{to:.3} s: its load was not assigned to a foot: no foot is near its centre of pressure (right {:.0} mm, left {:.0} mm)",
+            load.prefix,
+            1000.0 * right,
+            1000.0 * left
+        );
+        findings.report(Code::LoadsUnassigned, message);
+    }
+    let nearest = |t: f64| {
+        let apart = |span: &&LoadedSpan| (span.span[0] - t).max(t - span.span[1]).max(0.0);
+        spans.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).and_then(LoadedSpan::side)
     };
-    force_recordings(model, loads, table, findings).map_err(StudyError::ForceTable)
+    let whose: Vec<Option<Side>> = force.times.iter().map(|&t| nearest(t)).collect();
+    let of_side = |side: Side| {
+        let masked = |values: &[Vec3]| -> Vec<Vec3> {
+            let at = |(value, owner): (&Vec3, &Option<Side>)| if *owner == Some(side) { *value } else { Vec3::zeros() };
+            values.iter().zip(&whose).map(at).collect()
+        };
+        let own = ForceRecording { force: masked(&force.force), moment: masked(&force.moment), ..force.clone() };
+        whose.contains(&Some(side)).then_some((side, own))
+    };
+    Side::BOTH.into_iter().filter_map(of_side).collect()
 }
 
 /// Brings forces of a table to the axes of the world: from those of the markers, or not at all where they are upright as they are.
-pub(super) fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3, findings: &mut Findings) {
+fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3, findings: &mut Findings) {
     /// Share of the mean force that points up where the axes are right: walking sums to nearly none forwards and sideways.
     const UPRIGHT: f64 = 0.9;
     let sum: Vec3 = plates.iter().flat_map(|p| &p.force).filter(|f| f.iter().all(|x| x.is_finite())).sum();
@@ -48,23 +193,4 @@ pub(super) fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3
         return;
     }
     plates.iter_mut().for_each(|plate| plate.rotate(world_from_lab));
-}
-
-/// Usual prefixes on the model's feet, reported as a finding.
-fn usual_loads(model: &Model, table: &Table, findings: &mut Findings) -> Result<ExternalLoads, StudyError> {
-    let has = |prefix: &str| table.column(&format!("{prefix}vx")).is_some();
-    let columns = USUAL_PREFIXES.iter().find(|(right, left)| has(right) && has(left));
-    let feet = model.anatomy().feet().map(|feet| feet.map(|body| model.bodies()[body.index()].name.as_str()));
-    let (Some((right_prefix, left_prefix)), Some(BySide { right: right_foot, left: left_foot })) = (columns, feet)
-    else {
-        return Err(StudyError::ForceColumns { found: table.names().iter().map(ToString::to_string).collect() });
-    };
-    let message =
-        format!("taken as ground forces: `{right_prefix}...` on {right_foot}, `{left_prefix}...` on {left_foot}");
-    findings.report(Code::LoadsGuessed, message);
-    let forces = vec![
-        ExternalForce::with_prefix("right", right_foot, right_prefix),
-        ExternalForce::with_prefix("left", left_foot, left_prefix),
-    ];
-    Ok(ExternalLoads { name: "feet".into(), datafile: None, forces })
 }

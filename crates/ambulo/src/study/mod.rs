@@ -16,6 +16,7 @@
 
 mod error;
 mod events;
+mod force_columns;
 mod force_filter;
 mod force_table;
 mod laboratory_file;

@@ -1,7 +1,7 @@
 //! From a source to a body whose coordinates are known over time, with the measured forces under its feet.
 
 use super::error::StudyError;
-use super::force_table::{forces_of_table, turn_to_world};
+use super::force_table::Walker;
 use super::laboratory_file::LaboratoryFile;
 use super::mass::{built_in_mass_kg, standing_mass_kg};
 use super::outcome::Tracking;
@@ -129,6 +129,7 @@ impl Source {
         findings: &mut Findings,
     ) -> Result<Observation, StudyError> {
         let model = self.loaded(model)?;
+        let person = Person::of_model(&model);
         let forces = match &self.forces {
             _ if settings.ground == GroundSettings::NoContact => Vec::new(),
             MeasuredForces::InRecording => {
@@ -137,10 +138,19 @@ impl Source {
                 Vec::new()
             }
             MeasuredForces::OnBodies(forces) => forces.clone(),
-            MeasuredForces::Table(table) => forces_of_table(&model, table, findings)?,
+            MeasuredForces::Table(table) => {
+                let walker = Walker {
+                    model: &model,
+                    motion,
+                    soles: &person.soles,
+                    window: settings.window,
+                    world_from_lab: None,
+                };
+                walker.forces_of_table(table, findings)?
+            }
         };
         Ok(Observation {
-            person: Person::of_model(&model),
+            person,
             model,
             motion: ObservedMotion::Recorded(motion.clone()),
             forces,
@@ -191,9 +201,15 @@ impl Source {
             _ if settings.ground == GroundSettings::NoContact => Vec::new(),
             MeasuredForces::OnBodies(forces) => forces.clone(),
             MeasuredForces::Table(table) => {
-                let mut forces = forces_of_table(&body.subject.model, table, findings)?;
-                turn_to_world(&mut forces, &body.laboratory.world_from_lab, findings);
-                forces
+                let whole = body.longest_without_gap_s();
+                let walker = Walker {
+                    model: &body.subject.model,
+                    motion: &body.fit.motion,
+                    soles: &body.subject.person.soles,
+                    window: whole.map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) }),
+                    world_from_lab: Some(&body.laboratory.world_from_lab),
+                };
+                walker.forces_of_table(table, findings)?
             }
             MeasuredForces::InRecording => plate_forces(&body, findings),
         };
