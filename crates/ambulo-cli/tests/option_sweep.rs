@@ -104,13 +104,19 @@ struct Base {
 }
 
 impl Base {
-    fn with(&self, option: &str, value: &str) -> Vec<String> {
-        let others = self.options.iter().filter(|(name, _)| *name != option);
-        let words = self.words.iter().map(|word| (*word).to_owned());
-        words
-            .chain(others.map(|(name, value)| format!("--{name}={value}")))
-            .chain([format!("--{option}={value}")])
-            .collect()
+    /// Runs the command, with one option added if it is given, and checks the run.
+    fn run(&self, bench: &Workbench, added: Option<(&str, &str)>) -> Run {
+        let others = self.options.iter().filter(|(name, _)| added.is_none_or(|(option, _)| option != *name));
+        let options = others.copied().chain(added).map(|(name, value)| format!("--{name}={value}"));
+        let words: Vec<String> = self.words.iter().map(|word| (*word).to_owned()).chain(options).collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let run = bench.run_within_limits(&words);
+        check(&run, &words, &bench.folder.join("out"));
+        run
+    }
+
+    fn has(&self, option: &str) -> bool {
+        self.only.is_empty() || self.only.contains(&option)
     }
 }
 
@@ -138,14 +144,13 @@ fn was_a_bug(option: &str, value: &str) -> bool {
 /// Tries the values of every numeric option of a verb on each base.
 fn sweep(bench: &Workbench, verb: &str, bases: &[Base]) {
     let (mut runs, mut accepted) = (0, 0);
+    // Otherwise every value could be refused for another reason.
+    assert!(bases.iter().all(|base| base.run(bench, None).code != Some(2)), "a base of `{verb}` fails");
     for (option, value_name) in options(verb) {
         let all = forms(&value_name).iter().flat_map(|form| VALUES.map(|value| (form, value)));
         for (form, value) in all.filter(|(form, value)| is_chosen(&option, form, value) || was_a_bug(&option, value)) {
-            for base in bases.iter().filter(|base| base.only.is_empty() || base.only.contains(&&*option)) {
-                let words = base.with(&option, &form.replace('#', value));
-                let words: Vec<&str> = words.iter().map(String::as_str).collect();
-                let run = bench.run_within_limits(&words);
-                check(&run, &words, &bench.folder.join("out"));
+            for base in bases.iter().filter(|base| base.has(&option)) {
+                let run = base.run(bench, Some((&option, &form.replace('#', value))));
                 runs += 1;
                 accepted += usize::from(run.code != Some(2));
             }

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use ambulo::findings::{Code, Findings};
-use ambulo::gait::{Gait, GaitError, Jet, Pace, Speed, Walk, WalkPosture, walking_speeds};
+use ambulo::gait::{Gait, GaitError, Jet, Pace, Speed, Style, Walk, WalkPosture, walking_speeds};
 use proptest::prelude::*;
 
 /// Leg of an adult [m].
@@ -67,7 +67,7 @@ fn numbers_that_no_gait_can_have_are_refused() {
 #[test]
 fn paces_that_nobody_walks_with_are_refused_with_the_range_and_its_reason() {
     let message = |change: &dyn Fn(&mut Pace)| {
-        let mut gait = Gait::named("free").unwrap();
+        let mut gait = Gait::new("own", Style::Knots);
         change(&mut gait.pace);
         Walk::new(&gait, LEG, &mut Findings::default()).map_err(|error| error.to_string())
     };
