@@ -107,6 +107,8 @@ note: string | null, };
 
 export type PageSource = "measured" | "predicted" | "simulated" | "none";
 
+export type PageVerdict = "feasible" | "infeasible" | "not_judged";
+
 export type TimeAxis = { 
 /**
  * The first.
@@ -423,7 +425,7 @@ export type Feasibility = {
 /**
  * The verdict.
  */
-feasible: boolean, 
+state: PageVerdict, 
 /**
  * The verdict in a sentence.
  */
