@@ -70,7 +70,7 @@ fn plates_without_a_load_are_not_called_feasible() {
         let cells = row.split('\t').enumerate().map(|(i, cell)| if i == 0 { cell } else { "0" });
         cells.collect::<Vec<_>>().join("\t") + "\n"
     });
-    bench.write("walk_grf.mot", &format!("{head}endheader\n{names}\n{}", unloaded.collect::<String>()));
+    bench.write("walk_grf.mot", format!("{head}endheader\n{names}\n{}", unloaded.collect::<String>()));
     let run = bench.forces(&RAW).done();
     assert!(run.stdout.contains("  verdict   not judged: "), "{}", run.stdout);
     let verdict = bench.json("out/summary.json")["verdict"].clone();
