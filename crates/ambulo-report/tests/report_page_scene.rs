@@ -48,7 +48,7 @@ fn scene() -> Files {
         "convergence": {"iterations_mean": 2.0, "iterations_max": 2, "factorizations_mean": 1.0, "residual_max": 1e-12, "not_converged": 3}, "findings": [],
         "verdict": {"state": "infeasible", "figures": [{"figure": "ann", "state": "infeasible", "judged_share": 1.0, "undecided": [], "reasons": [reason],
             "closest": [{"check": "strength", "quantity": "hip_flexion_l_moment", "at_s": 0.3, "value": 300.0, "limit": 160.0,
-                "unit": "N.m", "share": 1.875}], "not_judged": [], "frames": 50, "frames_unmeasured": 0,
+                "unit": "N.m", "share": 1.875}], "not_judged": [], "frames": 50, "frames_unmeasured": 0, "frames_predicted": 0,
             "mass_kg": 60.0, "height_m": 1.7}]},
         "timing_ms": {},
     });

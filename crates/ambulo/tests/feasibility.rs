@@ -368,7 +368,14 @@ fn judged_with(
     });
     let ground = GroundForces { bodies: bodies.to_vec() };
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
-    let evidence = MotionAndForces { model, trajectory: &trajectory, forces: &forces, ground: &ground, device: None };
+    let evidence = MotionAndForces {
+        model,
+        trajectory: &trajectory,
+        forces: &forces,
+        ground: &ground,
+        device: None,
+        predicted: None,
+    };
     let mut findings = Findings::default();
     let verdict = check(&evidence, &Person::of_human(&human), thresholds, &mut findings);
     (verdict, findings)
@@ -714,7 +721,7 @@ fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
     let Subject { model, motion, plates } = subject;
     let analysis = analyse(model, motion, plates, settings, &mut findings).unwrap();
     let (trajectory, forces, ground) = (&analysis.trajectory, &analysis.forces, &analysis.ground);
-    let evidence = MotionAndForces { model, trajectory, forces, ground, device: None };
+    let evidence = MotionAndForces { model, trajectory, forces, ground, device: None, predicted: None };
     check(&evidence, &Person::of_model(model), thresholds, &mut findings)
 }
 

@@ -61,6 +61,7 @@ fn judged(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findings) -
         forces: &forces,
         ground: &ground,
         device: None,
+        predicted: None,
     };
     check(&evidence, &Person::of_human(&walk.human), thresholds, findings)
 }

@@ -404,7 +404,7 @@ codes! {
         "Residual reduction did not converge."
         "Read its results with care; wider tolerances may help.";
     FeasibilityUnmeasuredSupport "feasibility.unmeasured_support" Note
-        "Frames in which a foot may be on unmeasured ground were not judged."
+        "Frames in which a foot may be on unmeasured ground were judged on predicted forces, or not at all without a prediction."
         "Nothing to do.";
     // Synthetic walks and simulation.
     GaitSpeedRange "gait.speed_range" Warning

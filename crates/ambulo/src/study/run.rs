@@ -7,13 +7,15 @@ use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedM
 use super::prediction::{Found, predicted, with_markers};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
-use crate::analysis::feasibility::{self, MotionAndForces, Person, Thresholds, Verdict};
+use crate::analysis::feasibility::{self, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
     self, Adjustable, Analysis, AnalysisError, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
     analyse_with_progress, reduce_residual, times_and_distances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
+use crate::dynamics::{Workspace, inverse};
 use crate::findings::{Code, Findings};
+use crate::ground::predict::predict;
 use crate::model::Model;
 use crate::motion::{Event, Smoother, Window, device_from_table};
 use std::ops::ControlFlow;
@@ -91,7 +93,7 @@ fn road(
     }
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
     let judged = Judged { model: &model, person: &person, analysis: &analysis, device: device.as_deref(), checks };
-    let verdict = judged.verdict(&settings.thresholds, findings);
+    let verdict = judged.verdict(settings, &force_origin, findings);
     progress.end(Stage::Feasibility)?;
     let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
     Ok(Outcome {
@@ -125,11 +127,26 @@ struct Judged<'a> {
 
 impl Judged<'_> {
     /// Whether a person could do this, and whether predicted forces can be right.
-    fn verdict(&self, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
-        let Analysis { trajectory, forces, ground, .. } = self.analysis;
-        let evidence = MotionAndForces { model: self.model, trajectory, forces, ground, device: self.device };
-        let mut verdict = feasibility::check(&evidence, self.person, thresholds, findings);
-        verdict.add_reasons(self.checks.map_or(&[], |checks| &checks.reasons));
+    ///
+    /// Frames that force plates do not cover are judged on forces that are predicted from the motion.
+    fn verdict(&self, settings: &Settings, force_origin: &ForceOrigin, findings: &mut Findings) -> Verdict {
+        let Judged { model, person, analysis, device, checks } = *self;
+        let Analysis { trajectory, forces, ground, .. } = analysis;
+        let evidence = MotionAndForces { model, trajectory, forces, ground, device, predicted: None };
+        let mut of_measured = Findings::default();
+        let mut verdict = feasibility::check(&evidence, person, &settings.thresholds, &mut of_measured);
+        let is_incomplete = *force_origin == ForceOrigin::Measured && verdict.frames_unmeasured > 0;
+        let prediction =
+            || predict(model, trajectory, &person.soles, &settings.prediction, &mut Findings::default()).ok();
+        if let Some(prediction) = is_incomplete.then(prediction).flatten() {
+            let ground = &prediction.ground;
+            let forces = &inverse(&mut Workspace::new(model), trajectory, &ground.loads());
+            let evidence = MotionAndForces { predicted: Some(PredictedForces { ground, forces }), ..evidence };
+            verdict = feasibility::check(&evidence, person, &settings.thresholds, findings);
+        } else {
+            of_measured.as_slice().iter().for_each(|finding| findings.add(finding.clone()));
+        }
+        verdict.add_reasons(checks.map_or(&[], |checks| &checks.reasons));
         verdict
     }
 }

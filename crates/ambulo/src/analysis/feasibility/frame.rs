@@ -127,6 +127,24 @@ impl FeasibilityLimits {
         self.coordinates[id.index()].strength.is_some()
     }
 
+    /// The residual force [body weights].
+    fn unsupported(&self, frame: &Frame<'_>) -> f64 {
+        share(frame.residual.force.norm(), self.weight)
+    }
+
+    /// Whether the residual force is too large for a person.
+    pub(super) fn lacks_support(&self, frame: &Frame<'_>) -> bool {
+        let is_small = self.unsupported(frame) <= self.thresholds.support_bw;
+        !is_small
+    }
+
+    /// Whether no ground force can be missing: support is sufficient, or no foot may be in contact outside the force plates.
+    pub(super) fn support_is_known(&self, frame: &Frame<'_>) -> bool {
+        frame.feet.values().all(Option::is_none)
+            || !self.lacks_support(frame)
+            || !Side::BOTH.into_iter().any(|side| self.may_be_on_unmeasured_ground(frame, side))
+    }
+
     /// Whether a foot is unloaded, near the ground and slow: it may be in contact outside the force plates.
     fn may_be_on_unmeasured_ground(&self, frame: &Frame<'_>, side: Side) -> bool {
         let carried = frame.feet[side].map_or(0.0, |foot| foot.force.dot(&self.up));
@@ -175,18 +193,27 @@ fn coordinate_limits(model: &Model, id: CoordinateId, person: &Person, t: &Thres
 ///
 /// # Panics
 /// If a slice of the frame is shorter than the model.
-pub fn check_frame(limits: &FeasibilityLimits, frame: &Frame<'_>, mut visit: impl FnMut(CheckedValue)) -> bool {
+pub fn check_frame(limits: &FeasibilityLimits, frame: &Frame<'_>, visit: impl FnMut(CheckedValue)) -> bool {
+    let whole = limits.support_is_known(frame);
+    check_known(limits, frame, whole, visit);
+    whole
+}
+
+/// As [`check_frame`], with the knowledge whether all ground forces are known; the kinetics are checked only then.
+pub(super) fn check_known(
+    limits: &FeasibilityLimits,
+    frame: &Frame<'_>,
+    whole: bool,
+    mut visit: impl FnMut(CheckedValue),
+) {
     let t = &limits.thresholds;
     let mut visit = |m: CheckedValue| {
         if t.judges(m.check) {
             visit(m);
         }
     };
-    let unsupported = share(frame.residual.force.norm(), limits.weight);
+    let unsupported = limits.unsupported(frame);
     let ground_known = frame.feet.values().any(Option::is_some);
-    let whole = !ground_known
-        || unsupported <= t.support_bw
-        || !Side::BOTH.into_iter().any(|side| limits.may_be_on_unmeasured_ground(frame, side));
     for (index, coordinate) in limits.coordinates.iter().enumerate().filter(|(_, coordinate)| coordinate.is_judged) {
         check_coordinate(limits, frame, CoordinateId(index), coordinate, whole, &mut visit);
     }
@@ -207,7 +234,6 @@ pub fn check_frame(limits: &FeasibilityLimits, frame: &Frame<'_>, mut visit: imp
         let [value, share] = if flies { [f64::INFINITY; 2] } else { [0.0, 0.0] };
         visit(CheckedValue { check: Check::Flight, of, value, limit: t.flight_s, share });
     }
-    whole
 }
 
 fn check_coordinate(

@@ -1,6 +1,6 @@
 //! Checks of a whole motion.
 
-use super::frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_frame};
+use super::frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_known};
 use super::ground_speed::over_ground;
 use super::person::Person;
 use super::spans::{Span, Track};
@@ -9,7 +9,7 @@ use super::verdict::{Check, Closest, NotJudged, Reason, Verdict, VerdictState};
 use crate::dynamics::{Forces, Roots};
 use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, GroundForces, feet, upward};
-use crate::kinematics::{Trajectory, each_body_motion};
+use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::Vec3;
@@ -34,6 +34,17 @@ pub struct MotionAndForces<'a> {
     pub ground: &'a GroundForces,
     /// Generalised forces of a worn device: one column per coordinate [N.m or N].
     pub device: Option<&'a [Vec<f64>]>,
+    /// Forces predicted from the motion, for frames in which measured ground forces are incomplete.
+    pub predicted: Option<PredictedForces<'a>>,
+}
+
+/// Forces predicted from the motion, on its frames.
+#[derive(Debug, Clone, Copy)]
+pub struct PredictedForces<'a> {
+    /// The ground forces.
+    pub ground: &'a GroundForces,
+    /// Inverse dynamics with them.
+    pub forces: &'a Forces,
 }
 
 /// Decides whether a person could make a motion.
@@ -52,7 +63,8 @@ pub fn check(
     for (slot, track) in tracks.iter().enumerate() {
         let check = check_of(model, slot);
         let shortest = if check == Check::Flight { thresholds.flight_s } else { thresholds.shortest_s };
-        reasons.extend(track.settled(grid.step_s, shortest).iter().map(|span| reason(model, grid, span)));
+        let spans = track.settled(grid.step_s, shortest);
+        reasons.extend(spans.iter().map(|span| reason(model, grid, span, coverage.is_predicted(span.worst_at))));
     }
     reasons.sort_by(|a: &Reason, b| a.time_s[0].total_cmp(&b.time_s[0]).then(a.check.cmp(&b.check)));
     for check in Check::ALL {
@@ -79,7 +91,8 @@ pub fn check(
         closest,
         not_judged: not_judged(motion, &limits),
         frames: grid.frames,
-        frames_unmeasured: coverage.unmeasured,
+        frames_unmeasured: coverage.unmeasured(),
+        frames_predicted: coverage.predicted.iter().filter(|predicted| **predicted).count(),
         mass_kg: thresholds.mass_kg.unwrap_or(person.mass_kg),
         height_m: thresholds.height_m.unwrap_or(person.height_m),
     }
@@ -115,21 +128,35 @@ fn check_of(model: &Model, slot: usize) -> Check {
 }
 
 /// How much of a motion was judged.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 struct Coverage {
-    /// All frames in which ground forces may be missing.
-    unmeasured: usize,
+    /// Frames in which the given ground forces are complete.
+    covered: Vec<bool>,
+    /// Frames that were judged on predicted forces.
+    predicted: Vec<bool>,
     /// Frames that count: all without the first and last moments.
     counted: usize,
     /// Of those, frames in which all checks were made.
     judged: usize,
+    /// Of those, frames with the given ground forces.
+    judged_as_given: usize,
     /// Values or limits that are not a number.
     not_numbers: usize,
-    /// Sum of the squared residual forces of the judged frames [N^2].
+    /// Sum of the squared residual forces of these frames [N^2].
     residual_n2: f64,
 }
 
 impl Coverage {
+    /// Number of frames in which ground forces may be missing.
+    fn unmeasured(&self) -> usize {
+        self.covered.iter().filter(|covered| !**covered).count()
+    }
+
+    /// Whether a frame was judged on predicted forces.
+    fn is_predicted(&self, frame: usize) -> bool {
+        self.predicted.get(frame).is_some_and(|predicted| *predicted)
+    }
+
     /// Share of the counted frames that were judged; without ground forces most checks cannot be made, so it is zero.
     fn judged_share(&self, motion: &MotionAndForces<'_>) -> f64 {
         if motion.ground.bodies.is_empty() || self.counted == 0 {
@@ -137,6 +164,22 @@ impl Coverage {
         } else {
             self.judged as f64 / self.counted as f64
         }
+    }
+
+    /// Reports frames in which ground forces may be missing.
+    fn report(&self, grid: TimeGrid, findings: &mut Findings) {
+        let Some(first) = self.covered.iter().position(|covered| !covered) else { return };
+        let judged = match self.predicted[first] {
+            true => "moments, powers, flight, support and balance were judged on forces predicted from the motion",
+            false => "moments, powers, flight, support and balance were not checked",
+        };
+        let message = format!(
+            "{judged} in {} of {} frames (the first at {:.3} s), because a foot may be on the ground outside the force plates",
+            self.unmeasured(),
+            grid.frames,
+            grid.time(first)
+        );
+        findings.report(Code::FeasibilityUnmeasuredSupport, message);
     }
 
     /// Why this motion cannot be called feasible.
@@ -154,7 +197,7 @@ impl Coverage {
                 100.0 * LEAST_JUDGED_SHARE
             ));
         }
-        let residual_bw = (self.residual_n2 / self.judged.max(1) as f64).sqrt() / limits.weight;
+        let residual_bw = (self.residual_n2 / self.judged_as_given.max(1) as f64).sqrt() / limits.weight;
         if residual_bw > DECISIVE_RESIDUAL_BW {
             list.push(format!(
                 "the residual force is {:.0} % of body weight; above {:.0} %, motion, body and ground forces do not belong together",
@@ -175,71 +218,127 @@ fn measure(
     limits: &FeasibilityLimits,
     findings: &mut Findings,
 ) -> (Vec<Track>, Coverage) {
-    let MotionAndForces { model, trajectory, forces, ground, device } = *motion;
-    let up = upward(model);
+    let MotionAndForces { model, trajectory, .. } = *motion;
     let count = OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len();
     let mut tracks = vec![Track::default(); count];
-    let over = over_ground(model, trajectory, ground, up);
-    let gravity = model.gravity().norm();
-    let froude = over.map(|o| o.speed * o.speed / (gravity * limits.person.leg_length_m));
-    let by_side = feet(model, ground);
-    let feet = BySide::from_fn(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces));
-    let roots = Roots::of(model);
-    let n = model.coordinates().len();
-    let [mut q, mut qd, mut tau, mut power] = [0; 4].map(|_| vec![0.0; n]);
-    let height = ground_height(&feet, up);
+    let mut given = FrameReader::new(motion, motion.forces, motion.ground, limits);
+    let mut coverage = Coverage { covered: covered(motion, &mut given, limits), ..Coverage::default() };
+    let mut predicted =
+        motion.predicted.map(|predicted| FrameReader::new(motion, predicted.forces, predicted.ground, limits));
     let lasting = frames_that_last(limits.thresholds.shortest_s, trajectory.grid());
-    let (mut coverage, mut first_unmeasured) = (Coverage::default(), None);
     let edge = (EDGE_S / trajectory.grid().step_s).round() as usize;
     let inner = edge..trajectory.grid().frames.saturating_sub(edge);
+    coverage.predicted = coverage.covered.iter().map(|covered| !covered && predicted.is_some()).collect();
     each_body_motion(model, trajectory, |i, bodies| {
-        for (c, id) in model.coordinate_ids().enumerate() {
-            (q[c], qd[c]) = (trajectory.values(id)[i], trajectory.rates(id)[i]);
-            (tau[c], power[c]) = (forces.generalized[c][i], forces.powers[c][i]);
-            if let Some(device) = device {
-                tau[c] -= device[c][i];
-            }
-        }
-        let frame = Frame {
-            q: &q,
-            qd: &qd,
-            generalized: &tau,
-            powers: &power,
-            bodies,
-            feet: feet.map(|foot| foot.map(|f| foot_frame(f, i))),
-            residual: roots.residual(|body| forces.reactions[body.index()][i]),
-            ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
-            ground_height: height,
-            walking: froude.is_none_or(|froude| froude < limits.thresholds.running_froude),
+        let covered = coverage.covered[i];
+        let frame = match &mut predicted {
+            Some(predicted) if !covered => predicted.frame(i, bodies),
+            _ => given.frame(i, bodies),
         };
-        let whole = check_frame(limits, &frame, |m| {
+        let whole = covered || coverage.predicted[i];
+        check_known(limits, &frame, whole, |m| {
             coverage.not_numbers += usize::from(m.share.is_nan());
             if let Some(slot) = slot(model, &m).filter(|_| inner.contains(&i)) {
                 tracks[slot].add(i, m, lasting);
             }
         });
-        if !whole {
-            coverage.unmeasured += 1;
-            first_unmeasured.get_or_insert(i);
-        }
         if inner.contains(&i) {
             coverage.counted += 1;
-            if whole {
-                coverage.judged += 1;
+            coverage.judged += usize::from(whole);
+            if covered {
+                coverage.judged_as_given += 1;
                 coverage.residual_n2 += frame.residual.force.norm_squared();
             }
         }
     });
-    let unmeasured = coverage.unmeasured;
-    if let Some(first) = first_unmeasured {
-        let message = format!(
-            "moments, powers, flight, support and balance were not checked in {unmeasured} of {} frames (the first at {:.3} s), because a foot may be on the ground outside the force plates",
-            trajectory.grid().frames,
-            trajectory.grid().time(first)
-        );
-        findings.report(Code::FeasibilityUnmeasuredSupport, message);
-    }
+    coverage.report(trajectory.grid(), findings);
     (tracks, coverage)
+}
+
+/// Frames in which no ground force is missing. A foot that steps off a force plate leaves a part of its load there: a lack of support that
+/// begins or ends with missing forces has the same cause.
+fn covered(motion: &MotionAndForces<'_>, given: &mut FrameReader<'_>, limits: &FeasibilityLimits) -> Vec<bool> {
+    let (mut covered, mut lacking) = (Vec::new(), Vec::new());
+    each_body_motion(motion.model, motion.trajectory, |i, bodies| {
+        let frame = given.frame(i, bodies);
+        covered.push(limits.support_is_known(&frame));
+        lacking.push(limits.lacks_support(&frame));
+    });
+    for i in 1..covered.len() {
+        covered[i] &= covered[i - 1] || !lacking[i];
+    }
+    for i in (1..covered.len()).rev() {
+        covered[i - 1] &= covered[i] || !lacking[i - 1];
+    }
+    covered
+}
+
+/// Gives the frames of a motion with forces.
+struct FrameReader<'a> {
+    motion: MotionAndForces<'a>,
+    forces: &'a Forces,
+    feet: BySide<Option<BodyForces>>,
+    roots: Roots,
+    ground_velocity: Vec3,
+    ground_height: f64,
+    walking: bool,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    tau: Vec<f64>,
+    power: Vec<f64>,
+}
+
+impl<'a> FrameReader<'a> {
+    fn new(
+        motion: &MotionAndForces<'a>,
+        forces: &'a Forces,
+        ground: &'a GroundForces,
+        limits: &FeasibilityLimits,
+    ) -> FrameReader<'a> {
+        let model = motion.model;
+        let up = upward(model);
+        let over = over_ground(model, motion.trajectory, ground, up);
+        let froude = over.map(|o| o.speed * o.speed / (model.gravity().norm() * limits.person.leg_length_m));
+        let by_side = feet(model, ground);
+        let feet = BySide::from_fn(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces.clone()));
+        let [q, qd, tau, power] = [0; 4].map(|_| vec![0.0; model.coordinates().len()]);
+        FrameReader {
+            motion: *motion,
+            forces,
+            roots: Roots::of(model),
+            ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
+            ground_height: ground_height(&feet.as_ref().map(Option::as_ref), up),
+            walking: froude.is_none_or(|froude| froude < limits.thresholds.running_froude),
+            feet,
+            q,
+            qd,
+            tau,
+            power,
+        }
+    }
+
+    fn frame<'b>(&'b mut self, i: usize, bodies: &'b [BodyMotion]) -> Frame<'b> {
+        let MotionAndForces { model, trajectory, device, .. } = self.motion;
+        for (c, id) in model.coordinate_ids().enumerate() {
+            (self.q[c], self.qd[c]) = (trajectory.values(id)[i], trajectory.rates(id)[i]);
+            (self.tau[c], self.power[c]) = (self.forces.generalized[c][i], self.forces.powers[c][i]);
+            if let Some(device) = device {
+                self.tau[c] -= device[c][i];
+            }
+        }
+        Frame {
+            q: &self.q,
+            qd: &self.qd,
+            generalized: &self.tau,
+            powers: &self.power,
+            bodies,
+            feet: self.feet.as_ref().map(|foot| foot.as_ref().map(|f| foot_frame(f, i))),
+            residual: self.roots.residual(|body| self.forces.reactions[body.index()][i]),
+            ground_velocity: self.ground_velocity,
+            ground_height: self.ground_height,
+            walking: self.walking,
+        }
+    }
 }
 
 /// Number of consecutive frames that is not noise.
@@ -304,7 +403,7 @@ fn quantity(model: &Model, m: &CheckedValue) -> String {
     }
 }
 
-fn reason(model: &Model, grid: TimeGrid, span: &Span) -> Reason {
+fn reason(model: &Model, grid: TimeGrid, span: &Span, is_predicted: bool) -> Reason {
     let mut m = span.worst;
     if m.check == Check::Flight {
         m.value = span.duration_s(grid.step_s);
@@ -316,7 +415,9 @@ fn reason(model: &Model, grid: TimeGrid, span: &Span) -> Reason {
     };
     let (time_s, at_s) = ([grid.time(span.first), grid.time(span.last)], grid.time(span.worst_at));
     let quantity = quantity(model, &m);
-    let message = message(&m, &quantity, side, time_s, at_s);
+    let origin =
+        if is_predicted { "; the forces are predicted, because the plates do not cover this time" } else { "" };
+    let message = message(&m, &quantity, side, time_s, at_s) + origin;
     Reason {
         check: m.check,
         quantity,

@@ -14,7 +14,7 @@ mod thresholds;
 mod verdict;
 
 pub use frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_frame, least_load_n};
-pub use judgement::{MotionAndForces, check};
+pub use judgement::{MotionAndForces, PredictedForces, check};
 pub use person::Person;
 pub use strength::{Hill, StrengthCurve};
 pub use thresholds::Thresholds;

@@ -135,9 +135,11 @@ pub struct Verdict {
     pub not_judged: Vec<NotJudged>,
     /// Number of frames.
     pub frames: usize,
-    /// Frames in which a foot may be on the ground outside the force plates: moments, powers, flight, support and balance were not checked
-    /// in them.
+    /// Frames in which a foot may be on the ground outside the force plates.
     pub frames_unmeasured: usize,
+    /// Of those, frames that were judged on forces predicted from the motion; in the others, moments, powers, flight, support and balance
+    /// were not checked.
+    pub frames_predicted: usize,
     /// Body mass used for the strength [kg].
     pub mass_kg: f64,
     /// Stature used for the strength [m].

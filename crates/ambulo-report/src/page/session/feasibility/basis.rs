@@ -3,14 +3,17 @@
 use crate::page::contract::PageSource;
 use crate::page::session::results::Results;
 use ambulo::analysis::LARGE_RESIDUAL_BW;
+use ambulo::analysis::feasibility::Verdict;
 
 /// Conditions that limit a verdict.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(in crate::page::session) struct Basis {
     /// No ground forces are known.
     pub(super) no_ground: bool,
-    /// Number of frames in which a foot may have been loaded off the plates, and of all frames.
-    pub(super) unmeasured: Option<[f64; 2]>,
+    /// Share of the frames in which a foot may have been loaded off the plates, and which were not judged.
+    pub(super) unmeasured: Option<f64>,
+    /// Share of such frames that were judged on predicted forces.
+    pub(super) predicted: Option<f64>,
     /// Residual force as a share of body weight, if it is large.
     pub(super) residual_bw: Option<f64>,
 }
@@ -18,12 +21,15 @@ pub(in crate::page::session) struct Basis {
 impl Basis {
     /// For a recording or a walk.
     pub(in crate::page::session) fn of(results: &Results) -> Basis {
-        let unmeasured = results.summary.verdict.as_ref().filter(|verdict| verdict.frames_unmeasured > 0);
+        let verdict = results.summary.verdict.as_ref();
+        let share = |frames: fn(&Verdict) -> usize| {
+            verdict.map(|v| frames(v) as f64 / v.frames.max(1) as f64).filter(|share| *share > 0.0)
+        };
         let residual_bw = results.summary.residual.as_ref().map(|residual| residual.force_rms_bw);
         Basis {
             no_ground: results.source == PageSource::None,
-            unmeasured: unmeasured
-                .map(|verdict| [verdict.frames_unmeasured, verdict.frames].map(|frames| frames as f64)),
+            unmeasured: share(|verdict| verdict.frames_unmeasured.saturating_sub(verdict.frames_predicted)),
+            predicted: share(|verdict| verdict.frames_predicted),
             // The residual of measured forces does not apply to predicted forces.
             residual_bw: residual_bw
                 .filter(|share| results.source == PageSource::Measured && *share > LARGE_RESIDUAL_BW),
@@ -32,19 +38,19 @@ impl Basis {
 
     /// The limits of a verdict, as the end of a sentence; `None` if there are none.
     pub(super) fn limits(&self) -> Option<String> {
-        let unmeasured = self.unmeasured.map(|[unmeasured, all]| {
-            let part = percent(unmeasured / all);
-            format!(
-                "{part} of the time was not judged, because a foot may have been on the ground outside the force plates"
-            )
-        });
+        let reason = "because a foot may have been on the ground outside the force plates";
+        let unmeasured =
+            self.unmeasured.map(|share| format!("{} of the time was not judged, {reason}", percent(share)));
+        let predicted = self
+            .predicted
+            .map(|share| format!("{} of the time was judged on predicted forces, {reason}", percent(share)));
         let residual = self.residual_bw.map(|share| {
             let percent = 100.0 * share;
             format!(
                 "the residual force is {percent:.0} % of body weight: motion, forces and body are not consistent, so do not rely on the moments"
             )
         });
-        [unmeasured, residual].into_iter().flatten().reduce(|first, second| format!("{first}; {second}"))
+        [unmeasured, predicted, residual].into_iter().flatten().reduce(|first, second| format!("{first}; {second}"))
     }
 }
 
