@@ -11,10 +11,10 @@ mod common;
 
 use ambulo::analysis::feasibility::{
     Check, CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, Hill, MotionAndForces, Person,
-    StrengthCurve, Thresholds, Verdict, VerdictState, check, check_frame,
+    PredictedForces, StrengthCurve, Thresholds, Verdict, VerdictState, check, check_frame,
 };
 use ambulo::analysis::{AnalysisSettings, analyse};
-use ambulo::dynamics::{Workspace, inverse};
+use ambulo::dynamics::{Forces, Workspace, inverse};
 use ambulo::findings::Findings;
 use ambulo::ground::{BodyForces, GroundForces};
 use ambulo::kinematics::{BodyMotion, Posture, Trajectory, body_motion};
@@ -498,9 +498,48 @@ fn too_long_a_flight_is_reported_with_its_duration() {
 fn frames_with_missing_forces_are_not_checked_and_reported() {
     let load = |i: usize, _: Side| Vec3::new(0.0, if (40..60).contains(&i) { 0.0 } else { HALF }, 0.0);
     let (verdict, findings) = judged(load, &Thresholds::default());
-    assert_eq!(verdict.state, VerdictState::Feasible, "{:?} {:?}", verdict.reasons, verdict.undecided);
+    assert_eq!(verdict.state, VerdictState::NotJudged, "{:?}", verdict.reasons);
     let text = &findings.as_slice()[0].message;
     assert!(text.contains("not checked in 20 of 101 frames (the first at 2.400 s)"), "{text}");
+}
+
+#[test]
+fn frames_without_measured_forces_are_judged_on_predicted_ones() {
+    let human = man();
+    let (model, trajectory) = (&human.model, still(&human, 101, &[]));
+    let center = mass_center(&human);
+    let with_load = |load: &dyn Fn(usize) -> f64| {
+        let bodies = Side::BOTH.map(|side| {
+            let sign = if side == Side::Right { 1.0 } else { -1.0 };
+            let at = Vec3::new(center.x, 0.0, sign * 0.5 * human.dimensions.hip_width);
+            let forces: Vec<Vec3> = (0..101).map(|i| Vec3::new(0.0, load(i), 0.0)).collect();
+            let moments: Vec<Vec3> = forces.iter().map(|f| at.cross(f)).collect();
+            let body = model.body(&format!("calcn_{}", side.letter())).unwrap();
+            BodyForces::on_level_ground(body, &forces, &moments, Vec3::y(), 0.0)
+        });
+        let ground = GroundForces { bodies: bodies.to_vec() };
+        let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
+        (ground, forces)
+    };
+    let judged = |measured: &(GroundForces, Forces), predicted: Option<&(GroundForces, Forces)>| {
+        let (ground, forces) = (&measured.0, &measured.1);
+        let predicted = predicted.map(|(ground, forces)| PredictedForces { ground, forces });
+        let evidence = MotionAndForces { model, trajectory: &trajectory, forces, ground, device: None, predicted };
+        check(&evidence, &Person::of_human(&human), &Thresholds::default(), &mut Findings::default())
+    };
+    let plates = with_load(&|i| if (40..60).contains(&i) { 0.0 } else { HALF });
+    let (whole, weak) = (with_load(&|_| HALF), with_load(&|_| 0.5 * HALF));
+    let verdict = judged(&plates, Some(&whole));
+    assert_eq!((verdict.state, verdict.frames_unmeasured, verdict.frames_predicted), (VerdictState::Feasible, 20, 20));
+    assert_near(verdict.judged_share, 1.0, 1e-12, "judged share");
+    assert_eq!(judged(&plates, None).state, VerdictState::NotJudged);
+    // A prediction that does not carry the body counts, in these frames only, and the reason names its origin.
+    let verdict = judged(&plates, Some(&weak));
+    assert_eq!(verdict.state, VerdictState::Infeasible);
+    let reason = verdict.reasons.iter().find(|reason| reason.check == Check::Support).unwrap();
+    assert!(reason.message.ends_with("the forces are predicted, because the plates do not cover this time"));
+    assert!(reason.time_s[0] > 2.399 && reason.time_s[1] < 2.601, "{:?}", reason.time_s);
+    assert_eq!(judged(&whole, Some(&weak)).state, VerdictState::Feasible);
 }
 
 #[test]
@@ -737,7 +776,14 @@ fn recorded_walks_are_feasible() {
     let Some(data) = data() else { return };
     for (name, subject) in walkers(&data) {
         let verdict = verdict(&subject, &Thresholds::default());
-        assert_eq!(verdict.state, VerdictState::Feasible, "{name}: {:?} {:?}", verdict.reasons, verdict.undecided);
+        // A foot of some recordings is off the plates for a while, and no prediction takes their place here.
+        assert!(verdict.reasons.is_empty(), "{name}: {:?}", verdict.reasons);
+        assert_eq!(
+            verdict.state == VerdictState::Feasible,
+            verdict.judged_share >= 0.9,
+            "{name}: {:?}",
+            verdict.undecided
+        );
         println!("{name}, {:.1} kg, {:.3} m", verdict.mass_kg, verdict.height_m);
         for c in &verdict.closest {
             println!(
@@ -795,7 +841,7 @@ fn three_times_the_mass_and_forces_exceed_the_strength() {
             }
         }
         // A person of that mass would be strong enough; this person (who could carry one more, as porters do) cannot carry two.
-        assert_eq!(verdict(&subject, &Thresholds::default()).state, VerdictState::Feasible, "{name}");
+        assert_eq!(verdict(&subject, &Thresholds::default()).reasons, [], "{name}");
         let (mass_kg, height_m) = (Some(person.mass_kg), Some(person.height_m));
         let found = verdict(&subject, &Thresholds { mass_kg, height_m, ..Thresholds::default() });
         assert_eq!(checks(&found), [Check::Strength], "{name}");

@@ -356,7 +356,7 @@ fn strikes_and_offs_alternate_in_any_motion() {
 
 #[test]
 fn recordings_of_a_few_frames_are_accepted() {
-    for frames in 0..5 {
+    for frames in 1..5 {
         let found = walk().cut(20..20 + frames).footfalls();
         assert!(found.falls.len() <= 2 && found.events().len() <= 1, "{frames}: {found:?}");
     }

@@ -150,7 +150,7 @@ fn people_rather_lengthen_the_step() {
 #[test]
 fn a_scale_that_no_joint_can_follow_is_an_error_that_names_joint_and_knot() {
     let mut gait = Gait::named("standard").unwrap();
-    gait.pace.length_scale = 4.0;
+    (gait.pace.length_scale, gait.pace.cadence_scale) = (4.0, 0.5);
     let error = Walk::new(&gait, LEG, &mut Findings::default()).unwrap_err();
     assert!(matches!(error, GaitError::Curve { joint: "hip", .. }), "{error}");
     let text = error.to_string();
