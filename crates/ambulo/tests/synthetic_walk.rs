@@ -195,7 +195,10 @@ fn invalid_settings_are_rejected() {
     let refused =
         |order: SyntheticWalkSettings<'_>| synthesise(&order, &mut Findings::default()).unwrap_err().to_string();
     let good = order(&gait, MAN, SyntheticMode::Corrected);
-    assert_eq!(refused(SyntheticWalkSettings { cycles: 0, ..good }), "found 0 cycles; expected 1 to 1000");
+    assert_eq!(
+        refused(SyntheticWalkSettings { cycles: 0, ..good }),
+        "found 0 cycles; expected 1 to 1000, because a walk repeats its cycles"
+    );
     for rate_hz in [0.0, -100.0, f64::NAN, 1e9] {
         assert!(refused(SyntheticWalkSettings { rate_hz, ..good }).contains("Hz; expected 20 to 5000 Hz"), "{rate_hz}");
     }
