@@ -20,6 +20,10 @@ const LEAST_JUDGED_SHARE: f64 = 0.9;
 const DECISIVE_RESIDUAL_BW: f64 = 0.2;
 /// Filters and splines have no neighbours on one side of the first and last frames, so these are not judged [s].
 const EDGE_S: f64 = 0.1;
+/// Measured forces that carry the body in a smaller share of the frames are not those of this motion, and no prediction takes their place.
+const LEAST_MEASURED_SHARE: f64 = 0.1;
+/// A foot leaves the edge of a force plate within this time [s].
+const STEP_OFF_S: f64 = 0.15;
 
 /// A recorded or synthetic motion with its forces.
 #[derive(Debug, Clone, Copy)]
@@ -197,6 +201,13 @@ impl Coverage {
                 100.0 * LEAST_JUDGED_SHARE
             ));
         }
+        let measured = self.judged_as_given as f64 / self.counted.max(1) as f64;
+        if !motion.ground.bodies.is_empty() && self.counted > 0 && measured < LEAST_MEASURED_SHARE {
+            list.push(format!(
+                "the measured ground forces carry the body in {:.0} % of the frames; they may not be those of this motion",
+                100.0 * measured
+            ));
+        }
         let residual_bw = (self.residual_n2 / self.judged_as_given.max(1) as f64).sqrt() / limits.weight;
         if residual_bw > DECISIVE_RESIDUAL_BW {
             list.push(format!(
@@ -258,19 +269,19 @@ fn measure(
 /// Frames in which no ground force is missing. A foot that steps off a force plate leaves a part of its load there: a lack of support that
 /// begins or ends with missing forces has the same cause.
 fn covered(motion: &MotionAndForces<'_>, given: &mut FrameReader<'_>, limits: &FeasibilityLimits) -> Vec<bool> {
-    let (mut covered, mut lacking) = (Vec::new(), Vec::new());
+    let (mut covered, mut lacking): (Vec<bool>, Vec<bool>) = (Vec::new(), Vec::new());
     each_body_motion(motion.model, motion.trajectory, |i, bodies| {
         let frame = given.frame(i, bodies);
         covered.push(limits.support_is_known(&frame));
         lacking.push(limits.lacks_support(&frame));
     });
-    for i in 1..covered.len() {
-        covered[i] &= covered[i - 1] || !lacking[i];
-    }
-    for i in (1..covered.len()).rev() {
-        covered[i - 1] &= covered[i] || !lacking[i - 1];
-    }
-    covered
+    let most = (STEP_OFF_S / motion.trajectory.grid().step_s) as usize;
+    let known = covered.clone();
+    let gap_near = |i: usize| {
+        let before = (0..=i).rev().take(most + 1).take_while(|k| !known[*k] || lacking[*k]).any(|k| !known[k]);
+        before || (i..known.len()).take(most + 1).take_while(|k| !known[*k] || lacking[*k]).any(|k| !known[k])
+    };
+    (0..known.len()).map(|i| known[i] && !(lacking[i] && gap_near(i))).collect()
 }
 
 /// Gives the frames of a motion with forces.
