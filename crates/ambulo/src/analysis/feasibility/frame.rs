@@ -145,10 +145,10 @@ impl FeasibilityLimits {
             || !Side::BOTH.into_iter().any(|side| self.may_be_on_unmeasured_ground(frame, side))
     }
 
-    /// Whether a foot is unloaded, near the ground and slow: it may be in contact outside the force plates.
+    /// Whether a foot is unloaded, near the ground and slow: it may be in contact outside the force plates. A force that pulls down is measured.
     fn may_be_on_unmeasured_ground(&self, frame: &Frame<'_>, side: Side) -> bool {
         let carried = frame.feet[side].map_or(0.0, |foot| foot.force.dot(&self.up));
-        if carried > CENTER_OF_PRESSURE_LOAD_N {
+        if carried.abs() > CENTER_OF_PRESSURE_LOAD_N {
             return false;
         }
         let Some(sole) = &self.person.soles[side] else { return frame.feet[side].is_none() };
