@@ -280,10 +280,9 @@ fn from_and_to_cut_the_range_without_changing_a_number() {
     bench.forces(&["--from", "2", "--to", "1"]).refused(&["--from 2 is after --to 1"]);
     bench.forces(&["--cutoff", "80"]).refused(&["cut-off is 80 Hz", "hint: "]);
     // With 1e-308 Hz the filtered forces were not finite, and the verdict was feasible.
-    for option in ["--cutoff", "--force-cutoff"] {
-        for cutoff in ["1e-308", "1e-9", "0.09"] {
-            bench.forces(&[option, cutoff]).refused(&["cut-off is", "allowed are 0.1 Hz, because", "below 50 Hz"]);
-        }
+    for cutoff in ["1e-308", "1e-9", "0.09"] {
+        bench.forces(&["--cutoff", cutoff]).refused(&["cut-off is", "allowed are 0.1 Hz, because", "below 50 Hz"]);
+        bench.forces(&["--force-cutoff", cutoff]).refused(&["--force-cutoff", "expected a frequency from 1 to 500 Hz"]);
     }
     bench.forces(&["--from", "-1e308"]).refused(&["starts or ends at -1e308 s", "near the recording", "--from"]);
     bench.forces(&["--order", "0"]).refused(&["expected a whole number from 1 to 8"]);

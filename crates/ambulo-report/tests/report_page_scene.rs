@@ -100,7 +100,7 @@ fn the_verdict_of_a_walker_is_marked_on_its_panel() {
     let red = shown.panel("hip_flexion_moment")["red"].as_array().unwrap();
     assert_eq!((red.len(), red[0]["sentence"].as_str()), (1, Some("ann: the hip needs 300 N.m")));
     let feasibility = &shown.session()["feasibility"];
-    assert_eq!(feasibility["feasible"], false);
+    assert_eq!(feasibility["state"], "infeasible");
     assert_eq!(feasibility["closest"]["rows"][0][1]["text"], "ann: left hip flexion moment");
     assert_eq!(feasibility["closest"]["rows"][0][6]["outside"], true);
     let facts = shown.session()["quality"]["facts"].as_array().unwrap();
