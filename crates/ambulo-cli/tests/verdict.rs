@@ -75,7 +75,8 @@ fn plates_without_a_load_are_not_called_feasible() {
     assert!(run.stdout.contains("  verdict   not judged: "), "{}", run.stdout);
     let verdict = bench.json("out/summary.json")["verdict"].clone();
     assert_eq!(verdict["state"], "not_judged");
-    assert!(verdict["judged_share"].as_f64().unwrap() < 0.9 && !verdict["undecided"].as_array().unwrap().is_empty());
+    let why = verdict["undecided"].to_string();
+    assert!(why.contains("carry the body in 0 % of the frames"), "{why}");
 }
 
 #[test]
