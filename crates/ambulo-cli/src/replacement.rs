@@ -181,7 +181,7 @@ fn replace(
     let files = written.iter().map(|file| file.name.clone()).collect();
     let manifest = Manifest { files, removed };
     if let Err(error) = stage(disk, folder, written, &manifest) {
-        // What remains is removed by the next command.
+        // The next command removes the rest.
         let _ = disk.remove_dir(&folder.join(NEW));
         return Err(error.context(format!("{}: no results were written; earlier ones are unchanged", folder.display())));
     }
@@ -237,7 +237,7 @@ fn finish(disk: &impl Changes, folder: &Path, manifest: &Manifest) -> Result<()>
         let _ = fs::remove_dir(folder.join(parent));
     }
     disk.sync_dir(folder);
-    // All results are in place; what remains is removed by the next command.
+    // All results are in place; the next command removes the rest.
     let _ = disk.remove_file(&new.join(MANIFEST)).and_then(|()| disk.remove_dir(&new));
     Ok(())
 }

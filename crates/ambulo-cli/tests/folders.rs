@@ -217,7 +217,7 @@ fn files_of_two_runs_are_refused_by_every_command_that_reads_them() {
     bench.run(&["view", "out"]).refused(&mixed);
     bench.run(&["view", "out/report.html"]).refused(&mixed);
     bench.write("out/report.html", page);
-    // What a command does not need may be deleted or drawn over.
+    // Files that a command does not need may be deleted or changed.
     bench.write("out/figures/energy.svg", "drawn over");
     bench.run(&["view", "out"]).done();
     fs::remove_dir_all(bench.folder.join("out/figures")).unwrap();

@@ -18,7 +18,7 @@ use std::any::TypeId;
 use std::path::{Path, PathBuf};
 use workbench::{Run, Workbench};
 
-/// Values that nobody means, and some that somebody could mean.
+/// Extreme values that are typing errors, and some that are plausible.
 const VALUES: [&str; 39] = [
     "0",
     "-0",

@@ -95,7 +95,7 @@ fn paces_that_nobody_walks_with_are_refused_with_the_range_and_its_reason() {
     assert!(error.starts_with("resulting speed [m/s]: found 0.00"), "{error}");
     let error = message(&|pace| pace.length_scale = 1e-9).unwrap_err();
     assert_eq!(error, "factor on the step length: found 1e-9; expected a factor from 0.1 to 10");
-    // What people and children walk with is allowed, and the bounds themselves.
+    // The values of adults and children are allowed, and so are the bounds.
     for walked in
         [speed(0.05), speed(0.1), speed(2.5), speed(5.0), length(0.15), length(1.2), cadence(40.0), cadence(180.0)]
     {

@@ -58,7 +58,7 @@ pub(crate) struct ReplaceArgs {
     force: bool,
 }
 
-/// What happens to a file that is in the way and that no earlier run recorded as its own.
+/// How to treat an existing file that no earlier run recorded as its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Existing {
     /// It stays, and nothing is written.

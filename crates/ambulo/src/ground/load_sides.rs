@@ -6,19 +6,16 @@
 
 use super::measured::{center_of_pressure, surface_height};
 use super::phases::contacts_from_force;
+use super::plates::{FARTHEST_M, VIBRATION};
 use super::upward;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{ForceRecording, TimeGrid};
-use crate::spatial::Vec3;
+use crate::spatial::{Vec3, level_distance};
 
-/// Largest distance of a foot from its centre of pressure [m].
-const FARTHEST_M: f64 = 0.2;
 /// Largest distance of the lower end of a sole from the surface that carries it [m].
 const OFF_SURFACE_M: f64 = 0.1;
-/// Loads whose peak is below this share of the largest one are vibration.
-const VIBRATION: f64 = 0.05;
 
 /// Rear and tip of both soles over time.
 pub(crate) struct FootPaths {
@@ -105,10 +102,7 @@ impl FootPaths {
 
     /// Distance along the ground, and by how much the foot is too high or too low for the surface [m].
     fn distance(&self, [rear, tip]: &[Vec3; 2], center: Vec3) -> f64 {
-        let level = |v: Vec3| v - self.up * v.dot(&self.up);
-        let (along, to) = (level(tip - rear), level(center - rear));
-        let share = (to.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         let above = (rear - center).dot(&self.up).min((tip - center).dot(&self.up));
-        (to - along * share).norm().hypot((above.abs() - OFF_SURFACE_M).max(0.0))
+        level_distance(center, [*rear, *tip], self.up).hypot((above.abs() - OFF_SURFACE_M).max(0.0))
     }
 }

@@ -197,7 +197,7 @@ pub enum ModelError {
     },
     /// A point mass that is too heavy for a person.
     #[error(
-        "a mass of {} kg on `{body}`; expected at most {most_kg:.0} kg, five times the mass of the model, because nobody walks with more", Shown(*found_kg)
+        "a mass of {} kg on `{body}`; expected at most {most_kg:.0} kg, five times the mass of the model, because no person carries more", Shown(*found_kg)
     )]
     PointMass {
         /// The body that should carry it.
@@ -221,7 +221,7 @@ pub enum ModelError {
     },
 }
 
-/// Largest point mass, in masses of the model: nobody walks with more.
+/// Largest point mass as a multiple of the mass of the model: no person carries more.
 const MOST_BODY_MASSES: f64 = 5.0;
 /// Largest distance of a point mass from the origin of its body [m].
 const FARTHEST_POINT_MASS_M: f64 = 5.0;

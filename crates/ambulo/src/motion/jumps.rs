@@ -15,7 +15,7 @@ const AROUND: usize = 5;
 /// Fewer changes than this around a change do not show what is usual.
 const ENOUGH_AROUND: usize = 4;
 
-/// What a jump is for one kind of coordinate.
+/// Limits above which a change between two frames is a jump, for one kind of coordinate.
 struct Limits {
     /// Fastest movement of a person [rad/s or m/s].
     fastest: f64,

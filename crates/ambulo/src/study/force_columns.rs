@@ -1,8 +1,8 @@
 //! Finds the loads in a force table by the names of its columns.
 //!
 //! A load is a force, a point and a moment of three columns each, whose names differ in one word: `ground_force_vx`, `ground_force_px`,
-//! `ground_torque_x`; `ground_force_2_vx`, `ground_force_2_px`, `ground_force_2_mx`; `1_ground_force_vx`; `R_ground_force_vx`. What remains
-//! of a name without these words is the load's own: a number, a side in any spelling, or nothing.
+//! `ground_torque_x`; `ground_force_2_vx`, `ground_force_2_px`, `ground_force_2_mx`; `1_ground_force_vx`; `R_ground_force_vx`. Without these
+//! words, a name holds what belongs to this load alone: a number, a side in any spelling, or nothing.
 //! Pinned by: ambulo-cli/tests/plates.rs
 
 use crate::model::Side;
@@ -12,7 +12,7 @@ use ambulo_formats::table::Table;
 /// The columns of one load.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LoadColumns {
-    /// What distinguishes the load: a number, a side, or nothing.
+    /// The part of the names that only this load has: a number, a side, or nothing.
     pub(super) key: String,
     /// The side that the names state.
     pub(super) side: Option<Side>,
@@ -23,7 +23,7 @@ pub(super) struct LoadColumns {
     moment: Option<String>,
 }
 
-/// What three columns hold.
+/// The quantity of three columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Force,

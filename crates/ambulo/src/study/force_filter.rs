@@ -3,11 +3,11 @@
 //! - **Walking**: 25 Hz. Plates record frequencies that markers lose. At the 6 Hz of the motion, hip and knee moments after foot strike are
 //!   too small; the loss is larger than the artefact of unequal filters (docs/PLUG_IN_GAIT.md has the comparison).
 //! - **Running, jumps and landings**: as the motion, at least 8 Hz. At impacts a force that is sharper than the accelerations makes peaks of
-//!   hip and knee moments that the person did not make (Bisseling and Hof 2006, Kristianslund 2012). 6 Hz would take 5 % of the peak
+//!   hip and knee moments that the person did not make (Bisseling and Hof 2006, Kristianslund 2012; unverified). 6 Hz would take 5 % of the peak
 //!   force of a run, 8 Hz takes 1 %.
 //!
 //! The movement is a run, jump or landing if the feet together carry more than 1.8 times the body weight; walks on level ground and stairs
-//! stay below 1.6.
+//! stay below 1.6 (unverified for stairs).
 //! Pinned by: tests/force_filter.rs
 
 use crate::ground::upward;
@@ -40,7 +40,7 @@ const SHORTEST_IMPACT_S: f64 = 0.02;
 const HIGHEST_SHARE: f64 = 0.4;
 
 impl ForceFilter {
-    /// The filter for these measured forces and a motion that is smoothed so.
+    /// The filter for these measured forces and the smoothing of the motion.
     pub(super) fn of(self, model: &Model, forces: &[ForceRecording], smoother: Smoother) -> Option<LowPass> {
         let motion = match (self, smoother) {
             (ForceFilter::LowPass(filter), _) => return Some(filter),
@@ -55,7 +55,7 @@ impl ForceFilter {
     }
 }
 
-/// Whether the feet together carry what they do not carry in walking.
+/// Whether the feet together carry a load that does not occur in walking.
 fn has_impacts(model: &Model, forces: &[ForceRecording]) -> bool {
     let Some(first) = forces.first() else { return false };
     let Some(grid) = TimeGrid::spanning(&first.times) else { return false };

@@ -10,7 +10,7 @@ use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
 use crate::kinematics::BodyMotion;
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, CoordinateId, CoordinateKind, Drive, Model, Side};
-use crate::spatial::{Vec3, Wrench};
+use crate::spatial::{Vec3, Wrench, level_distance};
 
 /// A sole point lower than this above the ground [m] ...
 const NEAR_GROUND_M: f64 = 0.06;
@@ -313,16 +313,9 @@ fn share(value: f64, limit: f64) -> f64 {
 
 /// Horizontal distance of a point from the line along the sole [m].
 fn distance_to_line(limits: &FeasibilityLimits, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
-    let level = |v: Vec3| v - limits.up * v.dot(&limits.up);
-    let points = sole.points.map(|p| level(frame.bodies[p.body.index()].pose.place(p.place)));
-    let place = level(place);
-    let to_part = |a: Vec3, b: Vec3| {
-        let along = b - a;
-        let length = along.norm_squared();
-        let share = if length > 0.0 { ((place - a).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
-        (place - a - along * share).norm()
-    };
-    to_part(points[0], points[1]).min(to_part(points[1], points[2]))
+    let [rear, ball, tip] = sole.points.map(|p| frame.bodies[p.body.index()].pose.place(p.place));
+    let to_part = |part: [Vec3; 2]| level_distance(place, part, limits.up);
+    to_part([rear, ball]).min(to_part([ball, tip]))
 }
 
 /// Horizontal speed of the foot's material at a point relative to the ground [m/s]: of the toes if the tip is nearest, else of the foot.

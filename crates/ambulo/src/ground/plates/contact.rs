@@ -1,14 +1,12 @@
 //! Assigns one contact to a foot and decides how much of the foot's load the plate measured.
 
 use super::feet::{Feet, OVER_EDGE_M};
-use super::{ContactQuality, PlateContact};
+use super::{ContactQuality, FARTHEST_M, PlateContact};
 use crate::ground::phases::{Contact, contacts_from_force};
 use crate::model::Side;
 use crate::motion::PlateRecording;
 use crate::numerics::median;
 
-/// Largest distance of a foot from its centre of pressure [m].
-const FARTHEST_M: f64 = 0.2;
 /// Force and motion show the same strike or off if they differ by less than this [s]: errors of events from motion reach 0.06.
 const SAME_EVENT_S: f64 = 0.1;
 /// A second foot on a plate for less than this is an error of its events [s].

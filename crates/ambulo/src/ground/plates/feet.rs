@@ -3,7 +3,7 @@
 use super::super::foot_motion::FootMotion;
 use crate::model::Side;
 use crate::motion::{Landmarks, MarkerRecording, PlateRecording};
-use crate::spatial::Vec3;
+use crate::spatial::{Vec3, level_distance};
 
 /// The foot reaches this share of the distance from heel to toe marker beyond the toe marker.
 const BEYOND_TOE: f64 = 0.2;
@@ -45,11 +45,8 @@ impl Feet<'_> {
     pub(super) fn distance(&self, side: Side, point: Vec3, plate: &PlateRecording, time_s: f64) -> Option<f64> {
         let line = self.line(side, time_s)?;
         let [heel, toe] = line;
-        let level = |v: Vec3| v - plate.up * v.dot(&plate.up);
-        let along = level(toe - heel) * (1.0 + BEYOND_TOE);
-        let to = level(point - heel);
-        let share = (to.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        Some((to - along * share).norm().hypot(off_level_m(&line, plate)))
+        let foot = [heel, heel + (toe - heel) * (1.0 + BEYOND_TOE)];
+        Some(level_distance(point, foot, plate.up).hypot(off_level_m(&line, plate)))
     }
 
     /// Whether the foot is over the plate, at the height of a foot that stands on it.

@@ -24,7 +24,9 @@ use crate::motion::{ForceRecording, Landmarks, MarkerRecording, PlateRecording};
 use crate::spatial::Vec3;
 
 /// Contacts whose peak is below this share of the largest peak of all plates are vibration.
-const VIBRATION: f64 = 0.05;
+pub(super) const VIBRATION: f64 = 0.05;
+/// Largest distance of a foot from its centre of pressure [m].
+pub(super) const FARTHEST_M: f64 = 0.2;
 
 /// How much of a foot's load a plate measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
