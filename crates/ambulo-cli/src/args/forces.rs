@@ -22,8 +22,8 @@ were not measured, they are predicted from the motion; with --predict, the predi
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
 clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body
-used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict and force plates grf_measured.mot. The results of an earlier run in DIR are replaced as a whole;
-other files stay. docs/OUTPUTS.md describes the files.
+used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict and force plates grf_measured.mot. The
+results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files.
 
 The verdict says whether a person could make this motion (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
 residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the motion

@@ -11,8 +11,7 @@ use std::path::PathBuf;
 
 Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, shapes.json, summary.json, report.html
 (open it with `ambulo view DIR`); moments.sto if the scene has figures; figures/*.svg with --plot. Files that would be empty are not
-written. The results of an earlier run in DIR are replaced as a whole;
-other files stay. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]
+written. The results of an earlier run in DIR are replaced as a whole; other files stay. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]
 pub(crate) struct SimulateArgs {
     /// The scene (.toml).
     pub(crate) scene: PathBuf,
@@ -88,8 +87,8 @@ pub(crate) struct CompareArgs {
 The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking. Files written to DIR: report.html (all results on one
 page; open it with `ambulo view DIR`), claims.json (each claim with the numbers computed, whether it holds, and why), figures/figure1 to
 figure7 as .svg and .csv, muscles.csv (what net moments imply about muscles), torques.csv and torques.toml (torque curves as harmonics),
-assumptions.csv (values that the paper does not give, and how other values change its claims). The results of an earlier run in DIR are replaced as a whole;
-other files stay. docs/REPRODUCTION.md describes the files.
+assumptions.csv (values that the paper does not give, and how other values change its claims). The results of an earlier run in DIR are
+replaced as a whole; other files stay. docs/REPRODUCTION.md describes the files.
 
 Exit code: 0 whether or not claims hold, 2 if nothing could be computed.")]
 pub(crate) struct ReproduceArgs {

@@ -40,8 +40,8 @@ Two of --speed, --step-length and --cadence determine the third. With one of the
 and cadence to speed (docs/GAITS.md, which also describes gait files). In both cases the gait's own values are ignored.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The results of an earlier run in DIR are replaced as a whole;
-other files stay. docs/OUTPUTS.md describes the files.
+clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The
+results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files.
 
 The verdict says whether a person could make this motion (docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could
 be computed; with --check, 1 if the motion is infeasible.")]

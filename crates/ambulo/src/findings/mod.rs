@@ -114,3 +114,12 @@ impl Findings {
         self.list.iter().any(|f| f.code == code)
     }
 }
+
+/// The end of a message that names the first of several occurrences.
+pub(crate) fn and_more_times(occurrences: usize) -> String {
+    match occurrences {
+        0 | 1 => String::new(),
+        2 => " and once more".to_owned(),
+        _ => format!(" and {} more times", occurrences - 1),
+    }
+}

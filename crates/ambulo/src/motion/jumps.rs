@@ -1,7 +1,7 @@
 //! Jumps in recorded coordinates: whole turns of angles are removed, others are reported.
 
 use super::recording::Motion;
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Findings, and_more_times};
 use crate::model::{CoordinateKind, Model};
 use crate::numerics::median;
 use std::f64::consts::{PI, TAU};
@@ -33,7 +33,7 @@ pub(super) fn without_whole_turns(model: &Model, motion: &mut Motion, findings: 
                 "`{}` jumps by a whole turn {}{}; the turns were removed",
                 coordinate.name,
                 place(&motion.times, first),
-                more(turns.len())
+                and_more_times(turns.len())
             );
             findings.report(Code::MotionUnwrapped, message);
         }
@@ -56,7 +56,7 @@ pub(super) fn report_jumps(model: &Model, motion: &Motion, findings: &mut Findin
                 "`{}` jumps by {change:.3} {unit} {}{}; its rate, and the forces, are wrong there. hint: correct these frames, or leave them out",
                 coordinate.name,
                 place(&motion.times, first),
-                more(jumps.len())
+                and_more_times(jumps.len())
             );
             findings.report(Code::MotionJump, message);
         }
@@ -65,14 +65,6 @@ pub(super) fn report_jumps(model: &Model, motion: &Motion, findings: &mut Findin
 
 fn place(times: &[f64], frame: usize) -> String {
     format!("between frames {} and {} ({:.4} s)", frame, frame + 1, times[frame])
-}
-
-fn more(count: usize) -> String {
-    match count {
-        0 | 1 => String::new(),
-        2 => " and once more".to_owned(),
-        _ => format!(" and {} more times", count - 1),
-    }
 }
 
 /// Removes whole turns; returns the frames where they began. Most of the angles keep their values.

@@ -3,7 +3,7 @@
 use super::error::StudyError;
 use super::force_columns::{LoadColumns, load_columns};
 use super::source::ForceTable;
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Findings, and_more_times};
 use crate::ground::{FootPaths, LoadedSpan};
 use crate::kinematics::Trajectory;
 use crate::model::anatomy::Sole;
@@ -114,7 +114,7 @@ impl Walker<'_> {
             let Some(first) = wrong.first() else { continue };
             let when = match wrong.len() == spans.len() {
                 true => String::new(),
-                false => format!(" from {:.3} to {:.3} s{}", first.span[0], first.span[1], more(wrong.len())),
+                false => format!(" from {:.3} to {:.3} s{}", first.span[0], first.span[1], and_more_times(wrong.len())),
             };
             let (name, body) = (&force.name, &self.model.bodies()[force.body.index()].name);
             let message = format!(
@@ -127,10 +127,6 @@ impl Walker<'_> {
             findings.report(Code::LoadsUnderOtherFoot, message);
         }
     }
-}
-
-fn more(count: usize) -> String {
-    if count > 1 { format!(" and {} more times", count - 1) } else { String::new() }
 }
 
 fn ordinal(index: usize) -> String {
