@@ -25,8 +25,6 @@ struct Step {
     name: &'static str,
     tool: Tool,
     arguments: &'static [&'static str],
-    /// Arguments of a second command of the same tool that runs at the same time; its output follows that of the first.
-    second: Option<&'static [&'static str]>,
     /// Set for this step alone.
     variable: Option<(&'static str, &'static str)>,
     /// What to do when it fails.
@@ -41,7 +39,6 @@ const STEPS: [Step; 11] = [
         name: "format",
         tool: Tool::Cargo,
         arguments: &["fmt", "--all", "--", "--check"],
-        second: None,
         variable: None,
         hint: "run `cargo fmt --all`",
     },
@@ -49,7 +46,6 @@ const STEPS: [Step; 11] = [
         name: "lints",
         tool: Tool::Cargo,
         arguments: &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
-        second: None,
         variable: None,
         hint: "mend what clippy names, or say why not with #[expect(.., reason = \"..\")]; if it asks for an update of Cargo.lock, run `cargo build` and commit the lock file",
     },
@@ -57,7 +53,6 @@ const STEPS: [Step; 11] = [
         name: "house",
         tool: Tool::Xtask,
         arguments: &["house"],
-        second: None,
         variable: None,
         hint: "`cargo xtask house` repeats this step",
     },
@@ -65,17 +60,14 @@ const STEPS: [Step; 11] = [
         name: "test programs",
         tool: Tool::Cargo,
         arguments: &["test", "--workspace", "--locked", "--no-run"],
-        second: None,
         variable: None,
         hint: "mend what the compiler names",
     },
     Step {
         name: "tests",
         tool: Tool::Cargo,
-        // Two halves at once, because many test programs wait for one long test. What a test measured or skipped is worth seeing when it
-        // passes, too.
-        arguments: &["test", "--workspace", "--locked", "--lib", "--bins", "--test", "[a-r]*", "--", "--show-output"],
-        second: Some(&["test", "--workspace", "--locked", "--test", "[s-z]*", "--", "--show-output"]),
+        // What a test measured or skipped is worth seeing when it passes, too.
+        arguments: &["test", "--workspace", "--locked", "--all-targets", "--", "--show-output"],
         variable: None,
         hint: "run the failing test alone with `cargo test --package NAME TEST`; `cargo test --workspace` runs all",
     },
@@ -83,7 +75,6 @@ const STEPS: [Step; 11] = [
         name: "examples in comments",
         tool: Tool::Cargo,
         arguments: &["test", "--workspace", "--locked", "--doc"],
-        second: None,
         variable: None,
         hint: "run the failing example alone with `cargo test --package NAME --doc EXAMPLE`",
     },
@@ -91,7 +82,6 @@ const STEPS: [Step; 11] = [
         name: "documentation",
         tool: Tool::Cargo,
         arguments: &["doc", "--workspace", "--no-deps", "--locked"],
-        second: None,
         variable: Some(("RUSTDOCFLAGS", "-D warnings")),
         hint: "mend what rustdoc names; `RUSTDOCFLAGS=\"-D warnings\" cargo doc --no-deps` repeats this step",
     },
@@ -99,7 +89,6 @@ const STEPS: [Step; 11] = [
         name: "32-bit target",
         tool: Tool::CargoForWasm,
         arguments: &["build", "--package", "ambulo", "--target", WASM, "--locked"],
-        second: None,
         // Unoptimised: the build is only to succeed.
         variable: Some(("CARGO_PROFILE_DEV_OPT_LEVEL", "0")),
         hint: "the library has to build where `usize` has 32 bits and without a file system, clock or threads",
@@ -108,7 +97,6 @@ const STEPS: [Step; 11] = [
         name: "viewer's packages",
         tool: Tool::Npm,
         arguments: &["ci", "--no-audit", "--no-fund"],
-        second: None,
         variable: None,
         hint: "`npm ci` in viewer/ needs the package registry; package-lock.json must agree with package.json",
     },
@@ -116,7 +104,6 @@ const STEPS: [Step; 11] = [
         name: "viewer",
         tool: Tool::Npm,
         arguments: &["run", "check"],
-        second: None,
         variable: None,
         hint: "mend what the linter, the compiler or a test names; `npm run build` in viewer/ makes the bundle anew",
     },
@@ -124,7 +111,6 @@ const STEPS: [Step; 11] = [
         name: "pages in a browser",
         tool: Tool::Npm,
         arguments: &["run", "e2e"],
-        second: None,
         variable: None,
         hint: "`npm run e2e` in viewer/ repeats this step with the `ambulo` that cargo built last",
     },
@@ -144,7 +130,6 @@ const LONG_STEPS: [Step; 4] = [
             "--example",
             "replay",
         ],
-        second: None,
         variable: None,
         hint: "the last file that is printed is the one that fails",
     },
@@ -152,15 +137,13 @@ const LONG_STEPS: [Step; 4] = [
         name: "sweep",
         tool: Tool::Xtask,
         arguments: &["sweep"],
-        second: None,
         variable: None,
         hint: "each line above is a command that failed and what it printed last",
     },
     Step {
         name: "all numbers of all options",
         tool: Tool::Cargo,
-        arguments: &["test", "--locked", "--package", "ambulo-cli", "--test", "option_sweep", "--", "--show-output"],
-        second: None,
+        arguments: &["test", "--locked", "--package", "ambulo-cli", "option_sweep", "--", "--show-output"],
         variable: Some(("AMBULO_SWEEP", "all")),
         hint: "the failing test names the command and its options; the range of a number belongs in the library",
     },
@@ -168,7 +151,6 @@ const LONG_STEPS: [Step; 4] = [
         name: "benchmark",
         tool: Tool::Xtask,
         arguments: &["bench"],
-        second: None,
         variable: None,
         hint: "`cargo xtask bench` repeats this step",
     },
@@ -194,9 +176,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
             println!("{head}: skipped: {lacking} is not installed");
             continue;
         }
-        for arguments in std::iter::once(step.arguments).chain(step.second) {
-            println!("{head}: {} {}", step.tool.word(), arguments.join(" "));
-        }
+        println!("{head}: {} {}", step.tool.word(), step.arguments.join(" "));
         let step_start = Instant::now();
         run_step(step)?;
         println!("{head}: {:.1} s", step_start.elapsed().as_secs_f64());
@@ -266,27 +246,11 @@ fn debug_program() -> PathBuf {
     workspace::target().join("debug").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX))
 }
 
-#[expect(clippy::print_stdout, reason = "what a command printed is the step's result")]
 fn run_step(step: &Step) -> Result<(), String> {
     let cannot = |e: std::io::Error| format!("{}: {} cannot start: {e}", step.name, step.tool.word());
-    let command = |arguments: &[&str]| {
-        let mut command = step.tool.command();
-        command.args(arguments).envs(step.variable);
-        command
-    };
-    let second = step.second.map(|arguments| {
-        let mut second = command(arguments);
-        std::thread::spawn(move || second.output())
-    });
-    let mut statuses = vec![command(step.arguments).status().map_err(cannot)?];
-    if let Some(second) = second {
-        let ended =
-            second.join().map_err(|_| format!("{}: the second command was lost", step.name))?.map_err(cannot)?;
-        println!("{}{}", String::from_utf8_lossy(&ended.stderr), String::from_utf8_lossy(&ended.stdout));
-        statuses.push(ended.status);
+    let status = step.tool.command().args(step.arguments).envs(step.variable).status().map_err(cannot)?;
+    if status.success() {
+        return Ok(());
     }
-    match statuses.into_iter().find(|status| !status.success()) {
-        None => Ok(()),
-        Some(status) => Err(format!("the step `{}` failed ({status})\nhint: {}", step.name, step.hint)),
-    }
+    Err(format!("the step `{}` failed ({status})\nhint: {}", step.name, step.hint))
 }

@@ -1,10 +1,6 @@
 //! Mistakes of users: each gives a clear message and exit code 2, or a finding, and never a panic.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod workbench;
-
+use crate::workbench::{FORCES, INPUT, RAW, Workbench, demo_input};
 use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::from_osim;
@@ -16,7 +12,6 @@ use ambulo_formats::table::Table;
 use ambulo_report::figure_files;
 use ambulo_results::output_files;
 use std::time::Duration;
-use workbench::{FORCES, INPUT, RAW, Workbench, demo_input};
 
 #[test]
 fn a_missing_file_is_named_once_with_a_hint() {

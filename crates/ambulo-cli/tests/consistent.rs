@@ -1,12 +1,8 @@
 //! `ambulo forces --consistent`: files and messages of residual reduction; the written motion agrees with the written forces.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod workbench;
-
+use crate::workbench::Workbench;
 use serde_json::Value;
 use std::fs;
-use workbench::Workbench;
 
 /// The demo's walk of 75 kg, by a model that is 2 % heavier.
 const WALK: [&str; 7] = [

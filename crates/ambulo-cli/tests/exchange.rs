@@ -1,10 +1,6 @@
 //! `info`, `convert` and `events` on files of every kind, and `forces` on laboratory files; `demo` writes all of them.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod workbench;
-
+use crate::workbench::Workbench;
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::c3d::{C3d, Values};
 use ambulo_formats::external_loads::ExternalLoads;
@@ -13,7 +9,6 @@ use ambulo_formats::trc::Trc;
 use serde_json::Value;
 use std::fs;
 use std::sync::OnceLock;
-use workbench::Workbench;
 
 /// A folder with `demo/input`: a walk as C3D, TRC, BVH, coordinates and forces, with the figure that walks.
 fn with_demo(name: &str) -> Workbench {

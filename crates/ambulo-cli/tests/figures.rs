@@ -1,21 +1,14 @@
 //! Figures of a run: their lines show the numbers of the run's files, with the signs of normative data.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-#[path = "../../ambulo/tests/shared_data/mod.rs"]
-mod shared_data;
-#[path = "../../ambulo-report/tests/svg_reader/mod.rs"]
-mod svg_reader;
-mod workbench;
-
+use crate::shared_data;
+use crate::svg_reader::{Figure, Panel};
+use crate::workbench::Workbench;
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side};
 use ambulo_report::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo_report::normative::band;
 use ambulo_results::Convention;
 use std::collections::BTreeMap;
-use svg_reader::{Figure, Panel};
-use workbench::Workbench;
 
 /// Figures over the gait cycle.
 const CYCLE_FIGURES: [&str; 6] = ["kinematics", "moments", "powers", "ground_forces", "sagittal_2col", "sagittal_1col"];

@@ -2,18 +2,13 @@
 //!
 //! The unit tests of `replacement.rs` stop a run after every single change; here the program itself is killed.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the counts are shown with --nocapture")]
-
-mod workbench;
-
+use crate::workbench::Workbench;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::Child;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-use workbench::Workbench;
 
 const LONG: [&str; 6] = ["simulate", "pendulum.toml", "--duration", "0.6", "-o", "out"];
 const SHORT: [&str; 6] = ["simulate", "pendulum.toml", "--duration", "0.3", "-o", "out"];
@@ -191,7 +186,7 @@ fn files_that_no_run_recorded_are_not_replaced_without_force() {
 
 #[test]
 fn an_existing_list_of_events_needs_force() {
-    let bench = Workbench::new("events");
+    let bench = Workbench::new("list_of_events");
     bench.write("events.csv", "mine");
     let events = ["events", "walk_grf.mot", "-o", "events.csv"];
     bench.run(&events).refused(&["events.csv: this file already exists", "--force"]);

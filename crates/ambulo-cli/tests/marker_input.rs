@@ -1,13 +1,9 @@
 //! Unusable markers, plates and skeletons: the message states where, what was found, what was expected and what to do.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod workbench;
-
+use crate::workbench::{Run, Workbench};
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::trc::Trc;
 use std::sync::OnceLock;
-use workbench::{Run, Workbench};
 
 const STILL: [&str; 2] = ["--static", "standing.c3d"];
 const FILES: [&str; 8] =

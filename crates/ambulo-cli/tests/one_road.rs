@@ -4,12 +4,8 @@
 //! from the other files. In `summary.json`, `timing_ms` (the command's clock), `input` (names of files), `run_id` and `files` (hashes of the
 //! files written) are left out.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
-#[path = "../../ambulo/tests/shared_data/mod.rs"]
-mod shared_data;
-mod workbench;
-
+use crate::shared_data;
+use crate::workbench::Workbench;
 use ambulo::findings::Findings;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::model::{Model, to_osim};
@@ -28,7 +24,6 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use workbench::Workbench;
 
 /// Reads the source of a recording as the command does.
 struct Reader {

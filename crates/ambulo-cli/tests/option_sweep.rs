@@ -4,19 +4,11 @@
 //! The options come from the definition of the command line, so that a new one is tested as well. A third of the values is tried by default,
 //! chosen by a fixed hash; all of them if `AMBULO_SWEEP=all` is set, as by `cargo xtask check --full`.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the number of runs is shown with --nocapture")]
-
-#[allow(dead_code, unused_imports, reason = "only the definition of the command line is used")]
-#[path = "../src/args/mod.rs"]
-mod args;
-mod workbench;
-
-use args::Args;
+use crate::args::Args;
+use crate::workbench::{Run, Workbench};
 use clap::{Arg, CommandFactory};
 use std::any::TypeId;
 use std::path::{Path, PathBuf};
-use workbench::{Run, Workbench};
 
 /// Extreme values that are typing errors, and some that are plausible.
 const VALUES: [&str; 39] = [
@@ -264,7 +256,7 @@ fn simulate_survives_every_number() {
 
 #[test]
 fn compare_survives_every_number() {
-    let bench = Workbench::empty("compare");
+    let bench = Workbench::empty("sweep_compare");
     bench.write("a.sto", "t\nendheader\ntime\ta\n0\t0\n1\t1\n2\t2\n");
     bench.write("b.sto", "t\nendheader\ntime\ta\n0\t0\n1\t1.5\n2\t2\n");
     sweep(&bench, "compare", &[Base { words: &["compare", "a.sto", "b.sto", "--quiet"], options: &[], only: &[] }]);

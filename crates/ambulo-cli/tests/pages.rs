@@ -1,10 +1,6 @@
 //! `ambulo report` and `ambulo view`: the page of a folder, and errors.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod workbench;
-
-use workbench::{FORCES, Workbench};
+use crate::workbench::{FORCES, Workbench};
 
 /// A folder with the results of the recording.
 fn bench(name: &str) -> Workbench {

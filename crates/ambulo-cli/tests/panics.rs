@@ -1,10 +1,6 @@
 //! A panic is reported as a bug, with exit code 2.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-#[path = "../src/bug_report.rs"]
-mod bug_report;
-
+use crate::bug_report;
 use std::process::Command;
 
 /// Set for the child of the test below, which panics.
@@ -16,7 +12,7 @@ fn a_panic_says_that_it_is_a_bug_and_where_to_report_it() {
         bug_report::install();
         panic!("the knee has four ends");
     }
-    let this_test = ["--exact", "a_panic_says_that_it_is_a_bug_and_where_to_report_it", "--nocapture"];
+    let this_test = ["--exact", "panics::a_panic_says_that_it_is_a_bug_and_where_to_report_it", "--nocapture"];
     let child = Command::new(std::env::current_exe().unwrap()).args(this_test).env(CHILD, "1").output().unwrap();
     let text = String::from_utf8(child.stderr).unwrap();
     assert_eq!(child.status.code(), Some(2), "{text}");

@@ -1,10 +1,6 @@
 //! Conversion of result folders to animations and to one table: they agree with the files of the folder.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod workbench;
-
+use crate::workbench::Workbench;
 use ambulo::spatial::Vec3;
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::table::Table;
@@ -12,7 +8,6 @@ use ambulo_formats::trc::Trc;
 use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::OnceLock;
-use workbench::Workbench;
 
 /// A folder with `demo`.
 fn demo() -> &'static Workbench {

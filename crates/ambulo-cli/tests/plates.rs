@@ -1,14 +1,10 @@
 //! Measured forces: plates of a C3D, assigned by the user or ignored, and the resulting cycles and mass; force tables with any names of
 //! their columns; loads on the wrong foot; the filter of the forces.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod workbench;
-
+use crate::workbench::{RAW, Workbench};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
-use workbench::{RAW, Workbench};
 
 /// Runs `forces` on the demo's C3D, whose nine plates each catch one step: 1 to 4 right, 5 to 9 left.
 fn forces(bench: &Workbench, options: &[&str]) -> (Value, String) {

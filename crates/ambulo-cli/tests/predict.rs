@@ -2,12 +2,8 @@
 //!
 //! The demo's walk lies on the instants of its own forces, so that prediction and truth can be compared directly.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod workbench;
-
+use crate::workbench::{RAW, Run, Workbench};
 use ambulo_formats::external_loads::ExternalLoads;
-use workbench::{RAW, Run, Workbench};
 
 const MOTION: [&str; 4] = ["forces", "walk.mot", "--model", "figure.osim"];
 const PLATES: [&str; 4] = ["--grf", "walk_grf.mot", "--loads", "walk_grf.xml"];

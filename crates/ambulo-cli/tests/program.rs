@@ -1,12 +1,7 @@
 //! The command line: guide, help, options, small tools, result folders.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod workbench;
-
+use crate::workbench::{FORCES, RAW, Workbench};
 use serde_json::Value;
-use workbench::{FORCES, RAW, Workbench};
 
 #[test]
 fn without_arguments_the_command_prints_a_guide() {

@@ -1,11 +1,7 @@
 //! `ambulo reproduce`: the files that it writes, and that their pages name them.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod workbench;
-
+use crate::workbench::Workbench;
 use std::path::Path;
-use workbench::Workbench;
 
 fn page() -> String {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/REPRODUCTION.md")).unwrap()

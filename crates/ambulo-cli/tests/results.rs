@@ -1,17 +1,12 @@
 //! What a run leaves behind: files, numbers, how they are read back.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod workbench;
-
+use crate::workbench::{FORCES, RAW, Workbench};
 use ambulo::findings::Findings;
 use ambulo::model::from_osim;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use serde_json::Value;
-use workbench::{FORCES, RAW, Workbench};
 
 /// Largest difference of a column in two tables of the same length.
 fn largest_difference(a: &Table, b: &Table, column: &str) -> f64 {
@@ -200,7 +195,7 @@ fn feet_can_be_named_on_the_command_line_instead_of_in_a_document() {
 
 #[test]
 fn a_device_that_gives_half_of_the_ankle_moment_leaves_the_other_half_to_the_body() {
-    let bench = Workbench::new("device");
+    let bench = Workbench::new("results_with_device");
     bench.forces(&RAW).done();
     let total = bench.table("out/moments.sto");
     let half: Vec<f64> = total.column("ankle_angle_r_moment").unwrap().iter().map(|x| 0.5 * x).collect();

@@ -1,12 +1,8 @@
 //! `ambulo simulate`: files, errors, resumption.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod workbench;
-
+use crate::workbench::Workbench;
 use serde_json::Value;
 use std::path::Path;
-use workbench::Workbench;
 
 fn example(name: &str) -> Vec<u8> {
     std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name)).unwrap()

@@ -1,14 +1,10 @@
 //! `docs/summary.schema.json` is made from the types of `summary.json`, and describes every key.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
-mod workbench;
-
+use crate::workbench::Workbench;
 use ambulo_results::summary_schema;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use workbench::Workbench;
 
 /// With AMBULO_WRITE=1 the file is written.
 #[test]

@@ -2,12 +2,8 @@
 //!
 //! A command whose comment says `exits with N` must do so; every other must end with 0.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod workbench;
-
+use crate::workbench::Workbench;
 use std::path::{Path, PathBuf};
-use workbench::Workbench;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

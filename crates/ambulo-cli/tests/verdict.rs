@@ -1,11 +1,7 @@
 //! The verdict of `ambulo forces`: exit code, words, summary, figure, and the file of thresholds.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod workbench;
-
+use crate::workbench::{FORCES, RAW, Workbench};
 use serde_json::Value;
-use workbench::{FORCES, RAW, Workbench};
 
 /// `forces` on the built-in walk, judged by the built-in limits.
 const STRICT: &[&str] = FORCES.split_at(8).0;
@@ -110,7 +106,7 @@ fn an_invalid_thresholds_file_is_rejected() {
 
 #[test]
 fn without_ground_forces_only_joints_are_checked() {
-    let bench = Workbench::new("no_ground");
+    let bench = Workbench::new("not_judged_without_ground");
     bench.run(&[&FORCES[..4], &RAW, &["--no-ground"]].concat()).done();
     let verdict = bench.json("out/summary.json")["verdict"].clone();
     let unjudged = verdict["not_judged"].as_array().unwrap().iter().filter(|n| n["why"] == "no ground forces").count();
@@ -120,7 +116,7 @@ fn without_ground_forces_only_joints_are_checked() {
 
 #[test]
 fn the_moment_of_a_device_is_subtracted_before_strength_is_checked() {
-    let bench = Workbench::new("device");
+    let bench = Workbench::new("not_judged_with_device");
     let weak = "skip = [\"sliding\", \"center_of_pressure\"]\n[strength]\nshare = 0.25\n";
     bench.write("weak.toml", weak);
     let judge = |more: &[&str]| {

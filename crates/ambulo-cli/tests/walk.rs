@@ -1,12 +1,7 @@
 //! `ambulo walk` and `ambulo demo`: files, summary, verdict, and errors.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod workbench;
-
+use crate::workbench::{RAW, Workbench};
 use serde_json::Value;
-use workbench::{RAW, Workbench};
 
 /// Every file of a walk.
 const FILES: [&str; 12] = [

@@ -1,15 +1,9 @@
 //! Damaged C3D files: cut at every byte of header and parameters, bytes changed at random, counts without measure.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod shared_data;
-
-mod c3d_bytes;
-
+use crate::c3d_bytes::File;
+use crate::shared_data::data;
 use ambulo_formats::c3d::{C3d, Channel, Event, Point};
-use c3d_bytes::File;
 use proptest::prelude::*;
-use shared_data::data;
 use std::time::{Duration, Instant};
 
 /// A small recording with all groups: two points, two channels, a platform, events.

@@ -1,11 +1,7 @@
 //! Real C3D files: counts and sums against ezc3d, one recording in six encodings. Skipped where the data are not there.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod shared_data;
-
+use crate::shared_data::data;
 use ambulo_formats::c3d::{C3d, Processor, Storage};
-use shared_data::data;
 use std::path::Path;
 
 /// What ezc3d 1.7.2 (PyPI) reads: points, frames, channels, points that were seen, sum of absolute coordinates of those,

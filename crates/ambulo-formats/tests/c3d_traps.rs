@@ -1,12 +1,8 @@
 //! What C3D files do beside their description, one hand-made file for each.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod c3d_bytes;
-
+use crate::c3d_bytes::File;
 use ambulo_formats::Error;
 use ambulo_formats::c3d::{C3d, EventPlace, Processor, Storage, Values};
-use c3d_bytes::File;
 
 #[track_caller]
 fn read(file: &File) -> (C3d, Vec<String>) {

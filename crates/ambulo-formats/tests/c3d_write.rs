@@ -1,15 +1,11 @@
 //! C3D files written and read back: real recordings, hand-made ones, random ones.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod shared_data;
-
+use crate::shared_data::data;
 use ambulo_formats::c3d::{
     C3d, Channel, Encoding, Event, EventPlace, Group, Parameter, Parameters, Platform, Point, Processor, Storage,
     Values,
 };
 use proptest::prelude::*;
-use shared_data::data;
 
 /// All of a record but its parameters, to the bit: `Debug` prints every digit, and not-a-number as itself. Only the sign
 /// of zero is dropped, which neither VAX nor integers have.

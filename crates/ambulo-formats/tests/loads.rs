@@ -1,7 +1,5 @@
 //! Reading and writing external loads.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use proptest::prelude::*;
 

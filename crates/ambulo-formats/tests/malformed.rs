@@ -1,7 +1,5 @@
 //! Files that are wrong: the message for each fault, and no panic, hang or large allocation on anything.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo_formats::Error;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;

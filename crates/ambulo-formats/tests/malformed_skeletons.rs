@@ -1,7 +1,5 @@
 //! BVH files that are wrong: the message for each fault, and no panic, hang or large allocation on anything.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo_formats::bvh::{Bvh, MAX_DEPTH, MAX_JOINTS};
 use proptest::prelude::*;
 use std::fmt::Write;

@@ -1,7 +1,5 @@
 //! Reading and writing marker trajectories.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo_formats::trc::{LengthUnit, Marker, Trc};
 use proptest::prelude::*;
 

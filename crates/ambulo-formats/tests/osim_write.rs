@@ -1,7 +1,5 @@
 //! Models written and read back: every kind of joint that the writer knows, and what it refuses.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo_formats::osim::{Knots, OsimConstraint, OsimFunction, OsimJointKind, OsimModel};
 
 /// A chain of bodies with odd names, turned frames and every joint.

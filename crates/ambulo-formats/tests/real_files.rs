@@ -1,15 +1,11 @@
 //! The recordings listed below are read, with the counts that their README states. Skipped where the data are not there.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod shared_data;
-
+use crate::shared_data::data;
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::{LengthUnit, Trc};
 use ambulo_formats::{Error, Remark};
-use shared_data::data;
 use std::path::Path;
 
 /// Files whose header is wrong, with the remark.

@@ -1,7 +1,5 @@
 //! Reading and writing skeletons in motion.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo_formats::bvh::{Bvh, Channel, ChannelKind, Joint, MAX_DEPTH, MAX_JOINTS};
 use proptest::prelude::*;
 

@@ -1,7 +1,5 @@
 //! Reading and writing tables: storage of all ages, CSV, and that what is written reads back to the same bits.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 use proptest::prelude::*;
 

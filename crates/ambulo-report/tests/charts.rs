@@ -1,11 +1,7 @@
 //! Charts: curves can be read back from the file, legends are drawn once if all panels share them, scales are equal if requested.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod svg_reader;
-
+use crate::svg_reader::{Figure, curves};
 use ambulo_report::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};
-use svg_reader::{Figure, curves};
 
 fn curve(name: &str, color: usize, points: &[[f64; 2]]) -> ChartCurve {
     ChartCurve { name: name.to_owned(), color: CURVE_COLORS[color], form: CurveForm::Line, points: points.to_vec() }

@@ -1,12 +1,8 @@
 //! `clinical.csv` has the numbers that the page draws, in both conventions.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod report_pages;
-#[path = "../../ambulo/tests/shared_data/mod.rs"]
-mod shared_data;
-mod svg_reader;
-
+use crate::report_pages::{Files, Shown};
+use crate::shared_data;
+use crate::svg_reader::Figure;
 use ambulo::findings::Findings;
 use ambulo::model::{Model, to_osim};
 use ambulo::motion::coordinates_from_table;
@@ -15,9 +11,7 @@ use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_report::{clinical_file, outcome_figures};
 use ambulo_results::{Convention, GroundSource, Input, Summary, outcome_summary, outcome_tables, summary_json};
-use report_pages::{Files, Shown};
 use std::path::Path;
-use svg_reader::Figure;
 
 /// Columns of `clinical.csv` and the panels that show them.
 const PANELS: [(&str, &str); 6] = [

@@ -1,7 +1,5 @@
 //! Every row of "Signs in panels" in docs/CONVENTIONS.md, against the signs of movements above it and the factors of the panels.
 
-#![expect(clippy::unwrap_used, reason = "a test may stop where a model cannot be built")]
-
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side};
 use ambulo_report::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};

@@ -1,15 +1,11 @@
 //! Figures over the gait cycle: lines show the numbers of the rows, names are escaped, missing parts are left out.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod svg_reader;
-
+use crate::svg_reader::{Figure, Line};
 use ambulo::model::Side;
 use ambulo_report::clinical::ClinicalNames;
 use ambulo_report::{CycleFigures, Mark};
 use ambulo_results::Convention;
 use ambulo_results::CycleRow;
-use svg_reader::{Figure, Line};
 
 const MASS_KG: f64 = 62.5;
 /// Places are written to a hundredth of a point: half of that, in panels of at least 70 points.

@@ -1,7 +1,5 @@
 //! The figure of a gait: curves of three joints and the spans of their sub-cycles.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo_report::gait_figure;

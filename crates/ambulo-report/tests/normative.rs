@@ -1,7 +1,5 @@
 //! Normative bands: values of the source, interpolated between its speeds, with the signs of the panels.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use ambulo_report::clinical::{ClinicalNames, clinical_quantities};
 use ambulo_report::normative::{BAND_SAMPLES, NormalRange, band, dimensionless_speed, time_distance};
 use ambulo_results::Convention;

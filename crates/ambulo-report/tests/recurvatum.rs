@@ -3,19 +3,13 @@
 //! Gait2392 counts extension of the knee positive, Rajagopal's model flexion. The recording goes from 6 degrees of flexion to 10 degrees
 //! of hyperextension, so its largest angle is no flexion in either.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "says when there is no data")]
-
-mod report_pages;
-mod svg_reader;
-
+use crate::report_pages::{Files, Shown, analysed};
+use crate::svg_reader::Figure;
 use ambulo::findings::Findings;
 use ambulo::model::{Body, CoordinateKind, Model, to_osim};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
-use report_pages::{Files, Shown, analysed};
 use std::path::Path;
-use svg_reader::Figure;
 
 /// Least and largest flexion of the recording [deg].
 const FLEXION_DEG: [f64; 2] = [-10.0, 6.0];

@@ -1,13 +1,9 @@
 //! The report page compared with its files: every drawn number is in the files, and missing parts are reported.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod report_pages;
-
+use crate::report_pages::{Files, Shown, keep_lines, page_of, recorded, with_summary};
 use ambulo_formats::table::Table;
 use ambulo_report::page::report_page;
 use ambulo_results::Folder;
-use report_pages::{Files, Shown, keep_lines, page_of, recorded, with_summary};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 

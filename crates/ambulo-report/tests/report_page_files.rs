@@ -1,14 +1,10 @@
 //! Broken files are rejected with the file, the place, what was found and what was expected, by the page and by the
 //! exports.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod report_pages;
-
+use crate::report_pages::{Files, page_of, predicted, recorded, with_summary};
 use ambulo_formats::table::Table;
 use ambulo_report::{csv_of_folder, glb_of_folder};
 use ambulo_results::Folder;
-use report_pages::{Files, page_of, predicted, recorded, with_summary};
 use serde_json::{Value, json};
 
 #[track_caller]

@@ -1,12 +1,9 @@
 //! The page of a prediction compared with plates, and of a recorded person.
 
-mod report_pages;
-#[path = "../../ambulo/tests/shared_data/mod.rs"]
-mod shared_data;
-
+use crate::report_pages::{Shown, analysed, predicted, with_summary};
+use crate::shared_data;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
-use report_pages::{Shown, analysed, predicted, with_summary};
 use serde_json::json;
 
 #[test]

@@ -1,10 +1,6 @@
 //! The page of a simulated scene: a door on a hinge and a walker, in files made here.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod report_pages;
-
-use report_pages::{Files, Shown, page_of};
+use crate::report_pages::{Files, Shown, page_of};
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -1,9 +1,7 @@
 //! Quality information on the page: verdicts on part of a motion, friction, uncertainty bands of predictions.
 
-mod report_pages;
-
+use crate::report_pages::{Shown, predicted, recorded, with_summary};
 use ambulo_formats::table::Table;
-use report_pages::{Shown, predicted, recorded, with_summary};
 use serde_json::{Value, json};
 
 // ---- limits of a verdict ----

@@ -1,14 +1,9 @@
 //! Texts of the page for unusual recordings: turns, two masses, no ground forces, single strides, missing files.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod report_pages;
-#[path = "../../ambulo/tests/shared_data/mod.rs"]
-mod shared_data;
-
+use crate::report_pages::{Files, Shown, analysed, keep_lines, predicted, recorded, with_summary};
+use crate::shared_data;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
-use report_pages::{Files, Shown, analysed, keep_lines, predicted, recorded, with_summary};
 use serde_json::{Value, json};
 
 /// `subject` of the summary of a body that follows markers.

@@ -3,8 +3,6 @@
 //! `viewer/build.mjs` writes a hash of all sources into the first line of `data/report/viewer.js`; here it is computed again, without
 //! npm. That the same sources give the same bytes is checked by `npm run check` in `viewer/`.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 

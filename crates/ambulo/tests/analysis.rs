@@ -1,9 +1,6 @@
 //! Events, cycles, peaks, agreement, residual, mass and speed compared with numbers computed by hand.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod free_bodies;
-
+use crate::free_bodies::{DOWN_Y, free_bodies};
 use ambulo::analysis::{
     Agreement, Analysis, AnalysisSettings, ComparisonError, Contact, Curve, Cycle, Event, EventKind, MassSource,
     SHORTEST_CONTACT_S, analyse, compare, contacts_from_force, cycles, events, over_cycle, peak, residual,
@@ -14,7 +11,6 @@ use ambulo::kinematics::Trajectory;
 use ambulo::model::{Model, Side};
 use ambulo::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 use ambulo::spatial::{Vec3, Wrench};
-use free_bodies::{DOWN_Y, free_bodies};
 use std::f64::consts::TAU;
 
 /// Several rounding errors of numbers near one.

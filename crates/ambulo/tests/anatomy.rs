@@ -1,12 +1,12 @@
 //! Anatomy of a model from its joints alone: published models and built-in figures, also renamed, mirrored, rotated and truncated.
 
-#![expect(clippy::unwrap_used, reason = "a test may stop where a model cannot be built")]
-
-mod anatomy_models;
-mod common;
-mod free_bodies;
-mod shared_data;
-
+use crate::anatomy_models;
+use crate::anatomy_models::{change, mirrored, published, reframed, renamed, turned, without};
+use crate::common::assert_near;
+use crate::common::random::{self, Random, Recipe};
+use crate::free_bodies;
+use crate::free_bodies::{DOWN_Y, free_bodies};
+use crate::shared_data;
 use ambulo::findings::Findings;
 use ambulo::kinematics::retarget::retarget;
 use ambulo::model::anatomy::{Anatomy, Meaning, Movement};
@@ -15,10 +15,6 @@ use ambulo::model::full_body::full_body;
 use ambulo::model::{BodyId, BySide, Drive, Model, Side};
 use ambulo::motion::skeleton::skeleton_from_bvh;
 use ambulo::spatial::{Mat3, Pose, Vec3};
-use anatomy_models::{change, mirrored, published, reframed, renamed, turned, without};
-use common::assert_near;
-use common::random::{self, Random, Recipe};
-use free_bodies::{DOWN_Y, free_bodies};
 
 /// Signs of the Gait2392 family, by the name of the coordinate without its side.
 const SIGNS: [(&str, Movement, f64); 21] = [

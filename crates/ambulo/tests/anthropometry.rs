@@ -1,15 +1,11 @@
 //! Human figures: masses, lengths, soles, inertias and signs, for every table with and without toe joint.
 
-#![expect(clippy::unwrap_used, reason = "a test may stop where a figure cannot be built")]
-
-mod common;
-
+use crate::common::assert_near;
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::{Model, Side};
 use ambulo::spatial::Vec3;
-use common::assert_near;
 
 const LAW: &str = include_str!("../../../docs/CONVENTIONS.md");
 const GRAVITY: f64 = 9.80665;

@@ -1,10 +1,6 @@
 //! Calibration with synthetic markers of known bodies: their lengths and postures are recovered.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop where a body cannot be built")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod common;
-
+use crate::common::{assert_near, turn};
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::kinematics::calibration::{
@@ -18,7 +14,6 @@ use ambulo::model::marker_set::{MarkerSet, RecognisedMarkers};
 use ambulo::model::{Marker, Model, Side};
 use ambulo::motion::{MarkerPath, MarkerRecording, Motion};
 use ambulo::spatial::{Pose, Vec3};
-use common::{assert_near, turn};
 
 const RATE_HZ: f64 = 100.0;
 const RADIUS: f64 = 0.007;

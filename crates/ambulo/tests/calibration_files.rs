@@ -1,10 +1,7 @@
 //! Calibration with real recordings, compared with Plug-in-Gait's results in the same files.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod gait_files;
-
+use crate::gait_files;
+use crate::gait_files::{File, Subject, everyone, turning, woman};
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration::{BodyMeasurements, Calibrated, PersonMeasurements, Trial, calibrate};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
@@ -16,7 +13,6 @@ use ambulo::motion::{MarkerRecording, interpolate, markers_from_trc};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
-use gait_files::{File, Subject, everyone, turning, woman};
 
 fn calibrated(subject: &Subject, markers: &MarkerRecording, trial: Trial) -> Calibrated {
     let known = MarkerSet::recognise(markers.markers.iter().map(|m| m.name.as_str())).unwrap();

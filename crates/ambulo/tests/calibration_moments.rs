@@ -6,11 +6,7 @@
 //! in swing its moments are 1.4 times those of Newton's and Euler's equations for its own joint centres (so only stance is compared);
 //! and the left shank wand of the adult is 45 degrees off the knee axis, about which its knee moment is expressed (so it is rotated back).
 
-#![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod gait_files;
-
+use crate::gait_files::{Subject, everyone, world_from_lab};
 use ambulo::analysis::{Analysis, AnalysisSettings, analyse};
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
@@ -22,7 +18,6 @@ use ambulo::model::marker_set::MarkerSet;
 use ambulo::motion::filter::{LowPass, low_pass};
 use ambulo::motion::{ForceRecording, PlateSettings, Smoother, Window, plates_from_c3d};
 use ambulo::spatial::Vec3;
-use gait_files::{Subject, everyone, world_from_lab};
 
 const FILTER: LowPass = LowPass { order: 4, cutoff_hz: 15.0 };
 /// Plug-in-Gait smooths markers and does not filter forces.

@@ -3,17 +3,11 @@
 //! The recordings are not part of the repository; without them these tests say `skipped` and pass. The figures stand in
 //! docs/PLUG_IN_GAIT.md.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --show-output")]
-
-mod anatomy_models;
-mod common;
-mod gait_files;
-/// Where the recordings are.
-mod shared_data {
-    pub(crate) use crate::gait_files::folder as data;
-}
-
+use crate::anatomy_models;
+use crate::common;
+use crate::common::{State, assert_near};
+use crate::gait_files;
+use crate::gait_files::Subject;
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration::{Calibrated, Trial, calibrate};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
@@ -24,8 +18,6 @@ use ambulo::model::full_body::{STANDING_TILT, full_body};
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::model::{Model, Side};
 use ambulo::motion::{MarkerRecording, SmoothSettings, Smoother, Window, smooth};
-use common::{State, assert_near};
-use gait_files::Subject;
 
 /// Largest mean difference from Plug-in-Gait's angles [deg]: pelvis and hip. The pelvis is that of the same markers, as far as the fit
 /// follows them. At the hip 1.9 to 4.5 degrees are left: Harrington's hip centre lies 8 to 18 mm behind Davis', which are 1 to 3 degrees

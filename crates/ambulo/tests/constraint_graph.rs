@@ -1,19 +1,17 @@
 //! Closing rows, bounds and contacts: laws checked row by row, redundancy against dense least squares, contradictions named,
 //! and what both methods cost.
 
-mod common;
-
+use crate::common::graphs::{
+    METHODS, PLANE, SPACE, add_contact, add_free, add_rows, box_inertia, box_on, corners, fresh, ladder,
+    random_contacts, settings, solved, tower,
+};
+use crate::common::largest;
+use crate::common::random::Random;
 use ambulo::dynamics::{
     ActsOn, Constraint, ConstraintGraph, ConstraintGroup, GraphSolution, GraphWorkspace, Law, Method, Six,
     SolverSettings, relative_rows, solve_graph, undetermined_rows,
 };
 use ambulo::spatial::{Mat3, Vec3};
-use common::graphs::{
-    METHODS, PLANE, SPACE, add_contact, add_free, add_rows, box_inertia, box_on, corners, fresh, ladder,
-    random_contacts, settings, solved, tower,
-};
-use common::largest;
-use common::random::Random;
 use nalgebra::{DMatrix, DVector};
 
 const TIGHT: f64 = 1e-12;

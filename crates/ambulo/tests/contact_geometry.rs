@@ -1,13 +1,10 @@
 //! Shapes, where they touch, which pairs may, and the soft law: against closed forms, against the collision library's
 //! general queries, and against rigid motions of everything.
 
-#![expect(clippy::unwrap_used, reason = "makers of shapes may unwrap as tests do")]
-
-mod common;
-
+use crate::common;
+use crate::common::random::Random;
 use ambulo::contact::{ContactPoint, HuntCrossley, Shape, candidate_pairs, contacts};
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3};
-use common::random::Random;
 use parry3d_f64::math::{Matrix, Pose as GenericPose, Rotation, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::SharedShape;

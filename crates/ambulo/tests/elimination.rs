@@ -1,8 +1,9 @@
 //! The block elimination of trees and loops: against a dense solve of the same equations, against inverse dynamics, and
 //! forwards again.
 
-mod common;
-
+use crate::common::graphs::{add_hinged, add_rows, random_six, six};
+use crate::common::random::{Random, Recipe, model, state};
+use crate::common::{State, distance, largest};
 use ambulo::dynamics::{
     ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Elimination, EliminationWorkspace, GraphSolution,
     GraphWorkspace, JointReaction, Law, Link, LinkError, Offsets, Six, SolverSettings, Workspace, inverse_frame,
@@ -11,9 +12,6 @@ use ambulo::dynamics::{
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::{BodyId, JointSpeeds, Model};
 use ambulo::spatial::{Mat3, Vec3};
-use common::graphs::{add_hinged, add_rows, random_six, six};
-use common::random::{Random, Recipe, model, state};
-use common::{State, distance, largest};
 use nalgebra::{DMatrix, DVector, Matrix6};
 
 /// Random trees: most bodies on another one, with 0 to 6 free directions, and `loops` closing groups of 1 to 3 rows.

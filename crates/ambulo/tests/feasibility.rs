@@ -2,13 +2,8 @@
 //!
 //! Recordings are looked for as tests/opensim_parity.rs does; without them their tests say `skipped` and pass.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod shared_data;
-
-mod common;
-
+use crate::common::assert_near;
+use crate::shared_data::data;
 use ambulo::analysis::feasibility::{
     Check, CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, Hill, MotionAndForces, Person,
     PredictedForces, StrengthCurve, Thresholds, Verdict, VerdictState, check, check_frame,
@@ -26,8 +21,7 @@ use ambulo::spatial::{Vec3, Wrench};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
-use common::assert_near;
-use shared_data::data;
+use std::ops::Range;
 use std::path::Path;
 
 const DOCUMENT: &str = include_str!("../../../docs/FEASIBILITY.md");
@@ -540,6 +534,27 @@ fn frames_without_measured_forces_are_judged_on_predicted_ones() {
     assert!(reason.message.ends_with("the forces are predicted, because the plates do not cover this time"));
     assert!(reason.time_s[0] > 2.399 && reason.time_s[1] < 2.601, "{:?}", reason.time_s);
     assert_eq!(judged(&whole, Some(&weak)).state, VerdictState::Feasible);
+}
+
+#[test]
+fn a_lack_of_support_next_to_missing_forces_is_a_step_off_the_plates_unless_it_lasts() {
+    let load = |partial: Range<usize>| {
+        move |i: usize, _: Side| {
+            let share = if (40..60).contains(&i) { 0.0 } else { 1.0 };
+            Vec3::new(0.0, if partial.contains(&i) { 0.5 } else { share } * HALF, 0.0)
+        }
+    };
+    let (verdict, _) = judged(load(60..72), &Thresholds::default());
+    assert!(verdict.frames_unmeasured == 32 && verdict.reasons.is_empty(), "{verdict:?}");
+    let (verdict, _) = judged(load(28..40), &Thresholds::default());
+    assert!(verdict.frames_unmeasured == 32 && verdict.reasons.is_empty(), "{verdict:?}");
+    // For longer than a step off takes, or away from missing forces, the body is not carried.
+    for partial in [60..80, 70..82] {
+        let (verdict, _) = judged(load(partial.clone()), &Thresholds::default());
+        let support = verdict.reasons.iter().find(|reason| reason.check == Check::Support).unwrap();
+        assert_near(support.time_s[1], 2.0 + 0.01 * (partial.end - 1) as f64, 0.011, "end of the lack");
+        assert_eq!(verdict.state, VerdictState::Infeasible);
+    }
 }
 
 #[test]

@@ -1,18 +1,13 @@
 //! Assignment of force plates to feet, in a walk whose steps are known.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod free_bodies;
-mod marker_walk;
-
+use crate::free_bodies::{DOWN_Y, free_bodies};
+use crate::marker_walk::{Load, climb, place, plate, plate_under, stair, stances, walk};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates};
 use ambulo::model::{BodyId, BySide, Side};
 use ambulo::motion::{MarkerRecording, PlateRecording};
 use ambulo::spatial::Vec3;
-use free_bodies::{DOWN_Y, free_bodies};
-use marker_walk::{Load, climb, place, plate, plate_under, stair, stances, walk};
 
 const R: Side = Side::Right;
 const L: Side = Side::Left;

@@ -1,7 +1,5 @@
 //! The list of findings: its names, its page in the documentation, its use; and that the library names no option of a command.
 
-#![expect(clippy::unwrap_used, reason = "a test may stop at a file that cannot be read")]
-
 use ambulo::findings::{Code, Finding, Findings, Severity};
 use std::collections::BTreeSet;
 use std::fmt::Write;

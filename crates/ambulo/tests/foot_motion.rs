@@ -1,9 +1,7 @@
 //! Strikes and offs from markers of a walk whose events are known, and the comparison of lists of events.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod marker_walk;
-
+use crate::marker_walk::{SPEED_M_S, STRIDE_S, events, walk};
+use crate::plate_files;
 use ambulo::analysis::event_agreement;
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{EventMethod, FootMotion, foot_motion};
@@ -11,7 +9,6 @@ use ambulo::ground::phases::{Contact, contacts_from_events};
 use ambulo::model::Side;
 use ambulo::motion::{Event, EventKind, MarkerRecording, events_from_c3d};
 use ambulo::spatial::Vec3;
-use marker_walk::{SPEED_M_S, STRIDE_S, events, walk};
 
 fn found(markers: &MarkerRecording) -> FootMotion {
     foot_motion(markers, &mut Findings::default())
@@ -200,8 +197,6 @@ fn events_of_a_file_are_read_with_their_side() {
     assert_eq!(found, expected);
     assert_eq!(findings.as_slice().len(), 2, "{findings:?}");
 }
-
-mod plate_files;
 
 fn plate_record() -> ambulo_formats::c3d::C3d {
     plate_files::File::step(2, [0.0; 3], &[0.0, 0.0, -700.0, 0.0, 0.0, 0.0]).record()

@@ -2,17 +2,12 @@
 //!
 //! The recordings are not part of the repository; without them each test prints `skipped` and passes.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod footfall_trials;
-
+use crate::footfall_trials::{Recorded, everything};
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfalls, OffSpeed, footfalls, footfalls_at};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::BySide;
 use ambulo::motion::{Event, EventKind};
-use footfall_trials::{Recorded, everything};
 
 fn found(trial: &Recorded, cutoff_hz: f64) -> Footfalls {
     footfalls(&trial.model, &trial.trajectory(cutoff_hz), &trial.soles, &mut Findings::default())

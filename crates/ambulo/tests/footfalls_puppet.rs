@@ -4,9 +4,6 @@
 //! acceleration are zero at both ends) and is lifted in between; the trunk follows. The places of the feet are known exactly, the times
 //! of the events to a few hundredths of a second, because a quintic starts slowly: after 50 of 400 ms it has covered 2 % of its way.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfalls, footfalls};
 use ambulo::kinematics::Trajectory;

@@ -2,11 +2,7 @@
 //!
 //! The files are not part of the repository; without them each test says `skipped` and passes.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod shared_data;
-
+use crate::shared_data;
 use ambulo::analysis::feasibility::Person;
 use ambulo::dynamics::{Workspace, inverse};
 use ambulo::findings::Findings;

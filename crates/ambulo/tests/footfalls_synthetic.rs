@@ -1,11 +1,7 @@
 //! Stances of motions whose contacts are known: a synthetic walk, also on a belt, on a ramp, mirrored, rotated, reversed and cut;
 //! standing on two feet and on one; a jump.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod common;
-
+use crate::common;
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;

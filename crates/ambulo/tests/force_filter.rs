@@ -1,16 +1,12 @@
 //! The low-pass filter of measured forces that is chosen by the movement.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod free_bodies;
-
+use crate::free_bodies::{DOWN_Y, free_bodies};
 use ambulo::findings::Findings;
 use ambulo::model::Model;
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{ForceRecording, Motion, Smoother};
 use ambulo::spatial::Vec3;
 use ambulo::study::{self, ForceFilter, MeasuredForces, Settings, Source};
-use free_bodies::{DOWN_Y, free_bodies};
 
 const MASS_KG: f64 = 50.0;
 const SIX_HZ: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };

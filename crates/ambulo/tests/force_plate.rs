@@ -11,14 +11,10 @@
 //! y and z of the plate are opposite to those of the laboratory: F' = (30, -50, -700) N, M' = (-70, 35, -9.5) N.m. The comments
 //! below derive the channels of each type.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod plate_files;
-
+use crate::plate_files::{CORNERS_MM, File, RATE_HZ, record};
 use ambulo::findings::{Code, Findings};
 use ambulo::motion::{PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
 use ambulo::spatial::{Mat3, Vec3};
-use plate_files::{CORNERS_MM, File, RATE_HZ, record};
 
 /// Parameters are stored with seven digits: 700 N to 1e-4, 60 N.m to 1e-5.
 const ROUNDING: f64 = 1e-3;

@@ -1,16 +1,12 @@
 //! The full body in three dimensions: the masses of the planar figure, spatial joints, and the signs of the conventions.
 
-#![expect(clippy::unwrap_used, reason = "a test may stop where a figure cannot be built")]
-
-mod common;
-
+use crate::common::assert_near;
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::{SegmentShape, SolePlacement, SubjectShape, full_body, reshaped};
 use ambulo::model::{Drive, Model, Side, to_osim};
 use ambulo::spatial::Vec3;
-use common::assert_near;
 
 const LAW: &str = include_str!("../../../docs/CONVENTIONS.md");
 /// Rounding of sums of a few dozen numbers of order one.

@@ -1,11 +1,9 @@
 //! Functions of one variable against closed forms, their own finite differences, and facts about splines.
 
-mod common;
-
+use crate::common::random::{self, Random};
+use crate::common::{assert_near, derivatives};
 use ambulo::model::{Function, Knots, SimmSpline};
 use ambulo::numerics::{Smoothing, SplineDegree, SplineFitter};
-use common::random::{self, Random};
-use common::{assert_near, derivatives};
 
 /// A few dozen operations on numbers of order one.
 const ROUNDING: f64 = 1e-14;

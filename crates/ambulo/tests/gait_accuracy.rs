@@ -3,9 +3,6 @@
 //! The tables are not part of the repository. They are looked for in `shared/data` beside it, or in `$AMBULO_DATA/data`;
 //! without them the tests say `skipped` and pass.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the errors are shown with --nocapture")]
-
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Jet, Laws, LegJoint, Speed, Style, Walk};
 use std::f64::consts::TAU;

@@ -1,15 +1,11 @@
 //! A posture as coordinates of a model: signs, and the direction of the thigh.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod common;
-
+use crate::common::{assert_near, derivatives};
 use ambulo::findings::Findings;
 use ambulo::gait::{COORDINATE_NAMES, Gait, Jet, Pelvis, Trunk, Walk, WalkCoordinates, coordinates};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{Model, from_osim};
 use ambulo_formats::osim::OsimModel;
-use common::{assert_near, derivatives};
 
 const FIGURE: &[u8] = include_bytes!("../../ambulo-cli/tests/recording/figure.osim");
 

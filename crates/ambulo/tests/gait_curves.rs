@@ -1,11 +1,7 @@
 //! Jets, quintics, laws and curves: closed forms, and continuity to the second derivative.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod common;
-
+use crate::common::{assert_near, derivatives};
 use ambulo::gait::{End, Jet, Laws, LegJoint, SpeedRange, Style, SubCycle, quintic};
-use common::{assert_near, derivatives};
 use proptest::prelude::*;
 
 /// A few operations on numbers of order 1000, the largest curvatures [rad/cycle²].

@@ -1,7 +1,5 @@
 //! Gait files: what is read from good ones, and what is said of bad ones.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, GaitError, Jet, Laws, LegJoint, Pelvis, Speed, Style, Walk};
 use proptest::prelude::*;

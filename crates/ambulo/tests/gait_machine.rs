@@ -1,15 +1,11 @@
 //! Hierarchical concurrent state machines: snapshots, order of siblings, and the machine that walks.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod common;
-
+use crate::common::random::Random;
 use ambulo::findings::Findings;
 use ambulo::gait::machine::{
     ChildOutputs, Machine, MachineInputs, RunningMachine, State, Transition, WalkMachine, state_table,
 };
 use ambulo::gait::{Clock, Gait, Jet, SpeedChange, Walk};
-use common::random::Random;
 
 const LEG: f64 = 0.92;
 

@@ -1,12 +1,8 @@
 //! Changes of speed while walking: nothing breaks up to the second derivative, and phase is the integral of the cycle rate.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod common;
-
+use crate::common::{assert_near, derivatives};
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, GaitError, Jet, LegAngles, Pelvis, SpeedChange, Walk, WalkPosture};
-use common::{assert_near, derivatives};
 
 const LEG: f64 = 0.92;
 const CHANGES: [SpeedChange; 2] = [

@@ -1,12 +1,8 @@
 //! The paper's rules of interpolation (Faure, Debunne, Cani-Gascuel, Multon 1997, section 2.2), each as a test.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod common;
-
+use crate::common::assert_near;
 use ambulo::findings::Findings;
 use ambulo::gait::{Clock, Gait, GaitError, Jet, Laws, LegJoint, Style, SubCycle, Walk};
-use common::assert_near;
 use proptest::prelude::*;
 
 const LEG: f64 = 0.92;

@@ -1,7 +1,5 @@
 //! Walks: what they promise of angles, derivatives, sides and pace.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, GaitError, Jet, Pace, Speed, Style, Walk, WalkPosture, walking_speeds};
 use proptest::prelude::*;

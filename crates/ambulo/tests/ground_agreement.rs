@@ -6,8 +6,6 @@
 //! | a tenth more force is a relative error of a tenth  | rounding                                    |
 //! | time of a stance off the plates is left out        | a frame                                     |
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{
     Analysis, ComparedAnalyses, GroundAgreement, PlateCoverage, PredictedAnalysis, PredictionInput,

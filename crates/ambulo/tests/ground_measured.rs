@@ -1,9 +1,6 @@
 //! Measured ground forces against closed forms: known forces on a plate are recovered exactly.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod free_bodies;
-
+use crate::free_bodies::{DOWN_Y, free_bodies};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, measured};
 use ambulo::kinematics::Trajectory;
@@ -11,7 +8,6 @@ use ambulo::model::{BodyId, Model};
 use ambulo::motion::filter::{LowPass, low_pass};
 use ambulo::motion::{ForceRecording, MotionError, TimeGrid};
 use ambulo::spatial::Vec3;
-use free_bodies::{DOWN_Y, free_bodies};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Products and sums of numbers up to 1000 N.m, divided by hundreds of newtons.

@@ -6,9 +6,6 @@
 //! | the forces of the feet add to the total in stance         | rounding                                                    |
 //! | with everything prescribed the forces are the simulator's | 25 N: the total's 2 N, and 20 N below which no foot is loaded |
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;

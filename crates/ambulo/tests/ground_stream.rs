@@ -10,11 +10,7 @@
 //!
 //! The recordings are not part of the repository; without them that test prints `skipped` and passes.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod footfall_trials;
-
+use crate::footfall_trials::{Recorded, everything};
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
@@ -29,7 +25,6 @@ use ambulo::motion::filter::LowPass;
 use ambulo::motion::{EventKind, Smoother};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::Vec3;
-use footfall_trials::{Recorded, everything};
 use std::sync::OnceLock;
 
 /// The first steps are left out [s].

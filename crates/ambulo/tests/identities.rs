@@ -4,15 +4,13 @@
 //! body, scaled masses, reversed time), closed forms (pendulums, tops, a standing figure). Beside each comparison stands
 //! one that must fail.
 
-mod common;
-
+use crate::common::assembly::{Assembly, Axes, Frames, inertia};
+use crate::common::random::{self, Case, Random, Recipe, Waves};
+use crate::common::{State, assert_near, derivatives, distance, largest, load_series, rebuilt, trajectory};
 use ambulo::dynamics::{self, BodyLoad, Forces, Workspace};
 use ambulo::kinematics::{BodyMotion, body_motion};
 use ambulo::model::{Body, BodyId, Joint, JointAxis, JointSpeeds, Model};
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3, Wrench};
-use common::assembly::{Assembly, Axes, Frames, inertia};
-use common::random::{self, Case, Random, Recipe, Waves};
-use common::{State, assert_near, derivatives, distance, largest, load_series, rebuilt, trajectory};
 use std::f64::consts::FRAC_PI_2;
 
 /// Sums over a tree of twelve bodies, each some hundred operations deep, relative to the largest term: 500 ε = 1e-13,

@@ -10,13 +10,11 @@
 //!
 //! Source: Featherstone's spatial_v2, `dynamics/ID.m`.
 
-mod common;
-
+use crate::common::random::{self, Case, Curves, KINDS, Kind, Random, Recipe};
+use crate::common::{State, distance, largest, load_series, trajectory, turn};
 use ambulo::dynamics::{self, BodyLoad, Workspace};
 use ambulo::model::{BodyId, Displacement, Joint, JointSpeeds, Model};
 use ambulo::spatial::{Mat3, Vec3};
-use common::random::{self, Case, Curves, KINDS, Kind, Random, Recipe};
-use common::{State, distance, largest, load_series, trajectory, turn};
 use nalgebra::{Matrix6, Vector6};
 
 /// How far along an axis, how fast, how accelerated.

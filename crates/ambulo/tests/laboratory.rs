@@ -1,15 +1,11 @@
 //! Axes and units of a laboratory from a stick figure whose path is known.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod plate_files;
-
+use crate::plate_files::File;
 use ambulo::findings::{Code, Findings};
 use ambulo::motion::{
     Heading, Laboratory, Landmarks, MarkerPath, MarkerRecording, PlateSettings, laboratory, plates_from_c3d,
 };
 use ambulo::spatial::{Mat3, Vec3};
-use plate_files::File;
 
 /// A handful of roundings of numbers near one.
 const ROUNDING: f64 = 1e-12;

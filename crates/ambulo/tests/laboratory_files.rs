@@ -3,11 +3,7 @@
 //! The recordings are not part of the repository. They are searched in `shared/data` next to it, or in
 //! `$AMBULO_DATA/data`; without them each test prints `skipped` and passes.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --show-output")]
-
-mod shared_data;
-
+use crate::shared_data::data;
 use ambulo::analysis::event_agreement;
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
@@ -21,7 +17,6 @@ use ambulo::motion::{
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
-use shared_data::data;
 use std::path::Path;
 
 /// A trial in the axes of the world.

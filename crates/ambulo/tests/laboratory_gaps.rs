@@ -1,17 +1,12 @@
 //! Effect of gaps in real marker trajectories on the joint moments of the built-in body.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod gait_files;
-
+use crate::gait_files::{File, Subject, adult, child, woman};
 use ambulo::analysis::{AnalysisSettings, BodySource, LaboratoryRecording, MarkerTrial, analyse, body_in_motion};
 use ambulo::findings::{Code, Finding, Findings};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{PlateSettings, Smoother, Window, markers_from_c3d, plates_from_c3d};
 use ambulo::spatial::Vec3;
-use gait_files::{File, Subject, adult, child, woman};
 
 const JOINTS: [&str; 6] =
     ["hip_flexion_r", "hip_flexion_l", "knee_angle_r", "knee_angle_l", "ankle_angle_r", "ankle_angle_l"];

@@ -1,15 +1,11 @@
 //! Any file content gives a result or an error, never a panic, from the file to feet on plates.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod plate_files;
-
+use crate::plate_files::File;
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::feet_on_plates;
 use ambulo::motion::{PlateSettings, events_from_c3d, laboratory, markers_from_c3d, plates_from_c3d};
 use ambulo_formats::c3d::{C3d, Event, Point};
-use plate_files::File;
 use proptest::prelude::*;
 
 /// Unusual numbers in files.

@@ -1,10 +1,8 @@
 //! Bodies whose joints follow, solved as one with what carries them: the same motions and forces as without that.
 
-mod common;
-
+use crate::common::graphs::{METHODS, random_contacts, random_six, settings, solved};
+use crate::common::random::Random;
 use ambulo::dynamics::{ConstraintGraph, Link, Method, Six};
-use common::graphs::{METHODS, random_contacts, random_six, settings, solved};
-use common::random::Random;
 
 /// The graph with every hinge between bodies held at a motion of its own.
 fn followed(graph: &ConstraintGraph, r: &mut Random) -> ConstraintGraph {

@@ -1,16 +1,11 @@
 //! Markers to coordinates: against OpenSim on real recordings, against forward kinematics on invented ones.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod marker_data;
-
+use crate::marker_data::{Subject, gait2392, rajagopal};
 use ambulo::findings::{Findings, Severity};
 use ambulo::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, fit_markers};
 use ambulo::model::CoordinateKind;
 use ambulo::motion::{MarkerRecording, interpolate};
 use ambulo_formats::table::Table;
-use marker_data::{Subject, gait2392, rajagopal};
 use std::path::Path;
 
 /// RMS differences of the coordinates from those of a table in degrees, inside a window: name and difference [deg, mm].

@@ -1,17 +1,13 @@
 //! Markers of invented motions on invented bodies: what forward kinematics makes, the fit takes back.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod common;
-
+use crate::common::random::{self, Curves, Kind, Random, Waves};
+use crate::common::{State, turn};
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::body_motion;
 use ambulo::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
 use ambulo::model::{Body, Coordinate, CoordinateId, Drive, Function, JointAxis, Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::{Mat3, Pose, Vec3};
-use common::random::{self, Curves, Kind, Random, Waves};
-use common::{State, turn};
 
 /// The model with four markers on every body.
 fn marked(r: &mut Random, model: &Model) -> Model {

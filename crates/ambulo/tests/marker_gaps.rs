@@ -1,17 +1,12 @@
 //! Markers that are not seen for a while: what becomes of the coordinates, and of the joint moments.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod marker_data;
-
+use crate::marker_data::{Subject, gait2392, rajagopal};
 use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{MarkerRecording, Smoother, Window};
 use ambulo::spatial::Vec3;
-use marker_data::{Subject, gait2392, rajagopal};
 
 const JOINTS: [&str; 6] =
     ["hip_flexion_r", "hip_flexion_l", "knee_angle_r", "knee_angle_l", "ankle_angle_r", "ankle_angle_l"];

@@ -1,19 +1,13 @@
 //! Markers that are far from their places for long: labels exchanged without a leap, and markers that stand elsewhere than in the
 //! standing trial.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
-#![allow(clippy::duplicate_mod, reason = "both readers of recordings look for the folder")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod gait_files;
-mod marker_data;
-
+use crate::gait_files::{Subject, everyone, turning, woman};
+use crate::marker_data;
 use ambulo::findings::{Code, Finding, Findings};
 use ambulo::kinematics::calibration::{Calibrated, Trial, calibrate};
 use ambulo::kinematics::marker_fit::{FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::motion::MarkerRecording;
-use gait_files::{Subject, everyone, turning, woman};
 
 fn body(subject: &Subject) -> Calibrated {
     let standing = &subject.standing.markers;

@@ -1,18 +1,12 @@
 //! Labels that are exchanged and markers that jump: found, said, and without effect on the angles.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod common;
-mod marker_data;
-
+use crate::common::random::Random;
+use crate::marker_data::{Subject, gait2392, rajagopal};
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, OutlierDetection, fit_markers};
 use ambulo::model::CoordinateKind;
 use ambulo::motion::MarkerRecording;
 use ambulo::spatial::Vec3;
-use common::random::Random;
-use marker_data::{Subject, gait2392, rajagopal};
 
 fn fitted(subject: &Subject, markers: &MarkerRecording, outliers: OutlierDetection) -> (MarkerFit, Findings) {
     let mut findings = Findings::default();

@@ -1,7 +1,5 @@
 //! Recorded markers: units, gaps, axes.
 
-#![expect(clippy::unwrap_used, reason = "tests may unwrap")]
-
 use ambulo::findings::{Code, Findings};
 use ambulo::motion::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 use ambulo::spatial::{Mat3, Vec3};

@@ -1,7 +1,5 @@
 //! Marker sets: the built-in ones agree with docs/MARKERS.md, and names of real recordings are recognised.
 
-#![expect(clippy::unwrap_used, reason = "a test may stop where a set cannot be read")]
-
 use ambulo::findings::Code;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;

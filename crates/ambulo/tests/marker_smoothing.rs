@@ -1,20 +1,14 @@
 //! All frames fitted together: what the prior does to a motion, in numbers that can be worked out by hand.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod common;
-mod marker_data;
-
+use crate::common::State;
+use crate::common::random::{self, Curves, Kind, Random, Waves};
+use crate::marker_data::{gait2392, rajagopal};
 use ambulo::findings::Findings;
 use ambulo::kinematics::body_motion;
 use ambulo::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, SmoothnessPrior, fit_markers};
 use ambulo::model::{CoordinateKind, Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::Vec3;
-use common::State;
-use common::random::{self, Curves, Kind, Random, Waves};
-use marker_data::{gait2392, rajagopal};
 use std::f64::consts::TAU;
 
 fn marked(r: &mut Random, kinds: &[Kind], on_each: usize) -> Model {

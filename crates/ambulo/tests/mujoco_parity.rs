@@ -3,8 +3,6 @@
 //!
 //! Joints of two and three hinges at one place are built from hinges here too, with bodies without mass between them.
 
-#![expect(clippy::unwrap_used, reason = "a test may stop at a file that is not as it was made")]
-
 use ambulo::dynamics::SolverSettings;
 use ambulo::findings::Findings;
 use ambulo::simulation::{

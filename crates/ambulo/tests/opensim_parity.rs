@@ -3,11 +3,7 @@
 //! The recordings are not part of the repository. They are looked for in `shared/data` beside it, or in
 //! `$AMBULO_DATA/data`; without them each test says `skipped` and passes.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod shared_data;
-
+use crate::shared_data::data;
 use ambulo::analysis::{Agreement, Analysis, AnalysisSettings, Curve, analyse, compare};
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::{Posture, body_motion};
@@ -18,7 +14,6 @@ use ambulo::spatial::{Twist, Vec3};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
-use shared_data::data;
 use std::path::Path;
 
 /// OpenSim's filter of the coordinates, as each reference's setup file has it.

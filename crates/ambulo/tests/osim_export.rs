@@ -1,9 +1,6 @@
 //! Models written as OpenSim models and read back are the same models.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod marker_data;
-
+use crate::marker_data;
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::anthropometry::{Build, SegmentTable};

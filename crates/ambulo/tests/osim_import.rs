@@ -1,8 +1,5 @@
 //! Reading models from OpenSim documents: every layout gives the same model, and errors state the position.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::{Posture, body_motion};

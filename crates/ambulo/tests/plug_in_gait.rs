@@ -1,13 +1,9 @@
 //! Sagittal joint moments of seven children at the default settings, compared with those of Plug-in-Gait in the same C3D files (group POINT,
 //! `RHipMoment` and its like, N.mm/kg although the unit field says N.mm), while each foot is on its plate.
 //!
-//! `cargo test -p ambulo --test plug_in_gait -- --show-output` prints the comparison, with other filters of the forces as well.
+//! `cargo test -p ambulo plug_in_gait -- --show-output` prints the comparison, with other filters of the forces as well.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --show-output")]
-
-mod shared_data;
-
+use crate::shared_data;
 use ambulo::findings::Findings;
 use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;

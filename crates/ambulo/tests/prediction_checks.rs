@@ -2,12 +2,8 @@
 //!
 //! The recordings are not part of the repository; without them their test says `skipped` and passes.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod footfall_trials;
-mod walking_puppet;
-
+use crate::footfall_trials::everything;
+use crate::walking_puppet::{Hand, NO_HAND, Puppet, moved, walk};
 use ambulo::analysis::feasibility::{Check, Person, Thresholds};
 use ambulo::analysis::{
     CheckSettings, CheckedPrediction, MassSource, PlateCoverage, PlateMass, PredictedAnalysis, PredictionChecks,
@@ -25,9 +21,7 @@ use ambulo::model::{BySide, Model};
 use ambulo::motion::TimeGrid;
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Inertia, Vec3};
-use footfall_trials::everything;
 use std::sync::LazyLock;
-use walking_puppet::{Hand, NO_HAND, Puppet, moved, walk};
 
 const FOUND: Code = Code::PredictionNotThroughTheFeet;
 

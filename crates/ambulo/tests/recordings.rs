@@ -1,9 +1,6 @@
 //! From a table to a trajectory: units, names, times, gaps, filters, and coordinates that are not recorded.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-mod free_bodies;
-
+use crate::free_bodies::{DOWN_Y, ball, coordinate_ids, free, free_bodies, weld};
 use ambulo::findings::{Code, Findings, Severity};
 use ambulo::kinematics::{Trajectory, TrajectoryError};
 use ambulo::model::{Body, Coordinate, CoordinateKind, Drive, Function, Model};
@@ -12,7 +9,6 @@ use ambulo::motion::{
     Motion, MotionError, SmoothMotion, SmoothSettings, Smoother, TimeGrid, Window, coordinates_from_table, smooth,
 };
 use ambulo_formats::table::Table;
-use free_bodies::{DOWN_Y, ball, coordinate_ids, free, free_bodies, weld};
 use std::f64::consts::{PI, TAU};
 
 /// A handful of roundings of numbers near one.

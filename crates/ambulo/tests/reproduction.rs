@@ -1,7 +1,5 @@
 //! The claims of the paper: results of its mode, agreement with the documentation, and judgements that fail.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
 use ambulo::gait::Gait;
 use ambulo::reproduction::{
     Claim, Evidence, FRICTION, Footwear, GAITS, PaperSettings, Scope, Steady, TrialSettings, angular_laws, assumptions,

@@ -2,13 +2,10 @@
 //!
 //! The recordings are not part of the repository; docs/CONSISTENCY.md has the table that this prints with `--nocapture`.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-#![allow(clippy::duplicate_mod, reason = "both readers of recordings look for the folder")]
-
-mod gait_files;
-mod marker_data;
-
+use crate::gait_files;
+use crate::gait_files::{adult, child, woman};
+use crate::marker_data;
+use crate::marker_data::{gait2392, rajagopal};
 use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{
     Analysis, AnalysisSettings, BodySource, LaboratoryRecording, MarkerTrial, analyse, body_in_motion,
@@ -25,8 +22,6 @@ use ambulo::motion::{
     markers_from_c3d, plates_from_c3d,
 };
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
-use gait_files::{adult, child, woman};
-use marker_data::{gait2392, rajagopal};
 use std::time::Instant;
 
 /// A recorded walk, and when plates saw every foot on the ground.

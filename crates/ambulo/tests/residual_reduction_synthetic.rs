@@ -1,8 +1,5 @@
 //! Motions made consistent where the truth is known: a walk in three dimensions whose ground forces are exactly those it needs.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
 use ambulo::dynamics::residual_reduction::{
     MOST_CENTER_M, ReducedMotion, ResidualReductionError, ResidualReductionSettings, reduce_residuals,
 };

@@ -1,10 +1,6 @@
 //! Skeletons of BVH files on the built-in body: lengths, postures, and a walk through inverse dynamics without plates.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod shared_data;
-
+use crate::shared_data;
 use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;

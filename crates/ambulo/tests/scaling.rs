@@ -1,11 +1,7 @@
 //! Scaling of models: compared with OpenSim, and recovery of known sizes from a standing trial.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod common;
-mod marker_data;
-
+use crate::common::random::Random;
+use crate::marker_data::{Subject, gait2392, rajagopal};
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::kinematics::scaling::{
@@ -16,8 +12,6 @@ use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{Drive, Model, ScaleError};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::Vec3;
-use common::random::Random;
-use marker_data::{Subject, gait2392, rajagopal};
 use std::path::Path;
 
 /// Rows of a file with OpenSim's results: a name and values.

@@ -1,10 +1,6 @@
 //! Simulated scenes: the examples agree with their comments; joints, closures and figures follow the scene.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod shared_data;
-
+use crate::shared_data::data;
 use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
@@ -12,7 +8,6 @@ use ambulo::motion::{Smoother, Window, coordinates_from_table};
 use ambulo::simulation::scene::{Scene, SceneError, SceneFile, SceneFrame, SceneSettings};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
-use shared_data::data;
 use std::path::{Path, PathBuf};
 
 const G: f64 = 9.80665;

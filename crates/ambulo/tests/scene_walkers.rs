@@ -1,8 +1,5 @@
 //! Figures that walk in scenes: alone, hand in hand, with a box, into a kerb; and the verdict on them.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
 use ambulo::analysis::feasibility::{Check, Thresholds, VerdictState};
 use ambulo::analysis::{SceneVerdict, scene_verdict};
 use ambulo::findings::Findings;

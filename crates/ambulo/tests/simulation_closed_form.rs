@@ -3,15 +3,13 @@
 //! The scheme is v⁺ from the forces at x, then x⁺ = x + h v⁺: first order. Where a motion is smooth its error must halve with
 //! the step; where the scheme itself has a closed form (constant force, linear spring) it must be met to rounding.
 
-mod common;
-
-use ambulo::simulation::{JointKind, Motor, Signal, Spring, World, energy, largest_joint_error};
-use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
-use common::random::Random;
-use common::worlds::{
+use crate::common::random::Random;
+use crate::common::worlds::{
     G, O, Run, add_body, add_closure, add_hinge, add_joint, along, assert_first_order, drive, empty, sine, turned, v,
 };
-use common::{assert_near, derivatives, turn};
+use crate::common::{assert_near, derivatives, turn};
+use ambulo::simulation::{JointKind, Motor, Signal, Spring, World, energy, largest_joint_error};
+use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 use std::f64::consts::{PI, TAU};
 
 /// What sums of a thousand rounded numbers of order one miss, generously.

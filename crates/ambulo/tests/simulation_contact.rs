@@ -1,10 +1,12 @@
 //! Contact, friction and impact of the velocity-level stepper, against closed forms and against the laws themselves, whose
 //! residuals are computed here from poses, twists and forces alone.
 
-#![expect(clippy::unwrap_used, clippy::print_stdout, reason = "helpers of tests may unwrap and print as tests do")]
-
-mod common;
-
+use crate::common::random::Random;
+use crate::common::worlds::{
+    G, O, Run, add_ball, add_body, add_box, add_floor, add_hinge, add_joint, add_obstacle, add_solid, add_surface,
+    along, drive, of_material, of_rigid, sine, turned, v,
+};
+use crate::common::{assert_near, turn};
 use ambulo::contact::{HuntCrossley, Shape};
 use ambulo::dynamics::SolverSettings;
 use ambulo::numerics::{Smoothing, SplineDegree, SplineFitter};
@@ -12,12 +14,6 @@ use ambulo::simulation::{
     ContactLaw, ImpactLaw, JointKind, Material, ObstaclePath, Owner, Signal, World, WorldState, energy,
 };
 use ambulo::spatial::{Pose, Vec3};
-use common::random::Random;
-use common::worlds::{
-    G, O, Run, add_ball, add_body, add_box, add_floor, add_hinge, add_joint, add_obstacle, add_solid, add_surface,
-    along, drive, of_material, of_rigid, sine, turned, v,
-};
-use common::{assert_near, turn};
 
 /// What a second of steps of 1 ms sums of the solver's 1e-10 of g h = 1e-2 m/s, generously: also as a share of a weight.
 const SOLVED: f64 = 1e-8;

@@ -1,21 +1,17 @@
 //! Robustness of the simulator: long runs, resumed runs, random scenes, impossible drives.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
-mod common;
-
+use crate::common::random::Random;
+use crate::common::turn;
+use crate::common::worlds::{
+    G, O, Run, add_ball, add_body, add_box, add_closure, add_floor, add_hinge, add_joint, add_obstacle, add_surface,
+    along, drive, empty, of_rigid, sine, turned, v,
+};
 use ambulo::contact::{HuntCrossley, Shape};
 use ambulo::simulation::{
     ContactLaw, JointDrive, JointKind, Material, Motor, ObstaclePath, Owner, Signal, Spring, World, WorldState, energy,
     largest_joint_error,
 };
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
-use common::random::Random;
-use common::turn;
-use common::worlds::{
-    G, O, Run, add_ball, add_body, add_box, add_closure, add_floor, add_hinge, add_joint, add_obstacle, add_surface,
-    along, drive, empty, of_rigid, sine, turned, v,
-};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 // ---- drift ----

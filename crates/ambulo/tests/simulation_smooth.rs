@@ -1,12 +1,10 @@
 //! The fourth-order integrator: closed forms, its order, energy, and the instants at which surfaces meet.
 
-mod common;
-
-use ambulo::simulation::{Integrator, JointKind, energy};
-use ambulo::spatial::{Mat3, Pose, Twist, Vec3};
-use common::worlds::{
+use crate::common::worlds::{
     G, O, Run, add_ball, add_body, add_closure, add_floor, add_joint, drive, empty, of_rigid, sine, turned, v,
 };
+use ambulo::simulation::{Integrator, JointKind, energy};
+use ambulo::spatial::{Mat3, Pose, Twist, Vec3};
 
 fn smooth(world: ambulo::simulation::World, step_s: f64) -> Run {
     let mut run = Run::new(world, step_s);

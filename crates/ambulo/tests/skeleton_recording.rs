@@ -1,10 +1,6 @@
 //! Skeletons of BVH files as recordings of joint centres: names, unit, axes, forward kinematics; synthetic and real files.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
-mod shared_data;
-
+use crate::shared_data;
 use ambulo::findings::{Code, Findings};
 use ambulo::motion::skeleton::{POINT_DISTANCE_M, SkeletonError, SkeletonRecording, skeleton_from_bvh};
 use ambulo::spatial::Vec3;

@@ -1,6 +1,5 @@
 //! Natural splines against closed forms, an independent dense solution, an independent tridiagonal one, and scipy.
 #![expect(clippy::float_cmp, reason = "exact reproduction is what some of these tests claim")]
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use std::time::Instant;
 

@@ -7,9 +7,6 @@
 //! | cycles repeat                                                | 2 % of the largest moment                                  |
 //! | mean vertical force over a cycle is the weight               | 0.5 % (the issue's)                                        |
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
-
 use ambulo::analysis::{Analysis, ForceSource, MassSource, analyse_trajectory};
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;

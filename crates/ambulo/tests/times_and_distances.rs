@@ -1,9 +1,6 @@
 //! Times and distances of an invented walk: identities, and the same walk on a belt and round a bend.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
-mod common;
-
+use crate::common::assert_near;
 use ambulo::analysis::{Analysis, StrideQuantity, TimesAndDistances, times_and_distances};
 use ambulo::findings::Findings;
 use ambulo::kinematics::Trajectory;
@@ -12,7 +9,6 @@ use ambulo::motion::{Smoother, coordinates_from_table, force_recordings};
 use ambulo::study::{self, ForceFilter, MeasuredForces, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
-use common::assert_near;
 use std::path::Path;
 
 /// The body and the analysis of an invented walk of two strides.

@@ -1,7 +1,5 @@
 //! Walking figures: forces compared with inverse dynamics, momentum, symmetry, contact laws, and invalid figures.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
 use ambulo::dynamics::{LoadSeries, Workspace, inverse};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};

@@ -1,10 +1,8 @@
 //! Errors of `World::check` for invalid descriptions.
 
-mod common;
-
+use crate::common::worlds::{O, add_body, add_floor, add_hinge, of_rigid};
 use ambulo::simulation::{JointKind, World};
 use ambulo::spatial::{Mat3, Pose};
-use common::worlds::{O, add_body, add_floor, add_hinge, of_rigid};
 
 /// Two links on a floor; sound.
 fn sound() -> World {

@@ -35,6 +35,8 @@ struct House {
     called_once: Vec<String>,
     /// Files of each circle.
     circles: Vec<String>,
+    /// Test files that no test program contains.
+    forgotten_tests: Vec<String>,
 }
 
 /// Measures the tree, and a revision next to it; fails where the tree exceeds a limit.
@@ -59,6 +61,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     print!("{}", table(&now, before.as_ref().map(|(name, house)| (*name, house))));
     print_list("functions over 60 lines", &now.long_functions);
     print_list("circles of files", &now.circles);
+    print_list("test files that are not a module of tests/main.rs", &now.forgotten_tests);
     if listed {
         print_list("private functions called once", &now.called_once);
     }
@@ -79,6 +82,7 @@ impl House {
             house.add(&one);
         }
         house.function_lines.sort_unstable();
+        house.forgotten_tests = source::forgotten_tests(workspace)?;
         Ok(house)
     }
 
@@ -119,6 +123,11 @@ impl House {
     /// An error if the tree exceeds a limit.
     fn judge(&self) -> Result<(), String> {
         let (long, circles) = (self.long_functions.len(), self.circles.len());
+        if !self.forgotten_tests.is_empty() {
+            return Err(
+                "there are test files that never run\nhint: name them in the `tests/main.rs` next to them".to_owned()
+            );
+        }
         if long == 0 && circles <= MOST_CIRCLES {
             return Ok(());
         }

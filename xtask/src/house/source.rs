@@ -44,6 +44,25 @@ pub(super) fn crates(workspace: &Path) -> Result<Vec<Crate>, String> {
     Ok(list)
 }
 
+/// Files of `crates/*/tests` that neither `tests/main.rs` nor `Cargo.toml` names.
+pub(super) fn forgotten_tests(workspace: &Path) -> Result<Vec<String>, String> {
+    let mut forgotten = Vec::new();
+    for folder in entries(&workspace.join("crates"))? {
+        let tests = folder.join("tests");
+        let Ok(main) = fs::read_to_string(tests.join("main.rs")) else { continue };
+        let manifest = fs::read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
+        for path in entries(&tests)?.iter().filter(|path| path.extension().is_some_and(|ending| ending == "rs")) {
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            let module = format!("mod {stem};");
+            let is_listed = main.lines().any(|line| line == module) || manifest.contains(&format!("tests/{stem}.rs"));
+            if !is_listed {
+                forgotten.push(path.strip_prefix(workspace).unwrap_or(path).display().to_string());
+            }
+        }
+    }
+    Ok(forgotten)
+}
+
 fn collect(source: &Path, folder: &Path, files: &mut Vec<File>) -> Result<(), String> {
     for path in entries(folder)? {
         if path.is_dir() {

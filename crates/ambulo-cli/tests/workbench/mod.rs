@@ -1,14 +1,12 @@
 //! Runs the program with a time limit in a folder of its own, which contains an input for `forces`.
-
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-
 use ambulo_formats::table::Table;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
@@ -77,8 +75,12 @@ impl Workbench {
         bench
     }
 
+    /// An empty folder with this name, which no other test may use.
     pub(crate) fn empty(name: &str) -> Workbench {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("program").join(env!("CARGO_CRATE_NAME")).join(name);
+        static NAMES: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+        let is_new = NAMES.lock().unwrap().insert(name.to_owned());
+        assert!(is_new, "two tests use the folder `{name}`");
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("program").join(name);
         if folder.exists() {
             fs::remove_dir_all(&folder).unwrap();
         }

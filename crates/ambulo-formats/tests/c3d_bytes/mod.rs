@@ -1,7 +1,5 @@
 //! C3D files put together byte by byte, without the crate's writer: Intel numbers, one record after the other.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-
 const BLOCK: usize = 512;
 
 /// A file under construction. Word numbers of the header count from 1, as the format's description does.

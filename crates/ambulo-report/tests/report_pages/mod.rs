@@ -1,8 +1,5 @@
 //! Result folders in memory, and readers for the data and numbers of their page.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-#![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
 use ambulo::findings::Findings;
 use ambulo::model::Model;
 use ambulo::motion::{Smoother, coordinates_from_table, force_recordings};

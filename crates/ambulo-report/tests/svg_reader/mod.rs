@@ -1,6 +1,6 @@
 //! Reads figures back with an independent XML parser: panels with their axes, and lines as numbers.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
+#![allow(dead_code, reason = "each crate uses its own part")]
 
 use ambulo::model::Side;
 use roxmltree::{Document, Node};

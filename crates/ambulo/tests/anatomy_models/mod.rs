@@ -1,11 +1,8 @@
 //! Published models, and transformations of a model that do not change its anatomy.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
 use crate::shared_data;
 use ambulo::findings::Findings;
-use ambulo::model::{Body, BodyId, Coordinate, CoordinateId, Displacement, Drive, Function, JointAxis, Marker, Model};
+use ambulo::model::{Body, BodyId, Coordinate, CoordinateId, Displacement, Drive, Function, JointAxis, Model};
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3};
 
 /// Files below `shared/data`.
@@ -141,9 +138,4 @@ pub(crate) fn without(model: &Model, gone: impl Fn(BodyId) -> bool) -> Model {
         coordinate
     });
     rebuilt(model, model.gravity(), bodies.collect(), coordinates.collect())
-}
-
-/// The model with only these markers.
-pub(crate) fn marked(model: &Model, markers: Vec<Marker>) -> Model {
-    model.with_markers(markers).unwrap()
 }

@@ -4,12 +4,7 @@
 //! low-pass filtered by their authors: they rise from 20 to 140 N in 20 to 30 ms, those of the C3D files in 3 to 5 ms), otherwise
 //! from the README of the data.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-#![allow(clippy::unwrap_used, reason = "a test may stop where a file cannot be read")]
-
-#[path = "../gait_files/mod.rs"]
-mod gait_files;
-
+use crate::gait_files::{self, File, Subject};
 use ambulo::analysis::{BodySource, LaboratoryRecording, MarkerTrial, body_in_motion};
 use ambulo::findings::Findings;
 use ambulo::ground::phases::contacts_from_force;
@@ -27,7 +22,6 @@ use ambulo::motion::{
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
-use gait_files::{File, Subject};
 use std::path::Path;
 use std::sync::OnceLock;
 

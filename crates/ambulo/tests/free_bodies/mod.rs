@@ -1,8 +1,6 @@
 //! Bodies that float freely in the world: the smallest models for tests of plates, events and filters.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
+#![allow(dead_code, reason = "each crate uses its own part")]
 use ambulo::model::{
     Body, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds, Model,
 };

@@ -2,13 +2,7 @@
 //!
 //! The files are not part of the repository. They are searched in `shared/data` next to it, or in `$AMBULO_DATA/data`.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-#![allow(clippy::print_stdout, reason = "a test that skips says so")]
-#![allow(clippy::unwrap_used, reason = "a test may stop where a file cannot be read")]
-
-#[path = "../shared_data/mod.rs"]
-mod shared_data;
-
+pub(crate) use crate::shared_data::data as folder;
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration::{BodyMeasurements, PersonMeasurements};
 use ambulo::model::Side;
@@ -16,7 +10,6 @@ use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::{MarkerRecording, markers_from_c3d};
 use ambulo::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::C3d;
-pub(crate) use shared_data::data as folder;
 use std::path::Path;
 
 /// A subject: a standing trial and a walk.

@@ -1,19 +1,12 @@
 //! Recordings of markers with models and measured ground forces, from the data next to the repository.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-#![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-#![allow(clippy::print_stdout, reason = "says when there is no data")]
-
-#[path = "../shared_data/mod.rs"]
-mod shared_data;
-
+use crate::shared_data::data;
 use ambulo::findings::Findings;
 use ambulo::model::Model;
 use ambulo::motion::{ForceRecording, MarkerRecording, force_recordings, markers_from_trc};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
-use shared_data::data;
 use std::path::{Path, PathBuf};
 
 /// A person with a scaled model, a walking trial and a static one.

@@ -1,7 +1,5 @@
 //! A synthetic walk: feet at rest in stance and in swing on given paths, a pelvis with constant speed.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-
 use ambulo::model::Side;
 use ambulo::motion::{Event, EventKind, MarkerPath, MarkerRecording, PlateRecording};
 use ambulo::spatial::Vec3;

@@ -1,7 +1,5 @@
 //! C3D files with force plates, created in memory.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-
 use ambulo_formats::c3d::{C3d, Channel, Encoding, Group, Parameter, Parameters, Point, Values};
 
 /// A plate as described in a file, in mm.

@@ -1,8 +1,6 @@
 //! Location of recordings that are not part of the repository: `shared/data` next to it, or `$AMBULO_DATA/data`.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
-#![allow(clippy::print_stdout, reason = "says when there is no data")]
-
+#![allow(dead_code, reason = "each crate uses its own part")]
 use std::path::{Path, PathBuf};
 
 /// The folder; `None`, with a printed line, if there is none.

@@ -8,8 +8,6 @@
 //! p_feet goes from heel to ball of the stance foot and in double support to the other one; the hand carries the share s. The path of
 //! the trunk is the solution that is at rest at the beginning and at the end.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop where a model cannot be built")]
-
 use ambulo::findings::Findings;
 use ambulo::kinematics::Trajectory;
 use ambulo::model::anatomy::{Sole, SolePoint};

@@ -1,0 +1,39 @@
+//! Tests of the command from outside.
+//!
+//! All are modules of one program, which links faster and takes less space than a program each.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
+
+#[allow(dead_code, unused_imports, reason = "only the description of the command line is used")]
+#[path = "../src/args/mod.rs"]
+mod args;
+#[path = "../src/bug_report.rs"]
+mod bug_report;
+#[path = "../../ambulo/tests/shared_data/mod.rs"]
+mod shared_data;
+#[path = "../../ambulo-report/tests/svg_reader/mod.rs"]
+mod svg_reader;
+mod workbench;
+
+mod bad_input;
+mod consistent;
+mod exchange;
+mod figures;
+mod folders;
+mod marker_input;
+mod one_road;
+mod option_sweep;
+mod pages;
+mod panics;
+mod pictures;
+mod plates;
+mod predict;
+mod program;
+mod reproduce;
+mod results;
+mod simulate;
+mod summary_schema;
+mod tutorials;
+mod verdict;
+mod walk;

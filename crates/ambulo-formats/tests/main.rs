@@ -1,0 +1,22 @@
+//! Tests of the file formats.
+//!
+//! All are modules of one program, which links faster and takes less space than a program each.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
+
+mod c3d_bytes;
+mod shared_data;
+
+mod c3d_damage;
+mod c3d_recordings;
+mod c3d_traps;
+mod c3d_write;
+mod loads;
+mod malformed;
+mod malformed_skeletons;
+mod markers;
+mod osim_write;
+mod real_files;
+mod skeletons;
+mod tables;

@@ -1,0 +1,96 @@
+//! Tests of the library, one module per subject.
+//!
+//! All are modules of one program, which links faster and takes less space than a program each.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
+
+mod anatomy_models;
+mod common;
+mod footfall_trials;
+mod free_bodies;
+mod gait_files;
+mod marker_data;
+mod marker_walk;
+mod plate_files;
+mod shared_data;
+mod walking_puppet;
+
+mod analysis;
+mod anatomy;
+mod anthropometry;
+mod architecture;
+mod calibration;
+mod calibration_files;
+mod calibration_moments;
+mod clinical_angles;
+mod consistent_walk;
+mod constraint_graph;
+mod contact_geometry;
+mod conventions;
+mod elimination;
+mod feasibility;
+mod feet_on_plates;
+mod filters;
+mod findings;
+mod foot_motion;
+mod footfalls;
+mod footfalls_puppet;
+mod footfalls_skeletons;
+mod footfalls_synthetic;
+mod force_filter;
+mod force_plate;
+mod full_body;
+mod functions;
+mod gait_accuracy;
+mod gait_coordinates;
+mod gait_curves;
+mod gait_file;
+mod gait_machine;
+mod gait_speed;
+mod gait_style_1997;
+mod gait_walk;
+mod ground_agreement;
+mod ground_measured;
+mod ground_predict;
+mod ground_stream;
+mod identities;
+mod independent;
+mod laboratory;
+mod laboratory_files;
+mod laboratory_gaps;
+mod laboratory_robustness;
+mod lumped;
+mod marker_fit;
+mod marker_fit_invented;
+mod marker_gaps;
+mod marker_misplaced;
+mod marker_outliers;
+mod marker_recording;
+mod marker_sets;
+mod marker_smoothing;
+mod mujoco_parity;
+mod opensim_parity;
+mod osim_export;
+mod osim_import;
+mod plug_in_gait;
+mod prediction_checks;
+mod recordings;
+mod reproduction;
+mod residual_reduction;
+mod residual_reduction_synthetic;
+mod retarget;
+mod scaling;
+mod scene_file;
+mod scene_run;
+mod scene_walkers;
+mod simulation_closed_form;
+mod simulation_contact;
+mod simulation_robustness;
+mod simulation_smooth;
+mod skeleton_recording;
+mod splines;
+mod synthetic_walk;
+mod times_and_distances;
+mod walking;
+mod world_check;
