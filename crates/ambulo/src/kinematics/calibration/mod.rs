@@ -70,6 +70,36 @@ pub struct Calibrated {
 ///
 /// # Errors
 /// Markers that are missing or never visible together, implausible lengths: see [`CalibrationError`].
+///
+/// The thigh of a person with long legs, from markers in quiet standing:
+///
+/// ```
+/// use ambulo::findings::Findings;
+/// use ambulo::kinematics::calibration::{BodyMeasurements, PersonMeasurements, Trial, calibrate};
+/// use ambulo::kinematics::{Posture, body_motion};
+/// use ambulo::model::anthropometry::{Build, SegmentTable};
+/// use ambulo::model::full_body::full_body;
+/// use ambulo::model::marker_set::{MarkerSet, RecognisedMarkers};
+/// use ambulo::motion::{MarkerPath, MarkerRecording};
+///
+/// let table = SegmentTable::DeLevaMale;
+/// let person = full_body(&Build { table, mass: 80.0, height: 1.95, toe_joint: true })?;
+/// let standing: Vec<f64> = person.model.coordinates().iter().map(|c| c.default_value).collect();
+/// let rest = vec![0.0; standing.len()];
+/// let poses = body_motion(&person.model, Posture { q: &standing, qd: &rest, qdd: &rest });
+/// let path = |marker: ambulo::model::Marker| {
+///     let body = marker.body.map_or(0, |body| body.index());
+///     MarkerPath { name: marker.name, positions: vec![poses[body].pose.place(marker.location); 20] }
+/// };
+/// let markers: Vec<MarkerPath> = MarkerSet::named("plug-in-gait")?.on(&person).into_iter().map(path).collect();
+/// let recognised = RecognisedMarkers::recognise(markers.iter().map(|marker| marker.name.as_str()))?;
+/// let times = (0..20).map(|i| 0.01 * f64::from(i)).collect();
+/// let recording = MarkerRecording { name: "standing".to_owned(), rate_hz: 100.0, times, markers };
+/// let measured = PersonMeasurements { table, mass: 80.0, height: None, measurements: BodyMeasurements::default() };
+/// let body = calibrate(&recording, Trial::Standing, &recognised, &measured, &mut Findings::default())?.human;
+/// assert!((body.dimensions.thigh - person.dimensions.thigh).abs() < 0.02, "{}", body.dimensions.thigh);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn calibrate(
     recording: &MarkerRecording,
     trial: Trial,
