@@ -429,7 +429,7 @@ fn forces_that_do_not_belong_to_the_motion_give_no_feasible_verdict() {
 #[test]
 fn the_first_and_last_tenth_of_a_second_are_not_judged() {
     // The feet are pushed apart, with three times the allowed friction.
-    let push = |frames: std::ops::Range<usize>| {
+    let push = |frames: Range<usize>| {
         let force = move |i: usize, side: Side| {
             let share = if frames.contains(&i) { 0.3 } else { 0.0 };
             Vec3::new(if side == Side::Right { share } else { -share } * HALF, HALF, 0.0)
