@@ -79,7 +79,7 @@ pub struct Calibrated {
 /// use ambulo::kinematics::{Posture, body_motion};
 /// use ambulo::model::anthropometry::{Build, SegmentTable};
 /// use ambulo::model::full_body::full_body;
-/// use ambulo::model::marker_set::{MarkerSet, RecognisedMarkers};
+/// use ambulo::model::marker_set::MarkerSet;
 /// use ambulo::motion::{MarkerPath, MarkerRecording};
 ///
 /// let table = SegmentTable::DeLevaMale;
@@ -92,7 +92,7 @@ pub struct Calibrated {
 ///     MarkerPath { name: marker.name, positions: vec![poses[body].pose.place(marker.location); 20] }
 /// };
 /// let markers: Vec<MarkerPath> = MarkerSet::named("plug-in-gait")?.on(&person).into_iter().map(path).collect();
-/// let recognised = RecognisedMarkers::recognise(markers.iter().map(|marker| marker.name.as_str()))?;
+/// let recognised = MarkerSet::recognise(markers.iter().map(|marker| marker.name.as_str()))?;
 /// let times = (0..20).map(|i| 0.01 * f64::from(i)).collect();
 /// let recording = MarkerRecording { name: "standing".to_owned(), rate_hz: 100.0, times, markers };
 /// let measured = PersonMeasurements { table, mass: 80.0, height: None, measurements: BodyMeasurements::default() };
