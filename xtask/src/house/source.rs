@@ -82,3 +82,24 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, String> {
     paths.sort();
     Ok(paths)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_test_file_that_nothing_names_is_found() {
+        let root = std::env::temp_dir().join(format!("ambulo-house-{}", std::process::id()));
+        let tests = root.join("crates/gait/tests");
+        fs::create_dir_all(&tests).unwrap();
+        fs::write(root.join("crates/gait/Cargo.toml"), "path = \"tests/alone.rs\"").unwrap();
+        fs::write(tests.join("main.rs"), "mod knee;\n\nmod main;\n// mod hip;\n").unwrap();
+        for file in ["knee.rs", "hip.rs", "alone.rs"] {
+            fs::write(tests.join(file), "").unwrap();
+        }
+        let found = forgotten_tests(&root).unwrap();
+        fs::remove_dir_all(&root).unwrap();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].ends_with("hip.rs"), "{found:?}");
+    }
+}
