@@ -66,7 +66,7 @@ const STEPS: [Step; 11] = [
     Step {
         name: "tests",
         tool: Tool::Cargo,
-        // What a test measured or skipped is worth seeing when it passes, too.
+        // The output of tests that pass is printed as well: it has the values that they measured and the recordings that were missing.
         arguments: &["test", "--workspace", "--locked", "--all-targets", "--", "--show-output"],
         variable: None,
         hint: "run the failing test alone with `cargo test --package NAME TEST`; `cargo test --workspace` runs all",

@@ -11,7 +11,8 @@ use std::path::PathBuf;
 
 Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, shapes.json, summary.json, report.html
 (open it with `ambulo view DIR`); moments.sto if the scene has figures; figures/*.svg with --plot. Files that would be empty are not
-written. The results of an earlier run in DIR are replaced as a whole; other files stay. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]
+written. The results of an earlier run in DIR are replaced as a whole; other files stay. docs/SCENES.md describes scene files,
+docs/OUTPUTS.md the results.")]
 pub(crate) struct SimulateArgs {
     /// The scene (.toml).
     pub(crate) scene: PathBuf,
