@@ -97,7 +97,7 @@ pub struct Calibrated {
 /// let recording = MarkerRecording { name: "standing".to_owned(), rate_hz: 100.0, times, markers };
 /// let measured = PersonMeasurements { table, mass: 80.0, height: None, measurements: BodyMeasurements::default() };
 /// let body = calibrate(&recording, Trial::Standing, &recognised, &measured, &mut Findings::default())?.human;
-/// assert!((body.dimensions.thigh - person.dimensions.thigh).abs() < 0.02, "{}", body.dimensions.thigh);
+/// assert!((body.dimensions.thigh - person.dimensions.thigh).abs() < 1e-3, "{}", body.dimensions.thigh);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn calibrate(
