@@ -53,6 +53,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
     let mut summary = summary(&outcome.body, &outcome.analysis, &settings, input, findings);
     summary.times_and_distances = WalkingSummary::of(&outcome.times_and_distances);
     summary.height_m = outcome.height_m();
+    summary.quality = Some(outcome.quality.clone());
     summary.subject = outcome.tracking.as_ref().map(subject);
     summary.consistency = outcome.residual_reduction.as_ref().map(ConsistencySummary::of);
     let prediction = outcome.prediction.as_ref();

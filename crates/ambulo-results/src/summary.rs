@@ -12,6 +12,7 @@ use ambulo::findings::{Finding, Findings};
 use ambulo::model::Model;
 use ambulo::motion::Smoother;
 use ambulo::motion::filter::LowPass;
+use ambulo::study::Quality;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -68,6 +69,8 @@ pub struct Summary {
     pub peaks: Vec<PeakSummary>,
     /// Warnings and notes.
     pub findings: Vec<Finding>,
+    /// Quality of the data: whether recording, body and forces fit together.
+    pub quality: Option<Quality>,
     /// Verdict: whether a person could do this motion.
     pub verdict: Option<Verdict>,
     /// Checks of predicted forces; `null` without a prediction.
@@ -334,6 +337,7 @@ pub fn summary(
         residual: residual(model, analysis),
         peaks: peaks(model, analysis),
         findings: findings.as_slice().to_vec(),
+        quality: None,
         verdict: analysis.verdict.clone(),
         prediction: None,
         comparison: None,

@@ -75,6 +75,7 @@ mod osim_export;
 mod osim_import;
 mod plug_in_gait;
 mod prediction_checks;
+mod quality;
 mod recordings;
 mod reproduction;
 mod residual_reduction;

@@ -14,8 +14,8 @@ use ambulo_formats::c3d::C3d;
 use std::path::Path;
 
 /// A person with a standing trial and a straight walk.
-struct Person {
-    name: &'static str,
+pub(crate) struct Person {
+    pub(crate) name: &'static str,
     standing: &'static str,
     walk: &'static str,
     mass_kg: f64,
@@ -26,7 +26,7 @@ const fn person(name: &'static str, trials: [&'static str; 2], mass_kg: f64, hei
     Person { name, standing: trials[0], walk: trials[1], mass_kg, height_m }
 }
 
-const PEOPLE: [Person; 7] = [
+pub(crate) const PEOPLE: [Person; 7] = [
     person("HC032A", ["01", "03"], 60.3, 1.58),
     person("HC002D", ["02", "06"], 32.1, 1.45),
     person("HC030A", ["01", "05"], 45.8, 1.48),
@@ -65,7 +65,7 @@ impl Person {
         std::fs::read(folder.join(format!("biomechzoo-{name}/{name}{trial}.c3d"))).unwrap()
     }
 
-    fn source(&self, folder: &Path) -> Source {
+    pub(crate) fn source(&self, folder: &Path) -> Source {
         let read =
             |trial| LaboratoryFile::from_c3d(&self.file(folder, trial), trial, &mut Findings::default()).unwrap();
         let (mass_kg, height_m) = (Some(self.mass_kg), Some(self.height_m));

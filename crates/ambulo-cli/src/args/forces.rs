@@ -26,8 +26,8 @@ used); with --device moments_biological.sto; with predicted forces grf_sd.mot; w
 results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files.
 
 The verdict says whether a person could make this motion (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
-residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the motion
-is infeasible.")]
+residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the data
+are bad or the motion is infeasible.")]
 pub(crate) struct ForcesArgs {
     /// The recording: markers (.c3d, .trc), coordinates (.mot, .sto) or a skeleton (.bvh).
     pub(crate) input: PathBuf,

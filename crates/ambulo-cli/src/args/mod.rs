@@ -76,7 +76,7 @@ impl ReplaceArgs {
 /// Whether the result sets the exit code.
 #[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct CheckArgs {
-    /// Exit with 1 if the motion is infeasible.
+    /// Exit with 1 if the data are bad or the motion is infeasible.
     #[arg(long)]
     pub(crate) check: bool,
 }

@@ -44,7 +44,7 @@ clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `
 results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files.
 
 The verdict says whether a person could make this motion (docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could
-be computed; with --check, 1 if the motion is infeasible.")]
+be computed; with --check, 1 if the data are bad or the motion is infeasible.")]
 pub(crate) struct WalkArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArgs,

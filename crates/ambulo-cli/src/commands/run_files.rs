@@ -8,7 +8,7 @@ use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Thresholds, VerdictState};
 use ambulo::findings::Findings;
-use ambulo::study::Outcome;
+use ambulo::study::{Outcome, QualityState};
 use ambulo_report::{clinical_file, outcome_figures};
 use ambulo_results::{
     Convention, Input, OutputFile, RunSummary, SUMMARY, Summary, WalkSummary, outcome_summary, outcome_tables,
@@ -65,13 +65,15 @@ impl RunFiles<'_> {
         written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));
         target.replace(&written, read)?;
         printer::forces(&summary, target.folder(), print)?;
-        Ok(completion(outcome.verdict.state, check))
+        let is_refused =
+            outcome.quality.state == QualityState::Bad || outcome.verdict.state == VerdictState::Infeasible;
+        Ok(completion(is_refused, check))
     }
 }
 
-/// Results were written; only a check makes an infeasible motion a failure.
-pub(super) fn completion(state: VerdictState, check: CheckArgs) -> Completion {
-    if check.check && state == VerdictState::Infeasible { Completion::Failed } else { Completion::Passed }
+/// Results were written; only a check makes bad data or an infeasible motion a failure.
+pub(super) fn completion(is_refused: bool, check: CheckArgs) -> Completion {
+    if check.check && is_refused { Completion::Failed } else { Completion::Passed }
 }
 
 /// The thresholds of a file, or the built-in ones.

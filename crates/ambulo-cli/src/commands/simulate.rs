@@ -74,7 +74,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
         files::write(path, &summary_json(&scene.save())?)?;
     }
     printer::simulate(&summary, target.folder(), args.print)?;
-    Ok(completion(state, args.check))
+    Ok(completion(state == VerdictState::Infeasible, args.check))
 }
 
 /// Builds the scene and reads every file that it names; adds their paths to `inputs`.

@@ -3,6 +3,7 @@
 use super::{comparison, consistency, print_findings, print_line, print_verdict, subject};
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
+use ambulo::study::Quality;
 use ambulo_results::{FilterSummary, ForceUnit, Ground, GroundOrigin, MassKnowledge, Summary, WalkSummary};
 use anyhow::Result;
 use std::path::Path;
@@ -55,11 +56,28 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
     if let Some(comparison) = &summary.comparison {
         comparison::print(comparison)?;
     }
+    if let Some(quality) = &summary.quality {
+        print_quality(quality)?;
+    }
     if let Some(verdict) = &summary.verdict {
         print_verdict(verdict)?;
     }
     print_line(&format!("  written   {}", output.display()))?;
     Ok(())
+}
+
+/// Prints whether the data are good, and the strongest reasons why not.
+fn print_quality(quality: &Quality) -> Result<()> {
+    /// Longer lists are in summary.json.
+    const MOST: usize = 3;
+    print_line(&format!("  quality   {}", quality.state.word()))?;
+    for reason in quality.reasons.iter().take(MOST) {
+        print_line(&format!("    {}: {}", reason.state.word(), reason.message))?;
+    }
+    match quality.reasons.len().saturating_sub(MOST) {
+        0 => Ok(()),
+        more => print_line(&format!("    and {more} more in summary.json")),
+    }
 }
 
 /// Prints how a synthetic walk was computed.

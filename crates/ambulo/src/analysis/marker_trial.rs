@@ -95,6 +95,8 @@ pub struct Subject {
     pub calibration: Option<CalibrationReport>,
     /// How a given model was scaled: factors of each body along its axes.
     pub scaled: Vec<(String, Vec3)>,
+    /// Root mean square distance of the markers of the standing trial from those of the scaled model [m].
+    pub scaling_rms_m: Option<f64>,
     /// The recognised marker sets.
     pub sets: Vec<String>,
 }
@@ -261,16 +263,16 @@ impl Subject {
         standing: Option<&MarkerRecording>,
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
-        let (model, scaled) = match standing {
+        let (model, scaled, scaling_rms_m) = match standing {
             Some(standing) => {
                 let sized = fit_size(model, standing, SizeSettings { mass }, findings)?;
                 findings.report(Code::ScalingFitted, scaling_message(&sized));
                 let names = sized.model.bodies().iter().map(|body| body.name.clone());
-                (sized.model.clone(), names.zip(sized.factors).collect())
+                (sized.model.clone(), names.zip(sized.factors).collect(), Some(sized.rms_m))
             }
             None => {
                 let unscaled = vec![Vec3::repeat(1.0); model.bodies().len()];
-                (model.scaled(&unscaled, mass).map_err(ScalingError::from)?, Vec::new())
+                (model.scaled(&unscaled, mass).map_err(ScalingError::from)?, Vec::new(), None)
             }
         };
         Ok(Subject {
@@ -279,6 +281,7 @@ impl Subject {
             weights: BTreeMap::new(),
             calibration: None,
             scaled,
+            scaling_rms_m,
             sets: Vec::new(),
         })
     }
@@ -304,6 +307,7 @@ impl Subject {
             weights: calibrated.weights,
             calibration: Some(calibrated.report),
             scaled: Vec::new(),
+            scaling_rms_m: None,
             sets: recognised.sets,
             model: human.model,
         })

@@ -2,7 +2,7 @@
 
 use super::recording::Motion;
 use crate::findings::{Code, Findings, and_more_times};
-use crate::model::{CoordinateKind, Model};
+use crate::model::{CoordinateId, CoordinateKind, Model};
 use crate::numerics::median;
 use std::f64::consts::{PI, TAU};
 
@@ -40,23 +40,44 @@ pub(super) fn without_whole_turns(model: &Model, motion: &mut Motion, findings: 
     }
 }
 
+/// Sudden changes of one coordinate that no person makes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Jumps {
+    pub(crate) coordinate: CoordinateId,
+    /// The frames after the changes; at least one.
+    pub(crate) frames: Vec<usize>,
+}
+
+/// The jumps of a motion, without coordinates that have none.
+pub(crate) fn jumps(model: &Model, motion: &Motion) -> Vec<Jumps> {
+    let of_coordinate = |coordinate: CoordinateId| {
+        let limits = match model.coordinates()[coordinate.index()].kind {
+            CoordinateKind::Rotation => Limits { fastest: 30.0, bounds: [0.1, 0.3] },
+            CoordinateKind::Translation => Limits { fastest: 10.0, bounds: [0.03, 0.1] },
+            CoordinateKind::Coupled => return None,
+        };
+        let frames = jumps_of_column(&motion.times, motion.columns[coordinate.index()].as_ref()?, &limits);
+        (!frames.is_empty()).then_some(Jumps { coordinate, frames })
+    };
+    model.coordinate_ids().filter_map(of_coordinate).collect()
+}
+
 /// Names every other jump.
 pub(super) fn report_jumps(model: &Model, motion: &Motion, findings: &mut Findings) {
-    for (coordinate, column) in model.coordinates().iter().zip(&motion.columns) {
-        let Some(column) = column else { continue };
-        let (limits, factor, unit) = match coordinate.kind {
-            CoordinateKind::Rotation => (Limits { fastest: 30.0, bounds: [0.1, 0.3] }, 1f64.to_degrees(), "deg"),
-            CoordinateKind::Translation => (Limits { fastest: 10.0, bounds: [0.03, 0.1] }, 1.0, "m"),
-            CoordinateKind::Coupled => continue,
+    for Jumps { coordinate, frames } in jumps(model, motion) {
+        let Some(column) = &motion.columns[coordinate.index()] else { continue };
+        let coordinate = &model.coordinates()[coordinate.index()];
+        let (factor, unit) = match coordinate.kind {
+            CoordinateKind::Rotation => (1f64.to_degrees(), "deg"),
+            CoordinateKind::Translation | CoordinateKind::Coupled => (1.0, "m"),
         };
-        let jumps = jumps(&motion.times, column, &limits);
-        if let [first, ..] = jumps[..] {
+        if let [first, ..] = frames[..] {
             let change = factor * (column[first] - column[first - 1]);
             let message = format!(
                 "`{}` jumps by {change:.3} {unit} {}{}; its rate, and the forces, are wrong there. hint: correct these frames, or leave them out",
                 coordinate.name,
                 place(&motion.times, first),
-                and_more_times(jumps.len())
+                and_more_times(frames.len())
             );
             findings.report(Code::MotionJump, message);
         }
@@ -91,17 +112,19 @@ fn unwrapped(column: &mut [f64]) -> Vec<usize> {
 }
 
 /// The frames after sudden changes.
-fn jumps(times: &[f64], column: &[f64], limits: &Limits) -> Vec<usize> {
+fn jumps_of_column(times: &[f64], column: &[f64], limits: &Limits) -> Vec<usize> {
     let changes: Vec<f64> = column.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let is_jump = |i: &usize| {
         let [least, most] = limits.bounds;
         let allowed = (limits.fastest * (times[i + 1] - times[*i])).clamp(least, most);
+        if changes[*i] <= allowed || changes[*i].is_nan() {
+            return false;
+        }
         let from = i.saturating_sub(AROUND);
         let to = (i + AROUND + 1).min(changes.len());
         let around = changes[from..*i].iter().chain(&changes[i + 1..to]).copied().filter(|change| change.is_finite());
         let around: Vec<f64> = around.collect();
-        let is_known = around.len() >= ENOUGH_AROUND;
-        changes[*i] > allowed && is_known && changes[*i] > SUDDEN * median(around).unwrap_or(f64::INFINITY)
+        around.len() >= ENOUGH_AROUND && changes[*i] > SUDDEN * median(around).unwrap_or(f64::INFINITY)
     };
     (0..changes.len()).filter(is_jump).map(|i| i + 1).collect()
 }

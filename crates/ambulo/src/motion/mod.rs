@@ -29,6 +29,7 @@ pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d
 pub use force_recording::{ForceRecording, force_recordings};
 pub use gait_event::{Event, EventKind, events_from_c3d};
 pub use import::coordinates_from_table;
+pub(crate) use jumps::{Jumps, jumps};
 pub use laboratory::{Heading, Laboratory, laboratory};
 pub use landmarks::Landmarks;
 pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};

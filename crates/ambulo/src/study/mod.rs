@@ -24,6 +24,7 @@ mod mass;
 mod observation;
 mod outcome;
 mod prediction;
+mod quality;
 mod run;
 mod settings;
 mod source;
@@ -34,6 +35,7 @@ pub use force_filter::ForceFilter;
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
 pub use mass::{MassKnowledge, standing_mass_kg};
 pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
+pub use quality::{Measure, Quality, QualityLimits, QualityReason, QualityState};
 pub use run::{run, run_observed};
 pub use settings::{GroundSettings, Settings};
 pub use source::{

@@ -42,6 +42,16 @@ pub(super) enum ObservedMotion {
     Complete(Trajectory),
 }
 
+impl ObservedMotion {
+    /// The samples, if it was recorded.
+    pub(super) fn recorded(&self) -> Option<&Motion> {
+        match self {
+            ObservedMotion::Recorded(motion) => Some(motion),
+            ObservedMotion::Complete(_) => None,
+        }
+    }
+}
+
 /// What a body in motion was made from.
 pub(super) enum Origin {
     Coordinates,

@@ -1,6 +1,7 @@
 //! What a study found.
 
 use super::mass::MassKnowledge;
+use super::quality::Quality;
 use crate::analysis::feasibility::{Person, Verdict};
 use crate::analysis::{
     Analysis, BodyInMotion, ComparedAnalyses, Event, GroundAgreement, PlateCoverage, PredictionChecks,
@@ -37,7 +38,9 @@ pub struct Outcome {
     pub residual_reduction: Option<ReducedMotion>,
     /// Generalised forces of a worn device on the frames of the motion, one column per coordinate [N.m or N].
     pub device: Option<Vec<Vec<f64>>>,
-    /// Whether a person could do this.
+    /// Whether the recording, the body and the forces fit together: about the data.
+    pub quality: Quality,
+    /// Whether a person could do this: about the movement.
     pub verdict: Verdict,
     /// Filters and time range that were used.
     pub processing: Processing,

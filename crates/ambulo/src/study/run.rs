@@ -5,6 +5,7 @@ use super::mass::MassKnowledge;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 use super::prediction::{Found, predicted, with_markers};
+use super::quality::QualityEvidence;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
 use crate::analysis::feasibility::{self, MotionAndForces, Person, PredictedForces, Verdict};
@@ -74,7 +75,7 @@ fn road(
     let processing = processing(&observation, settings, findings);
     let Found { analysis, prediction, measured_events } =
         forces(&observation, processing, settings, findings, progress)?;
-    let Observation { mut model, person, origin, mass_is_stated, .. } = observation;
+    let Observation { mut model, person, motion, origin, mass_is_stated, .. } = observation;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, residual_reduction) =
         residual_reduced(&model, analysis, processing, settings, &force_origin, findings)?;
@@ -96,9 +97,22 @@ fn road(
     let verdict = judged.verdict(settings, &force_origin, findings);
     progress.end(Stage::Feasibility)?;
     let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
+    let mass_knowledge = MassKnowledge::of(analysis.mass, checks, mass_is_stated);
+    let tracking = tracking(origin, measured_events);
+    let evidence = QualityEvidence {
+        model: &model,
+        motion: motion.recorded(),
+        rate_hz: 1.0 / grid.step_s,
+        smoother: processing.smoother,
+        force_origin,
+        tracking: tracking.as_ref(),
+        checks,
+        verdict: &verdict,
+    };
     Ok(Outcome {
-        mass_knowledge: MassKnowledge::of(analysis.mass, checks, mass_is_stated),
-        tracking: tracking(origin, measured_events),
+        quality: evidence.quality(),
+        mass_knowledge,
+        tracking,
         times_and_distances: times_and_distances(&model, &person.soles, &analysis),
         body: model,
         person,

@@ -29,6 +29,8 @@ pub struct FeasibilityLimits {
     up: Vec3,
     /// Weight [N].
     pub(super) weight: f64,
+    /// Body mass [kg].
+    pub(super) mass: f64,
     coordinates: Vec<CoordinateLimits>,
 }
 
@@ -111,6 +113,7 @@ impl FeasibilityLimits {
             person: person.clone(),
             up: crate::ground::upward(model),
             weight: person.mass_kg * model.gravity().norm(),
+            mass: person.mass_kg,
             coordinates: model.coordinate_ids().map(of_coordinate).collect(),
         }
     }

@@ -5,13 +5,14 @@ use super::ground_speed::over_ground;
 use super::person::Person;
 use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
-use super::verdict::{Check, Closest, NotJudged, Reason, Verdict, VerdictState};
+use super::verdict::{Check, Closest, FitOfForces, NotJudged, Reason, Verdict, VerdictState};
 use crate::dynamics::{Forces, Roots};
 use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, GroundForces, feet, upward};
 use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
+use crate::numerics::median;
 use crate::spatial::Vec3;
 
 /// A feasible motion was judged in at least this share of its frames.
@@ -99,6 +100,7 @@ pub fn check(
         frames_predicted: coverage.predicted.iter().filter(|predicted| **predicted).count(),
         mass_kg: thresholds.mass_kg.unwrap_or(person.mass_kg),
         height_m: thresholds.height_m.unwrap_or(person.height_m),
+        fit: coverage.fit(&limits),
     }
 }
 
@@ -148,6 +150,10 @@ struct Coverage {
     not_numbers: usize,
     /// Sum of the squared residual forces of these frames [N^2].
     residual_n2: f64,
+    /// Sum of the squared residual moments of these frames [(N.m)^2].
+    residual_nm2: f64,
+    /// Speeds of loaded soles along the ground [m/s].
+    slips: Vec<f64>,
 }
 
 impl Coverage {
@@ -186,6 +192,17 @@ impl Coverage {
         findings.report(Code::FeasibilityUnmeasuredSupport, message);
     }
 
+    /// How well motion and ground forces fit together.
+    fn fit(&self, limits: &FeasibilityLimits) -> FitOfForces {
+        let rms = |squares: f64| (self.judged_as_given > 0).then(|| (squares / self.judged_as_given as f64).sqrt());
+        FitOfForces {
+            residual_force_bw: rms(self.residual_n2).map(|force_n| force_n / limits.weight),
+            residual_moment_nm_kg: rms(self.residual_nm2).map(|moment_nm| moment_nm / limits.mass),
+            complete_share: self.judged_as_given as f64 / self.counted.max(1) as f64,
+            sliding_m_s: median(self.slips.iter().copied()),
+        }
+    }
+
     /// Why this motion cannot be called feasible.
     fn undecided(&self, motion: &MotionAndForces<'_>, limits: &FeasibilityLimits) -> Vec<String> {
         let mut list = Vec::new();
@@ -201,14 +218,14 @@ impl Coverage {
                 100.0 * LEAST_JUDGED_SHARE
             ));
         }
-        let measured = self.judged_as_given as f64 / self.counted.max(1) as f64;
+        let FitOfForces { residual_force_bw, complete_share: measured, .. } = self.fit(limits);
         if !motion.ground.bodies.is_empty() && self.counted > 0 && measured < LEAST_MEASURED_SHARE {
             list.push(format!(
                 "the measured ground forces carry the body in {:.0} % of the frames; they may not be those of this motion",
                 100.0 * measured
             ));
         }
-        let residual_bw = (self.residual_n2 / self.judged_as_given.max(1) as f64).sqrt() / limits.weight;
+        let residual_bw = residual_force_bw.unwrap_or(0.0);
         if residual_bw > DECISIVE_RESIDUAL_BW {
             list.push(format!(
                 "the residual force is {:.0} % of body weight; above {:.0} %, motion, body and ground forces do not belong together",
@@ -249,6 +266,9 @@ fn measure(
         let whole = covered || coverage.predicted[i];
         check_known(limits, &frame, whole, |m| {
             coverage.not_numbers += usize::from(m.share.is_nan());
+            if m.check == Check::Sliding && covered && inner.contains(&i) {
+                coverage.slips.push(m.value);
+            }
             if let Some(slot) = slot(model, &m).filter(|_| inner.contains(&i)) {
                 tracks[slot].add(i, m, lasting);
             }
@@ -259,6 +279,7 @@ fn measure(
             if covered {
                 coverage.judged_as_given += 1;
                 coverage.residual_n2 += frame.residual.force.norm_squared();
+                coverage.residual_nm2 += frame.residual.moment.norm_squared();
             }
         }
     });

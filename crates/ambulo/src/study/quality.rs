@@ -1,0 +1,494 @@
+//! Quality of the data: whether recording, body and forces fit together well enough for the results to be used.
+//!
+//! The verdict is about the movement, the quality is about the data. Each [`Measure`] has two limits: beyond the first the data are
+//! doubtful, beyond the second bad.
+//!
+//! Sources: Hicks, Uchida, Seth, Rajagopal, Delp 2015, J Biomech Eng 137:020905 ask for marker errors below 20 mm rms, and for residual
+//! forces below 5 % of the largest ground force (unverified); the limit of the residual is wider here, because forces and motion are
+//! filtered apart. The other limits are chosen here, so that clean walks are inside and spoiled copies of them outside.
+//! Pinned by: tests/quality.rs
+
+use super::outcome::{ForceOrigin, Tracking};
+use crate::analysis::PredictionChecks;
+use crate::analysis::feasibility::Verdict;
+use crate::kinematics::marker_fit::MarkerFit;
+use crate::model::Model;
+use crate::motion::{Jumps, Motion, Smoother, jumps};
+use crate::spatial::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// Whether the data can be used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum QualityState {
+    /// No measure is beyond its limits.
+    Good,
+    /// Results may be wrong in parts; the reasons say where.
+    Doubtful,
+    /// Results should not be used.
+    Bad,
+}
+
+impl QualityState {
+    /// The word in files and reports.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            QualityState::Good => "good",
+            QualityState::Doubtful => "doubtful",
+            QualityState::Bad => "bad",
+        }
+    }
+}
+
+/// What is measured of the data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// Residual force.
+    ResidualForce,
+    /// Residual moment about the root.
+    ResidualMoment,
+    /// Share of the motion with ground forces.
+    GroundForces,
+    /// Share of the motion with measured ground forces.
+    MeasuredForces,
+    /// Distance of markers or joints from the fitted body.
+    MarkerFit,
+    /// Distance of standing markers from the scaled model.
+    Scaling,
+    /// Ratio of scale factors.
+    ScaleFactors,
+    /// Difference of the body mass from that on the plates.
+    Mass,
+    /// Share of the frames with an unknown posture.
+    Gaps,
+    /// Speed of loaded soles along the ground.
+    Sliding,
+    /// Number of jumps of coordinates.
+    Jumps,
+    /// Cut-off frequency that may be too low.
+    LowCutoff,
+    /// Cut-off frequency, relative to the frame rate, that may be too high.
+    HighCutoff,
+}
+
+/// Limits of doubtful and of bad data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum QualityLimits {
+    /// Larger values are doubtful, then bad.
+    AtMost(f64, f64),
+    /// Smaller values are doubtful, then bad.
+    AtLeast(f64, f64),
+}
+
+impl Measure {
+    /// All measures, in the order of the documentation.
+    pub const ALL: [Measure; 13] = [
+        Measure::ResidualForce,
+        Measure::ResidualMoment,
+        Measure::GroundForces,
+        Measure::MeasuredForces,
+        Measure::MarkerFit,
+        Measure::Scaling,
+        Measure::ScaleFactors,
+        Measure::Mass,
+        Measure::Gaps,
+        Measure::Sliding,
+        Measure::Jumps,
+        Measure::LowCutoff,
+        Measure::HighCutoff,
+    ];
+
+    /// The limits, in the unit of [`Measure::unit`].
+    #[must_use]
+    pub fn limits(self) -> QualityLimits {
+        use QualityLimits::{AtLeast, AtMost};
+        match self {
+            Measure::ResidualForce => AtMost(0.15, 0.3),
+            Measure::ResidualMoment => AtMost(0.6, 1.2),
+            Measure::GroundForces => AtLeast(0.9, 0.5),
+            Measure::MeasuredForces => AtLeast(0.1, 0.02),
+            Measure::MarkerFit => AtMost(0.02, 0.04),
+            Measure::Scaling => AtMost(0.035, 0.06),
+            Measure::ScaleFactors => AtMost(1.35, 1.7),
+            Measure::Mass => AtMost(0.05, 0.15),
+            Measure::Gaps => AtMost(0.1, 0.3),
+            Measure::Sliding => AtMost(0.05, 0.15),
+            Measure::Jumps => AtMost(0.0, 10.0),
+            Measure::LowCutoff => AtLeast(3.0, 1.0),
+            Measure::HighCutoff => AtMost(0.2, 0.4),
+        }
+    }
+
+    /// The name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Measure::ResidualForce => "residual_force",
+            Measure::ResidualMoment => "residual_moment",
+            Measure::GroundForces => "ground_forces",
+            Measure::MeasuredForces => "measured_forces",
+            Measure::MarkerFit => "marker_fit",
+            Measure::Scaling => "scaling",
+            Measure::ScaleFactors => "scale_factors",
+            Measure::Mass => "mass",
+            Measure::Gaps => "gaps",
+            Measure::Sliding => "sliding",
+            Measure::Jumps => "jumps",
+            Measure::LowCutoff => "low_cutoff",
+            Measure::HighCutoff => "high_cutoff",
+        }
+    }
+
+    /// What is measured, in words.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Measure::ResidualForce => {
+                "residual force at the root, rms over the frames with complete ground forces, in body weights"
+            }
+            Measure::ResidualMoment => "residual moment about the root, rms over the same frames, per body mass",
+            Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
+            Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
+            Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
+            Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
+            Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
+            Measure::Mass => "difference of the body mass from that on the force plates, as a share",
+            Measure::Gaps => "share of the frames in which missing markers leave a coordinate unknown",
+            Measure::Sliding => "median speed along the ground of soles that carry at least half the body weight",
+            Measure::Jumps => "number of jumps of coordinates",
+            Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
+            Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
+        }
+    }
+
+    /// Unit of the value and of its limits; `1` for shares, ratios and counts.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Measure::ResidualForce => "BW",
+            Measure::ResidualMoment => "N.m/kg",
+            Measure::MarkerFit | Measure::Scaling => "m",
+            Measure::Sliding => "m/s",
+            Measure::LowCutoff => "Hz",
+            Measure::GroundForces
+            | Measure::MeasuredForces
+            | Measure::ScaleFactors
+            | Measure::Mass
+            | Measure::Gaps
+            | Measure::Jumps
+            | Measure::HighCutoff => "1",
+        }
+    }
+
+    /// A reason, if the value is beyond the limits. `message` gets the limit of good data.
+    fn reason(self, value: f64, message: impl FnOnce(f64) -> String) -> Option<QualityReason> {
+        let (state, limit) = self.limits().judge(value)?;
+        Some(QualityReason {
+            measure: self,
+            state,
+            value,
+            limit,
+            unit: self.unit().to_owned(),
+            message: message(limit),
+        })
+    }
+}
+
+impl QualityLimits {
+    /// The state of a value, and the limit of good data; `None` for good data. A value that is not a number is bad.
+    fn judge(self, value: f64) -> Option<(QualityState, f64)> {
+        let (sign, doubtful, bad) = match self {
+            QualityLimits::AtMost(doubtful, bad) => (1.0, doubtful, bad),
+            QualityLimits::AtLeast(doubtful, bad) => (-1.0, doubtful, bad),
+        };
+        if sign * value <= sign * doubtful {
+            None
+        } else if sign * value <= sign * bad {
+            Some((QualityState::Doubtful, doubtful))
+        } else {
+            Some((QualityState::Bad, doubtful))
+        }
+    }
+}
+
+/// Whether the data can be used, and why not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Quality {
+    /// Good, doubtful or bad.
+    pub state: QualityState,
+    /// Measures beyond their limits, the worst first.
+    pub reasons: Vec<QualityReason>,
+}
+
+/// A measure beyond its limit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct QualityReason {
+    /// What was measured.
+    pub measure: Measure,
+    /// Doubtful or bad.
+    pub state: QualityState,
+    /// The value.
+    pub value: f64,
+    /// The limit of good data.
+    pub limit: f64,
+    /// Unit of both.
+    pub unit: String,
+    /// The same as a sentence, with the place.
+    pub message: String,
+}
+
+impl Quality {
+    fn of(reasons: impl IntoIterator<Item = QualityReason>) -> Quality {
+        let mut reasons: Vec<QualityReason> = reasons.into_iter().collect();
+        reasons.sort_by(|a, b| b.state.cmp(&a.state).then(b.excess().total_cmp(&a.excess())));
+        Quality { state: reasons.first().map_or(QualityState::Good, |worst| worst.state), reasons }
+    }
+}
+
+impl QualityReason {
+    /// By which factor the limit is missed; infinite where the limit or the value is zero.
+    fn excess(&self) -> f64 {
+        let ratio = self.value / self.limit;
+        ratio.max(ratio.recip())
+    }
+}
+
+/// Everything that the quality depends on.
+pub(super) struct QualityEvidence<'a> {
+    pub(super) model: &'a Model,
+    /// The motion before smoothing; `None` for a complete motion.
+    pub(super) motion: Option<&'a Motion>,
+    pub(super) smoother: Smoother,
+    pub(super) rate_hz: f64,
+    pub(super) force_origin: ForceOrigin,
+    pub(super) tracking: Option<&'a Tracking>,
+    /// Of predicted forces.
+    pub(super) checks: Option<&'a PredictionChecks>,
+    pub(super) verdict: &'a Verdict,
+}
+
+impl QualityEvidence<'_> {
+    pub(super) fn quality(&self) -> Quality {
+        let of_forces = [self.residual_force(), self.residual_moment(), self.ground_forces(), self.measured_forces()];
+        let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
+        let of_motion = [self.gaps(), self.sliding(), self.jumps(), self.cutoff()];
+        Quality::of(of_forces.into_iter().chain(of_body).chain(of_motion).flatten())
+    }
+
+    fn residual_force(&self) -> Option<QualityReason> {
+        let force_bw = self.verdict.fit.residual_force_bw?;
+        Measure::ResidualForce.reason(force_bw, |limit| {
+            format!(
+                "the residual force is {} of body weight (at most {}): motion, body and ground forces do not fit together",
+                percent(force_bw),
+                percent(limit)
+            )
+        })
+    }
+
+    fn residual_moment(&self) -> Option<QualityReason> {
+        let moment_nm_kg = self.verdict.fit.residual_moment_nm_kg?;
+        Measure::ResidualMoment.reason(moment_nm_kg, |limit| {
+            format!(
+                "the residual moment is {moment_nm_kg:.2} N.m/kg (at most {limit}): posture and centre of pressure do not fit together"
+            )
+        })
+    }
+
+    fn ground_forces(&self) -> Option<QualityReason> {
+        let share = self.verdict.judged_share;
+        Measure::GroundForces.reason(share, |limit| match self.force_origin {
+            ForceOrigin::None => "there are no ground forces: moments of legs on the ground are wrong".to_owned(),
+            _ => {
+                format!("ground forces are known in {} of the motion (at least {})", percent(share), percent(limit))
+            }
+        })
+    }
+
+    fn measured_forces(&self) -> Option<QualityReason> {
+        let share = (self.force_origin == ForceOrigin::Measured).then_some(self.verdict.fit.complete_share)?;
+        Measure::MeasuredForces.reason(share, |limit| {
+            format!(
+                "the measured ground forces carry the body in {} of the motion (at least {}): they may not belong to it",
+                percent(share),
+                percent(limit)
+            )
+        })
+    }
+
+    fn fit(&self) -> Option<&MarkerFit> {
+        match self.tracking? {
+            Tracking::Markers(tracked) => Some(&tracked.body.fit),
+            Tracking::Skeleton { fit, .. } => Some(fit),
+        }
+    }
+
+    fn marker_fit(&self) -> Option<QualityReason> {
+        let fit = self.fit()?;
+        let squares: Vec<f64> = fit.rms_m.iter().filter(|rms| rms.is_finite()).map(|rms| rms * rms).collect();
+        let rms_m = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        Measure::MarkerFit.reason(rms_m, |limit| {
+            let known = fit.errors.iter().filter(|error| error.rms_m.is_finite());
+            let farthest = known.max_by(|a, b| a.rms_m.total_cmp(&b.rms_m));
+            let farthest = farthest.map_or(String::new(), |error| {
+                format!(", farthest `{}` with {}", error.name, millimetres(error.rms_m))
+            });
+            format!(
+                "the recorded points are {} from the body (rms{farthest}; at most {}): the body is not this person's, or points are misplaced",
+                millimetres(rms_m),
+                millimetres(limit)
+            )
+        })
+    }
+
+    fn scaling(&self) -> Option<QualityReason> {
+        let Some(Tracking::Markers(tracked)) = self.tracking else { return None };
+        let rms_m = tracked.body.subject.scaling_rms_m?;
+        Measure::Scaling.reason(rms_m, |limit| {
+            format!(
+                "the scaled model is {} from the markers of the standing trial (rms; at most {}): the markers have other places on this model",
+                millimetres(rms_m),
+                millimetres(limit)
+            )
+        })
+    }
+
+    fn scale_factors(&self) -> Option<QualityReason> {
+        let Some(Tracking::Markers(tracked)) = self.tracking else { return None };
+        let size = |(_, factors): &&(String, Vec3)| factors.sum() / 3.0;
+        let scaled = || tracked.body.subject.scaled.iter();
+        let least = scaled().min_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let most = scaled().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let ratio = size(&most) / size(&least);
+        Measure::ScaleFactors.reason(ratio, |limit| {
+            format!(
+                "the scale factors of the model reach from {:.2} (`{}`) to {:.2} (`{}`), {ratio:.2} times as much (at most {limit} times): standing trial and model do not fit together",
+                size(&least),
+                least.0,
+                size(&most),
+                most.0
+            )
+        })
+    }
+
+    fn mass(&self) -> Option<QualityReason> {
+        let ratio = self.checks?.contradicting_mass_ratio()?;
+        Measure::Mass.reason((ratio - 1.0).abs(), |limit| {
+            let body_kg = self.model.mass();
+            format!(
+                "force plates carry {:.1} kg, the body has {body_kg:.1} kg (at most {} apart): forces scale with the mass",
+                ratio * body_kg,
+                percent(limit)
+            )
+        })
+    }
+
+    fn gaps(&self) -> Option<QualityReason> {
+        self.fit()?;
+        let motion = self.motion?;
+        let is_unknown = |frame: &usize| motion.columns.iter().flatten().any(|column| column[*frame].is_nan());
+        let unknown: Vec<usize> = (0..motion.times.len()).filter(is_unknown).collect();
+        let share = unknown.len() as f64 / motion.times.len().max(1) as f64;
+        Measure::Gaps.reason(share, |limit| {
+            let first_s = unknown.first().map_or(f64::NAN, |frame| motion.times[*frame]);
+            format!(
+                "markers are missing, so that the posture is unknown in {} of the frames, the first at {first_s:.3} s (at most {})",
+                percent(share),
+                percent(limit)
+            )
+        })
+    }
+
+    fn sliding(&self) -> Option<QualityReason> {
+        let speed_m_s = self.verdict.fit.sliding_m_s?;
+        Measure::Sliding.reason(speed_m_s, |limit| {
+            format!(
+                "soles that carry the body move along the ground at {speed_m_s:.2} m/s (median; at most {limit} m/s): the motion of the legs is wrong"
+            )
+        })
+    }
+
+    fn jumps(&self) -> Option<QualityReason> {
+        let motion = self.motion?;
+        let found = jumps(self.model, motion);
+        let count = found.iter().map(|jumps| jumps.frames.len()).sum::<usize>();
+        let Jumps { coordinate, frames } = found.iter().min_by_key(|jumps| jumps.frames.first())?;
+        Measure::Jumps.reason(count as f64, |_| {
+            let frame = frames.first().copied().unwrap_or_default();
+            format!(
+                "coordinates jump in {count} place{}, first `{}` at frame {} ({:.3} s): forces are wrong there",
+                if count == 1 { "" } else { "s" },
+                self.model.coordinates()[coordinate.index()].name,
+                frame + 1,
+                motion.times[frame]
+            )
+        })
+    }
+
+    fn cutoff(&self) -> Option<QualityReason> {
+        let Smoother::Butterworth(filter) = self.smoother else { return None };
+        let cutoff_hz = filter.cutoff_hz;
+        let low = Measure::LowCutoff.reason(cutoff_hz, |limit| {
+            format!("the motion is filtered at {cutoff_hz} Hz (at least {limit} Hz): the movement itself is removed")
+        });
+        let high = || {
+            Measure::HighCutoff.reason(cutoff_hz / self.rate_hz, |limit| {
+                format!(
+                    "the motion is filtered at {cutoff_hz} Hz (at most {} Hz with {:.0} frames per second): noise remains in the forces",
+                    limit * self.rate_hz,
+                    self.rate_hz
+                )
+            })
+        };
+        low.or_else(high)
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+fn millimetres(length_m: f64) -> String {
+    format!("{:.0} mm", 1e3 * length_m)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_limits_of_every_measure_decide() {
+        for measure in Measure::ALL {
+            let (QualityLimits::AtMost(doubtful, bad) | QualityLimits::AtLeast(doubtful, bad)) = measure.limits();
+            let beyond = if doubtful < bad { 1e-9 } else { -1e-9 };
+            let state = |value: f64| measure.reason(value, |_| String::new()).map(|reason| reason.state);
+            assert_eq!(state(doubtful), None, "{measure:?}");
+            assert_eq!(state(doubtful + beyond), Some(QualityState::Doubtful), "{measure:?}");
+            assert_eq!(state(bad), Some(QualityState::Doubtful), "{measure:?}");
+            assert_eq!(state(bad + beyond), Some(QualityState::Bad), "{measure:?}");
+            assert_eq!(state(f64::NAN), Some(QualityState::Bad), "{measure:?}");
+        }
+    }
+
+    #[test]
+    fn the_worst_reason_comes_first() {
+        let reason = |measure: Measure, value: f64| measure.reason(value, |_| String::new());
+        let list = [
+            reason(Measure::ResidualForce, 0.2),
+            reason(Measure::Gaps, 0.4),
+            reason(Measure::Sliding, 0.14),
+            reason(Measure::LowCutoff, 6.0),
+        ];
+        let quality = Quality::of(list.into_iter().flatten());
+        let order: Vec<Measure> = quality.reasons.iter().map(|reason| reason.measure).collect();
+        assert_eq!(order, [Measure::Gaps, Measure::Sliding, Measure::ResidualForce]);
+        assert_eq!(quality.state, QualityState::Bad);
+        assert_eq!(Quality::of([]).state, QualityState::Good);
+    }
+}

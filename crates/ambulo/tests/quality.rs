@@ -1,0 +1,135 @@
+//! Quality of the data: clean recordings are good, spoiled copies of them never are.
+
+use crate::plug_in_gait::PEOPLE;
+use crate::shared_data::data;
+use ambulo::findings::Findings;
+use ambulo::motion::filter::LowPass;
+use ambulo::motion::{Motion, Smoother};
+use ambulo::spatial::Vec3;
+use ambulo::study::{self, GroundSettings, Measure, Quality, QualityLimits, QualityState, Recording, Settings, Source};
+use std::path::Path;
+
+/// A way to spoil a recording, and a measure that must find it.
+struct Spoiled {
+    what: &'static str,
+    measure: Measure,
+    spoil: fn(&mut Source, &mut Settings),
+}
+
+const fn spoiled(what: &'static str, measure: Measure, spoil: fn(&mut Source, &mut Settings)) -> Spoiled {
+    Spoiled { what, measure, spoil }
+}
+
+const SPOILED: [Spoiled; 8] = [
+    spoiled("plates at 0.6 of the force", Measure::ResidualForce, |source, _| scale_plates(source, 0.6)),
+    spoiled("plates at 1.4 times the force", Measure::ResidualForce, |source, _| scale_plates(source, 1.4)),
+    spoiled("plates without a load", Measure::GroundForces, |source, _| scale_plates(source, 0.0)),
+    spoiled("a walk on another scale than the standing trial", Measure::MarkerFit, |source, _| {
+        each_marker(source, |_, position| *position *= 1.1);
+    }),
+    spoiled("walking through the laboratory while the feet slide", Measure::Sliding, |source, _| {
+        each_marker(source, |time_s, position| *position += Vec3::new(0.3, 0.3, 0.0) * time_s);
+    }),
+    spoiled("a filter that removes the movement", Measure::LowCutoff, |_, settings| {
+        settings.smoother = Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 0.9 });
+    }),
+    spoiled("a filter that leaves the noise", Measure::HighCutoff, |_, settings| {
+        settings.smoother = Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 45.0 });
+    }),
+    spoiled("no forces at all", Measure::GroundForces, |_, settings| settings.ground = GroundSettings::NoContact),
+];
+
+fn scale_plates(source: &mut Source, factor: f64) {
+    let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
+    for plate in &mut markers.trial.recording.plates {
+        plate.force.iter_mut().for_each(|force| *force *= factor);
+        plate.moment.iter_mut().for_each(|moment| *moment *= factor);
+    }
+}
+
+/// Moves every marker of the walk, as a function of time [s] and its position in the laboratory.
+fn each_marker(source: &mut Source, change: impl Fn(f64, &mut Vec3)) {
+    let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
+    let recording = &mut markers.trial.recording.markers;
+    for marker in &mut recording.markers {
+        for (position, time_s) in marker.positions.iter_mut().zip(&recording.times) {
+            change(*time_s, position);
+        }
+    }
+}
+
+fn quality(source: &Source, settings: &Settings) -> Quality {
+    study::run(source, settings, &mut Findings::default()).unwrap().quality
+}
+
+fn predicted() -> Settings {
+    Settings { ground: GroundSettings::Predicted, ..Settings::default() }
+}
+
+#[test]
+fn walks_of_seven_people_are_good_with_measured_and_with_predicted_forces() {
+    let Some(data) = data() else { return };
+    for person in &PEOPLE {
+        for settings in [Settings::default(), predicted()] {
+            let quality = quality(&person.source(&data), &settings);
+            assert_eq!(quality.state, QualityState::Good, "{}: {:?}", person.name, quality.reasons);
+        }
+    }
+}
+
+#[test]
+fn spoiled_copies_are_never_good_and_the_reason_names_what_is_wrong() {
+    let Some(data) = data() else { return };
+    for person in &PEOPLE {
+        for Spoiled { what, measure, spoil } in &SPOILED {
+            let (mut source, mut settings) = (person.source(&data), Settings::default());
+            spoil(&mut source, &mut settings);
+            let quality = quality(&source, &settings);
+            let found: Vec<_> = quality.reasons.iter().map(|reason| (reason.measure, reason.value)).collect();
+            println!("{} {what}: {:?} {found:?}", person.name, quality.state);
+            assert_ne!(quality.state, QualityState::Good, "{}: {what}", person.name);
+            assert!(found.iter().any(|(found, _)| found == measure), "{}: {what}: {found:?}", person.name);
+        }
+    }
+}
+
+#[test]
+fn a_jump_of_a_coordinate_is_named_with_its_frame() {
+    let Some(data) = data() else { return };
+    let outcome = study::run(&PEOPLE[0].source(&data), &Settings::default(), &mut Findings::default()).unwrap();
+    let (model, grid) = (outcome.body, outcome.analysis.trajectory.grid());
+    let columns = model.coordinate_ids().map(|id| Some(outcome.analysis.trajectory.values(id).to_vec()));
+    let mut motion = Motion { origin: "copied".to_owned(), times: grid.times(), columns: columns.collect() };
+    let settings = Settings::default();
+    let of = |motion: &Motion| quality(&Source::coordinates(model.clone(), motion.clone()), &settings);
+    assert!(of(&motion).reasons.iter().all(|reason| reason.measure != Measure::Jumps));
+    let knee = model.coordinate("knee_angle_r").unwrap().index();
+    motion.columns[knee].as_mut().unwrap()[80..].iter_mut().for_each(|angle| *angle += 0.6);
+    let quality = of(&motion);
+    let jump = quality.reasons.iter().find(|reason| reason.measure == Measure::Jumps).unwrap();
+    assert!(jump.value == 1.0 && jump.message.contains("`knee_angle_r` at frame 81"), "{}", jump.message);
+    assert_ne!(quality.state, QualityState::Good);
+}
+
+/// With AMBULO_WRITE=1 the table is written.
+#[test]
+fn the_table_in_the_documentation_has_the_limits() {
+    let head = "| measure | meaning | good | bad | unit |\n|---|---|---|---|---|\n";
+    let row = |measure: &Measure| {
+        let (good, bad) = match measure.limits() {
+            QualityLimits::AtMost(good, bad) => (format!("at most {good}"), format!("above {bad}")),
+            QualityLimits::AtLeast(good, bad) => (format!("at least {good}"), format!("below {bad}")),
+        };
+        format!("| `{}` | {} | {good} | {bad} | {} |\n", measure.name(), measure.meaning(), measure.unit())
+    };
+    let table: String = std::iter::once(head.to_owned()).chain(Measure::ALL.iter().map(row)).collect();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/QUALITY.md");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let start = text.find("| measure |").unwrap();
+    let end = start + text[start..].find("\n\n").unwrap() + 1;
+    if std::env::var_os("AMBULO_WRITE").is_some() {
+        std::fs::write(&path, format!("{}{table}{}", &text[..start], &text[end..])).unwrap();
+        return;
+    }
+    assert!(text[start..end] == table, "docs/QUALITY.md is out of date; run this test with AMBULO_WRITE=1");
+}
