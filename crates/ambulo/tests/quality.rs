@@ -20,15 +20,14 @@ const fn spoiled(what: &'static str, measure: Measure, spoil: fn(&mut Source, &m
     Spoiled { what, measure, spoil }
 }
 
-const SPOILED: [Spoiled; 8] = [
+const SPOILED: [Spoiled; 7] = [
     spoiled("plates at 0.6 of the force", Measure::ResidualForce, |source, _| scale_plates(source, 0.6)),
     spoiled("plates at 1.4 times the force", Measure::ResidualForce, |source, _| scale_plates(source, 1.4)),
-    spoiled("plates without a load", Measure::GroundForces, |source, _| scale_plates(source, 0.0)),
     spoiled("a walk on another scale than the standing trial", Measure::MarkerFit, |source, _| {
         each_marker(source, |_, position| *position *= 1.1);
     }),
-    spoiled("walking through the laboratory while the feet slide", Measure::Sliding, |source, _| {
-        each_marker(source, |time_s, position| *position += Vec3::new(0.3, 0.3, 0.0) * time_s);
+    spoiled("a laboratory that shakes", Measure::Sliding, |source, _| {
+        each_marker(source, |time_s, position| *position += Vec3::new(0.03, 0.03, 0.0) * (10.0 * time_s).sin());
     }),
     spoiled("a filter that removes the movement", Measure::LowCutoff, |_, settings| {
         settings.smoother = Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 0.9 });
@@ -71,7 +70,9 @@ fn walks_of_seven_people_are_good_with_measured_and_with_predicted_forces() {
     let Some(data) = data() else { return };
     for person in &PEOPLE {
         for settings in [Settings::default(), predicted()] {
-            let quality = quality(&person.source(&data), &settings);
+            let outcome = study::run(&person.source(&data), &settings, &mut Findings::default()).unwrap();
+            println!("{} {:?}", person.name, outcome.verdict.fit);
+            let quality = outcome.quality;
             assert_eq!(quality.state, QualityState::Good, "{}: {:?}", person.name, quality.reasons);
         }
     }

@@ -33,7 +33,6 @@ pub use marker_trial::{
     BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, MarkerTrialError, Subject, body_in_motion,
 };
 pub use peaks::{Peak, peak};
-pub use plausibility::LARGE_RESIDUAL_BW;
 pub(crate) use predicted::predict_and_analyse;
 pub use predicted::{PredictedAnalysis, PredictionInput, analyse_predicted, analyse_predicted_trajectory};
 pub use prediction_checks::{

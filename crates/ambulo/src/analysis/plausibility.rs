@@ -1,5 +1,6 @@
 //! Detects inputs that do not belong together: model, motion and forces that give finite but wrong results.
 
+use super::feasibility::LARGE_RESIDUAL_BW;
 use super::recording::Analysis;
 use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, upward};
@@ -8,9 +9,6 @@ use crate::model::{CoordinateKind, Model};
 use crate::numerics::median;
 use crate::spatial::Vec3;
 
-/// Residual forces above this share of body weight give a warning. Walking data with every foot on a plate have 4 to 7 % (the recordings
-/// of the tests), with the plates of another person 47 to 98 %.
-pub const LARGE_RESIDUAL_BW: f64 = 0.15;
 /// Allowed excess over a coordinate's range before a warning [rad]; ranges of models are often narrow.
 const RANGE_SLACK_RAD: f64 = 0.35;
 
@@ -21,7 +19,7 @@ pub(super) fn report_residual(model: &Model, analysis: &Analysis, findings: &mut
     let share = residual.force_rms_n / weight_n;
     if share > LARGE_RESIDUAL_BW {
         let message = format!(
-            "the residual force at the root is {:.0} % of body weight (below 10 % in walking data with every foot on a plate): forces, motion and model do not belong together, a foot was outside the plates, or the motion is not filtered; the joint moments are not reliable. hint: check files, sides and time origin; choose the time in which every loaded foot is on a plate",
+            "the residual force at the root is {:.0} % of body weight (about 10 % in walking data with every foot on a plate): forces, motion and model do not belong together, a foot was outside the plates, or the motion is not filtered; the joint moments are not reliable. hint: check files, sides and time origin; choose the time in which every loaded foot is on a plate",
             100.0 * share
         );
         findings.report(Code::ResidualLarge, message);

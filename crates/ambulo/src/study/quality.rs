@@ -10,7 +10,7 @@
 
 use super::outcome::{ForceOrigin, Tracking};
 use crate::analysis::PredictionChecks;
-use crate::analysis::feasibility::Verdict;
+use crate::analysis::feasibility::{LARGE_RESIDUAL_BW, Verdict};
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
 use crate::motion::{Jumps, Motion, Smoother, jumps};
@@ -107,7 +107,7 @@ impl Measure {
     pub fn limits(self) -> QualityLimits {
         use QualityLimits::{AtLeast, AtMost};
         match self {
-            Measure::ResidualForce => AtMost(0.15, 0.3),
+            Measure::ResidualForce => AtMost(LARGE_RESIDUAL_BW, 0.3),
             Measure::ResidualMoment => AtMost(0.6, 1.2),
             Measure::GroundForces => AtLeast(0.9, 0.5),
             Measure::MeasuredForces => AtLeast(0.1, 0.02),
@@ -158,8 +158,10 @@ impl Measure {
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
             Measure::Mass => "difference of the body mass from that on the force plates, as a share",
             Measure::Gaps => "share of the frames in which missing markers leave a coordinate unknown",
-            Measure::Sliding => "median speed along the ground of soles that carry at least half the body weight",
-            Measure::Jumps => "number of jumps of coordinates",
+            Measure::Sliding => {
+                "speed along the ground of soles that carry at least half the body weight, lower quartile"
+            }
+            Measure::Jumps => "number of jumps of recorded coordinates",
             Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
             Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
         }
@@ -409,13 +411,14 @@ impl QualityEvidence<'_> {
         let speed_m_s = self.verdict.fit.sliding_m_s?;
         Measure::Sliding.reason(speed_m_s, |limit| {
             format!(
-                "soles that carry the body move along the ground at {speed_m_s:.2} m/s (median; at most {limit} m/s): the motion of the legs is wrong"
+                "soles that carry the body move along the ground at {speed_m_s:.2} m/s or more for three quarters of the time (at most {limit} m/s): the motion of the legs is wrong"
             )
         })
     }
 
     fn jumps(&self) -> Option<QualityReason> {
-        let motion = self.motion?;
+        // Coordinates that were fitted to markers jump where few markers determine them; the distance of the markers judges these.
+        let motion = self.motion.filter(|_| self.tracking.is_none())?;
         let found = jumps(self.model, motion);
         let count = found.iter().map(|jumps| jumps.frames.len()).sum::<usize>();
         let Jumps { coordinate, frames } = found.iter().min_by_key(|jumps| jumps.frames.first())?;

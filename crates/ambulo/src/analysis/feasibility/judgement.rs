@@ -5,20 +5,17 @@ use super::ground_speed::over_ground;
 use super::person::Person;
 use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
-use super::verdict::{Check, Closest, FitOfForces, NotJudged, Reason, Verdict, VerdictState};
+use super::verdict::{Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState};
 use crate::dynamics::{Forces, Roots};
 use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, GroundForces, feet, upward};
 use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
-use crate::numerics::median;
 use crate::spatial::Vec3;
 
 /// A feasible motion was judged in at least this share of its frames.
 const LEAST_JUDGED_SHARE: f64 = 0.9;
-/// Above this residual force, forces and motion do not belong together and nothing can be called feasible [body weights, rms].
-const DECISIVE_RESIDUAL_BW: f64 = 0.2;
 /// Filters and splines have no neighbours on one side of the first and last frames, so these are not judged [s].
 const EDGE_S: f64 = 0.1;
 /// Measured forces that carry the body in a smaller share of the frames are not those of this motion, and no prediction takes their place.
@@ -199,7 +196,7 @@ impl Coverage {
             residual_force_bw: rms(self.residual_n2).map(|force_n| force_n / limits.weight),
             residual_moment_nm_kg: rms(self.residual_nm2).map(|moment_nm| moment_nm / limits.mass),
             complete_share: self.judged_as_given as f64 / self.counted.max(1) as f64,
-            sliding_m_s: median(self.slips.iter().copied()),
+            sliding_m_s: lower_quartile(&self.slips),
         }
     }
 
@@ -226,11 +223,11 @@ impl Coverage {
             ));
         }
         let residual_bw = residual_force_bw.unwrap_or(0.0);
-        if residual_bw > DECISIVE_RESIDUAL_BW {
+        if residual_bw > LARGE_RESIDUAL_BW {
             list.push(format!(
                 "the residual force is {:.0} % of body weight; above {:.0} %, motion, body and ground forces do not belong together",
                 100.0 * residual_bw,
-                100.0 * DECISIVE_RESIDUAL_BW
+                100.0 * LARGE_RESIDUAL_BW
             ));
         }
         if self.not_numbers > 0 {
@@ -238,6 +235,13 @@ impl Coverage {
         }
         list
     }
+}
+
+/// The value that a quarter of the values stay below; `None` without values.
+fn lower_quartile(values: &[f64]) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 4).copied()
 }
 
 /// Checks every frame.

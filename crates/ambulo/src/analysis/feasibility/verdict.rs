@@ -5,6 +5,11 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 
+/// Above this residual force [body weights, rms], motion, body and ground forces do not fit together: the quality is doubtful, and no motion
+/// is called feasible. Walks of seven people with every foot on a plate have 10 to 13 % (tests/quality.rs), with the plates of another
+/// person 47 to 98 %.
+pub const LARGE_RESIDUAL_BW: f64 = 0.2;
+
 /// The kinds of checks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -159,7 +164,8 @@ pub struct FitOfForces {
     pub residual_moment_nm_kg: Option<f64>,
     /// Share of the frames, without the first and last 0.1 s.
     pub complete_share: f64,
-    /// Median speed of soles along the ground while they carry at least [`Thresholds::sliding_load_bw`] [m/s].
+    /// Speed of soles along the ground while they carry at least [`Thresholds::sliding_load_bw`] [m/s]: lower quartile, because a foot that
+    /// rolls off moves for a part of that time.
     ///
     /// [`Thresholds::sliding_load_bw`]: super::Thresholds::sliding_load_bw
     pub sliding_m_s: Option<f64>,

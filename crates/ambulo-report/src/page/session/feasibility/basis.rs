@@ -2,7 +2,7 @@
 
 use crate::page::contract::PageSource;
 use crate::page::session::results::Results;
-use ambulo::analysis::LARGE_RESIDUAL_BW;
+use ambulo::analysis::feasibility::LARGE_RESIDUAL_BW;
 use ambulo::analysis::feasibility::Verdict;
 
 /// Conditions that limit a verdict.
