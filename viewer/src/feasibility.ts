@@ -8,7 +8,7 @@ import type { Panels } from "./panels";
 import { tableSection } from "./table";
 
 /** Mark and look of a verdict. */
-const LOOKS: Readonly<Record<PageVerdict, readonly [string, string]>> = {
+export const LOOKS: Readonly<Record<PageVerdict, readonly [string, string]>> = {
   feasible: ["✓", "good"],
   infeasible: ["✗", "bad"],
   not_judged: ["?", "unsure"],

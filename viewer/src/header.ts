@@ -1,5 +1,6 @@
-import type { Page, PageSource, Session } from "./contract";
+import type { Page, PageQuality, PageSource, PageVerdict, Session } from "./contract";
 import { element } from "./element";
+import { LOOKS } from "./feasibility";
 import { tableElement } from "./table";
 
 const SOURCES: Readonly<Record<PageSource, string>> = {
@@ -7,6 +8,19 @@ const SOURCES: Readonly<Record<PageSource, string>> = {
   predicted: "Ground forces: predicted",
   simulated: "Ground forces: simulated",
   none: "No ground forces",
+};
+
+/** Mark, look and words of the quality of the data. */
+const QUALITIES: Readonly<Record<PageQuality, readonly [string, string, string]>> = {
+  good: ["✓", "good", "Data good"],
+  doubtful: ["?", "unsure", "Data doubtful"],
+  bad: ["✗", "bad", "Data bad: do not use these results"],
+};
+
+const VERDICTS: Readonly<Record<PageVerdict, string>> = {
+  feasible: "Movement feasible",
+  infeasible: "Movement infeasible",
+  not_judged: "Movement not judged",
 };
 
 /** Screens narrow enough to fold the settings at first. */
@@ -20,7 +34,39 @@ export function header(page: Page): HTMLElement {
   return element("header", { class: "header" }, element("h1", {}, page.title), ...badges);
 }
 
-/** Subject, model and settings, next to a picture of the figure for print; then the data that the page cannot show. */
+/** For each session: whether its data can be used, with the strongest reasons, and whether a person could make the movement. */
+function answers(page: Page): HTMLElement[] {
+  return page.sessions.flatMap((session) => {
+    const lines = [...dataLines(session), ...verdictLines(session)];
+    const name = page.sessions.length > 1 ? [element("h3", {}, session.name)] : [];
+    return lines.length > 0 ? [element("section", { class: "answers", "aria-label": "Answers" }, ...name, ...lines)] : [];
+  });
+}
+
+function dataLines(session: Session): HTMLElement[] {
+  if (session.data === null) {
+    return [];
+  }
+  const { state, reasons } = session.data;
+  const [sign, look, words] = QUALITIES[state];
+  const list = element("ul", {}, ...reasons.map((reason) => element("li", {}, reason)));
+  return [answer(sign, look, words), ...(reasons.length > 0 ? [list] : [])];
+}
+
+function verdictLines(session: Session): HTMLElement[] {
+  if (session.feasibility === null) {
+    return [];
+  }
+  const [sign, look] = LOOKS[session.feasibility.state];
+  return [answer(sign, look, VERDICTS[session.feasibility.state])];
+}
+
+function answer(sign: string, look: string, words: string): HTMLElement {
+  const mark = element("span", { class: "mark", "aria-hidden": "true" }, sign);
+  return element("p", { class: `answer ${look}` }, mark, words);
+}
+
+/** The answers; subject, model and settings, next to a picture of the figure for print; then the data that the page cannot show. */
 export function about(page: Page, still: HTMLImageElement): HTMLElement {
   const [first] = page.sessions;
   const facts = page.sessions.length === 1 && first ? factList(first) : factTable(page.sessions);
@@ -29,6 +75,7 @@ export function about(page: Page, still: HTMLImageElement): HTMLElement {
   return element(
     "div",
     { class: "about" },
+    ...answers(page),
     element("div", { class: "subject-row" }, details, still),
     ...missing(page.sessions),
   );

@@ -72,6 +72,7 @@ function sampleSession(numbers: SampleNumbers, walk: SampleWalk): Session {
   const frames = Math.round(walk.seconds / STEP_S) + 1;
   return {
     name: walk.name,
+    data: null,
     header: [],
     source: "simulated",
     time: { start_s: 0, step_s: STEP_S, frames },

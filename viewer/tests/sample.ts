@@ -121,6 +121,9 @@ function session(block: Block, variant: Variant): Session {
   });
   return {
     name: variant.name,
+    data: variant.red
+      ? { state: "doubtful", reasons: ["the residual force is 24 % of body weight (at most 20 %)"] }
+      : { state: "good", reasons: [] },
     header: header(),
     source: variant.scale === 1 ? "predicted" : "measured",
     time: { start_s: START_S, step_s: STEP_S, frames: FRAMES },

@@ -6,7 +6,7 @@ use ambulo::findings::Findings;
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Motion, Smoother};
 use ambulo::spatial::Vec3;
-use ambulo::study::{self, GroundSettings, Measure, Quality, QualityLimits, QualityState, Recording, Settings, Source};
+use ambulo::study::{self, GroundSettings, MarkerBody, Measure, Quality, QualityLimits, QualityState, Recording, Settings, Source};
 use std::path::Path;
 
 /// A way to spoil a recording, and a measure that must find it.
@@ -20,7 +20,13 @@ const fn spoiled(what: &'static str, measure: Measure, spoil: fn(&mut Source, &m
     Spoiled { what, measure, spoil }
 }
 
-const SPOILED: [Spoiled; 7] = [
+const SPOILED: [Spoiled; 8] = [
+    spoiled("a body of 85 % of the mass", Measure::Mass, |source, _| {
+        let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
+        let MarkerBody::BuiltIn { mass_kg: Some(mass_kg), .. } = &mut markers.body else { panic!("no stated mass") };
+        *mass_kg *= 0.85;
+        markers.standing.as_mut().unwrap().recording.plates.clear();
+    }),
     spoiled("plates at 0.6 of the force", Measure::ResidualForce, |source, _| scale_plates(source, 0.6)),
     spoiled("plates at 1.4 times the force", Measure::ResidualForce, |source, _| scale_plates(source, 1.4)),
     spoiled("a walk on another scale than the standing trial", Measure::MarkerFit, |source, _| {

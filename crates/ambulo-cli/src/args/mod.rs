@@ -90,4 +90,7 @@ pub(crate) struct PrintArgs {
     /// Print nothing but errors.
     #[arg(long, conflicts_with = "json")]
     pub(crate) quiet: bool,
+    /// Print all warnings, notes and numbers, not only the most important ones; results in files are the same.
+    #[arg(short, long, conflicts_with_all = ["json", "quiet"])]
+    pub(crate) verbose: bool,
 }

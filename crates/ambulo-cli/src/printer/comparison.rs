@@ -31,6 +31,18 @@ pub(super) fn print(comparison: &GroundAgreement) -> Result<()> {
         .try_for_each(|e| print_line(&format!("    {}", events(e))))
 }
 
+/// Prints how the vertical forces agree, on one line.
+pub(super) fn print_vertical(comparison: &GroundAgreement) -> Result<()> {
+    let foot = |foot: &FootAgreement| {
+        format!("{} {:.1} % of body weight (r {})", foot.side, 100.0 * foot.vertical.rmse_bw, correlation(foot.vertical.r))
+    };
+    let feet: Vec<String> = comparison.feet.iter().map(foot).collect();
+    match feet.is_empty() {
+        true => Ok(()),
+        false => print_line(&format!("  plates    vertical force differs by {} rms", feet.join(", "))),
+    }
+}
+
 fn print_foot(foot: &FootAgreement) -> Result<()> {
     let components = [("vertical", foot.vertical), ("fore-aft", foot.fore_aft), ("lateral", foot.lateral)];
     for (name, force) in components {

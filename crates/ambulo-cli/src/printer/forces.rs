@@ -1,21 +1,31 @@
 //! Prints the outcome of `forces`, `walk` and `demo`.
 
-use super::{comparison, consistency, print_findings, print_line, print_verdict, subject};
+use super::{
+    comparison, consistency, counted_reasons, print_findings, print_line, print_verdict, print_warnings, quoted,
+    reasons_shown, subject,
+};
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
 use ambulo::study::Quality;
-use ambulo_results::{FilterSummary, ForceUnit, Ground, GroundOrigin, MassKnowledge, Summary, WalkSummary};
+use ambulo_results::{
+    FilterSummary, ForceUnit, Ground, GroundOrigin, MassKnowledge, PeakSummary, ResidualSummary, Summary, WalkSummary,
+};
 use anyhow::Result;
 use std::path::Path;
 
+/// Prints a run: at most 25 lines, or everything with `--verbose`.
 pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Result<()> {
     if print.quiet {
         return Ok(());
     }
-    print_findings(&summary.findings);
     if print.json {
-        print_line(&serde_json::to_string_pretty(summary)?)?;
-        return Ok(());
+        print_findings(&summary.findings);
+        return print_line(&serde_json::to_string_pretty(summary)?);
+    }
+    if print.verbose {
+        print_findings(&summary.findings);
+    } else {
+        print_warnings(&summary.findings);
     }
     print_line(&format!("{}, {}", summary.model, summary.input.motion))?;
     let known = match summary.mass {
@@ -24,6 +34,62 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
         MassKnowledge::Verified | MassKnowledge::Unverified => "",
     };
     print_line(&format!("  mass      {:.2} kg ({}{known})", summary.mass_kg, summary.mass_source.word()))?;
+    if print.verbose { details(summary)? } else { outline(summary)? }
+    if let Some(quality) = &summary.quality {
+        print_quality(quality, print)?;
+    }
+    if let Some(verdict) = &summary.verdict {
+        print_verdict(verdict, print)?;
+    }
+    print_line(&format!("  written   {}", output.display()))?;
+    print_line(&format!("  next      ambulo view {}", quoted(output)))
+}
+
+/// The numbers that tell whether a run is the expected one.
+fn outline(summary: &Summary) -> Result<()> {
+    if let Some(subject) = &summary.subject {
+        subject::print_markers(subject)?;
+    }
+    let mean = |name: &str| {
+        let quantity = summary.times_and_distances.quantities.iter().find(|quantity| quantity.quantity == name)?;
+        Some(quantity.both.as_ref()?.mean)
+    };
+    let walk = [
+        summary.speed_m_s.map(|speed| format!("{speed:.2} m/s")),
+        mean("cadence").map(|cadence| format!("{cadence:.0} steps/min")),
+        mean("step_length").map(|length| format!("steps of {length:.2} m")),
+    ];
+    let walk: Vec<String> = walk.into_iter().flatten().collect();
+    if !walk.is_empty() {
+        print_line(&format!("  walk      {}", walk.join(", ")))?;
+    }
+    let [from, to] = summary.window_s;
+    let Summary { frames, rate_hz, ground: Ground { source, .. }, .. } = summary;
+    print_line(&format!("  forces    {source}, {from:.3} to {to:.3} s, {frames} frames at {rate_hz:.2} Hz"))?;
+    if let Some(comparison) = &summary.comparison {
+        comparison::print_vertical(comparison)?;
+    }
+    if let Some(residual) = &summary.residual {
+        let ResidualSummary { force_rms_bw, moment_rms_nm, .. } = residual;
+        print_line(&format!("  residual  {:.1} % of body weight, {moment_rms_nm:.1} N.m rms", 100.0 * force_rms_bw))?;
+    }
+    for (i, peak) in largest_peaks(summary).enumerate() {
+        let head = if i == 0 { "peaks" } else { "" };
+        print_line(&format!("  {head:<9} {} {:.1} to {:.1} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
+    }
+    Ok(())
+}
+
+/// The three largest joint moments.
+fn largest_peaks(summary: &Summary) -> impl Iterator<Item = &PeakSummary> {
+    let mut peaks: Vec<&PeakSummary> = summary.peaks.iter().filter(|p| p.unit == ForceUnit::NewtonMetre).collect();
+    let size = |peak: &PeakSummary| peak.max.abs().max(peak.min.abs());
+    peaks.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    peaks.into_iter().take(3)
+}
+
+/// Everything that is worth reading in a terminal.
+fn details(summary: &Summary) -> Result<()> {
     if let Some(subject) = &summary.subject {
         subject::print(subject)?;
     }
@@ -53,31 +119,15 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
         print_checks(&prediction.checks)?;
     }
     print_peaks(summary)?;
-    if let Some(comparison) = &summary.comparison {
-        comparison::print(comparison)?;
-    }
-    if let Some(quality) = &summary.quality {
-        print_quality(quality)?;
-    }
-    if let Some(verdict) = &summary.verdict {
-        print_verdict(verdict)?;
-    }
-    print_line(&format!("  written   {}", output.display()))?;
-    Ok(())
+    summary.comparison.as_ref().map_or(Ok(()), comparison::print)
 }
 
 /// Prints whether the data are good, and the strongest reasons why not.
-fn print_quality(quality: &Quality) -> Result<()> {
-    /// Longer lists are in summary.json.
-    const MOST: usize = 3;
-    print_line(&format!("  quality   {}", quality.state.word()))?;
-    for reason in quality.reasons.iter().take(MOST) {
-        print_line(&format!("    {}: {}", reason.state.word(), reason.message))?;
-    }
-    match quality.reasons.len().saturating_sub(MOST) {
-        0 => Ok(()),
-        more => print_line(&format!("    and {more} more in summary.json")),
-    }
+fn print_quality(quality: &Quality, print: PrintArgs) -> Result<()> {
+    let count = quality.reasons.len();
+    print_line(&format!("  quality   {}{}", quality.state.word(), counted_reasons(count)))?;
+    let shown = quality.reasons.iter().take(reasons_shown(count, print));
+    shown.into_iter().try_for_each(|reason| print_line(&format!("    {}: {}", reason.state.word(), reason.message)))
 }
 
 /// Prints how a synthetic walk was computed.

@@ -20,10 +20,11 @@ pub(crate) use tools::{ComparedColumn, EventSource, SourceAgreement, compare, co
 use crate::args::PrintArgs;
 use crate::hints;
 use ambulo::analysis::feasibility::{Verdict, VerdictState};
-use ambulo::findings::{Finding, Findings};
+use ambulo::findings::{Finding, Findings, Severity};
 use anyhow::Result;
 use std::borrow::Cow;
 use std::io::{ErrorKind, Write, stdout};
+use std::path::Path;
 
 /// Prints a line on standard output. A closed pipe (`ambulo ... | head`) is not an error.
 fn print_line(line: &str) -> Result<()> {
@@ -100,6 +101,50 @@ fn print_findings(findings: &[Finding]) {
     }
 }
 
+/// Prints the first warnings, and how many warnings and notes there are besides.
+fn print_warnings(findings: &[Finding]) {
+    /// With one line for the rest and the lines of a run, a terminal of 25 lines shows everything.
+    const MOST: usize = 4;
+    let (warnings, notes): (Vec<&Finding>, Vec<&Finding>) =
+        findings.iter().partition(|finding| finding.severity() == Severity::Warning);
+    for finding in warnings.iter().take(MOST) {
+        let (what, hint) = finding.message.split_once("hint: ").unwrap_or((&finding.message, ""));
+        let hint = Some(hint).filter(|hint| !hint.is_empty()).or(hints::of_finding(finding.code));
+        let hint = hint.map_or(String::new(), |hint| format!(" (hint: {hint})"));
+        eprintln!("warning: {}{}", visible(what.trim_end()), visible(&hint));
+    }
+    let more = [(warnings.len().saturating_sub(MOST), "warning"), (notes.len(), "note")];
+    let more = more.into_iter().filter(|(count, _)| *count > 0);
+    let more: Vec<String> = more.map(|(count, kind)| format!("{count} {kind}{}", plural(count))).collect();
+    if !more.is_empty() {
+        eprintln!("{} more: use --verbose, or read them in the report", more.join(" and "));
+    }
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
+/// A path as it is typed in a shell.
+fn quoted(path: &Path) -> String {
+    let text = path.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "/\\._-+=:@%,~".contains(c);
+    if !text.is_empty() && text.chars().all(is_plain) {
+        return text;
+    }
+    if cfg!(windows) { format!("\"{text}\"") } else { format!("'{}'", text.replace('\'', "'\\''")) }
+}
+
+/// The number of reasons, after a state.
+fn counted_reasons(count: usize) -> String {
+    if count == 0 { String::new() } else { format!(", {count} reason{}", plural(count)) }
+}
+
+/// How many of them are printed; all are in summary.json.
+fn reasons_shown(count: usize, print: PrintArgs) -> usize {
+    if print.verbose { count } else { count.min(3) }
+}
+
 /// A message with its own hint and the hint of the command on a second line.
 fn with_hint(message: &str, of_command: Option<&str>) -> String {
     let (what, own) = message.split_once("hint: ").map_or((message, None), |(what, own)| (what, Some(own)));
@@ -111,9 +156,7 @@ fn with_hint(message: &str, of_command: Option<&str>) -> String {
 }
 
 /// Prints the verdict: feasible with the check that came closest to its limit, infeasible with the reasons, or why it is not judged.
-fn print_verdict(verdict: &Verdict) -> Result<()> {
-    /// Longer lists are in summary.json.
-    const MOST: usize = 6;
+fn print_verdict(verdict: &Verdict, print: PrintArgs) -> Result<()> {
     if verdict.state == VerdictState::NotJudged {
         return print_line(&format!("  verdict   not judged: {}", verdict.undecided.join("; ")));
     }
@@ -131,12 +174,7 @@ fn print_verdict(verdict: &Verdict) -> Result<()> {
         return print_line(&format!("  verdict   feasible{nearest}"));
     }
     let count = verdict.reasons.len();
-    print_line(&format!("  verdict   infeasible, {count} reason{}", if count == 1 { "" } else { "s" }))?;
-    for reason in verdict.reasons.iter().take(MOST) {
-        print_line(&format!("    {}: {}", reason.check, reason.message))?;
-    }
-    if count > MOST {
-        print_line(&format!("    and {} more in summary.json", count - MOST))?;
-    }
-    Ok(())
+    print_line(&format!("  verdict   infeasible{}", counted_reasons(count)))?;
+    let shown = verdict.reasons.iter().take(reasons_shown(count, print));
+    shown.into_iter().try_for_each(|reason| print_line(&format!("    {}: {}", reason.check, reason.message)))
 }

@@ -46,7 +46,7 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, print: PrintArgs) 
     print_efforts(summary)?;
     for judged in summary.verdict.iter().flat_map(|verdict| &verdict.figures) {
         print_line(&format!("  {}", judged.figure))?;
-        print_verdict(&judged.verdict)?;
+        print_verdict(&judged.verdict, print)?;
     }
     print_line(&format!("  written     {}", output.display()))
 }

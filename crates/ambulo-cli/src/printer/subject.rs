@@ -9,7 +9,7 @@ const NAMED: usize = 4;
 
 pub(super) fn print(subject: &SubjectSummary) -> Result<()> {
     print_line(&format!("  axes      {}", subject.axes))?;
-    print_line(&format!("  markers   {}", markers(subject)))?;
+    print_markers(subject)?;
     for contact in &subject.plates {
         print_line(&format!("  {:9} {}", contact.plate, on_plate(contact)))?;
     }
@@ -20,6 +20,11 @@ pub(super) fn print(subject: &SubjectSummary) -> Result<()> {
         print_line(&format!("  events    {}", events(agreement)))?;
     }
     Ok(())
+}
+
+/// Prints how far the markers are from the body.
+pub(super) fn print_markers(subject: &SubjectSummary) -> Result<()> {
+    print_line(&format!("  markers   {}", markers(subject)))
 }
 
 fn markers(subject: &SubjectSummary) -> String {

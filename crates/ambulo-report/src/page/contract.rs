@@ -56,6 +56,8 @@ pub enum PageSide {
 pub struct Session {
     /// A short name: that of the recording.
     pub name: String,
+    /// Whether the data can be used; nothing for scenes.
+    pub data: Option<DataQuality>,
     /// Subject, mass, height, speed, model, filter, source of the forces, ... in the order to be shown.
     pub header: Vec<Fact>,
     /// Where the ground forces come from.
@@ -78,6 +80,29 @@ pub struct Session {
     pub view: Option<View>,
     /// What this page cannot show and why, a sentence each.
     pub missing: Vec<String>,
+}
+
+/// Whether recording, body and forces fit together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct DataQuality {
+    /// The answer.
+    pub state: PageQuality,
+    /// The strongest reasons, a sentence each.
+    pub reasons: Vec<String>,
+}
+
+/// The three states of data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
+pub enum PageQuality {
+    /// No measure is beyond its limit.
+    Good,
+    /// Results may be wrong in parts.
+    Doubtful,
+    /// Results should not be used.
+    Bad,
 }
 
 /// A line of the header.

@@ -156,7 +156,7 @@ impl Measure {
             Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
-            Measure::Mass => "difference of the body mass from that on the force plates, as a share",
+            Measure::Mass => "difference of the body mass from that on the force plates, less the error of weighing, as a share",
             Measure::Gaps => "share of the frames in which missing markers leave a coordinate unknown",
             Measure::Sliding => {
                 "speed along the ground of soles that carry at least half the body weight, lower quartile"
@@ -380,13 +380,17 @@ impl QualityEvidence<'_> {
     }
 
     fn mass(&self) -> Option<QualityReason> {
-        let ratio = self.checks?.contradicting_mass_ratio()?;
-        Measure::Mass.reason((ratio - 1.0).abs(), |limit| {
+        let (ratio, error) = match self.force_origin {
+            ForceOrigin::Measured => self.verdict.fit.weighed.map(|weighed| (weighed.ratio, weighed.error))?,
+            _ => (self.checks?.contradicting_mass_ratio()?, 0.0),
+        };
+        Measure::Mass.reason((ratio - 1.0).abs() - error, |limit| {
             let body_kg = self.model.mass();
             format!(
-                "force plates carry {:.1} kg, the body has {body_kg:.1} kg (at most {} apart): forces scale with the mass",
+                "force plates carry {:.1} kg, the body has {body_kg:.1} kg (at most {} apart, and {} for the error of weighing)",
                 ratio * body_kg,
-                percent(limit)
+                percent(limit),
+                percent(error)
             )
         })
     }

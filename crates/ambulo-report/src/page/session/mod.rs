@@ -22,8 +22,9 @@ mod time_distance;
 mod words;
 
 use super::block::Block;
-use super::contract::Session;
+use super::contract::{DataQuality, PageQuality, Session};
 use super::view::{Viewed, view};
+use ambulo::study::{Quality, QualityState};
 use ambulo_results::{Folder, ResultsError, RunSummary};
 use feasibility::Basis;
 use results::Results;
@@ -62,6 +63,7 @@ fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Sess
     }
     Ok(Session {
         name: header::recording_name(&results),
+        data: results.summary.quality.as_ref().map(data_quality),
         header: header::header(&results, &size),
         source: results.source,
         time: results.time(),
@@ -79,4 +81,14 @@ fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Sess
         events: results.events,
         cycles: results.cycles,
     })
+}
+
+/// The quality with its three strongest reasons.
+fn data_quality(quality: &Quality) -> DataQuality {
+    let state = match quality.state {
+        QualityState::Good => PageQuality::Good,
+        QualityState::Doubtful => PageQuality::Doubtful,
+        QualityState::Bad => PageQuality::Bad,
+    };
+    DataQuality { state, reasons: quality.reasons.iter().take(3).map(|reason| reason.message.clone()).collect() }
 }

@@ -17,6 +17,8 @@ const NEAR_GROUND_M: f64 = 0.06;
 /// ... and slower than this relative to it [m/s] may be in contact (AnyBody's prediction of ground forces uses 0.04 m and 0.8 m/s for nodes
 /// of a fitted sole; ours are estimates).
 const NEAR_GROUND_M_S: f64 = 0.8;
+/// The lowest point of a loaded sole may be this far above or below its centre of pressure: thick shoes, errors of feet and floor [m].
+const OFF_GROUND_M: f64 = 0.1;
 /// In flight both feet together carry less than this share of body weight.
 const FLIGHT_LOAD_BW: f64 = 0.05;
 
@@ -133,6 +135,12 @@ impl FeasibilityLimits {
     /// The residual force [body weights].
     fn unsupported(&self, frame: &Frame<'_>) -> f64 {
         share(frame.residual.force.norm(), self.weight)
+    }
+
+    /// Upward force that the feet carry, and that the motion of the body needs [N].
+    pub(super) fn upward_forces(&self, frame: &Frame<'_>) -> [f64; 2] {
+        let carried: f64 = frame.feet.values().flatten().map(|foot| foot.force.dot(&self.up)).sum();
+        [carried, carried + frame.residual.force.dot(&self.up)]
     }
 
     /// Whether the residual force is too large for a person.
@@ -295,8 +303,7 @@ fn check_foot(
     }
     let Some(sole) = &limits.person.soles[side] else { return };
     if carries(t.sole_load_bw) {
-        let outside = distance_to_line(limits, frame, sole, foot.center_of_pressure) - sole.half_width;
-        add(Check::CenterOfPressure, outside.max(0.0), t.sole_margin_m);
+        add(Check::CenterOfPressure, distance_to_sole(limits, frame, sole, foot.center_of_pressure), t.sole_margin_m);
     }
     if carries(t.sliding_load_bw) {
         add(Check::Sliding, slip(limits, frame, sole, foot.center_of_pressure), t.sliding_m_s);
@@ -314,11 +321,14 @@ fn share(value: f64, limit: f64) -> f64 {
     }
 }
 
-/// Horizontal distance of a point from the line along the sole [m].
-fn distance_to_line(limits: &FeasibilityLimits, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
-    let [rear, ball, tip] = sole.points.map(|p| frame.bodies[p.body.index()].pose.place(p.place));
+/// Distance of a point from the sole [m]: along the ground from its edge, and in height beyond [`OFF_GROUND_M`] from its lowest point.
+fn distance_to_sole(limits: &FeasibilityLimits, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
+    let points = sole.points.map(|p| frame.bodies[p.body.index()].pose.place(p.place));
+    let [rear, ball, tip] = points;
     let to_part = |part: [Vec3; 2]| level_distance(place, part, limits.up);
-    to_part([rear, ball]).min(to_part([ball, tip]))
+    let outside = to_part([rear, ball]).min(to_part([ball, tip])) - sole.half_width;
+    let lowest = points.iter().map(|point| (point - place).dot(&limits.up)).fold(f64::INFINITY, f64::min);
+    outside.max(0.0).hypot((lowest.abs() - OFF_GROUND_M).max(0.0))
 }
 
 /// Horizontal speed of the foot's material at a point relative to the ground [m/s]: of the toes if the tip is nearest, else of the foot.

@@ -18,6 +18,6 @@ pub use judgement::{MotionAndForces, PredictedForces, check};
 pub use person::Person;
 pub use strength::{Hill, StrengthCurve};
 pub use thresholds::Thresholds;
-pub use verdict::{Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState};
+pub use verdict::{Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState, Weighed};
 
 pub(super) use ground_speed::over_ground;

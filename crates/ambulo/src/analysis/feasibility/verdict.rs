@@ -169,6 +169,17 @@ pub struct FitOfForces {
     ///
     /// [`Thresholds::sliding_load_bw`]: super::Thresholds::sliding_load_bw
     pub sliding_m_s: Option<f64>,
+    /// Body mass by the ground forces.
+    pub weighed: Option<Weighed>,
+}
+
+/// Body mass by the ground forces of a motion: the upward impulse of the ground is m (g t + Δv), with Δv from the motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weighed {
+    /// Mass by the ground forces over that of the body.
+    pub ratio: f64,
+    /// Its error, from the error of the velocity of the mass centre.
+    pub error: f64,
 }
 
 impl Verdict {
