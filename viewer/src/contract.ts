@@ -47,6 +47,10 @@ export type Session = {
  */
 name: string, 
 /**
+ * Whether the data can be used; nothing for scenes.
+ */
+data: DataQuality | null, 
+/**
  * Subject, mass, height, speed, model, filter, source of the forces, ... in the order to be shown.
  */
 header: Array<Fact>, 
@@ -420,6 +424,18 @@ message: string,
  * How often.
  */
 count: number, };
+
+export type DataQuality = { 
+/**
+ * The answer.
+ */
+state: PageQuality, 
+/**
+ * The strongest reasons, a sentence each.
+ */
+reasons: Array<string>, };
+
+export type PageQuality = "good" | "doubtful" | "bad";
 
 export type Feasibility = { 
 /**

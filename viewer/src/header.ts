@@ -38,8 +38,10 @@ export function header(page: Page): HTMLElement {
 function answers(page: Page): HTMLElement[] {
   return page.sessions.flatMap((session) => {
     const lines = [...dataLines(session), ...verdictLines(session)];
-    const name = page.sessions.length > 1 ? [element("h3", {}, session.name)] : [];
-    return lines.length > 0 ? [element("section", { class: "answers", "aria-label": "Answers" }, ...name, ...lines)] : [];
+    const name = page.sessions.length > 1 ? [element("h3", { class: "answer-name" }, session.name)] : [];
+    return lines.length > 0
+      ? [element("section", { class: "answers", "aria-label": "Answers" }, ...name, ...lines)]
+      : [];
   });
 }
 

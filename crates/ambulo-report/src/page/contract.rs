@@ -595,6 +595,8 @@ mod tests {
             Quality::decl(&config),
             Judged::decl(&config),
             PageFinding::decl(&config),
+            DataQuality::decl(&config),
+            PageQuality::decl(&config),
             Feasibility::decl(&config),
             RedSpan::decl(&config),
             View::decl(&config),
