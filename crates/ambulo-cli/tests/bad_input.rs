@@ -217,7 +217,7 @@ fn a_load_whose_columns_do_not_exist_is_rejected_with_the_columns_that_do() {
 #[test]
 fn without_ground_forces_they_are_predicted_and_a_note_names_the_alternatives() {
     let bench = Workbench::new("no_ground");
-    let run = bench.run(&FORCES[..4]);
+    let run = bench.run(&[&FORCES[..4], &["--verbose"]].concat());
     assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
     run.reports(&["note: no ground forces were given; they are predicted", "hint: `--grf`", "--no-ground"]);
     assert_eq!(bench.json("out/summary.json")["ground"]["source"], "predicted");

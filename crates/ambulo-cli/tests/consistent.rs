@@ -23,7 +23,7 @@ fn with_demo(name: &str) -> Workbench {
 
 /// Runs `forces` and reads its summary.
 fn forces(bench: &Workbench, args: &[&str], output: &str) -> (Value, String) {
-    let run = bench.run(&[&["forces"], args, &["-o", output]].concat());
+    let run = bench.run(&[&["forces", "--verbose"], args, &["-o", output]].concat());
     assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
     let bytes = fs::read(bench.folder.join(output).join("summary.json")).unwrap();
     (serde_json::from_slice(&bytes).unwrap(), run.stdout)

@@ -147,7 +147,7 @@ fn plates_keep_the_numbers_of_the_file() {
     let bench = laboratory("plates");
     let plate = |plates: &[&str]| {
         let options: Vec<&str> = plates.iter().flat_map(|plate| ["--plate", plate]).collect();
-        forces(&bench, "walk.c3d", &[&STILL[..], &options].concat())
+        forces(&bench, "walk.c3d", &[&STILL[..], &options, &["--verbose"]].concat())
     };
     plate(&["99=r"]).refused(&["--plate 99", "walk.c3d has 9 force plates", "from 1 to 9", "hint: `ambulo info`"]);
     for words in ["words", "0=r", "1=x", "1.5=r", "=", "1=", "18446744073709551616=r"] {

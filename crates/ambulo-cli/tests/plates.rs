@@ -79,7 +79,7 @@ fn the_user_can_assign_a_foot_to_a_plate() {
 }
 
 /// The arguments of a run without filters on a table of forces, without statements about its columns.
-const ON_TABLE: [&str; 12] = [
+const ON_TABLE: [&str; 13] = [
     "forces",
     "walk.mot",
     "--model",
@@ -92,6 +92,7 @@ const ON_TABLE: [&str; 12] = [
     "off",
     "--force-cutoff",
     "off",
+    "--verbose",
 ];
 
 /// The moments with the loads that the built-in input states.
@@ -214,7 +215,7 @@ fn external_loads_on_the_wrong_foot_are_recognised() {
 fn the_filter_of_the_forces_is_chosen_and_printed() {
     let bench = Workbench::new("force_cutoff");
     let printed = |options: &[&str]| {
-        let run = bench.forces(options);
+        let run = bench.forces(&[options, &["--verbose"]].concat());
         let line = run.stdout.lines().find(|line| line.trim_start().starts_with("filter")).map(str::to_owned);
         line.unwrap_or_else(|| panic!("no filter in: {}{}", run.stdout, run.stderr))
     };

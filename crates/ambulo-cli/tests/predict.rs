@@ -15,13 +15,13 @@ fn ran(run: Run) -> Run {
 
 /// Runs `forces --predict` with the measured forces of the demo.
 fn predict_with_plates(bench: &Workbench, more: &[&str]) -> Run {
-    ran(bench.run(&[&MOTION[..], &PLATES, &["--predict"], &RAW[..2], more].concat()))
+    ran(bench.run(&[&MOTION[..], &PLATES, &["--predict", "--verbose"], &RAW[..2], more].concat()))
 }
 
 #[test]
 fn forces_are_predicted_where_none_were_measured() {
     let bench = Workbench::new("predicted");
-    let run = ran(bench.run(&[&MOTION[..], &RAW[..2]].concat()));
+    let run = ran(bench.run(&[&MOTION[..], &RAW[..2], &["--verbose"]].concat()));
     run.reports(&[
         "note: no ground forces were given; they are predicted",
         "warning: body mass is neither given nor measured",
@@ -130,7 +130,7 @@ fn a_walk_carried_by_its_feet_passes_the_checks_and_one_with_other_support_fails
     bench.run(&["demo", "-o", "demo", "--quiet"]).done();
     let motion = ["forces", "demo/input/walk.mot", "--model", "demo/input/figure.osim", "--cutoff", "off"];
     let plates = ["--grf", "demo/input/walk_grf.mot", "--loads", "demo/input/walk_grf.xml"];
-    let run = bench.run(&[&motion[..], &plates, &["--predict"]].concat()).done();
+    let run = bench.run(&[&motion[..], &plates, &["--predict", "-v"]].concat()).done();
     assert!(run.stdout.contains("  checks    passed: vertical_force_feet, "), "{}", run.stdout);
     let summary = bench.json("out/summary.json");
     let checks = summary["prediction"]["checks"].as_array().unwrap();
@@ -170,7 +170,7 @@ fn half_the_mass_is_only_detected_with_force_plates() {
     let bench = Workbench::empty("predict_half");
     bench.run(&["demo", "-o", "demo", "--quiet"]).done();
     let mass = |more: &[&str]| {
-        let input = ["forces", "demo/input/walk.c3d", "--height", "1.75", "--mass", "40", "--predict"];
+        let input = ["forces", "demo/input/walk.c3d", "--height", "1.75", "--mass", "40", "--predict", "-v"];
         let run = ran(bench.run(&[&input[..], more].concat()));
         (run, bench.json("out/summary.json")["mass"].as_str().unwrap().to_owned())
     };

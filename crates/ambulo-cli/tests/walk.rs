@@ -26,7 +26,7 @@ fn rows<'a>(text: &'a str, begin: &str) -> Vec<&'a str> {
 #[test]
 fn a_walk_writes_the_files_of_a_recording_with_the_same_times() {
     let bench = Workbench::empty("walk_files");
-    let run = bench.run(&["walk", "--cycles", "2", "-o", "out"]).done();
+    let run = bench.run(&["walk", "--cycles", "2", "--verbose", "-o", "out"]).done();
     for words in
         ["de-leva-male 75 kg 1.75 m, gait free", "ankle_angle_r_moment", "corrected mode", "verdict   feasible"]
     {
@@ -117,7 +117,7 @@ fn figure_speed_and_steps_can_be_chosen() {
 #[test]
 fn the_walk_of_the_papers_mode_is_infeasible() {
     let bench = Workbench::empty("walk_paper");
-    let paper = ["walk", "--gait", "standard", "--mode", "paper", "--figure", "faure-1997", "-o", "out"];
+    let paper = ["walk", "--gait", "standard", "--mode", "paper", "--figure", "faure-1997", "-v", "-o", "out"];
     let run = bench.run(&paper).infeasible();
     assert!(run.stdout.contains("paper mode") && run.stdout.contains("impacts"), "{}", run.stdout);
     let summary = bench.json("out/summary.json");

@@ -487,7 +487,7 @@ mod tests {
     fn the_worst_reason_comes_first() {
         let reason = |measure: Measure, value: f64| measure.reason(value, |_| String::new());
         let list = [
-            reason(Measure::ResidualForce, 0.2),
+            reason(Measure::ResidualForce, 0.21),
             reason(Measure::Gaps, 0.4),
             reason(Measure::Sliding, 0.14),
             reason(Measure::LowCutoff, 6.0),
