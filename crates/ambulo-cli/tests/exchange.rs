@@ -328,7 +328,8 @@ fn messages_are_short_and_not_repeated() {
         c3d.points.extend(extra);
         bench.write(&file, c3d.write().unwrap());
     }
-    let run = bench.run(&["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "-v", "-o", "out"]).done();
+    let run =
+        bench.run(&["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "-v", "-o", "out"]).done();
     run.reports(&["44 only in the recording", "and 38 more"]);
     assert_eq!(run.stderr.matches("ORIGIN of every plate").count(), 1, "{}", run.stderr);
     assert!(!run.stderr.contains("times)") && !run.stderr.contains("Extra9"), "{}", run.stderr);

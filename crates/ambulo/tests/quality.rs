@@ -6,7 +6,9 @@ use ambulo::findings::Findings;
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Motion, Smoother};
 use ambulo::spatial::Vec3;
-use ambulo::study::{self, GroundSettings, MarkerBody, Measure, Quality, QualityLimits, QualityState, Recording, Settings, Source};
+use ambulo::study::{
+    self, GroundSettings, MarkerBody, Measure, Quality, QualityLimits, QualityState, Recording, Settings, Source,
+};
 use std::path::Path;
 
 /// A way to spoil a recording, and a measure that must find it.

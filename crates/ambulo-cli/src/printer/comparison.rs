@@ -34,7 +34,12 @@ pub(super) fn print(comparison: &GroundAgreement) -> Result<()> {
 /// Prints how the vertical forces agree, on one line.
 pub(super) fn print_vertical(comparison: &GroundAgreement) -> Result<()> {
     let foot = |foot: &FootAgreement| {
-        format!("{} {:.1} % of body weight (r {})", foot.side, 100.0 * foot.vertical.rmse_bw, correlation(foot.vertical.r))
+        format!(
+            "{} {:.1} % of body weight (r {})",
+            foot.side,
+            100.0 * foot.vertical.rmse_bw,
+            correlation(foot.vertical.r)
+        )
     };
     let feet: Vec<String> = comparison.feet.iter().map(foot).collect();
     match feet.is_empty() {

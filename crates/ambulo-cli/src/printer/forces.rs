@@ -34,7 +34,11 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
         MassKnowledge::Verified | MassKnowledge::Unverified => "",
     };
     print_line(&format!("  mass      {:.2} kg ({}{known})", summary.mass_kg, summary.mass_source.word()))?;
-    if print.verbose { details(summary)? } else { outline(summary)? }
+    if print.verbose {
+        details(summary)?
+    } else {
+        outline(summary)?
+    }
     if let Some(quality) = &summary.quality {
         print_quality(quality, print)?;
     }

@@ -220,6 +220,9 @@ codes! {
     MassStanding "mass.standing" Note
         "The body mass was measured by force plates in the standing trial."
         "Nothing to do.";
+    MassWeighed "mass.weighed" Note
+        "No mass is stated; the person was weighed by the force plates while moving."
+        "Nothing to do, or state the mass.";
     MassMismatch "mass.mismatch" Warning
         "Force plates measured another mass over whole gait cycles than the model has; results are normalised by the measured mass, the dynamics use the model's."
         "Scale the model to this person.";

@@ -2,14 +2,24 @@
 
 use super::laboratory_file::LaboratoryFile;
 use super::source::{MarkerBody, MarkerSource};
-use crate::analysis::{Mass, MassSource, PredictionChecks};
+use crate::analysis::{BodyInMotion, Mass, MassSource, PredictionChecks};
 use crate::findings::{Code, Findings};
+use crate::ground::upward;
+use crate::kinematics::{Trajectory, each_body_motion};
 use crate::motion::force_plate::standing_weight_n;
-use crate::spatial::STANDARD_GRAVITY;
+use crate::motion::{ForceRecording, SmoothSettings, Smoother, Window, smooth};
+use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Masses that differ by less, as a share, are one person's: clothes and shoes, a scale at home, a plate's calibration.
 const SAME_PERSON: f64 = 0.05;
+
+/// A shorter time on force plates weighs nobody [s].
+const SHORTEST_WEIGHING_S: f64 = 0.3;
+/// Standard error of the change of the velocity of the mass centre, which markers show [m/s].
+const VELOCITY_ERROR_M_S: f64 = 0.1;
+/// Less is no person [kg].
+const LEAST_PERSON_KG: f64 = 5.0;
 
 /// Whether a mass is known from more than a model. Forces that are predicted from the motion scale with the mass, so that a wrong mass
 /// shows only against plates, a standing trial or a stated mass.
@@ -81,6 +91,51 @@ fn body_mass(stated_kg: Option<f64>, standing_kg: Option<f64>, findings: &mut Fi
         }
         (None, None) => None,
     }
+}
+
+/// A mass by ground forces and motion.
+pub(super) struct WeighedInMotion {
+    pub(super) kg: f64,
+    /// Standard error.
+    pub(super) error_kg: f64,
+    /// The time of the measurement.
+    pub(super) span_s: [f64; 2],
+}
+
+/// The mass of a person who moves on force plates: m = Σ F / Σ (g + a), upward, over the longest time in which every loaded foot is on a
+/// plate, with the acceleration a of the body's mass centre. `None` if that time is short.
+pub(super) fn weighed_in_motion(
+    body: &BodyInMotion,
+    forces: &[ForceRecording],
+    smoother: Smoother,
+) -> Option<WeighedInMotion> {
+    let model = &body.subject.model;
+    let [from, to] = *body.on_plates.windows.first().filter(|[from, to]| to - from >= SHORTEST_WEIGHING_S)?;
+    let (unheard, whole) = (&mut Findings::default(), Window::default());
+    let smoothed =
+        smooth(model, &body.fit.motion, SmoothSettings { smoother, window: whole, rate_hz: None }, unheard).ok()?;
+    let trajectory = Trajectory::complete(model, &smoothed, unheard).ok()?;
+    let (up, grid) = (upward(model), trajectory.grid());
+    let (first, frames) = grid.inside(Window { from_s: Some(from), to_s: Some(to) });
+    let mut needed = 0.0;
+    each_body_motion(model, &trajectory, |frame, bodies| {
+        if (first..first + frames).contains(&frame) {
+            let weighted = model
+                .bodies()
+                .iter()
+                .zip(bodies)
+                .map(|(body, motion)| body.inertia.mass() * motion.acceleration.linear);
+            needed += weighted.sum::<Vec3>().dot(&up) / model.mass() + model.gravity().norm();
+        }
+    });
+    let mean = |force: &ForceRecording| {
+        let inside = force.times.iter().zip(&force.force).filter(|(time, _)| (from..=to).contains(*time));
+        let upward: Vec<f64> = inside.map(|(_, force)| force.dot(&up)).collect();
+        upward.iter().sum::<f64>() / upward.len().max(1) as f64
+    };
+    let kg = forces.iter().map(mean).sum::<f64>() / (needed / frames as f64);
+    let error_kg = kg * VELOCITY_ERROR_M_S / (model.gravity().norm() * (to - from));
+    (kg.is_finite() && kg > LEAST_PERSON_KG).then_some(WeighedInMotion { kg, error_kg, span_s: [from, to] })
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::error::StudyError;
 use super::force_table::Walker;
 use super::laboratory_file::LaboratoryFile;
-use super::mass::{built_in_mass_kg, standing_mass_kg};
+use super::mass::{WeighedInMotion, built_in_mass_kg, standing_mass_kg, weighed_in_motion};
 use super::outcome::Tracking;
 use super::settings::{GroundSettings, Settings};
 use super::source::{MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source};
@@ -203,26 +203,12 @@ impl Source {
         findings: &mut Findings,
         progress: &mut Progress<'_>,
     ) -> Result<Observation, StudyError> {
+        let markers = &*self.with_known_mass(markers, settings, findings)?;
         let mut body = self.follow(markers, settings, findings, progress)?;
         if !matches!(markers.body, MarkerBody::Model { .. }) {
             body.subject.model = self.loaded(&body.subject.model)?;
         }
-        let forces = match &self.forces {
-            _ if settings.ground == GroundSettings::NoContact => Vec::new(),
-            MeasuredForces::OnBodies(forces) => forces.clone(),
-            MeasuredForces::Table(table) => {
-                let whole = body.longest_without_gap_s();
-                let walker = Walker {
-                    model: &body.subject.model,
-                    motion: &body.fit.motion,
-                    soles: &body.subject.person.soles,
-                    window: whole.map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) }),
-                    world_from_lab: Some(&body.laboratory.world_from_lab),
-                };
-                walker.forces_of_table(table, findings)?
-            }
-            MeasuredForces::InRecording => plate_forces(&body, findings),
-        };
+        let forces = self.forces_under(&body, settings, findings)?;
         Ok(Observation {
             model: body.subject.model.clone(),
             person: body.subject.person.clone(),
@@ -239,6 +225,56 @@ impl Source {
                 standing_kg: markers.standing.as_ref().and_then(standing_mass_kg),
             })),
         })
+    }
+
+    /// The measured forces on a body that follows markers.
+    fn forces_under(
+        &self,
+        body: &BodyInMotion,
+        settings: &Settings,
+        findings: &mut Findings,
+    ) -> Result<Vec<ForceRecording>, StudyError> {
+        match &self.forces {
+            _ if settings.ground == GroundSettings::NoContact => Ok(Vec::new()),
+            MeasuredForces::OnBodies(forces) => Ok(forces.clone()),
+            MeasuredForces::Table(table) => {
+                let whole = body.longest_without_gap_s();
+                let walker = Walker {
+                    model: &body.subject.model,
+                    motion: &body.fit.motion,
+                    soles: &body.subject.person.soles,
+                    window: whole.map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) }),
+                    world_from_lab: Some(&body.laboratory.world_from_lab),
+                };
+                walker.forces_of_table(table, findings)
+            }
+            MeasuredForces::InRecording => Ok(plate_forces(body, findings)),
+        }
+    }
+
+    /// The markers with the mass of the built-in body. Where nothing states it, the force plates weigh the person in motion: the posture
+    /// does not depend on the mass, so that a first body of any mass shows the acceleration of the mass centre.
+    fn with_known_mass<'m>(
+        &self,
+        markers: &'m MarkerSource,
+        settings: &Settings,
+        findings: &mut Findings,
+    ) -> Result<Cow<'m, MarkerSource>, StudyError> {
+        let unheard = &mut Findings::default();
+        let is_built_in = matches!(markers.body, MarkerBody::BuiltIn { .. });
+        if !is_built_in || built_in_mass_kg(markers, unheard).is_some() {
+            return Ok(Cow::Borrowed(markers));
+        }
+        let of_any_mass = markers.with_mass(ANY_MASS_KG);
+        let body = self.follow(&of_any_mass, settings, unheard, &mut Progress::default())?;
+        let forces = self.forces_under(&body, settings, unheard)?;
+        let weighed = weighed_in_motion(&body, &forces, settings.smoother).ok_or(StudyError::MassUnknown)?;
+        let WeighedInMotion { kg, error_kg, span_s: [from, to] } = weighed;
+        let message = format!(
+            "no mass is stated; the force plates carry {kg:.1} kg from {from:.3} to {to:.3} s (standard error {error_kg:.1} kg), which was used"
+        );
+        findings.report(Code::MassWeighed, message);
+        Ok(Cow::Owned(markers.with_mass(kg)))
     }
 
     /// The body, calibrated, scaled or as it is, following the markers.
@@ -274,7 +310,19 @@ impl Source {
     }
 }
 
+/// A mass for a body that is only there to be weighed [kg].
+const ANY_MASS_KG: f64 = 70.0;
+
 impl MarkerSource {
+    /// The same markers with a stated mass of the built-in body [kg].
+    fn with_mass(&self, kg: f64) -> MarkerSource {
+        let mut markers = self.clone();
+        if let MarkerBody::BuiltIn { mass_kg, .. } = &mut markers.body {
+            *mass_kg = Some(kg);
+        }
+        markers
+    }
+
     /// The trial without what switched-off plates measured. Plates that are named must exist.
     fn without_plates_switched_off(&self) -> Result<Cow<'_, LaboratoryRecording>, StudyError> {
         let mut recording = Cow::Borrowed(&self.trial.recording);

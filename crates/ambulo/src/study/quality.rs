@@ -156,7 +156,9 @@ impl Measure {
             Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
-            Measure::Mass => "difference of the body mass from that on the force plates, less the error of weighing, as a share",
+            Measure::Mass => {
+                "difference of the body mass from that on the force plates, less the error of weighing, as a share"
+            }
             Measure::Gaps => "share of the frames in which missing markers leave a coordinate unknown",
             Measure::Sliding => {
                 "speed along the ground of soles that carry at least half the body weight, lower quartile"

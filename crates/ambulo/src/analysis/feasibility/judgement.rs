@@ -5,7 +5,9 @@ use super::ground_speed::over_ground;
 use super::person::Person;
 use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
-use super::verdict::{Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState, Weighed};
+use super::verdict::{
+    Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState, Weighed,
+};
 use crate::dynamics::{Forces, Roots};
 use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, GroundForces, feet, upward};
@@ -230,7 +232,8 @@ impl Coverage {
                 100.0 * LEAST_JUDGED_SHARE
             ));
         }
-        let FitOfForces { residual_force_bw, complete_share: measured, .. } = self.fit(limits, motion.trajectory.grid().step_s);
+        let FitOfForces { residual_force_bw, complete_share: measured, .. } =
+            self.fit(limits, motion.trajectory.grid().step_s);
         if !motion.ground.bodies.is_empty() && self.counted > 0 && measured < LEAST_MEASURED_SHARE {
             list.push(format!(
                 "the measured ground forces carry the body in {:.0} % of the frames; they may not be those of this motion",
@@ -501,7 +504,9 @@ fn message(m: &CheckedValue, quantity: &str, side: Option<Side>, [from, to]: [f6
             format!("the {foot} foot needs a coefficient of friction of {value:.2}; {limit:.2} is available ({when})")
         }
         Check::CenterOfPressure => {
-            format!("the centre of pressure is {value:.3} m away from the {foot} sole; {limit:.3} m are allowed ({when})")
+            format!(
+                "the centre of pressure is {value:.3} m away from the {foot} sole; {limit:.3} m are allowed ({when})"
+            )
         }
         Check::Sliding => {
             format!("the loaded {foot} foot slides at {value:.2} m/s; {limit:.2} m/s are allowed ({when})")
