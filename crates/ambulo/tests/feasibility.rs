@@ -478,8 +478,9 @@ fn a_reason_has_times_worst_value_and_message_and_short_violations_are_noise() {
 #[test]
 fn too_long_a_flight_is_reported_with_its_duration() {
     let load = |i: usize, _: Side| Vec3::new(0.0, if (40..60).contains(&i) { 0.0 } else { HALF }, 0.0);
-    // Kept in the air, he should fall: the missing support is skipped here.
-    let thresholds = Thresholds { skip: vec![Check::Support, Check::Balance], ..Thresholds::default() };
+    // Kept in the air, he should fall, and his feet are off the ground that loads them: both are skipped here.
+    let thresholds =
+        Thresholds { skip: vec![Check::Support, Check::Balance, Check::CenterOfPressure], ..Thresholds::default() };
     let (verdict, findings) = judged_with(load, &thresholds, &[("pelvis_ty", 1.5)]);
     assert_eq!(verdict.reasons.len(), 1, "{:?}", verdict.reasons);
     let message = "no foot is loaded for 0.200 s while walking; 0.030 s are allowed (from 2.400 to 2.590 s)";
