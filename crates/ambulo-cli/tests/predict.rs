@@ -150,7 +150,7 @@ fn a_walk_carried_by_its_feet_passes_the_checks_and_one_with_other_support_fails
         }
         rows
     });
-    let run = bench.run(&motion).infeasible();
+    let run = bench.run(&[&motion[..], &["-v"]].concat()).infeasible();
     run.reports(&["warning: the whole body's"]);
     assert!(run.stdout.contains("            failed: "), "{}", run.stdout);
     let summary = bench.json("out/summary.json");
