@@ -51,6 +51,10 @@ name: string,
  */
 data: DataQuality | null, 
 /**
+ * What to know first; nothing for scenes.
+ */
+glance: Glance | null, 
+/**
  * Subject, mass, height, speed, model, filter, source of the forces, ... in the order to be shown.
  */
 header: Array<Fact>, 
@@ -434,6 +438,20 @@ state: PageQuality,
  * The strongest reasons, a sentence each.
  */
 reasons: Array<string>, };
+
+export type Glance = { 
+/**
+ * Recording, person, source of the ground forces, speed, cadence, step length and asymmetry.
+ */
+facts: Array<Fact>, 
+/**
+ * The curves that differ most from those of healthy people, a sentence each, the largest difference first.
+ */
+deviations: Array<string>, 
+/**
+ * Who the healthy people are, or why there is no comparison.
+ */
+norm: string, };
 
 export type PageQuality = "good" | "doubtful" | "bad";
 

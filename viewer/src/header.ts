@@ -1,4 +1,4 @@
-import type { Page, PageQuality, PageSource, PageVerdict, Session } from "./contract";
+import type { Fact, Page, PageQuality, PageSource, PageVerdict, Session } from "./contract";
 import { element } from "./element";
 import { LOOKS } from "./feasibility";
 import { tableElement } from "./table";
@@ -23,9 +23,6 @@ const VERDICTS: Readonly<Record<PageVerdict, string>> = {
   not_judged: "Movement not judged",
 };
 
-/** Screens narrow enough to fold the settings at first. */
-const NARROW = "(max-width: 900px)";
-
 /** The top of the page: title and source of the ground forces. */
 export function header(page: Page): HTMLElement {
   const badges = [...new Set(page.sessions.map((session) => session.source))].map((source) =>
@@ -34,10 +31,10 @@ export function header(page: Page): HTMLElement {
   return element("header", { class: "header" }, element("h1", {}, page.title), ...badges);
 }
 
-/** For each session: whether its data can be used, with the strongest reasons, and whether a person could make the movement. */
+/** For each session: whether its data can be used, with the strongest reasons, whether a person could make the movement, and what to know first. */
 function answers(page: Page): HTMLElement[] {
   return page.sessions.flatMap((session) => {
-    const lines = [...dataLines(session), ...verdictLines(session)];
+    const lines = [...dataLines(session), ...verdictLines(session), ...glanceLines(session)];
     const name = page.sessions.length > 1 ? [element("h3", { class: "answer-name" }, session.name)] : [];
     return lines.length > 0
       ? [element("section", { class: "answers", "aria-label": "Answers" }, ...name, ...lines)]
@@ -63,17 +60,26 @@ function verdictLines(session: Session): HTMLElement[] {
   return [answer(sign, look, VERDICTS[session.feasibility.state])];
 }
 
+function glanceLines(session: Session): HTMLElement[] {
+  if (session.glance === null) {
+    return [];
+  }
+  const { facts, deviations, norm } = session.glance;
+  const list = element("ol", {}, ...deviations.map((deviation) => element("li", {}, deviation)));
+  const heading = element("p", { class: "answer-name" }, "Largest differences from normal");
+  return [factGrid(facts), ...(deviations.length > 0 ? [heading, list] : []), element("p", { class: "origin" }, norm)];
+}
+
 function answer(sign: string, look: string, words: string): HTMLElement {
   const mark = element("span", { class: "mark", "aria-hidden": "true" }, sign);
   return element("p", { class: `answer ${look}` }, mark, words);
 }
 
-/** The answers; subject, model and settings, next to a picture of the figure for print; then the data that the page cannot show. */
+/** The answers; subject, model and settings, folded, next to a picture of the figure for print; then the data that the page cannot show. */
 export function about(page: Page, still: HTMLImageElement): HTMLElement {
   const [first] = page.sessions;
-  const facts = page.sessions.length === 1 && first ? factList(first) : factTable(page.sessions);
+  const facts = page.sessions.length === 1 && first ? factGrid(first.header) : factTable(page.sessions);
   const details = element("details", { class: "settings" }, element("summary", {}, "Subject and settings"), facts);
-  details.open = !matchMedia(NARROW).matches;
   return element(
     "div",
     { class: "about" },
@@ -83,11 +89,11 @@ export function about(page: Page, still: HTMLImageElement): HTMLElement {
   );
 }
 
-function factList(session: Session): HTMLElement {
+function factGrid(facts: readonly Fact[]): HTMLElement {
   return element(
     "dl",
     { class: "facts" },
-    ...session.header.map((fact) => {
+    ...facts.map((fact) => {
       const note = fact.note ? [" ", element("span", { class: "origin" }, fact.note)] : [];
       return element("div", {}, element("dt", {}, fact.label), element("dd", {}, fact.value, ...note));
     }),

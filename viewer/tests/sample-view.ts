@@ -73,6 +73,7 @@ function sampleSession(numbers: SampleNumbers, walk: SampleWalk): Session {
   return {
     name: walk.name,
     data: null,
+    glance: null,
     header: [],
     source: "simulated",
     time: { start_s: 0, step_s: STEP_S, frames },

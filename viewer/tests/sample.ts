@@ -124,6 +124,15 @@ function session(block: Block, variant: Variant): Session {
     data: variant.red
       ? { state: "doubtful", reasons: ["the residual force is 24 % of body weight (at most 20 %)"] }
       : { state: "good", reasons: [] },
+    glance: {
+      facts: [
+        { label: "Recording", value: variant.name, note: null },
+        { label: "Speed", value: "1.25 m/s", note: null },
+        { label: "Largest asymmetry", value: "4 %", note: "Step length, larger right" },
+      ],
+      deviations: ["Knee flexion, left: 1.8 SD from normal; most at 72 % of the cycle, 48 instead of 60 deg"],
+      norm: "SD: root mean square over the cycle, in standard deviations.",
+    },
     header: header(),
     source: variant.scale === 1 ? "predicted" : "measured",
     time: { start_s: START_S, step_s: STEP_S, frames: FRAMES },

@@ -96,6 +96,8 @@ fn built_in(mass_kg: Option<f64>, height_m: Option<f64>) -> MarkerBody {
 fn unnamed() -> Input {
     Input {
         motion: String::new(),
+        person: None,
+        recorded_on: None,
         model: String::new(),
         standing: None,
         ground: None,

@@ -45,6 +45,8 @@ fn files((outcome, findings): &(Outcome, Findings), convention: Convention) -> F
     let (clinical, used) = clinical_file(outcome, convention).unwrap();
     let input = Input {
         motion: "walk.mot".to_owned(),
+        person: None,
+        recorded_on: None,
         model: "figure.osim".to_owned(),
         standing: None,
         ground: None,

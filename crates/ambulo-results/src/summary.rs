@@ -93,6 +93,10 @@ pub struct Summary {
 pub struct Input {
     /// The recorded motion.
     pub motion: String,
+    /// Name of the person, if the recording states it.
+    pub person: Option<String>,
+    /// Day of the recording, as YYYY-MM-DD, if the recording states it.
+    pub recorded_on: Option<String>,
     /// The model; `built-in` for Ambulo's own body.
     pub model: String,
     /// The standing trial.

@@ -123,9 +123,9 @@ fn flat(solution: &GraphSolution) -> Vec<f64> {
 }
 
 #[test]
-fn random_trees_of_one_to_two_hundred_bodies_agree_with_a_dense_solve() {
+fn random_trees_of_one_to_a_hundred_bodies_agree_with_a_dense_solve() {
     let mut worst = 0.0_f64;
-    for (bodies, repeats) in [(1, 20), (2, 20), (5, 20), (20, 10), (60, 3), (200, 1)] {
+    for (bodies, repeats) in [(1, 20), (2, 20), (5, 20), (20, 10), (40, 3), (100, 1)] {
         for seed in 0..repeats {
             let graph = random_graph(&mut Random::new(1000 * bodies as u64 + seed), bodies, 0);
             let (expected, found) = (dense(&graph), flat(&solved(&graph)));

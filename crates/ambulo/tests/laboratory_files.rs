@@ -12,7 +12,7 @@ use ambulo::ground::plates::{ContactQuality, feet_on_plates};
 use ambulo::model::Side;
 use ambulo::motion::{
     Event, EventKind, Laboratory, MarkerRecording, PlateRecording, PlateSettings, events_from_c3d, laboratory,
-    markers_from_c3d, markers_from_trc, plates_from_c3d, standing_weight_n,
+    markers_from_c3d, markers_from_trc, plates_from_c3d, standing_weight_n, subject_from_c3d,
 };
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::table::Table;
@@ -356,4 +356,15 @@ fn over_a_whole_cycle_on_plates_the_mean_ground_force_is_the_body_weight() {
     println!("mean total force {mean:?} N, {:.2} kg", mean.y / 9.80665);
     // The README has 72.3 kg.
     assert!((mean.y / 9.80665 - 72.3).abs() < 0.3 && mean.x.abs() < 3.0 && mean.z.abs() < 3.0, "{mean:?}");
+}
+
+#[test]
+fn the_day_of_a_recording_is_read_where_the_file_states_it() {
+    let Some(data) = data() else { return };
+    let day = |name: &str| {
+        let (file, _) = C3d::read(&std::fs::read(data.join(name)).unwrap()).unwrap();
+        subject_from_c3d(&file).recorded_on
+    };
+    assert_eq!(day("motonms-unipd/Walking1.c3d").as_deref(), Some("2013-04-03"));
+    assert_eq!(day("biomechzoo-HC032A/HC032A03.c3d"), None, "no date in the file, so none is made up");
 }

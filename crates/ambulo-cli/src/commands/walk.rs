@@ -145,6 +145,8 @@ fn rule(walk_settings: &SyntheticWalkSettings<'_>) -> &'static str {
 fn input(walk_settings: &SyntheticWalkSettings<'_>) -> Input {
     Input {
         motion: format!("gait {}", walk_settings.gait.name),
+        person: None,
+        recorded_on: None,
         model: format!("figure {}", walk_settings.build.table),
         standing: None,
         ground: None,

@@ -58,6 +58,8 @@ pub struct Session {
     pub name: String,
     /// Whether the data can be used; nothing for scenes.
     pub data: Option<DataQuality>,
+    /// What to know first; nothing for scenes.
+    pub glance: Option<Glance>,
     /// Subject, mass, height, speed, model, filter, source of the forces, ... in the order to be shown.
     pub header: Vec<Fact>,
     /// Where the ground forces come from.
@@ -90,6 +92,18 @@ pub struct DataQuality {
     pub state: PageQuality,
     /// The strongest reasons, a sentence each.
     pub reasons: Vec<String>,
+}
+
+/// A recording or walk at a glance.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Glance {
+    /// Recording, person, source of the ground forces, speed, cadence, step length and asymmetry.
+    pub facts: Vec<Fact>,
+    /// The curves that differ most from those of healthy people, a sentence each, the largest difference first.
+    pub deviations: Vec<String>,
+    /// Who the healthy people are, or why there is no comparison.
+    pub norm: String,
 }
 
 /// The three states of data.
@@ -596,6 +610,7 @@ mod tests {
             Judged::decl(&config),
             PageFinding::decl(&config),
             DataQuality::decl(&config),
+            Glance::decl(&config),
             PageQuality::decl(&config),
             Feasibility::decl(&config),
             RedSpan::decl(&config),

@@ -58,6 +58,8 @@ fn folder_of(body: &[u8], motion: &[u8], ground: &[u8], loads: &ExternalLoads, f
     let outcome = study::run(&source, &settings, &mut findings).unwrap();
     let input = Input {
         motion: "recordings/walk.mot".to_owned(),
+        person: None,
+        recorded_on: None,
         model: "recordings/figure.osim".to_owned(),
         standing: None,
         ground: Some("walk_grf.mot".to_owned()),

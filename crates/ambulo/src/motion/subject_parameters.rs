@@ -25,6 +25,10 @@ const HEIGHT_NAMES: [(&str, &str); 3] = [("PROCESSING", "Height"), ("SUBJECT", "
 /// Data of a person in a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SubjectParameters {
+    /// Name or number of the person: `SUBJECTS:NAMES`.
+    pub name: Option<String>,
+    /// Day of the recording, as YYYY-MM-DD: `TRIAL:DATE` (year, month, day).
+    pub recorded_on: Option<String>,
     /// Body mass [kg].
     pub mass_kg: Option<f64>,
     /// Stature [m].
@@ -51,9 +55,19 @@ pub fn subject_from_c3d(c3d: &C3d) -> SubjectParameters {
         let number = |p: &ambulo_formats::c3d::Parameter| Some((p.name.clone(), *p.numbers()?.first()?));
         group.parameters.iter().filter_map(number).collect()
     });
+    let names = c3d.parameters.texts("SUBJECTS", "NAMES");
+    let names: Vec<&str> = names.into_iter().map(str::trim).filter(|name| !name.is_empty()).collect();
     SubjectParameters {
+        name: (!names.is_empty()).then(|| names.join(", ")),
+        recorded_on: day(c3d),
         mass_kg: stated(&MASS_NAMES).and_then(|mass| within(mass, MASSES)),
         height_m: stated(&HEIGHT_NAMES).and_then(height),
         processing: processing.unwrap_or_default(),
     }
+}
+
+fn day(c3d: &C3d) -> Option<String> {
+    let [year, month, day] = c3d.parameters.get("TRIAL", "DATE")?.counts()?.try_into().ok()?;
+    let is_day = (1900..=2200).contains(&year) && (1..=12).contains(&month) && (1..=31).contains(&day);
+    is_day.then(|| format!("{year:04}-{month:02}-{day:02}"))
 }

@@ -16,8 +16,8 @@ use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
-use ambulo::motion::{Smoother, Window};
-use ambulo::study::{self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, Outcome, Settings, Source};
+use ambulo::motion::{Smoother, SubjectParameters, Window};
+use ambulo::study::{self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, Outcome, Recording, Settings, Source};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use ambulo_results::{GroundSource, Input, OutputFile};
@@ -99,7 +99,7 @@ fn compute(args: &ForcesArgs, source: &Source, reading: Reading, target: &Result
     let body = body_file(&outcome.body, &mut findings);
     let files = RunFiles {
         outcome: &outcome,
-        input: input(args, ground.as_deref(), &outcome),
+        input: input(args, ground.as_deref(), source, &outcome),
         convention: args.convention.into(),
         walk: None,
         files: body.into_iter().collect(),
@@ -131,13 +131,21 @@ fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile> {
 }
 
 /// The input files and options, for the summary.
-fn input(args: &ForcesArgs, ground: Option<&Path>, outcome: &Outcome) -> Input {
+fn input(args: &ForcesArgs, ground: Option<&Path>, source: &Source, outcome: &Outcome) -> Input {
     let shown = |path: &Path| path.display().to_string();
     let is_measured = outcome.force_origin == ForceOrigin::Measured
         || outcome.prediction.as_ref().is_some_and(|prediction| prediction.measured.is_some());
     let in_recording = (outcome.tracking.is_some() && is_measured).then_some(args.input.as_path());
+    let stated = match &source.recording {
+        Recording::Markers(markers) => markers.trial.subject.clone(),
+        Recording::Coordinates { .. } | Recording::Skeleton { .. } | Recording::Complete { .. } => {
+            SubjectParameters::default()
+        }
+    };
     Input {
         motion: shown(&args.input),
+        person: stated.name,
+        recorded_on: stated.recorded_on,
         model: args.model.as_deref().map_or("built-in".into(), shown),
         standing: args.subject.still.as_deref().map(shown),
         ground: ground.or(in_recording).map(shown),

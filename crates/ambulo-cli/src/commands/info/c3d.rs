@@ -56,7 +56,7 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     }
     add_events(&mut sheet, &c3d);
     let subject = subject_from_c3d(&c3d);
-    add_subject(&mut sheet, &c3d, &subject);
+    add_subject(&mut sheet, &subject);
     let plates = plates.unwrap_or_default();
     if let Ok(recording) = &recording {
         let axes = laboratory(recording, &plates, &c3d.point_unit, &mut findings);
@@ -244,10 +244,11 @@ fn add_events(sheet: &mut Sheet, c3d: &C3d) {
     sheet.entry("events", values, std::iter::once(events.len().to_string()).chain(lines).collect());
 }
 
-fn add_subject(sheet: &mut Sheet, c3d: &C3d, subject: &SubjectParameters) {
-    let names: Vec<&str> = c3d.parameters.texts("SUBJECTS", "NAMES").into_iter().filter(|n| !n.is_empty()).collect();
-    if !names.is_empty() {
-        sheet.value("subject", names.join(", "));
+fn add_subject(sheet: &mut Sheet, subject: &SubjectParameters) {
+    for (label, value) in [("subject", &subject.name), ("recorded_on", &subject.recorded_on)] {
+        if let Some(value) = value {
+            sheet.value(label, value.clone());
+        }
     }
     // C3D stores single precision; two decimals are enough to read.
     let rounded = |value: Option<f64>| value.map(|value| format!("{value:.2}")).into_iter().collect();

@@ -53,7 +53,8 @@ pub(super) fn fact(label: &str, value: impl Into<String>, note: Option<String>) 
     Fact { label: label.to_owned(), value: value.into(), note }
 }
 
-fn recording(results: &Results) -> Fact {
+/// The recording or synthetic walk.
+pub(super) fn recording(results: &Results) -> Fact {
     if let Some(walk) = &results.summary.walk {
         return fact("Synthetic walk", &*walk.gait, Some(format!("style {}, mode {}", walk.style, walk.mode)));
     }
@@ -191,7 +192,8 @@ fn convention(results: &Results) -> Fact {
     fact("Pelvis and hip angles", value, results.summary.convention.as_ref().and_then(|used| used.reason.clone()))
 }
 
-fn forces(results: &Results) -> Fact {
+/// Where the ground forces come from.
+pub(super) fn forces(results: &Results) -> Fact {
     let rule = results.summary.ground.rule.as_ref();
     let split = rule.map(|rule| format!("method for double support: {rule}"));
     let (value, note) = match results.source {

@@ -8,6 +8,7 @@ mod curves;
 mod cycles;
 mod extracted;
 mod feasibility;
+mod glance;
 mod groups;
 mod header;
 mod missing;
@@ -64,6 +65,7 @@ fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Sess
     Ok(Session {
         name: header::recording_name(&results),
         data: results.summary.quality.as_ref().map(data_quality),
+        glance: Some(glance::glance(&results, &size, &shown)),
         header: header::header(&results, &size),
         source: results.source,
         time: results.time(),

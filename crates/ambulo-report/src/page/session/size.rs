@@ -57,6 +57,16 @@ impl BodySize {
     pub(super) fn walking_speed(&self) -> Option<f64> {
         self.speed_dimensionless.filter(|_| !self.runs && self.turn.is_none())
     }
+
+    /// Why normative data do not apply; `None` if they do.
+    pub(super) fn why_no_norm(&self) -> Option<&'static str> {
+        match self.walking_speed() {
+            Some(_) => None,
+            None if self.runs => Some("they apply to walking, and this is running"),
+            None if self.turn.is_some() => Some("they apply to straight walking, and the path turns"),
+            None => Some("the speed or the leg length is not known"),
+        }
+    }
 }
 
 /// The turn of the path, detected from the strides or from the markers.

@@ -95,13 +95,9 @@ fn note(results: &Results, size: &BodySize, normal: &[NormalRange]) -> String {
     };
     let mut sources: Vec<&str> = normal.iter().map(|range| range.source).collect();
     sources.dedup();
-    let norms = match size.walking_speed() {
-        Some(speed) => format!(" Normal ranges at V* = {speed:.2}: {}.", sources.join("; ")),
-        None if size.runs => " No normal ranges: they apply to walking, and this is running.".to_owned(),
-        None if size.turn.is_some() => {
-            " No normal ranges: they apply to straight walking, and the path turns.".to_owned()
-        }
-        None => " No normal ranges: the speed or the leg length is not known.".to_owned(),
+    let norms = match (size.walking_speed(), size.why_no_norm()) {
+        (Some(speed), _) => format!(" Normal ranges at V* = {speed:.2}: {}.", sources.join("; ")),
+        (None, why) => format!(" No normal ranges: {}.", why.unwrap_or_default()),
     };
     format!("{}{lengths}{norms}", counted(walking))
 }

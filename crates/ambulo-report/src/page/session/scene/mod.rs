@@ -37,6 +37,7 @@ pub(super) fn session(folder: &Folder<'_>, summary: &SceneSummary, block: &mut B
     Ok(Session {
         name: folder.name.clone(),
         data: None,
+        glance: None,
         header: facts::header(summary),
         source: PageSource::Simulated,
         time: instants.axis(),

@@ -1,0 +1,161 @@
+//! The first screen: recording, source of the forces, speed, steps, asymmetry, and the largest differences from normal.
+
+use super::curves::{mean_and_deviation, shown_cycles};
+use super::header::{fact, forces, recording};
+use super::results::Results;
+use super::size::BodySize;
+use super::time_distance;
+use crate::clinical::ClinicalQuantity;
+use crate::normative::{BAND_SAMPLES, NormativeBand, band};
+use crate::page::contract::{Fact, Glance, PageSource};
+use ambulo::analysis::{CYCLE_SAMPLES, StrideQuantity, symmetry_index};
+use ambulo::model::Side;
+
+/// How many differences from normal are listed.
+const DEVIATIONS: usize = 3;
+
+/// What to know of a recording or walk before anything else.
+pub(super) fn glance(results: &Results, size: &BodySize, quantities: &[ClinicalQuantity]) -> Glance {
+    let summary = &results.summary;
+    let stated = |label, value: &Option<String>| value.as_ref().map(|value| fact(label, value.as_str(), None));
+    let facts = [
+        Some(recording(results)),
+        stated("Person", &summary.input.person),
+        stated("Recorded on", &summary.input.recorded_on),
+        Some(Fact { note: uncertainty(results), ..forces(results) }),
+        summary.speed_m_s.map(|speed| fact("Speed", format!("{speed:.2} m/s"), None)),
+        mean(results, StrideQuantity::Cadence).map(|mean| fact("Cadence", format!("{mean:.0} steps/min"), None)),
+        mean(results, StrideQuantity::StepLength).map(|mean| fact("Step length", format!("{mean:.2} m"), None)),
+        asymmetry(results),
+    ];
+    let mut deviations: Vec<Deviation> =
+        quantities.iter().filter_map(|quantity| Deviation::of(results, size, quantity)).collect();
+    deviations.sort_by(|a, b| b.rms_sd.total_cmp(&a.rms_sd));
+    Glance {
+        facts: facts.into_iter().flatten().collect(),
+        norm: norm(size, &deviations),
+        deviations: deviations.iter().take(DEVIATIONS).map(Deviation::sentence).collect(),
+    }
+}
+
+fn mean(results: &Results, quantity: StrideQuantity) -> Option<f64> {
+    Some(results.summary.times_and_distances.quantity(quantity)?.both?.mean)
+}
+
+/// How far the ground forces can be trusted: the standard deviation of predicted ones, the residual of measured ones.
+fn uncertainty(results: &Results) -> Option<String> {
+    if results.source != PageSource::Predicted {
+        let residual = results.summary.residual.as_ref()?;
+        return Some(format!("residual force {:.1} % of body weight", 100.0 * residual.force_rms_bw));
+    }
+    let table = results.deviations.as_ref()?;
+    let vertical = table.names().iter().filter(|name| name.ends_with("vy_sd"));
+    let loaded = vertical.filter_map(|name| table.column(name)).flatten().filter(|sd| **sd > 0.0);
+    let (count, sum) = loaded.fold((0, 0.0), |(count, sum), sd| (count + 1, sum + sd));
+    let percent = 100.0 * sum / f64::from(count) / results.weight_n;
+    (count > 0).then(|| format!("vertical force of a foot: SD {percent:.0} % of body weight"))
+}
+
+/// The time or distance whose sides differ most.
+fn asymmetry(results: &Results) -> Option<Fact> {
+    let compared = time_distance::sides(&results.summary.times_and_distances).into_iter();
+    let differences = compared.filter_map(|(label, _, _, [right, left])| Some((label, symmetry_index(right?, left?)?)));
+    let (label, index) = differences.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let larger = if index > 0.0 { Side::Right } else { Side::Left };
+    Some(fact("Largest asymmetry", format!("{:.0} %", 100.0 * index.abs()), Some(format!("{label}, larger {larger}"))))
+}
+
+/// How far the mean curve of a side is from normal.
+struct Deviation<'a> {
+    quantity: &'a ClinicalQuantity,
+    side: Side,
+    /// Root mean square over the cycle, in standard deviations of healthy people.
+    rms_sd: f64,
+    /// Where it is farthest [% of the cycle].
+    at_percent: usize,
+    /// The value there.
+    value: f64,
+    /// The normal mean there.
+    normal: f64,
+    /// Who the healthy people are.
+    citation: String,
+}
+
+impl Deviation<'_> {
+    /// The side of a quantity that is farther from normal; `None` without cycles or normative data.
+    fn of<'a>(results: &Results, size: &BodySize, quantity: &'a ClinicalQuantity) -> Option<Deviation<'a>> {
+        let normal = band(quantity.id, size.walking_speed()?, results.convention())?;
+        let of_side = |side| {
+            let (mean, _) = mean_and_deviation(&shown_cycles(results, quantity, side))?;
+            Deviation::between(quantity, side, &mean, &normal)
+        };
+        Side::BOTH.into_iter().filter_map(of_side).max_by(|a, b| a.rms_sd.total_cmp(&b.rms_sd))
+    }
+
+    fn between<'a>(
+        quantity: &'a ClinicalQuantity,
+        side: Side,
+        mean: &[f64],
+        normal: &NormativeBand,
+    ) -> Option<Deviation<'a>> {
+        const EVERY: usize = (CYCLE_SAMPLES - 1) / (BAND_SAMPLES - 1);
+        let differences: Vec<f64> = (0..BAND_SAMPLES)
+            .map(|k| Some((mean.get(k * EVERY)? - normal.mean[k]) / normal.sd[k]))
+            .collect::<Option<_>>()?;
+        let rms_sd = (differences.iter().map(|d| d * d).sum::<f64>() / BAND_SAMPLES as f64).sqrt();
+        let at = (0..BAND_SAMPLES).max_by(|&a, &b| differences[a].abs().total_cmp(&differences[b].abs()))?;
+        rms_sd.is_finite().then(|| Deviation {
+            quantity,
+            side,
+            rms_sd,
+            at_percent: 100 * at / (BAND_SAMPLES - 1),
+            value: mean[at * EVERY],
+            normal: normal.mean[at],
+            citation: normal.citation.clone(),
+        })
+    }
+
+    fn sentence(&self) -> String {
+        let Deviation { quantity, side, rms_sd, at_percent, value, normal, .. } = self;
+        let (title, unit) = (quantity.title, quantity.unit);
+        let digits = if unit == "deg" { 0 } else { 2 };
+        format!(
+            "{title}, {side}: {rms_sd:.1} SD from normal; most at {at_percent} % of the cycle, {value:.digits$} instead of {normal:.digits$} {unit}"
+        )
+    }
+}
+
+/// Who is compared with, or why nobody is.
+fn norm(size: &BodySize, deviations: &[Deviation<'_>]) -> String {
+    match (size.why_no_norm(), deviations.first()) {
+        (Some(why), _) => format!("No comparison with normal curves: {why}."),
+        (None, None) => "No comparison with normal curves: there is no whole gait cycle.".to_owned(),
+        (None, Some(largest)) => {
+            format!("SD: root mean square over the cycle, in standard deviations. {}", largest.citation)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clinical::{ClinicalNames, clinical_quantities};
+    use ambulo_results::Convention;
+
+    #[test]
+    fn a_curve_two_deviations_above_normal_is_two_deviations_from_normal_and_the_normal_curve_none() {
+        let quantities = clinical_quantities(&ClinicalNames::without_model(), |_| true);
+        let hip = quantities.iter().find(|quantity| quantity.id == "hip_flexion_angle").unwrap();
+        let normal = band(hip.id, 0.4, Convention::Clinical).unwrap();
+        let shifted =
+            |by: f64| -> Vec<f64> { (0..CYCLE_SAMPLES).map(|k| normal.mean[k / 2] + by * normal.sd[k / 2]).collect() };
+        let deviation = |by: f64| Deviation::between(hip, Side::Left, &shifted(by), &normal).unwrap();
+        assert!((deviation(2.0).rms_sd - 2.0).abs() < 1e-12 && deviation(0.0).rms_sd < 1e-12);
+        let mut stiff = shifted(0.0);
+        stiff[72] -= 20.0;
+        let found = Deviation::between(hip, Side::Left, &stiff, &normal).unwrap();
+        assert_eq!((found.at_percent, found.side), (72, Side::Left));
+        assert!((found.normal - found.value - 20.0).abs() < 1e-12);
+        assert!(found.sentence().contains("left: ") && found.sentence().contains("most at 72 %"));
+    }
+}
