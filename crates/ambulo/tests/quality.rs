@@ -116,7 +116,11 @@ fn a_jump_of_a_coordinate_is_named_with_its_frame() {
     motion.columns[knee].as_mut().unwrap()[80..].iter_mut().for_each(|angle| *angle += 0.6);
     let quality = of(&motion);
     let jump = quality.reasons.iter().find(|reason| reason.measure == Measure::Jumps).unwrap();
-    assert!(jump.value == 1.0 && jump.message.contains("`knee_angle_r` at frame 81"), "{}", jump.message);
+    assert!(
+        (jump.value - 1.0).abs() < 1e-12 && jump.message.contains("`knee_angle_r` at frame 81"),
+        "{}",
+        jump.message
+    );
     assert_ne!(quality.state, QualityState::Good);
 }
 

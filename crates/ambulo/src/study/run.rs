@@ -18,7 +18,7 @@ use crate::dynamics::{Workspace, inverse};
 use crate::findings::{Code, Findings};
 use crate::ground::predict::predict;
 use crate::model::Model;
-use crate::motion::{Event, Smoother, Window, device_from_table};
+use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
 use std::ops::ControlFlow;
 
 /// Computes the forces behind a recording. What is odd, but leaves results, goes to `findings`.
@@ -70,28 +70,22 @@ fn road(
     progress: &mut Progress<'_>,
 ) -> Result<Outcome, StudyError> {
     let observation = source.observe(settings, findings, progress)?;
-    let device = source.device.as_ref().map(|table| device_from_table(&observation.model, table, findings));
-    let device = device.transpose().map_err(StudyError::Device)?;
+    let device = device(source, &observation.model, findings)?;
     let processing = processing(&observation, settings, findings);
     let Found { analysis, prediction, measured_events } =
         forces(&observation, processing, settings, findings, progress)?;
-    let Observation { mut model, person, motion, origin, mass_is_stated, .. } = observation;
+    let Observation { model, person, motion, origin, mass_is_stated, .. } = observation;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, residual_reduction) =
         residual_reduced(&model, analysis, processing, settings, &force_origin, findings)?;
-    if let Some(reduced) = &residual_reduction {
-        model = reduced.model.clone();
-    }
+    let model = residual_reduction.as_ref().map_or(model, |reduced| reduced.model.clone());
     progress.end(Stage::ResidualReduction)?;
     let grid = analysis.trajectory.grid();
     let device = device.map(|device| {
         device.report_cover(grid, findings);
         device.on(grid)
     });
-    if analysis.cycles.is_empty() {
-        findings
-            .report(Code::CyclesNone, "no whole gait cycle in the window: cycles.csv and the figure were not written");
-    }
+    report_missing_cycles(&analysis, findings);
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
     let judged = Judged { model: &model, person: &person, analysis: &analysis, device: device.as_deref(), checks };
     let verdict = judged.verdict(settings, &force_origin, findings);
@@ -128,6 +122,18 @@ fn road(
             window: processing.window,
         },
     })
+}
+
+fn device(source: &Source, model: &Model, findings: &mut Findings) -> Result<Option<DeviceRecording>, StudyError> {
+    let device = source.device.as_ref().map(|table| device_from_table(model, table, findings));
+    device.transpose().map_err(StudyError::Device)
+}
+
+fn report_missing_cycles(analysis: &Analysis, findings: &mut Findings) {
+    if analysis.cycles.is_empty() {
+        let message = "no whole gait cycle in the window: cycles.csv and the figure were not written";
+        findings.report(Code::CyclesNone, message);
+    }
 }
 
 /// What a verdict is about.

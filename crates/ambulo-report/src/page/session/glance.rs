@@ -30,7 +30,7 @@ pub(super) fn glance(results: &Results, size: &BodySize, quantities: &[ClinicalQ
     ];
     let mut deviations: Vec<Deviation> =
         quantities.iter().filter_map(|quantity| Deviation::of(results, size, quantity)).collect();
-    deviations.sort_by(|a, b| b.rms_sd.total_cmp(&a.rms_sd));
+    deviations.sort_by(|a, b| b.in_sd.total_cmp(&a.in_sd));
     Glance {
         facts: facts.into_iter().flatten().collect(),
         norm: norm(size, &deviations),
@@ -69,8 +69,9 @@ fn asymmetry(results: &Results) -> Option<Fact> {
 struct Deviation<'a> {
     quantity: &'a ClinicalQuantity,
     side: Side,
-    /// Root mean square over the cycle, in standard deviations of healthy people.
-    rms_sd: f64,
+    /// Root mean square of the difference over the cycle, per root mean square of the standard deviation of healthy people.
+    /// The ratio is not formed point by point: the standard deviation of a ground force is near zero in swing.
+    in_sd: f64,
     /// Where it is farthest [% of the cycle].
     at_percent: usize,
     /// The value there.
@@ -89,7 +90,7 @@ impl Deviation<'_> {
             let (mean, _) = mean_and_deviation(&shown_cycles(results, quantity, side))?;
             Deviation::between(quantity, side, &mean, &normal)
         };
-        Side::BOTH.into_iter().filter_map(of_side).max_by(|a, b| a.rms_sd.total_cmp(&b.rms_sd))
+        Side::BOTH.into_iter().filter_map(of_side).max_by(|a, b| a.in_sd.total_cmp(&b.in_sd))
     }
 
     fn between<'a>(
@@ -99,15 +100,15 @@ impl Deviation<'_> {
         normal: &NormativeBand,
     ) -> Option<Deviation<'a>> {
         const EVERY: usize = (CYCLE_SAMPLES - 1) / (BAND_SAMPLES - 1);
-        let differences: Vec<f64> = (0..BAND_SAMPLES)
-            .map(|k| Some((mean.get(k * EVERY)? - normal.mean[k]) / normal.sd[k]))
-            .collect::<Option<_>>()?;
-        let rms_sd = (differences.iter().map(|d| d * d).sum::<f64>() / BAND_SAMPLES as f64).sqrt();
+        let differences: Vec<f64> =
+            (0..BAND_SAMPLES).map(|k| Some(mean.get(k * EVERY)? - normal.mean[k])).collect::<Option<_>>()?;
+        let sum_of_squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
+        let in_sd = (sum_of_squares(&differences) / sum_of_squares(&normal.sd)).sqrt();
         let at = (0..BAND_SAMPLES).max_by(|&a, &b| differences[a].abs().total_cmp(&differences[b].abs()))?;
-        rms_sd.is_finite().then(|| Deviation {
+        in_sd.is_finite().then(|| Deviation {
             quantity,
             side,
-            rms_sd,
+            in_sd,
             at_percent: 100 * at / (BAND_SAMPLES - 1),
             value: mean[at * EVERY],
             normal: normal.mean[at],
@@ -116,11 +117,11 @@ impl Deviation<'_> {
     }
 
     fn sentence(&self) -> String {
-        let Deviation { quantity, side, rms_sd, at_percent, value, normal, .. } = self;
+        let Deviation { quantity, side, in_sd, at_percent, value, normal, .. } = self;
         let (title, unit) = (quantity.title, quantity.unit);
         let digits = if unit == "deg" { 0 } else { 2 };
         format!(
-            "{title}, {side}: {rms_sd:.1} SD from normal; most at {at_percent} % of the cycle, {value:.digits$} instead of {normal:.digits$} {unit}"
+            "{title}, {side}: {in_sd:.1} SD from normal; most at {at_percent} % of the cycle, {value:.digits$} instead of {normal:.digits$} {unit}"
         )
     }
 }
@@ -131,7 +132,10 @@ fn norm(size: &BodySize, deviations: &[Deviation<'_>]) -> String {
         (Some(why), _) => format!("No comparison with normal curves: {why}."),
         (None, None) => "No comparison with normal curves: there is no whole gait cycle.".to_owned(),
         (None, Some(largest)) => {
-            format!("SD: root mean square over the cycle, in standard deviations. {}", largest.citation)
+            format!(
+                "SD: root mean square of the difference over the cycle, in standard deviations of healthy people. {}",
+                largest.citation
+            )
         }
     }
 }
@@ -150,7 +154,7 @@ mod tests {
         let shifted =
             |by: f64| -> Vec<f64> { (0..CYCLE_SAMPLES).map(|k| normal.mean[k / 2] + by * normal.sd[k / 2]).collect() };
         let deviation = |by: f64| Deviation::between(hip, Side::Left, &shifted(by), &normal).unwrap();
-        assert!((deviation(2.0).rms_sd - 2.0).abs() < 1e-12 && deviation(0.0).rms_sd < 1e-12);
+        assert!((deviation(2.0).in_sd - 2.0).abs() < 1e-12 && deviation(0.0).in_sd < 1e-12);
         let mut stiff = shifted(0.0);
         stiff[72] -= 20.0;
         let found = Deviation::between(hip, Side::Left, &stiff, &normal).unwrap();
