@@ -37,8 +37,8 @@ pub use subject_summary::{
     SegmentSummary, SubjectSummary,
 };
 pub use summary::{
-    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, GroundSource, Input, MassKnowledge,
-    PeakSummary, ResidualSummary, Summary, summary,
+    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, GroundSource, Input, PeakSummary,
+    ResidualSummary, Summary, summary,
 };
 pub use tables::ground_columns;
 pub use walk_summary::{PelvisPath, Size, SolverStage, WalkSummary};

@@ -4,11 +4,11 @@ use crate::consistency_summary::ConsistencySummary;
 use crate::files::{OutputFile, output_files};
 use crate::prediction_files::prediction_files;
 use crate::subject_summary::SubjectSummary;
-use crate::summary::{GroundSource, Input, MassKnowledge, Summary, summary};
+use crate::summary::{GroundSource, Input, Summary, summary};
 use crate::walking_summary::WalkingSummary;
 use ambulo::analysis::{AnalysisSettings, PredictedAnalysis};
 use ambulo::findings::Findings;
-use ambulo::study::{self, ForceOrigin, Outcome, Processing, Tracking};
+use ambulo::study::{ForceOrigin, Outcome, Processing, Tracking};
 use ambulo_formats::Error;
 
 /// Every table of a run, including those of a prediction.
@@ -59,11 +59,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
     let prediction = outcome.prediction.as_ref();
     summary.comparison = prediction.and_then(|prediction| prediction.agreement.clone());
     summary.prediction = prediction.map(|prediction| prediction.checks.clone());
-    summary.mass = match outcome.mass_knowledge {
-        study::MassKnowledge::Verified => MassKnowledge::Verified,
-        study::MassKnowledge::Unverified => MassKnowledge::Unverified,
-        study::MassKnowledge::Contradicted => MassKnowledge::Contradicted,
-    };
+    summary.mass = outcome.mass.clone();
     summary
 }
 

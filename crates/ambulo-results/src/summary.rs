@@ -12,7 +12,7 @@ use ambulo::findings::{Finding, Findings};
 use ambulo::model::Model;
 use ambulo::motion::Smoother;
 use ambulo::motion::filter::LowPass;
-use ambulo::study::Quality;
+use ambulo::study::{BodyMass, MassWitness, Quality};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -41,8 +41,8 @@ pub struct Summary {
     pub mass_model_kg: f64,
     /// Source of the body mass.
     pub mass_source: MassSource,
-    /// Whether the mass is given or measured, or known from the model only.
-    pub mass: MassKnowledge,
+    /// The body mass by each source, and how well it is known.
+    pub mass: BodyMass,
     /// Stature [m], if it was given.
     pub height_m: Option<f64>,
     /// Walking speed relative to the floor or belt [m/s].
@@ -133,20 +133,6 @@ pub enum GroundSource {
     /// There are none.
     #[default]
     None,
-}
-
-/// Whether the body mass is known from more than the model. Forces predicted from motion scale with the mass, so only force plates,
-/// a standing trial or a given mass can reveal a wrong one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum MassKnowledge {
-    /// Measured by force plates, or given.
-    Verified,
-    /// Known from the model only.
-    Unverified,
-    /// Force plates measured a different mass than the model has.
-    Contradicted,
 }
 
 /// The filters in words and numbers.
@@ -324,10 +310,7 @@ pub fn summary(
         gravity_m_s2: model.gravity().norm(),
         mass_model_kg: model.mass(),
         mass_source: analysis.mass.source,
-        mass: match analysis.mass.source {
-            MassSource::Plates | MassSource::Standing => MassKnowledge::Verified,
-            MassSource::Model => MassKnowledge::Unverified,
-        },
+        mass: BodyMass::alone(model.mass(), MassWitness::Model),
         height_m: None,
         speed_m_s: analysis.speed_m_s,
         window_s: [grid.start_s, grid.end_s()],

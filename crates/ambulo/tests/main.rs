@@ -94,4 +94,5 @@ mod splines;
 mod synthetic_walk;
 mod times_and_distances;
 mod walking;
+mod weighing;
 mod world_check;

@@ -6,9 +6,9 @@ use super::{
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
-use ambulo::study::Quality;
+use ambulo::study::{MassState, Quality};
 use ambulo_results::{
-    FilterSummary, ForceUnit, Ground, GroundOrigin, MassKnowledge, PeakSummary, ResidualSummary, Summary, WalkSummary,
+    FilterSummary, ForceUnit, Ground, GroundOrigin, PeakSummary, ResidualSummary, Summary, WalkSummary,
 };
 use anyhow::Result;
 use std::path::Path;
@@ -28,12 +28,7 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
         print_warnings(&summary.findings);
     }
     print_line(&format!("{}, {}", summary.model, summary.input.motion))?;
-    let known = match summary.mass {
-        MassKnowledge::Unverified if summary.ground.source == GroundOrigin::Predicted => ", unverified",
-        MassKnowledge::Contradicted => ", but the force plates measured another",
-        MassKnowledge::Verified | MassKnowledge::Unverified => "",
-    };
-    print_line(&format!("  mass      {:.2} kg ({}{known})", summary.mass_kg, summary.mass_source.word()))?;
+    print_mass(summary)?;
     if print.verbose {
         details(summary)?
     } else {
@@ -47,6 +42,18 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
     }
     print_line(&format!("  written   {}", output.display()))?;
     print_line(&format!("  next      ambulo view {}", quoted(output)))
+}
+
+/// The mass of the body, how well it is known, and what the force plates carry.
+fn print_mass(summary: &Summary) -> Result<()> {
+    let mass = &summary.mass;
+    let plates = match (mass.state, mass.plates_kg, mass.plates_error_kg) {
+        (MassState::Weighed | MassState::Contradicted, Some(kg), Some(error)) => {
+            format!("; the force plates carry {kg:.1} ± {error:.1} kg")
+        }
+        _ => String::new(),
+    };
+    print_line(&format!("  mass      {:.2} kg ({}, {}{plates})", mass.kg, mass.source.words(), mass.state.word()))
 }
 
 /// The numbers that tell whether a run is the expected one.

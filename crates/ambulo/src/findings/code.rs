@@ -232,6 +232,9 @@ codes! {
     MassNotWholeBody "mass.not_whole_body" Warning
         "Force plates carry much less than the model's mass over whole gait cycles, so that the model's mass was used."
         "Check that every foot is on a plate, and that the model is scaled to this person.";
+    MassContradicted "mass.contradicted" Warning
+        "The ground forces carry another mass than forces are computed with."
+        "Give the right mass, or scale the model to this person; check that every foot is on a plate.";
     MassUnverified "mass.unverified" Warning
         "The body mass is neither given nor measured; every force is proportional to it."
         "Give the mass or a standing trial on force plates.";

@@ -9,16 +9,18 @@
 //! | OpenSim Gait2392 | Heel | Toe.Tip | Ankle.Lat | ASIS, V.Sacral |
 //! | OpenSim Rajagopal | Heel, CAL | Toe, TOE | Ankle, LMAL | ASIS, PSIS |
 //! | OpenCap, HRNet | Heel, calc_study | BigToe, toe_study | Ankle, ankle_study | ASIS_study, Hip |
-//! | CAST (Cappozzo 1995, unverified) | FCC, CA | SM, FM | LM | ASIS, PSIS |
+//! | CAST (Cappozzo 1995, unverified) | FCC, CA | SM, FM, IIT, IMH | LM | ASIS, PSIS |
 
 use super::marker_recording::MarkerRecording;
 use crate::model::Side;
 
 const HEEL: [&str; 8] = ["heel", "hee", "cal", "calc", "calcaneus", "fcc", "ca", "heelback"];
-const TOE: [&str; 14] =
-    ["toetip", "toe", "hlx", "bigtoe", "hallux", "mt2", "mth2", "sm", "fm2", "toemed", "mt1", "fm", "fm1", "toelat"];
-const SIDE_OF_FOOT: [&str; 10] =
-    ["mt5", "mth5", "d5m", "vm", "fm5", "smalltoe", "5meta", "midfootlat", "toelat", "p5m"];
+const TOE: [&str; 16] = [
+    "toetip", "toe", "hlx", "bigtoe", "hallux", "mt2", "mth2", "sm", "fm2", "toemed", "mt1", "fm", "fm1", "toelat",
+    "iit", "imh",
+];
+const SIDE_OF_FOOT: [&str; 11] =
+    ["mt5", "mth5", "d5m", "vm", "fm5", "smalltoe", "5meta", "midfootlat", "toelat", "p5m", "vmh"];
 const ANKLE: [&str; 10] = ["ank", "ankle", "anklelat", "lmal", "lma", "lm", "fal", "malleolus", "midfootsup", "ajc"];
 const ASIS: [&str; 5] = ["asi", "asis", "ias", "hip", "hjc"];
 const PSIS: [&str; 4] = ["psi", "psis", "ips", "sacr"];

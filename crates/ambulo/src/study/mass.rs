@@ -1,164 +1,421 @@
-//! Body mass: which of the known ones is used, and how well it is known.
+//! Body mass: what states or weighs it, which of these is used, and whether they agree.
+//!
+//! Weights beside the force plates make a person lighter on them, and nothing makes a person heavier there but the calibration of the
+//! plates or a carried load. So no single witness decides: a standing trial, the motion on the plates and the stated mass are compared in
+//! pairs, and where two disagree the third decides.
 
 use super::laboratory_file::LaboratoryFile;
 use super::source::{MarkerBody, MarkerSource};
-use crate::analysis::{BodyInMotion, Mass, MassSource, PredictionChecks};
+use super::weighing::combined;
 use crate::findings::{Code, Findings};
-use crate::ground::upward;
-use crate::kinematics::{Trajectory, each_body_motion};
+use crate::motion::PlateRecording;
 use crate::motion::force_plate::standing_weight_n;
-use crate::motion::{ForceRecording, SmoothSettings, Smoother, Window, smooth};
-use crate::spatial::{STANDARD_GRAVITY, Vec3};
+use crate::spatial::STANDARD_GRAVITY;
 use serde::{Deserialize, Serialize};
 
 /// Masses that differ by less, as a share, are one person's: clothes and shoes, a scale at home, a plate's calibration.
 const SAME_PERSON: f64 = 0.05;
+/// Masses differ if their difference is more than this many standard errors.
+const STANDARD_ERRORS: f64 = 2.0;
+/// Standard error of a stated mass, as a share: twice it is [`SAME_PERSON`].
+const STATED_ERROR: f64 = 0.025;
+/// Sway of a standing person: samples further apart are independent [s].
+const SWAY_S: f64 = 1.0;
+/// Standard error of a force plate in use, as a share of the load: calibration and zero (ISB; Psycharakis, Miller 2006 give 0.5 to 1 %,
+/// unverified).
+const PLATE_ERROR: f64 = 0.005;
 
-/// A shorter time on force plates weighs nobody [s].
-const SHORTEST_WEIGHING_S: f64 = 0.3;
-/// Standard error of the change of the velocity of the mass centre, which markers show [m/s].
-const VELOCITY_ERROR_M_S: f64 = 0.1;
-/// Less is no person [kg].
-const LEAST_PERSON_KG: f64 = 5.0;
+/// The mass of the person: by each source, and which one the forces are computed with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct BodyMass {
+    /// How well it is known.
+    pub state: MassState,
+    /// The mass that forces are computed with [kg].
+    pub kg: f64,
+    /// Where this mass comes from.
+    pub source: MassWitness,
+    /// What the force plates say [kg]; `null` if they weighed nobody.
+    pub plates_kg: Option<f64>,
+    /// Standard error of `plates_kg` [kg].
+    pub plates_error_kg: Option<f64>,
+    /// Everything that states or weighs the mass.
+    pub sources: Vec<MassEstimate>,
+}
 
-/// Whether a mass is known from more than a model. Forces that are predicted from the motion scale with the mass, so that a wrong mass
-/// shows only against plates, a standing trial or a stated mass.
+/// How well a mass is known. Forces that are predicted from the motion scale with the mass, so that a wrong mass shows only against plates,
+/// a standing trial or a stated mass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
-pub enum MassKnowledge {
-    /// Weighed by plates, or stated.
-    Verified,
-    /// The model's own.
-    Unverified,
-    /// Plates carry another mass than the model has.
+pub enum MassState {
+    /// Force plates carry this mass.
+    Weighed,
+    /// Stated, and not weighed.
+    Stated,
+    /// Force plates carry another mass.
     Contradicted,
+    /// The model's own; neither stated nor weighed.
+    Unknown,
 }
 
-impl MassKnowledge {
-    pub(super) fn of(mass: Mass, checks: Option<&PredictionChecks>, is_stated: bool) -> MassKnowledge {
-        match (checks.and_then(PredictionChecks::mass_agrees), is_stated, mass.source) {
-            (Some(false), ..) => MassKnowledge::Contradicted,
-            (Some(true), ..) | (None, true, _) | (.., MassSource::Plates | MassSource::Standing) => {
-                MassKnowledge::Verified
-            }
-            (None, false, MassSource::Model) => MassKnowledge::Unverified,
+impl MassState {
+    /// The word in files and reports.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            MassState::Weighed => "weighed",
+            MassState::Stated => "stated",
+            MassState::Contradicted => "contradicted",
+            MassState::Unknown => "unknown",
         }
+    }
+}
+
+/// A source of a body mass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum MassWitness {
+    /// Force plates under whole gait cycles, from strike to strike or off to off.
+    Cycles,
+    /// Force plates under steps, from the middle of a single support to that of the next.
+    Valleys,
+    /// Force plates under any time in which they carry everything.
+    Impulse,
+    /// Force plates under single stances of a symmetric gait.
+    HalfStrides,
+    /// Force plates under the standing person.
+    Standing,
+    /// Stated by the user or the files.
+    Stated,
+    /// The model's own mass.
+    Model,
+}
+
+impl MassWitness {
+    /// The source in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            MassWitness::Cycles => "force plates, whole gait cycles",
+            MassWitness::Valleys => "force plates, steps between single supports",
+            MassWitness::Impulse => "force plates, impulse",
+            MassWitness::HalfStrides => "force plates, single stances",
+            MassWitness::Standing => "force plates, standing",
+            MassWitness::Stated => "stated",
+            MassWitness::Model => "the model's own",
+        }
+    }
+
+    fn is_motion_on_plates(self) -> bool {
+        use MassWitness::{Cycles, HalfStrides, Impulse, Valleys};
+        matches!(self, Cycles | Valleys | Impulse | HalfStrides)
+    }
+}
+
+/// A mass by one source.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MassEstimate {
+    /// The source.
+    pub by: MassWitness,
+    /// The mass [kg].
+    pub kg: f64,
+    /// Its standard error [kg].
+    pub error_kg: f64,
+    /// How many times it was weighed.
+    pub times: usize,
+    /// First and last instant of the weighing in the recording [s].
+    pub time_s: Option<[f64; 2]>,
+}
+
+impl MassEstimate {
+    fn stated(kg: f64) -> MassEstimate {
+        MassEstimate { by: MassWitness::Stated, kg, error_kg: STATED_ERROR * kg, times: 1, time_s: None }
+    }
+
+    /// Whether another mass can be that of the same person.
+    fn agrees(&self, other: &MassEstimate) -> bool {
+        let error_kg = self.error_kg.hypot(other.error_kg);
+        (self.kg - other.kg).abs() <= (SAME_PERSON * self.kg.max(other.kg)).max(STANDARD_ERRORS * error_kg)
+    }
+
+    fn in_words(&self) -> String {
+        format!("{:.1} kg ({}, standard error {:.1} kg)", self.kg, self.by.words(), self.error_kg)
+    }
+}
+
+/// What is known of the mass without the motion.
+#[derive(Debug, Clone, Default)]
+pub(super) struct KnownMass {
+    pub(super) stated: Option<MassEstimate>,
+    pub(super) standing: Option<MassEstimate>,
+}
+
+impl KnownMass {
+    pub(super) fn stated(kg: Option<f64>) -> KnownMass {
+        KnownMass { stated: kg.map(MassEstimate::stated), standing: None }
+    }
+
+    /// Of a recording of markers: the user's statement goes before that of the files.
+    pub(super) fn of_markers(markers: &MarkerSource) -> KnownMass {
+        let MarkerSource { trial, standing, body, .. } = markers;
+        let files = standing.as_ref().and_then(|standing| standing.subject.mass_kg).or(trial.subject.mass_kg);
+        let stated = match body {
+            MarkerBody::BuiltIn { mass_kg, .. } => mass_kg.or(files),
+            MarkerBody::Model { mass_kg, .. } => *mass_kg,
+            MarkerBody::Calibrated(subject) => subject.calibration.as_ref().map(|_| subject.model.mass()),
+        };
+        let standing = standing.as_ref().and_then(|standing| standing_estimate(&standing.recording.plates));
+        KnownMass { stated: stated.map(MassEstimate::stated), standing }
+    }
+
+    /// Whether the motion on the plates is needed to know the mass.
+    pub(super) fn needs_motion(&self) -> bool {
+        match (&self.stated, &self.standing) {
+            (Some(stated), Some(standing)) => !stated.agrees(standing),
+            (stated, standing) => stated.is_none() && standing.is_none(),
+        }
+    }
+
+    /// The mass to use [kg], with its source. The plates are used before a statement where both agree, because the ground forces are
+    /// measured by them. Where standing and stated mass differ, the motion on the plates decides; without it the stated mass is used.
+    pub(super) fn decided(&self, motion: &[MassEstimate]) -> Option<MassEstimate> {
+        let moving = combined(motion);
+        match (&self.stated, &self.standing) {
+            (Some(stated), Some(standing)) if stated.agrees(standing) => Some(standing.clone()),
+            (Some(stated), Some(standing)) => {
+                let distance = |to: &MassEstimate| moving.as_ref().map(|moving| (moving.kg - to.kg).abs());
+                let is_standing = moving.as_ref().is_some_and(|moving| moving.agrees(standing))
+                    && distance(standing) < distance(stated);
+                Some(if is_standing { standing } else { stated }.clone())
+            }
+            (Some(one), None) | (None, Some(one)) => Some(one.clone()),
+            (None, None) => moving,
+        }
+    }
+}
+
+impl BodyMass {
+    /// A mass that nothing but a statement or a model gives.
+    #[must_use]
+    pub fn alone(kg: f64, source: MassWitness) -> BodyMass {
+        let state = if source == MassWitness::Model { MassState::Unknown } else { MassState::Stated };
+        let sources = vec![MassEstimate { by: source, kg, error_kg: 0.0, times: 1, time_s: None }];
+        BodyMass { state, kg, source, plates_kg: None, plates_error_kg: None, sources }
+    }
+
+    /// From all sources; `model_kg` is the mass that the forces are computed with.
+    pub(super) fn of(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>) -> BodyMass {
+        let moving = combined(&motion);
+        let chosen = known.decided(&motion).filter(|chosen| (chosen.kg / model_kg - 1.0).abs() < SAME_PERSON);
+        let source = chosen.map_or(MassWitness::Model, |chosen| chosen.by);
+        let used = MassEstimate { by: source, kg: model_kg, error_kg: 0.0, times: 1, time_s: None };
+        let plates = on_plates(known, moving, &used);
+        let state = match &plates {
+            Some(plates) if plates.agrees(&used) => MassState::Weighed,
+            Some(_) => MassState::Contradicted,
+            None if known.stated.is_some() => MassState::Stated,
+            None => MassState::Unknown,
+        };
+        let mut sources: Vec<MassEstimate> = motion;
+        sources.extend(known.standing.clone());
+        sources.extend(known.stated.clone());
+        sources.push(MassEstimate { by: MassWitness::Model, ..used });
+        let [plates_kg, plates_error_kg] =
+            [plates.as_ref().map(|plates| plates.kg), plates.as_ref().map(|plates| plates.error_kg)];
+        BodyMass { state, kg: model_kg, source, plates_kg, plates_error_kg, sources }
+    }
+
+    /// The motion on the plates, all ways of weighing together.
+    #[must_use]
+    pub fn in_motion(&self) -> Option<MassEstimate> {
+        let motion: Vec<MassEstimate> =
+            self.sources.iter().filter(|estimate| estimate.by.is_motion_on_plates()).cloned().collect();
+        combined(&motion)
+    }
+
+    /// The estimate of one source.
+    #[must_use]
+    pub fn by(&self, source: MassWitness) -> Option<&MassEstimate> {
+        self.sources.iter().find(|estimate| estimate.by == source)
+    }
+
+    /// Reports sources that contradict the used mass.
+    pub(super) fn report(&self, findings: &mut Findings) {
+        let used = MassEstimate { by: self.source, kg: self.kg, error_kg: 0.0, times: 1, time_s: None };
+        let witnesses = [self.in_motion(), self.by(MassWitness::Standing).cloned()];
+        let others: Vec<MassEstimate> = witnesses.into_iter().flatten().filter(|other| !other.agrees(&used)).collect();
+        if others.is_empty() {
+            return;
+        }
+        let found: Vec<String> = others.iter().map(MassEstimate::in_words).collect();
+        let why = match (self.state, others.iter().all(|other| other.kg < self.kg)) {
+            (MassState::Contradicted, false) => "the body is not this person's: every force is wrong in proportion",
+            (MassState::Contradicted, true) => {
+                "either the body is not this person's, or a part of the weight was beside the plates"
+            }
+            (_, true) => "the other weighing confirms it, so a part of the weight was beside the plates",
+            (_, false) => "the other sources confirm it",
+        };
+        let message = format!(
+            "forces are computed with {:.1} kg ({}), but the ground forces carry {}: {why}",
+            self.kg,
+            self.source.words(),
+            found.join(" and ")
+        );
+        findings.report(Code::MassContradicted, message);
+    }
+}
+
+/// What the plates say. Where standing and motion disagree, the one that agrees with the used mass is believed, otherwise the heavier:
+/// a load beside the plates makes a person lighter.
+fn on_plates(known: &KnownMass, moving: Option<MassEstimate>, used: &MassEstimate) -> Option<MassEstimate> {
+    match (known.standing.clone(), moving) {
+        (Some(standing), Some(moving)) if standing.agrees(&moving) => {
+            Some(if moving.error_kg < standing.error_kg { moving } else { standing })
+        }
+        (Some(standing), Some(moving)) => {
+            let heavier = if standing.kg > moving.kg { &standing } else { &moving };
+            let confirmed = [&standing, &moving].into_iter().find(|one| one.agrees(used));
+            Some(confirmed.unwrap_or(heavier).clone())
+        }
+        (one, None) | (None, one) => one,
     }
 }
 
 /// The mass of a person who stands still on force plates [kg]; `None` if no plate is loaded steadily.
 #[must_use]
 pub fn standing_mass_kg(file: &LaboratoryFile) -> Option<f64> {
-    standing_weight_n(&file.recording.plates).map(|weight_n| weight_n / STANDARD_GRAVITY)
+    standing_estimate(&file.recording.plates).map(|estimate| estimate.kg)
 }
 
-/// Body mass of the built-in body [kg]: by the standing trial, as stated by the user, or as stated by the files.
-pub(super) fn built_in_mass_kg(markers: &MarkerSource, findings: &mut Findings) -> Option<f64> {
-    let MarkerSource { trial, standing, body, .. } = markers;
-    let by_user = match body {
-        MarkerBody::BuiltIn { mass_kg, .. } | MarkerBody::Model { mass_kg, .. } => *mass_kg,
-        MarkerBody::Calibrated(_) => None,
-    };
-    let in_files = standing.as_ref().and_then(|standing| standing.subject.mass_kg).or(trial.subject.mass_kg);
-    body_mass(by_user.or(in_files), standing.as_ref().and_then(standing_mass_kg), findings)
+/// The mass of a person who stands still, with the scatter of the force as its error: sway moves the mass centre up and down.
+fn standing_estimate(plates: &[PlateRecording]) -> Option<MassEstimate> {
+    let kg = standing_weight_n(plates)? / STANDARD_GRAVITY;
+    let samples = plates.iter().map(|plate| plate.times.len()).min()?;
+    let total = |i: usize| plates.iter().map(|plate| plate.vertical(i)).sum::<f64>() / STANDARD_GRAVITY;
+    // Beyond a fifth of the weight the person steps on or off.
+    let still: Vec<f64> = (0..samples).map(total).filter(|found| (found / kg - 1.0).abs() < 0.2).collect();
+    let times = &plates.first()?.times;
+    let lasted_s = (times.last()? - times.first()?) * still.len() as f64 / samples as f64;
+    let variance = still.iter().map(|found| (found - kg).powi(2)).sum::<f64>() / still.len().max(1) as f64;
+    let scatter_kg = (variance / (lasted_s / SWAY_S).max(1.0)).sqrt();
+    Some(MassEstimate {
+        by: MassWitness::Standing,
+        kg,
+        error_kg: scatter_kg.hypot(PLATE_ERROR * kg),
+        times: 1,
+        time_s: None,
+    })
 }
 
-/// Body mass [kg]. A standing trial on plates weighs the person as recorded, with clothes and shoes, and on the scale that the ground
-/// forces are compared with: it is used before a stated mass, unless the two differ too much for one person. Then a foot was off the
-/// plates or the statement is of another day, and the stated mass is used. `None` if neither is known.
-fn body_mass(stated_kg: Option<f64>, standing_kg: Option<f64>, findings: &mut Findings) -> Option<f64> {
-    match (stated_kg, standing_kg) {
-        (Some(stated), Some(standing)) if (standing / stated - 1.0).abs() <= SAME_PERSON => {
+/// Reports which mass the built-in body has.
+pub(super) fn report_decided(known: &KnownMass, decided: &MassEstimate, findings: &mut Findings) {
+    let kg = decided.kg;
+    match (&known.stated, &known.standing) {
+        (Some(stated), Some(standing)) if stated.agrees(standing) => {
             let message = format!(
-                "{standing:.2} kg stand on the plates in the standing trial and were used; {stated:.2} kg are stated"
+                "{:.2} kg stand on the plates in the standing trial and were used; {:.2} kg are stated",
+                standing.kg, stated.kg
             );
             findings.report(Code::MassStanding, message);
-            Some(standing)
         }
         (Some(stated), Some(standing)) => {
+            let which = if decided.by == MassWitness::Standing { "standing" } else { "stated" };
             let message = format!(
-                "the stated mass is {stated:.1} kg, force plates measured {standing:.1} kg in the standing trial; the stated mass was used"
+                "the stated mass is {:.1} kg, force plates measured {:.1} kg in the standing trial; the {which} mass was used",
+                stated.kg, standing.kg
             );
             findings.report(Code::MassStandingMismatch, message);
-            Some(stated)
         }
-        (Some(stated), None) => Some(stated),
-        (None, Some(standing)) => {
-            let message = format!("no mass is stated; {standing:.1} kg stand on the plates in the standing trial");
+        (None, Some(_)) => {
+            let message = format!("no mass is stated; {kg:.1} kg stand on the plates in the standing trial");
             findings.report(Code::MassStanding, message);
-            Some(standing)
         }
-        (None, None) => None,
+        (None, None) => {
+            let [from, to] = decided.time_s.unwrap_or([f64::NAN; 2]);
+            let message = format!(
+                "no mass is stated; the force plates carry {kg:.1} kg from {from:.3} to {to:.3} s (standard error {:.1} kg), which was used",
+                decided.error_kg
+            );
+            findings.report(Code::MassWeighed, message);
+        }
+        (Some(_), None) => {}
     }
-}
-
-/// A mass by ground forces and motion.
-pub(super) struct WeighedInMotion {
-    pub(super) kg: f64,
-    /// Standard error.
-    pub(super) error_kg: f64,
-    /// The time of the measurement.
-    pub(super) span_s: [f64; 2],
-}
-
-/// The mass of a person who moves on force plates: m = Σ F / Σ (g + a), upward, over the longest time in which every loaded foot is on a
-/// plate, with the acceleration a of the body's mass centre. `None` if that time is short.
-pub(super) fn weighed_in_motion(
-    body: &BodyInMotion,
-    forces: &[ForceRecording],
-    smoother: Smoother,
-) -> Option<WeighedInMotion> {
-    let model = &body.subject.model;
-    let [from, to] = *body.on_plates.windows.first().filter(|[from, to]| to - from >= SHORTEST_WEIGHING_S)?;
-    let (unheard, whole) = (&mut Findings::default(), Window::default());
-    let smoothed =
-        smooth(model, &body.fit.motion, SmoothSettings { smoother, window: whole, rate_hz: None }, unheard).ok()?;
-    let trajectory = Trajectory::complete(model, &smoothed, unheard).ok()?;
-    let (up, grid) = (upward(model), trajectory.grid());
-    let (first, frames) = grid.inside(Window { from_s: Some(from), to_s: Some(to) });
-    let mut needed = 0.0;
-    each_body_motion(model, &trajectory, |frame, bodies| {
-        if (first..first + frames).contains(&frame) {
-            let weighted = model
-                .bodies()
-                .iter()
-                .zip(bodies)
-                .map(|(body, motion)| body.inertia.mass() * motion.acceleration.linear);
-            needed += weighted.sum::<Vec3>().dot(&up) / model.mass() + model.gravity().norm();
-        }
-    });
-    let mean = |force: &ForceRecording| {
-        let inside = force.times.iter().zip(&force.force).filter(|(time, _)| (from..=to).contains(*time));
-        let upward: Vec<f64> = inside.map(|(_, force)| force.dot(&up)).collect();
-        upward.iter().sum::<f64>() / upward.len().max(1) as f64
-    };
-    let kg = forces.iter().map(mean).sum::<f64>() / (needed / frames as f64);
-    let error_kg = kg * VELOCITY_ERROR_M_S / (model.gravity().norm() * (to - from));
-    (kg.is_finite() && kg > LEAST_PERSON_KG).then_some(WeighedInMotion { kg, error_kg, span_s: [from, to] })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn believed(stated: Option<f64>, standing: Option<f64>) -> (Option<f64>, Findings) {
-        let mut findings = Findings::default();
-        (body_mass(stated, standing, &mut findings), findings)
+    fn by(by: MassWitness, kg: f64, error_kg: f64) -> MassEstimate {
+        MassEstimate { by, kg, error_kg, times: 1, time_s: None }
+    }
+
+    fn known(stated: Option<f64>, standing: Option<f64>) -> KnownMass {
+        let standing = standing.map(|kg| by(MassWitness::Standing, kg, 0.005 * kg));
+        KnownMass { stated: stated.map(MassEstimate::stated), standing }
+    }
+
+    fn moving(kg: f64) -> Vec<MassEstimate> {
+        vec![by(MassWitness::Cycles, kg, 0.01 * kg)]
     }
 
     #[test]
     fn the_plates_are_believed_where_they_weigh_the_same_person() {
-        let (mass, findings) = believed(Some(32.1), Some(31.07));
-        assert!(mass == Some(31.07) && findings.has(Code::MassStanding));
-        assert_eq!(believed(None, Some(60.0)).0, Some(60.0));
+        let kg = |stated, standing| known(stated, standing).decided(&[]).map(|decided| decided.kg);
+        assert_eq!(kg(Some(32.1), Some(31.07)), Some(31.07));
+        assert_eq!(kg(None, Some(60.0)), Some(60.0));
+        assert_eq!(kg(Some(60.0), None), Some(60.0));
+        assert_eq!(kg(None, None), None);
+        assert_eq!(kg(Some(60.0), Some(41.0)), Some(60.0), "a foot beside the plates");
+        let mut findings = Findings::default();
+        let both = known(Some(60.0), Some(41.0));
+        report_decided(&both, &both.decided(&[]).unwrap(), &mut findings);
+        assert!(findings.has(Code::MassStandingMismatch));
     }
 
     #[test]
-    fn a_person_beside_the_plates_is_not_weighed_by_them() {
-        let (mass, findings) = believed(Some(60.0), Some(41.0));
-        assert!(mass == Some(60.0) && findings.has(Code::MassStandingMismatch));
-        assert!(believed(Some(60.0), None).1.as_slice().is_empty());
-        assert_eq!(believed(None, None).0, None);
+    fn a_third_witness_decides_where_two_disagree() {
+        // A child stands at 27.2 kg, is stated at 25.0 kg and walks at 25.7 kg.
+        let child = known(Some(25.0), Some(27.2));
+        assert!(child.needs_motion());
+        let decided = child.decided(&moving(25.7)).unwrap();
+        assert_eq!((decided.by, decided.kg), (MassWitness::Stated, 25.0));
+        let mass = BodyMass::of(decided.kg, &child, moving(25.7));
+        assert_eq!((mass.state, mass.plates_kg), (MassState::Weighed, Some(25.7)));
+        let mut findings = Findings::default();
+        mass.report(&mut findings);
+        assert!(findings.has(Code::MassContradicted), "the standing trial is named");
+        let other = child.decided(&moving(27.0)).unwrap();
+        assert_eq!((other.by, other.kg), (MassWitness::Standing, 27.2));
+    }
+
+    #[test]
+    fn a_light_model_is_contradicted_and_weight_beside_the_plates_is_not_a_lighter_person() {
+        let light = BodyMass::of(0.85 * 70.0, &KnownMass::default(), moving(70.0));
+        assert_eq!(
+            (light.state, light.source, light.plates_kg),
+            (MassState::Contradicted, MassWitness::Model, Some(70.0))
+        );
+        let beside = BodyMass::of(70.0, &known(Some(70.0), Some(70.3)), moving(42.0));
+        assert_eq!((beside.state, beside.plates_kg), (MassState::Weighed, Some(70.3)));
+        let mut findings = Findings::default();
+        beside.report(&mut findings);
+        let said = &findings.as_slice()[0].message;
+        assert!(said.contains("42.0 kg") && said.contains("beside the plates"), "{said}");
+        let unknown = BodyMass::of(70.0, &KnownMass::default(), Vec::new());
+        assert_eq!(unknown.state, MassState::Unknown);
+        assert_eq!(BodyMass::of(70.0, &known(Some(70.0), None), Vec::new()).state, MassState::Stated);
+    }
+
+    #[test]
+    fn a_disagreement_between_ways_of_weighing_widens_the_error() {
+        let both = [by(MassWitness::Cycles, 70.0, 0.5), by(MassWitness::Valleys, 74.0, 0.5)];
+        let found = combined(&both).unwrap();
+        assert!((found.kg - 72.0).abs() < 1e-9 && found.error_kg > 2.0, "{found:?}");
+        assert!(combined(&[]).is_none());
     }
 }

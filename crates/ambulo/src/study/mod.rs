@@ -28,12 +28,13 @@ mod quality;
 mod run;
 mod settings;
 mod source;
+mod weighing;
 
 pub use crate::analysis::{Stage, Stopped};
 pub use error::{Input, StudyError};
 pub use force_filter::ForceFilter;
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
-pub use mass::{MassKnowledge, standing_mass_kg};
+pub use mass::{BodyMass, MassEstimate, MassState, MassWitness, standing_mass_kg};
 pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 pub use quality::{Measure, Quality, QualityLimits, QualityReason, QualityState};
 pub use run::{run, run_observed};

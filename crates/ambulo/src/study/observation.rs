@@ -3,13 +3,14 @@
 use super::error::StudyError;
 use super::force_table::Walker;
 use super::laboratory_file::LaboratoryFile;
-use super::mass::{WeighedInMotion, built_in_mass_kg, standing_mass_kg, weighed_in_motion};
+use super::mass::{KnownMass, MassEstimate, report_decided};
 use super::outcome::Tracking;
 use super::settings::{GroundSettings, Settings};
 use super::source::{MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source};
+use super::weighing::Carried;
 use crate::analysis::feasibility::Person;
 use crate::analysis::{
-    BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, Progress, Stage, fit_body_to_markers,
+    AnalysisError, BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, Progress, Stage, fit_body_to_markers,
 };
 use crate::findings::{Code, Findings};
 use crate::ground::plates::PlateContact;
@@ -19,7 +20,7 @@ use crate::kinematics::retarget::retarget;
 use crate::model::anthropometry::Build;
 use crate::model::{Model, Side};
 use crate::motion::skeleton::SkeletonRecording;
-use crate::motion::{Event, ForceRecording, Motion, Window};
+use crate::motion::{Event, ForceRecording, Motion, SmoothSettings, Window, smooth};
 use crate::spatial::Vec3;
 use std::borrow::Cow;
 
@@ -30,8 +31,8 @@ pub(super) struct Observation {
     pub(super) motion: ObservedMotion,
     pub(super) forces: Vec<ForceRecording>,
     pub(super) origin: Origin,
-    /// Whether the body mass is stated by anything but a model.
-    pub(super) mass_is_stated: bool,
+    /// What is known of the body mass without the motion.
+    pub(super) known_mass: KnownMass,
 }
 
 /// A motion as observed.
@@ -65,11 +66,23 @@ pub(super) struct Followed {
     pub(super) body: BodyInMotion,
     /// Foot strikes and foot offs that the file lists.
     pub(super) listed: Vec<Event>,
-    /// What plates carried while the person stood [kg].
-    pub(super) standing_kg: Option<f64>,
 }
 
 impl Observation {
+    /// What plates carried in a standing trial [kg].
+    pub(super) fn standing_kg(&self) -> Option<f64> {
+        self.known_mass.standing.as_ref().map(|standing| standing.kg)
+    }
+
+    /// The ways in which the ground forces weigh the body.
+    pub(super) fn weighed_in_motion(&self, trajectory: &Trajectory) -> Vec<MassEstimate> {
+        if self.forces.is_empty() || matches!(self.origin, Origin::Simulation { .. }) {
+            return Vec::new();
+        }
+        let body = self.origin.followed().map(|followed| &followed.body);
+        Carried::new(&self.model, trajectory, &self.forces, &self.person.soles, body).estimates()
+    }
+
     /// Whether forces are predicted: if that is wanted, or if no forces were measured.
     pub(super) fn is_predicted(&self, settings: &Settings) -> bool {
         match (&self.origin, settings.ground) {
@@ -81,11 +94,6 @@ impl Observation {
 }
 
 impl Origin {
-    /// What plates carried in a standing trial [kg].
-    pub(super) fn standing_kg(&self) -> Option<f64> {
-        self.followed().and_then(|followed| followed.standing_kg)
-    }
-
     pub(super) fn followed(&self) -> Option<&Followed> {
         match self {
             Origin::Markers(followed) => Some(followed),
@@ -126,7 +134,7 @@ impl Source {
                 motion: ObservedMotion::Complete(made.trajectory.clone()),
                 forces: made.loads.clone(),
                 origin: Origin::Simulation { rule: made.rule },
-                mass_is_stated: true,
+                known_mass: KnownMass::stated(Some(made.model.mass())),
             }),
         }
     }
@@ -165,7 +173,7 @@ impl Source {
             motion: ObservedMotion::Recorded(motion.clone()),
             forces,
             origin: Origin::Coordinates,
-            mass_is_stated: false,
+            known_mass: KnownMass::default(),
         })
     }
 
@@ -192,7 +200,7 @@ impl Source {
                 statement: skeleton.statement.clone(),
                 fit: Box::new(body.fit),
             })),
-            mass_is_stated: true,
+            known_mass: KnownMass::stated(Some(build.mass)),
         })
     }
 
@@ -203,7 +211,8 @@ impl Source {
         findings: &mut Findings,
         progress: &mut Progress<'_>,
     ) -> Result<Observation, StudyError> {
-        let markers = &*self.with_known_mass(markers, settings, findings)?;
+        let known = KnownMass::of_markers(markers);
+        let markers = &*self.with_known_mass(markers, &known, settings, findings)?;
         let mut body = self.follow(markers, settings, findings, progress)?;
         if !matches!(markers.body, MarkerBody::Model { .. }) {
             body.subject.model = self.loaded(&body.subject.model)?;
@@ -214,16 +223,8 @@ impl Source {
             person: body.subject.person.clone(),
             motion: ObservedMotion::Recorded(body.fit.motion.clone()),
             forces,
-            mass_is_stated: match &markers.body {
-                MarkerBody::BuiltIn { .. } => true,
-                MarkerBody::Model { mass_kg, .. } => mass_kg.is_some(),
-                MarkerBody::Calibrated(subject) => subject.calibration.is_some(),
-            },
-            origin: Origin::Markers(Box::new(Followed {
-                body,
-                listed: markers.trial.events.clone(),
-                standing_kg: markers.standing.as_ref().and_then(standing_mass_kg),
-            })),
+            known_mass: known,
+            origin: Origin::Markers(Box::new(Followed { body, listed: markers.trial.events.clone() })),
         })
     }
 
@@ -252,29 +253,46 @@ impl Source {
         }
     }
 
-    /// The markers with the mass of the built-in body. Where nothing states it, the force plates weigh the person in motion: the posture
-    /// does not depend on the mass, so that a first body of any mass shows the acceleration of the mass centre.
+    /// The markers with the mass of the built-in body. Where statement and standing trial do not settle it, the force plates weigh the
+    /// person in motion: the posture does not depend on the mass, so that a first body of any mass shows the velocity of the mass centre.
     fn with_known_mass<'m>(
         &self,
         markers: &'m MarkerSource,
+        known: &KnownMass,
         settings: &Settings,
         findings: &mut Findings,
     ) -> Result<Cow<'m, MarkerSource>, StudyError> {
-        let unheard = &mut Findings::default();
-        let is_built_in = matches!(markers.body, MarkerBody::BuiltIn { .. });
-        if !is_built_in || built_in_mass_kg(markers, unheard).is_some() {
+        if !matches!(markers.body, MarkerBody::BuiltIn { .. }) {
             return Ok(Cow::Borrowed(markers));
         }
-        let of_any_mass = markers.with_mass(ANY_MASS_KG);
-        let body = self.follow(&of_any_mass, settings, unheard, &mut Progress::default())?;
+        let in_motion = match known.needs_motion() {
+            true => self.weighed_before(markers, known, settings)?,
+            false => Vec::new(),
+        };
+        let decided = known.decided(&in_motion).ok_or(StudyError::MassUnknown)?;
+        report_decided(known, &decided, findings);
+        Ok(Cow::Owned(markers.with_mass(decided.kg)))
+    }
+
+    /// The ways in which the ground forces weigh a body that is only there to be weighed.
+    fn weighed_before(
+        &self,
+        markers: &MarkerSource,
+        known: &KnownMass,
+        settings: &Settings,
+    ) -> Result<Vec<MassEstimate>, StudyError> {
+        let unheard = &mut Findings::default();
+        let any_kg = known.stated.as_ref().map_or(ANY_MASS_KG, |stated| stated.kg);
+        let body = self.follow(&markers.with_mass(any_kg), settings, unheard, &mut Progress::default())?;
         let forces = self.forces_under(&body, settings, unheard)?;
-        let weighed = weighed_in_motion(&body, &forces, settings.smoother).ok_or(StudyError::MassUnknown)?;
-        let WeighedInMotion { kg, error_kg, span_s: [from, to] } = weighed;
-        let message = format!(
-            "no mass is stated; the force plates carry {kg:.1} kg from {from:.3} to {to:.3} s (standard error {error_kg:.1} kg), which was used"
-        );
-        findings.report(Code::MassWeighed, message);
-        Ok(Cow::Owned(markers.with_mass(kg)))
+        let model = &body.subject.model;
+        let whole = body
+            .longest_without_gap_s()
+            .map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) });
+        let smoothing = SmoothSettings { smoother: settings.smoother, window: whole, rate_hz: None };
+        let smoothed = smooth(model, &body.fit.motion, smoothing, unheard).map_err(AnalysisError::Motion)?;
+        let trajectory = Trajectory::complete(model, &smoothed, unheard).map_err(AnalysisError::Trajectory)?;
+        Ok(Carried::new(model, &trajectory, &forces, &body.subject.person.soles, Some(&body)).estimates())
     }
 
     /// The body, calibrated, scaled or as it is, following the markers.
@@ -293,7 +311,7 @@ impl Source {
                 BodySource::Model { model: &model, mass: *mass_kg }
             }
             MarkerBody::BuiltIn { set, .. } => {
-                person = markers.person(findings)?;
+                person = markers.person()?;
                 BodySource::BuiltIn { person: &person, set: set.as_ref() }
             }
             MarkerBody::Calibrated(subject) => BodySource::Calibrated(subject),
@@ -341,13 +359,13 @@ impl MarkerSource {
     }
 
     /// What is known about the person, for the built-in body.
-    fn person(&self, findings: &mut Findings) -> Result<calibration::PersonMeasurements, StudyError> {
+    fn person(&self) -> Result<calibration::PersonMeasurements, StudyError> {
         let MarkerSource { trial, standing, body, .. } = self;
-        let MarkerBody::BuiltIn { table, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
+        let MarkerBody::BuiltIn { table, mass_kg, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
         let stated = |of: &dyn Fn(&LaboratoryFile) -> Option<f64>| standing.as_ref().and_then(of).or_else(|| of(trial));
         Ok(calibration::PersonMeasurements {
             table: *table,
-            mass: built_in_mass_kg(self, findings).ok_or(StudyError::MassUnknown)?,
+            mass: mass_kg.ok_or(StudyError::MassUnknown)?,
             height: height_m.or_else(|| stated(&|file| file.subject.height_m)),
             measurements: BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name))),
         })

@@ -1,6 +1,6 @@
 //! What a study found.
 
-use super::mass::MassKnowledge;
+use super::mass::BodyMass;
 use super::quality::Quality;
 use crate::analysis::feasibility::{Person, Verdict};
 use crate::analysis::{
@@ -30,8 +30,8 @@ pub struct Outcome {
     pub force_origin: ForceOrigin,
     /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or are none.
     pub prediction: Option<PredictedGround>,
-    /// How well the body mass is known.
-    pub mass_knowledge: MassKnowledge,
+    /// The body mass by each source, and how well it is known.
+    pub mass: BodyMass,
     /// How the body follows markers or a skeleton; `None` for coordinates and complete motions.
     pub tracking: Option<Tracking>,
     /// Residual reduction: the changed motion and body; `None` where nothing was changed.

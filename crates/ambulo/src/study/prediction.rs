@@ -9,7 +9,6 @@ use crate::analysis::{
     Progress, Stage, predict_and_analyse, weighed_standing, weighed_within,
 };
 use crate::findings::{Code, Findings};
-use crate::model::Model;
 use crate::motion::{Event, Motion};
 
 /// A shorter motion has no whole cycle [s].
@@ -32,7 +31,7 @@ pub(super) fn predicted(
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<Found, AnalysisError> {
-    let Observation { model, forces, person, origin, mass_is_stated, .. } = observation;
+    let Observation { model, forces, person, origin, known_mass, .. } = observation;
     let input = PredictionInput {
         soles: &person.soles,
         settings: &settings.prediction,
@@ -40,15 +39,15 @@ pub(super) fn predicted(
     };
     let predicted = predict_and_analyse(model, motion, forces, processing, &input, findings, progress)?;
     let coverage = coverage(observation, &predicted);
-    let (predicted, measured_events) = completed(predicted, model, origin);
+    let (predicted, measured_events) = completed(predicted, observation);
     let window_s = coverage.as_ref().and_then(|coverage| coverage.window);
-    let predicted = predicted.weighed(model, window_s, origin.standing_kg());
+    let predicted = predicted.weighed(model, window_s, observation.standing_kg());
     let check = CheckSettings {
         model,
         soles: &person.soles,
         thresholds: &settings.thresholds,
         window_s,
-        standing_kg: origin.standing_kg(),
+        standing_kg: observation.standing_kg(),
     };
     let checks = predicted.checks(&check, findings);
     progress.end(Stage::Checks)?;
@@ -59,7 +58,10 @@ pub(super) fn predicted(
             "forces were measured, but no foot was wholly on its own plate: the prediction was compared with nothing",
         );
     }
-    if predicted.analysis.mass.source == MassSource::Model && checks.mass_agrees().is_none() && !mass_is_stated {
+    if predicted.analysis.mass.source == MassSource::Model
+        && checks.mass_agrees().is_none()
+        && known_mass.stated.is_none()
+    {
         let message = format!(
             "body mass is neither given nor measured; the model has {:.1} kg, and every predicted force is proportional to it",
             model.mass()
@@ -99,18 +101,19 @@ fn coverage(observation: &Observation, predicted: &PredictedAnalysis) -> Option<
 }
 
 /// Events and mass of the measured forces alongside a prediction; with the events that plates measured.
-fn completed(predicted: PredictedAnalysis, model: &Model, origin: &Origin) -> (PredictedAnalysis, Vec<Event>) {
+fn completed(predicted: PredictedAnalysis, observation: &Observation) -> (PredictedAnalysis, Vec<Event>) {
     let PredictedAnalysis { analysis, prediction, measured } = predicted;
-    let (measured, events) = measured.map(|measured| with_markers(measured, model, origin)).unzip();
+    let (measured, events) = measured.map(|measured| with_markers(measured, observation)).unzip();
     (PredictedAnalysis { analysis, prediction, measured }, events.unwrap_or_default())
 }
 
 /// An analysis with measured forces, with the events and the weighing that a recording of markers allows.
-pub(super) fn with_markers(analysis: Analysis, model: &Model, origin: &Origin) -> (Analysis, Vec<Event>) {
-    let Some(Followed { body, listed, standing_kg }) = origin.followed() else { return (analysis, Vec::new()) };
+pub(super) fn with_markers(analysis: Analysis, observation: &Observation) -> (Analysis, Vec<Event>) {
+    let Observation { model, origin, .. } = observation;
+    let Some(Followed { body, listed }) = origin.followed() else { return (analysis, Vec::new()) };
     let (mut analysis, measured_events) = with_events_of_markers(analysis, body, listed);
     if let Some(window) = origin.instrumented() {
         analysis = weighed_within(analysis, model, window);
     }
-    (weighed_standing(analysis, *standing_kg), measured_events)
+    (weighed_standing(analysis, observation.standing_kg()), measured_events)
 }

@@ -1,7 +1,7 @@
 //! The road from a recording to forces.
 
 use super::error::StudyError;
-use super::mass::MassKnowledge;
+use super::mass::BodyMass;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 use super::prediction::{Found, predicted, with_markers};
@@ -74,7 +74,8 @@ fn road(
     let processing = processing(&observation, settings, findings);
     let Found { analysis, prediction, measured_events } =
         forces(&observation, processing, settings, findings, progress)?;
-    let Observation { model, person, motion, origin, mass_is_stated, .. } = observation;
+    let mass = body_mass(&observation, &analysis, findings);
+    let Observation { model, person, motion, origin, .. } = observation;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, residual_reduction) =
         residual_reduced(&model, analysis, processing, settings, &force_origin, findings)?;
@@ -91,7 +92,6 @@ fn road(
     let verdict = judged.verdict(settings, &force_origin, findings);
     progress.end(Stage::Feasibility)?;
     let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
-    let mass_knowledge = MassKnowledge::of(analysis.mass, checks, mass_is_stated);
     let tracking = tracking(origin, measured_events);
     let evidence = QualityEvidence {
         model: &model,
@@ -105,7 +105,7 @@ fn road(
     };
     Ok(Outcome {
         quality: evidence.quality(),
-        mass_knowledge,
+        mass,
         tracking,
         times_and_distances: times_and_distances(&model, &person.soles, &analysis),
         body: model,
@@ -122,6 +122,14 @@ fn road(
             window: processing.window,
         },
     })
+}
+
+/// What states and weighs the body.
+fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Findings) -> BodyMass {
+    let weighed = observation.weighed_in_motion(&analysis.trajectory);
+    let mass = BodyMass::of(observation.model.mass(), &observation.known_mass, weighed);
+    mass.report(findings);
+    mass
 }
 
 fn device(source: &Source, model: &Model, findings: &mut Findings) -> Result<Option<DeviceRecording>, StudyError> {
@@ -217,7 +225,7 @@ fn forces(
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<Found, AnalysisError> {
-    let Observation { model, forces, origin, .. } = observation;
+    let Observation { model, forces, .. } = observation;
     let (analysis, measured_events) = match &observation.motion {
         ObservedMotion::Complete(trajectory) => {
             let source = ForceSource::Simulated;
@@ -228,7 +236,7 @@ fn forces(
         }
         ObservedMotion::Recorded(motion) => {
             let analysis = analyse_with_progress(model, motion, forces, processing, findings, progress)?;
-            with_markers(analysis, model, origin)
+            with_markers(analysis, observation)
         }
     };
     Ok(Found { analysis, prediction: None, measured_events })

@@ -4,7 +4,8 @@ use super::results::Results;
 use super::size::{BodySize, SourcedLength};
 use crate::page::contract::{Fact, PageSource};
 use ambulo::analysis::{MassSource, StrideQuantity};
-use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary, MassKnowledge};
+use ambulo::study::MassState;
+use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary};
 
 /// Below this speed a body stays in place [m/s].
 const STANDING_M_S: f64 = 0.1;
@@ -79,11 +80,15 @@ fn mass(results: &Results) -> Fact {
         MassSource::Standing => "measured by the force plates in the standing trial",
         MassSource::Model => "from the model",
     };
-    let known = match summary.mass {
-        MassKnowledge::Verified if summary.mass_source == MassSource::Model => ", as given",
-        MassKnowledge::Verified => "",
-        MassKnowledge::Unverified => "; neither given nor measured",
-        MassKnowledge::Contradicted => "; the force plates measured a different mass",
+    let by_plates = || match (summary.mass.plates_kg, summary.mass.plates_error_kg) {
+        (Some(kg), Some(error)) => format!("; the force plates carry {kg:.1} kg (standard error {error:.1} kg)"),
+        _ => String::new(),
+    };
+    let known = match summary.mass.state {
+        MassState::Weighed => by_plates(),
+        MassState::Stated => ", as given".to_owned(),
+        MassState::Unknown => "; neither given nor measured".to_owned(),
+        MassState::Contradicted => format!("; contradicted{}", by_plates()),
     };
     let (mass, model) = (results.mass_kg, summary.mass_model_kg);
     let value = match (model / mass - 1.0).abs() > SAME_MASS {
