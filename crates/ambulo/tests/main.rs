@@ -26,6 +26,7 @@ mod calibration_moments;
 mod clinical_angles;
 mod consistent_walk;
 mod constraint_graph;
+mod contact_convergence;
 mod contact_geometry;
 mod conventions;
 mod elimination;

@@ -584,7 +584,7 @@ impl Field {
 }
 
 /// R of a row; friction has none.
-fn compliance(graph: &ConstraintGraph, group: &ConstraintGroup, row: usize) -> f64 {
+pub(super) fn compliance(graph: &ConstraintGraph, group: &ConstraintGroup, row: usize) -> f64 {
     match group.law {
         Law::Contact { .. } if row > group.rows.start => 0.0,
         _ => graph.rows[row].compliance,
@@ -616,7 +616,7 @@ fn friction_state(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobi
 }
 
 /// Confines the forces of one group to its law, the normal force first.
-fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
+pub(super) fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
     let start = group.rows.start;
     match group.law {
         Law::Bounded { least, most } => {

@@ -18,7 +18,9 @@ mod problem;
 
 mod conjugate_gradient;
 mod curvature;
+mod delassus;
 mod mixing;
+mod nonsmooth_newton;
 mod proximal;
 mod relaxed;
 mod solve;

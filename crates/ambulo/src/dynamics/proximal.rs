@@ -31,8 +31,8 @@
 //!
 //! A guess of the forces, for example from the last time step, determines the initial active set, which is kept for one round.
 //! If forces are not unique and the least-squares forces would leave a cone, the guess is moved towards them as far as all
-//! cones allow. Slip directions that oscillate from step to step are damped; problems that still do not converge are passed to
-//! [`super::relaxed`].
+//! cones allow. Slip directions that oscillate from step to step are damped; contacts that still do not converge are passed to
+//! [`super::nonsmooth_newton`], and if that fails too, to [`super::relaxed`].
 //!
 //! Source: proximal handling of constraints on articulated bodies as in Carpentier, Budhiraja, Mansard 2021, "Proximal
 //! and sparse resolution of constrained dynamic equations" (unverified page); friction disc of lagged radius after
@@ -47,6 +47,7 @@ use super::curvature::{Curvature, Proximal, add_group, diagonal};
 use super::departure::{BestIterate, stiffness};
 use super::elimination::Offsets;
 use super::mixing::AndersonMixing;
+use super::nonsmooth_newton::{self, MOST_ROWS, NonsmoothWorkspace};
 use super::problem::{Problem, inertial_slope, lowest};
 use super::relaxed::{self, RelaxedWorkspace};
 
@@ -66,6 +67,8 @@ const WITHIN: f64 = 0.95;
 const SHARE_HALVINGS: usize = 20;
 /// Number of steps after which the best iterate is kept.
 const PATIENCE: usize = 12;
+/// Number of steps after which contacts are solved by [`super::nonsmooth_newton`].
+const STALLED: usize = 30;
 /// Maximum number of Newton steps after the convex problem.
 const POLISH: usize = 20;
 /// A residual that is accepted if Newton's method does not converge.
@@ -93,6 +96,7 @@ pub(super) struct NewtonWorkspace {
     /// The initial guess.
     before: Vec<f64>,
     best: BestIterate,
+    nonsmooth: NonsmoothWorkspace,
     relaxed: RelaxedWorkspace,
 }
 
@@ -213,7 +217,11 @@ impl Newton<'_, '_> {
             self.approach(motions, coordinates, lambda);
             convergence.iterations = 2;
         }
-        if !self.iterate(motions, coordinates, lambda, convergence, self.problem.settings.max_iterations) {
+        let most = self.problem.settings.max_iterations;
+        let patience = if self.is_dense() { most.min(STALLED) } else { most };
+        if !self.iterate(motions, coordinates, lambda, convergence, patience)
+            && !self.solve_laws(motions, coordinates, lambda, convergence, patience)
+        {
             self.accept_nearest(motions, coordinates, lambda, convergence);
         }
         if self.rho > self.plain {
@@ -295,6 +303,45 @@ impl Newton<'_, '_> {
         }
     }
 
+    /// Whether the graph has contacts, and few enough rows for a dense matrix of them.
+    fn is_dense(&self) -> bool {
+        let contact = |group: &ConstraintGroup| matches!(group.law, Law::Contact { .. });
+        self.graph.rows.len() <= MOST_ROWS && self.graph.groups.iter().any(contact)
+    }
+
+    /// After steps that stalled: Newton's method on the laws themselves, then a few of the usual steps if it fails too. Returns
+    /// whether the laws hold.
+    fn solve_laws(
+        &mut self,
+        motions: &mut Vec<Six>,
+        coordinates: &mut Vec<f64>,
+        lambda: &mut [f64],
+        convergence: &mut Convergence,
+        patience: usize,
+    ) -> bool {
+        if convergence.iterations < patience || !self.is_dense() {
+            return false;
+        }
+        convergence.residual = f64::INFINITY;
+        self.w.best.restore(motions, coordinates, lambda, convergence);
+        let nonsmooth = &mut self.w.nonsmooth;
+        let solved = nonsmooth_newton::solve(self.problem, nonsmooth, motions, coordinates, lambda, convergence);
+        self.w.best.keep(motions, coordinates, lambda, convergence);
+        // Displacements are projected on the rows that are active now.
+        self.restart(lambda, convergence);
+        let most = convergence.iterations + POLISH;
+        solved || self.iterate(motions, coordinates, lambda, convergence, most)
+    }
+
+    /// Prepares usual steps from these forces.
+    fn restart(&mut self, lambda: &[f64], convergence: &mut Convergence) {
+        self.rho = self.plain;
+        self.guess(lambda);
+        self.factor(convergence);
+        self.w.center.copy_from_slice(lambda);
+        self.w.mixing.forget();
+    }
+
     /// After Newton steps that did not converge: the best iterate if it is nearly a solution, else the convex problem.
     fn accept_nearest(
         &mut self,
@@ -308,11 +355,7 @@ impl Newton<'_, '_> {
             relaxed::solve(self.problem, &mut self.w.relaxed, motions, coordinates, lambda, convergence);
             self.w.best.keep(motions, coordinates, lambda, convergence);
             // Newton steps may converge from there.
-            self.rho = self.plain;
-            self.guess(lambda);
-            self.factor(convergence);
-            self.w.center.copy_from_slice(lambda);
-            self.w.mixing.forget();
+            self.restart(lambda, convergence);
             let most = convergence.iterations + POLISH;
             if self.iterate(motions, coordinates, lambda, convergence, most) {
                 return;

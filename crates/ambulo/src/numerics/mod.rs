@@ -6,6 +6,7 @@
 
 mod band_cholesky;
 mod banded;
+mod dense;
 mod least_squares;
 mod median;
 mod natural_spline;
@@ -18,6 +19,7 @@ mod uniform_spline;
 use serde::Deserialize;
 
 pub use band_cholesky::{BandFactor, BandMatrix};
+pub(crate) use dense::DenseLu;
 pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
 pub use median::median;
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};

@@ -29,6 +29,8 @@ const WITHIN_CONE: f64 = 0.95;
 /// The pelvis is the first body; its mass centre lies so high above its origin [m].
 const PELVIS: usize = 0;
 const PELVIS_CENTER_M: f64 = 0.04;
+/// Gaps below this count as closed [m], as in the simulator: over a step, it is 1e-5 of the speed of free fall.
+const CLOSED_M: f64 = 1e-10;
 /// A push on the pelvis [N] from `LANDING` on, for so many steps; then it is watched for some more.
 const PUSH_N: Vec3 = Vec3::new(150.0, 100.0, 0.0);
 const PUSHED: usize = 200;
@@ -170,8 +172,8 @@ impl Left {
         for contact in contacts {
             total += contact.force * sign(world, contact);
             let velocity = velocity(world, before, after, contact);
-            let approach =
-                (contact.normal.dot(&velocity) * sign(world, contact) + contact.gap.max(0.0) / STEP_S) / fall;
+            let gap = if contact.gap > CLOSED_M { contact.gap } else { 0.0 };
+            let approach = (contact.normal.dot(&velocity) * sign(world, contact) + gap / STEP_S) / fall;
             raise(&mut self.complementarity, (contact.normal_force / weight).min(approach).abs());
             let rubbing = along(contact, contact.force * sign(world, contact)) / weight;
             let limit = friction(world, contact) * contact.normal_force / weight;
