@@ -28,9 +28,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
         Code::MassStandingMismatch | Code::PredictionMass | Code::MassContradicted => "`--mass KG` sets the mass",
-        Code::MassUnverified => {
-            "with markers, give `--mass KG` or a standing trial on force plates (`--static`); recorded coordinates use the mass of their model"
-        }
+        Code::MassUnverified => "give `--mass KG` or, with markers, a standing trial on force plates (`--static`)",
         Code::GroundPredicted => "`--grf` reads measured forces, `--no-ground` computes a motion without contact",
         Code::WalkNotConsistent => "`--mode paper` computes the unchanged gait",
         _ => return None,

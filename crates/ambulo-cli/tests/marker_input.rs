@@ -128,6 +128,9 @@ fn a_body_needs_a_plausible_mass_and_stature() {
     assert!((weighed - 75.0).abs() < 1.0, "{weighed}");
     bench.run(&["convert", "light.c3d", "light.trc"]).done();
     forces(&bench, "light.trc", &[]).refused(&["light.trc: the body mass is not known", "expected --mass KG"]);
+    forces(&bench, "light.trc", &["--grf", "walk_grf.mot"]).done();
+    let weighed = bench.json("out/summary.json")["mass"].clone();
+    assert!(weighed["state"] == "weighed" && (weighed["kg"].as_f64().unwrap() - 75.0).abs() < 1.0, "{weighed}");
     forces(&bench, "walk.bvh", &[]).refused(&["walk.bvh: a BVH contains no body mass", "expected --mass KG"]);
     for (input, mass) in [("walk.c3d", "-75"), ("walk.c3d", "nan"), ("walk.c3d", "75000"), ("walk.bvh", "-75")] {
         forces(&bench, input, &["--mass", mass]).refused(&[input, "the body mass is", "expected 2 to 300 kg"]);
@@ -222,16 +225,51 @@ fn a_model_needs_the_markers_of_the_recording_and_rejects_options_of_the_built_i
         "the recording has RASI",
         "hint: ",
     ]);
-    for (option, value) in [("--height", "1.75"), ("--markers", "plug-in-gait"), ("--figure", "de-leva-female")] {
+    for (option, value) in [("--markers", "plug-in-gait"), ("--figure", "de-leva-female")] {
         let run = forces(&bench, "walk.trc", &[&figure[..], &["--grf", "walk_grf.mot", option, value]].concat());
         run.refused(&[&format!("{option} has no effect with --model"), "hint: --static FILE"]);
     }
-    for given in [&STILL[..], &["--mass", "75"], &["--height", "1.7"], &["--fit", "trajectory"], &["--plate", "1=r"]] {
+    for given in [&STILL[..], &["--fit", "trajectory"], &["--plate", "1=r"]] {
         let run = forces(&bench, "walk.mot", &[&figure[..], &["--grf", "walk_grf.mot"], given].concat());
         run.refused(&["walk.mot", &format!("{} is for markers (.c3d, .trc)", given[0])]);
     }
     let run = forces(&bench, "walk.trc", &["--model", "walk.trc", "--grf", "walk_grf.mot"]);
     run.refused(&["walk.trc"]);
+}
+
+#[test]
+fn a_model_is_scaled_to_a_stated_mass_and_stature() {
+    let bench = laboratory("stated_size");
+    let figure = ["--model", "figure.osim", "--grf", "walk_grf.mot", "-v"];
+    let masses = |given: &[&str]| {
+        let run = forces(&bench, "walk.mot", &[&figure[..], given].concat()).done();
+        let text = bench.text("out/subject.osim");
+        let numbers = |tag: &str| -> Vec<f64> {
+            let opening = format!("<{tag}>");
+            let parts = text.split(&opening).skip(1);
+            parts
+                .flat_map(|part| {
+                    part.split('<').next().unwrap().split_whitespace().map(|x| x.parse().unwrap()).collect::<Vec<f64>>()
+                })
+                .collect()
+        };
+        (run.stdout + &run.stderr, numbers("mass"), numbers("inertia"))
+    };
+    let (_, own, own_inertias) = masses(&[]);
+    let (said, scaled, inertias) = masses(&["--mass", "60", "--height", "1.575"]);
+    assert!(said.contains("the model was scaled to the stated size: masses by 0.800"), "{said}");
+    assert!((scaled.iter().sum::<f64>() - 60.0).abs() < 1e-6, "{}", scaled.iter().sum::<f64>());
+    for (own, scaled) in own.iter().zip(&scaled) {
+        assert!((scaled - 0.8 * own).abs() < 1e-6, "{own} {scaled}");
+    }
+    let factor = inertias.iter().sum::<f64>() / own_inertias.iter().sum::<f64>();
+    let length = said.split("lengths by ").nth(1).unwrap().split(',').next().unwrap().parse::<f64>().unwrap();
+    assert!((factor / (0.8 * length * length) - 1.0).abs() < 2e-3, "{factor} {length}");
+    let mass = bench.json("out/summary.json")["mass"].clone();
+    assert_eq!((mass["state"].as_str(), mass["source"].as_str()), (Some("contradicted"), Some("stated")), "{mass}");
+    assert!((mass["plates_kg"].as_f64().unwrap() - 75.0).abs() < 1.0, "{mass}");
+    forces(&bench, "walk.mot", &[&figure[..], &["--height", "175"]].concat())
+        .refused(&["--height", "expected 0.4 to 2.5 m"]);
 }
 
 #[test]

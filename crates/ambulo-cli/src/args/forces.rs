@@ -142,11 +142,12 @@ pub(crate) struct SubjectArgs {
     /// Standing trial of the same person: .c3d or .trc.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
-    /// Body mass [kg]; a standing trial on force plates that differs by less than 5 % is used instead [default: as measured by the force
-    /// plates or stated in the recording; with --model the model's].
+    /// Body mass [kg]; a standing trial on force plates that differs by less than 5 % is used instead, a given model is scaled to it
+    /// [default: as measured by the force plates or stated in the recording; with --model the model's].
     #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
     pub(crate) mass: Option<f64>,
-    /// Stature [m] [default: as stated in the recording, or estimated from the markers].
+    /// Stature [m]; a given model is scaled to it [default: as stated in the recording, or estimated from the markers; with --model the
+    /// model's].
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.

@@ -235,6 +235,9 @@ codes! {
     MassContradicted "mass.contradicted" Warning
         "The ground forces carry another mass than forces are computed with."
         "Give the right mass, or scale the model to this person; check that every foot is on a plate.";
+    MassScaled "mass.scaled" Note
+        "The model was scaled to the stated mass and stature."
+        "Nothing to do.";
     MassUnverified "mass.unverified" Warning
         "The body mass is neither given nor measured; every force is proportional to it."
         "Give the mass or a standing trial on force plates.";

@@ -4,7 +4,7 @@ use crate::analysis::{AnalysisError, MarkerTrialError, Stopped};
 use crate::dynamics::residual_reduction::ResidualReductionError;
 use crate::kinematics::calibration::CalibrationError;
 use crate::kinematics::retarget::RetargetError;
-use crate::model::ModelError;
+use crate::model::{ModelError, ScaleError};
 use crate::motion::MotionError;
 
 /// Why a study gives no forces. [`StudyError::input`] tells which part of the source it is about.
@@ -35,6 +35,9 @@ pub enum StudyError {
     /// The built-in body needs a mass.
     #[error("the body mass is not known: the files state none, and no person stands still on force plates")]
     MassUnknown,
+    /// A size that the model cannot have.
+    #[error(transparent)]
+    Size(ScaleError),
     /// A mass on a body that the model does not have.
     #[error("the model has no body `{found}`; expected one of {}", .known.join(", "))]
     UnknownBody {
@@ -93,6 +96,7 @@ impl StudyError {
             | StudyError::NoSuchPlate { .. } => Some(Input::Motion),
             StudyError::UnknownBody { .. }
             | StudyError::AddedMass(_)
+            | StudyError::Size(_)
             | StudyError::ResidualReduction(_)
             | StudyError::Stopped(_) => None,
         }

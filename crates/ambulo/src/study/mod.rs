@@ -27,6 +27,7 @@ mod prediction;
 mod quality;
 mod run;
 mod settings;
+mod size;
 mod source;
 mod weighing;
 
@@ -39,6 +40,7 @@ pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMark
 pub use quality::{Measure, Quality, QualityLimits, QualityReason, QualityState};
 pub use run::{run, run_observed};
 pub use settings::{GroundSettings, Settings};
+pub use size::StatedSize;
 pub use source::{
     AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse,
     Recording, Source,

@@ -6,6 +6,7 @@ use super::laboratory_file::LaboratoryFile;
 use super::mass::{KnownMass, MassEstimate, report_decided};
 use super::outcome::Tracking;
 use super::settings::{GroundSettings, Settings};
+use super::size::StatedSize;
 use super::source::{MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source};
 use super::weighing::Carried;
 use crate::analysis::feasibility::Person;
@@ -146,8 +147,12 @@ impl Source {
         settings: &Settings,
         findings: &mut Findings,
     ) -> Result<Observation, StudyError> {
-        let model = self.loaded(model)?;
-        let person = Person::of_model(&model);
+        let is_measured =
+            settings.ground != GroundSettings::NoContact && !matches!(self.forces, MeasuredForces::InRecording);
+        let motion = &self.stated.moved(model, motion, is_measured);
+        let model = self.loaded(&self.stated.applied(model, findings)?)?;
+        let of_model = Person::of_model(&model);
+        let person = Person { estimated: self.stated.height_m.is_none(), ..of_model };
         let forces = match &self.forces {
             _ if settings.ground == GroundSettings::NoContact => Vec::new(),
             MeasuredForces::InRecording => {
@@ -173,7 +178,7 @@ impl Source {
             motion: ObservedMotion::Recorded(motion.clone()),
             forces,
             origin: Origin::Coordinates,
-            known_mass: KnownMass::default(),
+            known_mass: KnownMass::stated(self.stated.mass_kg),
         })
     }
 
@@ -307,7 +312,8 @@ impl Source {
         let (person, model);
         let body = match &markers.body {
             MarkerBody::Model { model: given, mass_kg } => {
-                model = self.loaded(given)?;
+                let size = StatedSize { mass_kg: *mass_kg, height_m: self.stated.height_m };
+                model = self.loaded(&size.applied(given, findings)?)?;
                 BodySource::Model { model: &model, mass: *mass_kg }
             }
             MarkerBody::BuiltIn { set, .. } => {

@@ -2,6 +2,7 @@
 
 use super::error::StudyError;
 use super::laboratory_file::LaboratoryFile;
+use super::size::StatedSize;
 use crate::analysis::Subject;
 use crate::analysis::feasibility::Person;
 use crate::kinematics::Trajectory;
@@ -25,6 +26,9 @@ pub struct Source {
     pub device: Option<Table>,
     /// Masses that the person carried.
     pub added_mass: Vec<AddedMass>,
+    /// What a given model is scaled to: with coordinates, and with markers that no standing trial scales. The built-in body has its own
+    /// ([`MarkerBody::BuiltIn`]).
+    pub stated: StatedSize,
 }
 
 /// The kinds of recording.
@@ -159,7 +163,13 @@ impl Source {
     /// A recording alone: its own force plates, no device, no added mass.
     #[must_use]
     pub fn new(recording: Recording) -> Source {
-        Source { recording, forces: MeasuredForces::InRecording, device: None, added_mass: Vec::new() }
+        Source {
+            recording,
+            forces: MeasuredForces::InRecording,
+            device: None,
+            added_mass: Vec::new(),
+            stated: StatedSize::default(),
+        }
     }
 
     /// Coordinates of a model, without measured forces.

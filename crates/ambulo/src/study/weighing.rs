@@ -319,18 +319,6 @@ impl<'a> Carried<'a> {
     }
 }
 
-/// The estimate of a motion: the mean of all ways, weighted by the inverse of their variance. The ways share the same forces, so that
-/// together they are no more certain than the best of them, and less where they differ (Birge 1932, Phys Rev 40:207-227).
-pub(super) fn combined(estimates: &[MassEstimate]) -> Option<MassEstimate> {
-    let best = estimates.iter().min_by(|a, b| a.error_kg.total_cmp(&b.error_kg))?;
-    let weight = |e: &MassEstimate| e.error_kg.max(f64::MIN_POSITIVE).powi(-2);
-    let total: f64 = estimates.iter().map(weight).sum();
-    let kg = estimates.iter().map(|e| weight(e) * e.kg).sum::<f64>() / total;
-    let chi2: f64 = estimates.iter().map(|e| weight(e) * (e.kg - kg).powi(2)).sum();
-    let birge = (chi2 / (estimates.len().max(2) - 1) as f64).sqrt().max(1.0);
-    Some(MassEstimate { kg, error_kg: birge * best.error_kg, ..best.clone() })
-}
-
 fn contacts_of(model: &Model, forces: &[ForceRecording], up: Vec3, side: Side) -> Vec<Contact> {
     let own: Vec<&ForceRecording> =
         forces.iter().filter(|force| model.anatomy().body_side(force.body) == Some(side)).collect();

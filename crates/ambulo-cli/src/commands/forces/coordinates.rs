@@ -1,6 +1,6 @@
 //! Reads recorded coordinates (`.mot`, `.sto`, `.csv`) of an OpenSim model.
 
-use super::{Reading, added_mass, ground_table, read_model};
+use super::{Reading, added_mass, ground_table, read_model, size};
 use crate::args::{ForcesArgs, MarkerFitting, SubjectArgs};
 use crate::files;
 use ambulo::findings::Findings;
@@ -18,13 +18,19 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
         );
     };
     reject_marker_options(args)?;
+    size::check(&args.subject)?;
     let model = read_model(model_path, reading)?;
     reading.clock.lap("read_model");
     let motion = read_motion(&model, &args.input, &mut reading.findings)?;
     reading.clock.lap("read_motion");
     let forces = ground_table::read(args, reading)?;
     reading.clock.lap("read_forces");
-    Ok(Source { forces, added_mass: added_mass(args), ..Source::coordinates(model, motion) })
+    Ok(Source {
+        forces,
+        added_mass: added_mass(args),
+        stated: size::stated(&args.subject),
+        ..Source::coordinates(model, motion)
+    })
 }
 
 fn reject_marker_options(args: &ForcesArgs) -> Result<()> {
@@ -32,16 +38,13 @@ fn reject_marker_options(args: &ForcesArgs) -> Result<()> {
         ("--static", args.subject.still.is_some()),
         ("--markers", args.subject.markers.is_some()),
         ("--plate", !args.subject.plate.is_empty()),
-        ("--mass", args.subject.mass.is_some()),
-        ("--height", args.subject.height.is_some()),
         ("--figure", args.subject.figure != SubjectArgs::DEFAULT_FIGURE),
         ("--fit", args.subject.fit != MarkerFitting::Frames),
     ];
     match given.iter().find(|(_, given)| *given) {
-        Some((option, _)) => bail!(
-            "{}: {option} is for markers (.c3d, .trc); recorded coordinates use the size and mass of their model",
-            args.input.display()
-        ),
+        Some((option, _)) => {
+            bail!("{}: {option} is for markers (.c3d, .trc); recorded coordinates have a model", args.input.display())
+        }
         None => Ok(()),
     }
 }

@@ -1,17 +1,13 @@
 //! Reads markers (`.c3d`, `.trc`), with a standing trial or a model.
 
-use super::{Reading, added_mass, ground_table, read_model};
+use super::{Reading, added_mass, ground_table, read_model, size};
 use crate::args::{ForcesArgs, PlateFoot, SubjectArgs};
 use crate::files;
 use ambulo::findings::Findings;
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::study::{LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, standing_trial};
 use anyhow::{Context, Result, bail};
-use std::ops::RangeInclusive;
 use std::path::Path;
-
-/// Accepted body masses [kg].
-const BODY_MASS_KG: RangeInclusive<f64> = 2.0..=300.0;
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     check_options(args)?;
@@ -25,7 +21,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     });
     let markers = MarkerSource { trial, standing, body, plates: plates.collect() };
     let forces = ground_table::read(args, reading)?;
-    Ok(Source { forces, added_mass: added_mass(args), ..Source::markers(markers) })
+    Ok(Source { forces, added_mass: added_mass(args), stated: size::stated(&args.subject), ..Source::markers(markers) })
 }
 
 /// The given model, or the size and mass of the person for the built-in body.
@@ -56,7 +52,7 @@ fn read_laboratory_file(path: &Path, findings: &mut Findings) -> Result<Laborato
 
 /// Rejects options that contradict each other or have no effect with --model.
 fn check_options(args: &ForcesArgs) -> Result<()> {
-    let SubjectArgs { plate, mass, height, markers, figure, .. } = &args.subject;
+    let SubjectArgs { plate, height, markers, figure, .. } = &args.subject;
     for (i, given) in plate.iter().enumerate() {
         if plate[..i].iter().any(|before| before.plate == given.plate) {
             bail!("--plate {} is given twice; expected one foot per plate", given.plate);
@@ -65,18 +61,14 @@ fn check_options(args: &ForcesArgs) -> Result<()> {
     if args.model.is_none() {
         return Ok(());
     }
-    if let Some(mass) = mass.filter(|mass| !BODY_MASS_KG.contains(mass)) {
-        let (least, most) = (BODY_MASS_KG.start(), BODY_MASS_KG.end());
-        bail!("--mass: the body mass is {mass} kg; expected {least} to {most} kg. hint: the unit is kilograms");
+    size::check(&args.subject)?;
+    if height.is_some() && args.subject.still.is_some() {
+        bail!("--height has no effect with --model and --static: the standing trial gives the model its lengths");
     }
-    let of_the_built_in_body = [
-        ("--height", height.is_some()),
-        ("--markers", markers.is_some()),
-        ("--figure", figure != SubjectArgs::DEFAULT_FIGURE),
-    ];
+    let of_the_built_in_body = [("--markers", markers.is_some()), ("--figure", figure != SubjectArgs::DEFAULT_FIGURE)];
     match of_the_built_in_body.iter().find(|(_, given)| *given) {
         Some((option, _)) => bail!(
-            "{option} has no effect with --model, which has its own size, segments and markers; it is for the built-in body. hint: --static FILE scales the model to the person, --mass KG sets its mass"
+            "{option} has no effect with --model, which has its own segments and markers; it is for the built-in body. hint: --static FILE scales the model to the person, --mass KG and --height M set its mass and stature"
         ),
         None => Ok(()),
     }

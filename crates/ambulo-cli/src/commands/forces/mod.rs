@@ -4,6 +4,7 @@ mod coordinates;
 mod errors;
 mod ground_table;
 mod markers;
+mod size;
 mod skeleton;
 
 use super::run_files::{RunFiles, read_thresholds};
