@@ -92,6 +92,7 @@ mod simulation_robustness;
 mod simulation_smooth;
 mod skeleton_recording;
 mod splines;
+mod standing_ground;
 mod synthetic_walk;
 mod times_and_distances;
 mod walking;

@@ -22,6 +22,7 @@ mod stances;
 mod total;
 mod unilateral;
 mod unknowns;
+mod zero_moment_point;
 
 use super::footfalls::{Footfall, Footfalls, footfalls};
 use super::{BodyForces, GroundForces, upward};

@@ -3,10 +3,11 @@
 use super::center_path::center_path;
 use super::expected::{Component, Expectation};
 use super::fitted_parameters::FittedParameters;
-use super::geometry::Geometry;
+use super::geometry::{Geometry, nearest_on_sole};
 use super::prescribed::Prescribed;
-use super::stances::{BodyScale, Stance};
+use super::stances::{BodyScale, GaitType, Stance};
 use super::unknowns::{ActiveSplines, Curve};
+use super::zero_moment_point::{share_along_soles, zero_moment_point};
 use crate::model::BySide;
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
@@ -31,7 +32,26 @@ impl EstimateInputs<'_> {
     pub(super) fn expected_center(&self, stance: &Stance, frame: usize) -> Vec3 {
         let place = &self.geometry.feet[stance.side][frame];
         let path = || center_path(place, stance, self.grid.time(frame), self.body_scale, self.parameters);
-        self.prescribed.center_at(stance.side, frame).unwrap_or_else(path)
+        let standing = || self.standing_center(stance, frame);
+        self.prescribed.center_at(stance.side, frame).or_else(standing).unwrap_or_else(path)
+    }
+
+    /// The centre of pressure of a foot that stands, from the total wrench; `None` for steps, and where the feet carry little.
+    fn standing_center(&self, stance: &Stance, frame: usize) -> Option<Vec3> {
+        if stance.gait != GaitType::Stand {
+            return None;
+        }
+        let BodyScale { up, weight_n, .. } = *self.body_scale;
+        let point = zero_moment_point(&self.total[frame], stance.height_m, up, weight_n)?;
+        let time = self.grid.time(frame);
+        let is_other = |other: &&Stance| other.side != stance.side && (other.start_s..=other.end_s).contains(&time);
+        let feet = self.geometry.feet.as_ref().map(|places| &places[frame]);
+        let sole = &feet[stance.side].sole;
+        if !self.stances.iter().any(|other| is_other(&other)) {
+            return Some(nearest_on_sole(sole, self.half_widths[stance.side], point, up));
+        }
+        let place = sole[0] + (sole[2] - sole[0]) * share_along_soles(feet, point, up);
+        Some(place + up * (stance.height_m - place.dot(&up)))
     }
 
     /// The total wrench about the mass centre.
