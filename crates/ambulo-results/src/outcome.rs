@@ -51,6 +51,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
     };
     let input = Input { ground_source, ..input };
     let mut summary = summary(&outcome.body, &outcome.analysis, &settings, input, findings);
+    summary.activity = Some(outcome.activity);
     summary.times_and_distances = WalkingSummary::of(&outcome.times_and_distances);
     summary.height_m = outcome.height_m();
     summary.quality = Some(outcome.quality.clone());

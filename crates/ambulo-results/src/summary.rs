@@ -6,6 +6,7 @@ use crate::subject_summary::SubjectSummary;
 use crate::tables::UNLOADED_N;
 use crate::walk_summary::WalkSummary;
 use crate::walking_summary::WalkingSummary;
+use ambulo::analysis::activity::Activity;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::analysis::{Analysis, AnalysisSettings, GroundAgreement, MassSource, PredictionChecks, peak};
 use ambulo::findings::{Finding, Findings};
@@ -59,6 +60,9 @@ pub struct Summary {
     pub filter: Filters,
     /// Convention for the angles of pelvis and hips in `clinical.csv`; `null` without that file.
     pub convention: Option<ConventionSummary>,
+    /// What the person does; the limits of the verdict follow it.
+    #[serde(default)]
+    pub activity: Option<Activity>,
     /// Times and distances of the strides.
     pub times_and_distances: WalkingSummary,
     /// Source of the ground forces.
@@ -320,6 +324,7 @@ pub fn summary(
         filter: filters(settings),
         ground: Ground { source, rule, threshold_n: UNLOADED_N },
         convention: None,
+        activity: None,
         times_and_distances: WalkingSummary::default(),
         residual: residual(model, analysis),
         peaks: peaks(model, analysis),

@@ -16,6 +16,7 @@ mod plate_files;
 mod shared_data;
 mod walking_puppet;
 
+mod activity;
 mod analysis;
 mod anatomy;
 mod anthropometry;

@@ -66,13 +66,14 @@ fn outline(summary: &Summary) -> Result<()> {
         Some(quantity.both.as_ref()?.mean)
     };
     let walk = [
+        summary.activity.map(|activity| activity.words()),
         summary.speed_m_s.map(|speed| format!("{speed:.2} m/s")),
         mean("cadence").map(|cadence| format!("{cadence:.0} steps/min")),
         mean("step_length").map(|length| format!("steps of {length:.2} m")),
     ];
     let walk: Vec<String> = walk.into_iter().flatten().collect();
     if !walk.is_empty() {
-        print_line(&format!("  walk      {}", walk.join(", ")))?;
+        print_line(&format!("  activity  {}", walk.join(", ")))?;
     }
     let [from, to] = summary.window_s;
     let Summary { frames, rate_hz, ground: Ground { source, .. }, .. } = summary;

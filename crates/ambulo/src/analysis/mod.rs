@@ -1,5 +1,6 @@
 //! Analysis of a motion and its forces: events, gait cycles, peaks, residuals, feasibility, and agreement of curves.
 
+pub mod activity;
 mod comparison;
 mod cycles;
 mod event_agreement;

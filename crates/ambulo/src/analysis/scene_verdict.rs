@@ -1,5 +1,6 @@
 //! The verdict on the walking figures of a scene.
 
+use crate::analysis::activity::ActivityKind;
 use crate::analysis::feasibility::{MotionAndForces, Person, Thresholds, Verdict, VerdictState, check};
 use crate::dynamics::{Forces, JointReaction};
 use crate::findings::Findings;
@@ -62,6 +63,9 @@ fn judged(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findings) -
         ground: &ground,
         device: None,
         predicted: None,
+        activity: ActivityKind::Walk,
+        cutoff_hz: None,
+        forces_are_predicted: false,
     };
     check(&evidence, &Person::of_human(&walk.human), thresholds, findings)
 }

@@ -25,6 +25,17 @@ pub enum Smoother {
     Spline,
 }
 
+impl Smoother {
+    /// Cut-off frequency of a low-pass filter [Hz].
+    #[must_use]
+    pub fn cutoff_hz(self) -> Option<f64> {
+        match self {
+            Smoother::Butterworth(low_pass) => Some(low_pass.cutoff_hz),
+            Smoother::Off | Smoother::Spline => None,
+        }
+    }
+}
+
 /// Settings of [`smooth`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SmoothSettings {

@@ -2,6 +2,7 @@
 
 use super::mass::BodyMass;
 use super::quality::Quality;
+use crate::analysis::activity::Activity;
 use crate::analysis::feasibility::{Person, Verdict};
 use crate::analysis::{
     Analysis, BodyInMotion, ComparedAnalyses, Event, GroundAgreement, PlateCoverage, PredictionChecks,
@@ -24,6 +25,8 @@ pub struct Outcome {
     pub person: Person,
     /// Motion, ground forces, joint forces, events, cycles, body mass and residual.
     pub analysis: Analysis,
+    /// What the person does; the limits of the verdict follow it.
+    pub activity: Activity,
     /// Speed, cadence, lengths, stance, swing and support.
     pub times_and_distances: TimesAndDistances,
     /// Where the ground forces come from.

@@ -8,6 +8,7 @@ use super::prediction::{Found, predicted, with_markers};
 use super::quality::QualityEvidence;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
+use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
     self, Adjustable, Analysis, AnalysisError, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
@@ -16,6 +17,7 @@ use crate::analysis::{
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::dynamics::{Workspace, inverse};
 use crate::findings::{Code, Findings};
+use crate::ground::footfalls::footfalls;
 use crate::ground::predict::predict;
 use crate::model::Model;
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
@@ -88,7 +90,16 @@ fn road(
     });
     report_missing_cycles(&analysis, findings);
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
-    let judged = Judged { model: &model, person: &person, analysis: &analysis, device: device.as_deref(), checks };
+    let activity = recognised(&model, &person, &analysis);
+    let judged = Judged {
+        activity: activity.kind,
+        cutoff_hz: processing.smoother.cutoff_hz(),
+        model: &model,
+        person: &person,
+        analysis: &analysis,
+        device: device.as_deref(),
+        checks,
+    };
     let verdict = judged.verdict(settings, &force_origin, findings);
     progress.end(Stage::Feasibility)?;
     let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
@@ -107,6 +118,7 @@ fn road(
         quality: evidence.quality(),
         mass,
         tracking,
+        activity,
         times_and_distances: times_and_distances(&model, &person.soles, &analysis),
         body: model,
         person,
@@ -144,8 +156,16 @@ fn report_missing_cycles(analysis: &Analysis, findings: &mut Findings) {
     }
 }
 
+/// What the person does.
+fn recognised(model: &Model, person: &Person, analysis: &Analysis) -> Activity {
+    let footfalls = footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
+    activity(model, &analysis.trajectory, &person.soles, person.leg_length_m, &footfalls)
+}
+
 /// What a verdict is about.
 struct Judged<'a> {
+    activity: ActivityKind,
+    cutoff_hz: Option<f64>,
     model: &'a Model,
     person: &'a Person,
     analysis: &'a Analysis,
@@ -158,9 +178,19 @@ impl Judged<'_> {
     ///
     /// Frames that force plates do not cover are judged on forces that are predicted from the motion.
     fn verdict(&self, settings: &Settings, force_origin: &ForceOrigin, findings: &mut Findings) -> Verdict {
-        let Judged { model, person, analysis, device, checks } = *self;
+        let Judged { activity, cutoff_hz, model, person, analysis, device, checks } = *self;
         let Analysis { trajectory, forces, ground, .. } = analysis;
-        let evidence = MotionAndForces { model, trajectory, forces, ground, device, predicted: None };
+        let evidence = MotionAndForces {
+            model,
+            trajectory,
+            forces,
+            ground,
+            device,
+            predicted: None,
+            activity,
+            cutoff_hz,
+            forces_are_predicted: matches!(force_origin, ForceOrigin::Predicted { .. }),
+        };
         let mut of_measured = Findings::default();
         let mut verdict = feasibility::check(&evidence, person, &settings.thresholds, &mut of_measured);
         let is_incomplete = *force_origin == ForceOrigin::Measured && verdict.frames_unmeasured > 0;
@@ -174,7 +204,7 @@ impl Judged<'_> {
         } else {
             of_measured.as_slice().iter().for_each(|finding| findings.add(finding.clone()));
         }
-        verdict.add_reasons(checks.map_or(&[], |checks| &checks.reasons));
+        verdict.add_unsupported(checks.map_or(&[], |checks| &checks.reasons));
         verdict
     }
 }

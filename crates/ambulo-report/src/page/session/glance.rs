@@ -23,6 +23,7 @@ pub(super) fn glance(results: &Results, size: &BodySize, quantities: &[ClinicalQ
         stated("Person", &summary.input.person),
         stated("Recorded on", &summary.input.recorded_on),
         Some(Fact { note: uncertainty(results), ..forces(results) }),
+        summary.activity.map(|activity| fact("Activity", activity.words(), None)),
         summary.speed_m_s.map(|speed| fact("Speed", format!("{speed:.2} m/s"), None)),
         mean(results, StrideQuantity::Cadence).map(|mean| fact("Cadence", format!("{mean:.0} steps/min"), None)),
         mean(results, StrideQuantity::StepLength).map(|mean| fact("Step length", format!("{mean:.2} m"), None)),

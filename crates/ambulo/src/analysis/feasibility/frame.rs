@@ -66,7 +66,7 @@ pub struct Frame<'a> {
     pub ground_velocity: Vec3,
     /// Height of the ground above the world's origin [m].
     pub ground_height: f64,
-    /// Whether the person walks; flight is allowed in running.
+    /// Whether a foot should be on the ground at all times: the person walks.
     pub walking: bool,
 }
 
@@ -240,7 +240,8 @@ pub(super) fn check_known(
         };
         add(Check::Support, unsupported, t.support_bw);
         add(Check::Balance, frame.residual.moment.norm() / limits.person.mass_kg, t.balance_nm_kg);
-        let carried: f64 = frame.feet.values().flatten().map(|foot| foot.force.dot(&limits.up)).sum();
+        let [carried, needed] = limits.upward_forces(frame);
+        add(Check::Pull, (-needed).max(0.0) / limits.weight, t.pull_bw);
         let flies = frame.walking && carried < FLIGHT_LOAD_BW * limits.weight;
         let [value, share] = if flies { [f64::INFINITY; 2] } else { [0.0, 0.0] };
         visit(CheckedValue { check: Check::Flight, of, value, limit: t.flight_s, share });

@@ -1,5 +1,6 @@
 //! Checks of a whole motion.
 
+use super::acceleration_ratio::AccelerationRatio;
 use super::frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_known};
 use super::ground_speed::over_ground;
 use super::person::Person;
@@ -7,7 +8,9 @@ use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
 use super::verdict::{
     Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState, Weighed,
+    undecided_by_other_support,
 };
+use crate::analysis::activity::ActivityKind;
 use crate::dynamics::{Forces, Roots};
 use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, GroundForces, feet, upward};
@@ -43,6 +46,13 @@ pub struct MotionAndForces<'a> {
     pub device: Option<&'a [Vec<f64>]>,
     /// Forces predicted from the motion, for frames in which measured ground forces are incomplete.
     pub predicted: Option<PredictedForces<'a>>,
+    /// What the person does: who walks or stands keeps a foot on the ground.
+    pub activity: ActivityKind,
+    /// Cut-off of the low-pass filter of the motion [Hz]; `None` without a filter.
+    pub cutoff_hz: Option<f64>,
+    /// Whether the ground forces were computed from the motion. A lack of support may then be support that no foot gives, such as hands or
+    /// a chair, so it leaves the verdict undecided.
+    pub forces_are_predicted: bool,
 }
 
 /// Forces predicted from the motion, on its frames.
@@ -68,10 +78,16 @@ pub fn check(
     let grid = trajectory.grid();
     let (mut reasons, mut closest) = (Vec::new(), Vec::new());
     for (slot, track) in tracks.iter().enumerate() {
-        let check = check_of(model, slot);
-        let shortest = if check == Check::Flight { thresholds.flight_s } else { thresholds.shortest_s };
+        let shortest = match check_of(model, slot) {
+            Check::Flight => thresholds.flight_s,
+            _ => shortest_s(thresholds, motion.cutoff_hz),
+        };
         let spans = track.settled(grid.step_s, shortest);
         reasons.extend(spans.iter().map(|span| reason(model, grid, span, coverage.is_predicted(span.worst_at))));
+    }
+    if !motion.forces_are_predicted {
+        reasons.extend(coverage.acceleration.reason(grid, &limits));
+        closest.extend(coverage.acceleration.closest(grid, &limits));
     }
     reasons.sort_by(|a: &Reason, b| a.time_s[0].total_cmp(&b.time_s[0]).then(a.check.cmp(&b.check)));
     for check in Check::ALL {
@@ -89,7 +105,13 @@ pub fn check(
             }
         }));
     }
-    let undecided = coverage.undecided(motion, &limits);
+    let mut undecided = coverage.undecided(motion, &limits);
+    if motion.forces_are_predicted || motion.predicted.is_some() {
+        let is_predicted = |at_s: f64| {
+            motion.forces_are_predicted || coverage.is_predicted(((at_s - grid.start_s) / grid.step_s).round() as usize)
+        };
+        undecided.extend(other_support(&mut reasons, is_predicted));
+    }
     Verdict {
         state: VerdictState::of(&reasons, &undecided),
         judged_share: coverage.judged_share(motion),
@@ -106,10 +128,27 @@ pub fn check(
     }
 }
 
+/// An excess that is shorter cannot be told from noise [s]. A low-pass makes an impulse 0.603/fc wide at half of its height: that is the width
+/// of sin(x)/x with x = 2π fc t.
+fn shortest_s(thresholds: &Thresholds, cutoff_hz: Option<f64>) -> f64 {
+    const WIDTH: f64 = 0.603;
+    cutoff_hz.map_or(0.0, |cutoff_hz| WIDTH / cutoff_hz).max(thresholds.shortest_s)
+}
+
+/// Where forces are predicted from the motion and cannot act through the feet, something else may support the person: hands, a seat, a
+/// harness. Removes the reasons that come from such forces and returns why the verdict is undecided; reasons from the motion stay.
+fn other_support(reasons: &mut Vec<Reason>, is_predicted: impl Fn(f64) -> bool) -> Option<String> {
+    let lacking =
+        |reason: &Reason| is_predicted(reason.at_s) && matches!(reason.check, Check::Support | Check::Balance);
+    let first = reasons.iter().find(|reason| lacking(reason))?.message.clone();
+    reasons.retain(|reason| !is_predicted(reason.at_s) || matches!(reason.check, Check::Range | Check::Pull));
+    Some(undecided_by_other_support(&first))
+}
+
 // One track per check of each coordinate, then of each foot, then of the whole body.
 const OF_COORDINATES: [Check; 3] = [Check::Strength, Check::Range, Check::Power];
 const OF_FEET: [Check; 3] = [Check::Friction, Check::CenterOfPressure, Check::Sliding];
-const OF_BODY: [Check; 3] = [Check::Flight, Check::Support, Check::Balance];
+const OF_BODY: [Check; 4] = [Check::Flight, Check::Support, Check::Balance, Check::Pull];
 
 fn slot(model: &Model, measurement: &CheckedValue) -> Option<usize> {
     let among = |checks: &[Check]| checks.iter().position(|check| *check == measurement.check);
@@ -160,6 +199,8 @@ struct Coverage {
     upward_n: [f64; 2],
     /// Number of uninterrupted times with the given ground forces.
     runs: usize,
+    /// Acceleration of the mass centre by the motion and by these forces.
+    acceleration: AccelerationRatio,
 }
 
 impl Coverage {
@@ -271,11 +312,10 @@ fn measure(
     let MotionAndForces { model, trajectory, .. } = *motion;
     let count = OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len();
     let mut tracks = vec![Track::default(); count];
-    let mut given = FrameReader::new(motion, motion.forces, motion.ground, limits);
+    let mut given = FrameReader::new(motion, motion.forces, motion.ground);
     let mut coverage = Coverage { covered: covered(motion, &mut given, limits), ..Coverage::default() };
-    let mut predicted =
-        motion.predicted.map(|predicted| FrameReader::new(motion, predicted.forces, predicted.ground, limits));
-    let lasting = frames_that_last(limits.thresholds.shortest_s, trajectory.grid());
+    let mut predicted = motion.predicted.map(|predicted| FrameReader::new(motion, predicted.forces, predicted.ground));
+    let lasting = frames_that_last(shortest_s(&limits.thresholds, motion.cutoff_hz), trajectory.grid());
     let edge = (EDGE_S / trajectory.grid().step_s).round() as usize;
     let inner = edge..trajectory.grid().frames.saturating_sub(edge);
     coverage.predicted = coverage.covered.iter().map(|covered| !covered && predicted.is_some()).collect();
@@ -302,6 +342,7 @@ fn measure(
                 coverage.judged_as_given += 1;
                 coverage.residual_n2 += frame.residual.force.norm_squared();
                 coverage.residual_nm2 += frame.residual.moment.norm_squared();
+                coverage.acceleration.add(i, &frame);
                 let [carried, needed] = limits.upward_forces(&frame);
                 coverage.upward_n = [coverage.upward_n[0] + carried, coverage.upward_n[1] + needed];
                 coverage.runs += usize::from(i == inner.start || !coverage.covered[i - 1]);
@@ -346,16 +387,10 @@ struct FrameReader<'a> {
 }
 
 impl<'a> FrameReader<'a> {
-    fn new(
-        motion: &MotionAndForces<'a>,
-        forces: &'a Forces,
-        ground: &'a GroundForces,
-        limits: &FeasibilityLimits,
-    ) -> FrameReader<'a> {
+    fn new(motion: &MotionAndForces<'a>, forces: &'a Forces, ground: &'a GroundForces) -> FrameReader<'a> {
         let model = motion.model;
         let up = upward(model);
         let over = over_ground(model, motion.trajectory, ground, up);
-        let froude = over.map(|o| o.speed * o.speed / (model.gravity().norm() * limits.person.leg_length_m));
         let by_side = feet(model, ground);
         let feet = BySide::from_fn(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces.clone()));
         let [q, qd, tau, power] = [0; 4].map(|_| vec![0.0; model.coordinates().len()]);
@@ -365,7 +400,7 @@ impl<'a> FrameReader<'a> {
             roots: Roots::of(model),
             ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
             ground_height: ground_height(&feet.as_ref().map(Option::as_ref), up),
-            walking: froude.is_none_or(|froude| froude < limits.thresholds.running_froude),
+            walking: motion.activity.keeps_a_foot_down(),
             feet,
             q,
             qd,
@@ -517,6 +552,10 @@ fn message(m: &CheckedValue, quantity: &str, side: Option<Side>, [from, to]: [f6
         Check::Support => format!(
             "the residual force is {value:.2} body weights, which neither ground nor muscles supply; {limit:.2} are allowed ({when})"
         ),
+        Check::Pull => format!(
+            "the motion needs a ground that pulls down with {value:.2} body weights; {limit:.2} are allowed. hint: check unit and frame rate of the motion ({when})"
+        ),
+        Check::Acceleration => String::new(), // `AccelerationRatio` has its own sentence
         Check::Balance => format!(
             "the residual moment about the root is {value:.2} N.m/kg, which neither ground nor muscles supply; {limit:.2} are allowed ({when})"
         ),

@@ -33,8 +33,6 @@ pub struct Thresholds {
     pub sole_load_bw: f64,
     /// Longest time without a loaded foot [s].
     pub flight_s: f64,
-    /// Froude number V²/(g L) above which the person runs and flight is allowed.
-    pub running_froude: f64,
     /// Largest speed of a loaded sole along the ground [m/s].
     pub sliding_m_s: f64,
     /// Sliding is checked for feet that carry at least this [body weights].
@@ -49,6 +47,10 @@ pub struct Thresholds {
     pub support_bw: f64,
     /// Largest residual moment about the root [N.m/kg].
     pub balance_nm_kg: f64,
+    /// Largest downward force of the ground that the motion may need [body weights].
+    pub pull_bw: f64,
+    /// Largest ratio of the acceleration of the mass centre to the one that the measured forces cause.
+    pub acceleration_ratio: f64,
 }
 
 impl Default for Thresholds {
@@ -67,14 +69,15 @@ impl Default for Thresholds {
             sole_margin_m: 0.03,
             sole_load_bw: 0.2,
             flight_s: 0.03,
-            running_froude: 0.5,
             sliding_m_s: 0.4,
             sliding_load_bw: 0.5,
             range_slack_rad: 10_f64.to_radians(),
-            generation_w_kg: 15.0,
-            absorption_w_kg: 20.0,
+            generation_w_kg: 30.0,
+            absorption_w_kg: 35.0,
             support_bw: 0.4,
             balance_nm_kg: 1.5,
+            pull_bw: 0.3,
+            acceleration_ratio: 1.5,
         }
     }
 }
@@ -115,9 +118,8 @@ impl Thresholds {
             read(&sole, "margin_m", [0.0, 1.0], &mut t.sole_margin_m)?;
             read(&sole, "least_load_bw", [0.0, 1.0], &mut t.sole_load_bw)?;
         }
-        if let Some(flight) = section(&root, "flight", &["longest_s", "running_froude"])? {
+        if let Some(flight) = section(&root, "flight", &["longest_s"])? {
             read(&flight, "longest_s", [0.0, 10.0], &mut t.flight_s)?;
-            read(&flight, "running_froude", [0.0, 100.0], &mut t.running_froude)?;
         }
         if let Some(sliding) = section(&root, "sliding", &["speed_m_s", "least_load_bw"])? {
             read(&sliding, "speed_m_s", [0.0, 10.0], &mut t.sliding_m_s)?;
@@ -131,9 +133,13 @@ impl Thresholds {
             read(&power, "generation_w_kg", [0.0, 1000.0], &mut t.generation_w_kg)?;
             read(&power, "absorption_w_kg", [0.0, 1000.0], &mut t.absorption_w_kg)?;
         }
-        if let Some(support) = section(&root, "support", &["force_bw", "moment_nm_kg"])? {
+        if let Some(support) =
+            section(&root, "support", &["force_bw", "moment_nm_kg", "pull_bw", "acceleration_ratio"])?
+        {
             read(&support, "force_bw", [0.0, 100.0], &mut t.support_bw)?;
             read(&support, "moment_nm_kg", [0.0, 1000.0], &mut t.balance_nm_kg)?;
+            read(&support, "pull_bw", [0.0, 100.0], &mut t.pull_bw)?;
+            read(&support, "acceleration_ratio", [1.0, 100.0], &mut t.acceleration_ratio)?;
         }
         Ok(t)
     }

@@ -33,11 +33,15 @@ pub enum Check {
     Support,
     /// Residual moment about the root.
     Balance,
+    /// Downward force of the ground that the motion needs.
+    Pull,
+    /// Acceleration of the mass centre compared with the one that the measured ground forces cause.
+    Acceleration,
 }
 
 impl Check {
     /// All checks, in the order in which they are reported.
-    pub const ALL: [Check; 9] = [
+    pub const ALL: [Check; 11] = [
         Check::Strength,
         Check::Range,
         Check::Power,
@@ -47,6 +51,8 @@ impl Check {
         Check::Flight,
         Check::Support,
         Check::Balance,
+        Check::Pull,
+        Check::Acceleration,
     ];
 
     /// The name in files.
@@ -62,6 +68,8 @@ impl Check {
             Check::Flight => "flight",
             Check::Support => "support",
             Check::Balance => "balance",
+            Check::Pull => "pull",
+            Check::Acceleration => "acceleration",
         }
     }
 
@@ -72,11 +80,11 @@ impl Check {
             Check::Strength => "N.m",
             Check::Range => "deg",
             Check::Power => "W/kg",
-            Check::Friction => "1",
+            Check::Friction | Check::Acceleration => "1",
             Check::CenterOfPressure => "m",
             Check::Sliding => "m/s",
             Check::Flight => "s",
-            Check::Support => "BW",
+            Check::Support | Check::Pull => "BW",
             Check::Balance => "N.m/kg",
         }
     }
@@ -183,12 +191,19 @@ pub struct Weighed {
 }
 
 impl Verdict {
-    /// Adds reasons of further checks; the motion is then infeasible.
-    pub fn add_reasons(&mut self, reasons: &[Reason]) {
-        self.reasons.extend_from_slice(reasons);
-        self.reasons.sort_by(|a, b| a.time_s[0].total_cmp(&b.time_s[0]).then(a.check.cmp(&b.check)));
+    /// Adds what further checks of predicted forces found: forces that cannot act through the feet. Something else may support the
+    /// person, so the verdict is undecided, and reasons that come from these forces are dropped.
+    pub fn add_unsupported(&mut self, found: &[Reason]) {
+        let Some(first) = found.first() else { return };
+        self.undecided.push(undecided_by_other_support(&first.message));
+        self.reasons.retain(|reason| matches!(reason.check, Check::Range | Check::Pull));
         self.state = VerdictState::of(&self.reasons, &self.undecided);
     }
+}
+
+/// Why a verdict is undecided where the predicted forces cannot act through the feet.
+pub(super) fn undecided_by_other_support(message: &str) -> String {
+    format!("something other than the feet may support the person (hands, a seat, a harness): {message}")
 }
 
 /// A time during which a limit was exceeded.

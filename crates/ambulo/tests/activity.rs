@@ -1,0 +1,190 @@
+//! Activities: each kind on a puppet whose feet and pelvis the test moves, and on recordings of people.
+
+use crate::footfall_trials::{Recorded, everything};
+use crate::shared_data::data;
+use ambulo::analysis::activity::{Activity, ActivityKind, activity};
+use ambulo::findings::Findings;
+use ambulo::ground::footfalls::footfalls;
+use ambulo::kinematics::Trajectory;
+use ambulo::model::BySide;
+use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::motion::TimeGrid;
+use std::f64::consts::TAU;
+
+const STEP_S: f64 = 0.01;
+const GRAVITY: f64 = 9.80665;
+
+/// Pelvis and both ankles in the sagittal plane [m], as a function of time: forward and up; heights of the ankles are above those of
+/// standing.
+type Places = fn(f64) -> [[f64; 2]; 3];
+
+fn man() -> Human {
+    Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false }.human().unwrap()
+}
+
+/// Coordinates of a man with level feet whose hips and ankles are at these places. The trunk leans so that it is upright.
+fn posture(human: &Human, places: [[f64; 2]; 3]) -> Vec<(String, f64)> {
+    let d = &human.dimensions;
+    let [pelvis, right, left] = places;
+    let mut values = vec![("pelvis_tx".to_owned(), pelvis[0]), ("pelvis_ty".to_owned(), pelvis[1])];
+    for (letter, ankle) in [("r", right), ("l", left)] {
+        let [x, y] = [ankle[0] - pelvis[0], ankle[1] + d.ankle_height - pelvis[1]];
+        let length = x.hypot(y).min((d.thigh + d.shank) * 0.9999);
+        let knee = std::f64::consts::PI - angle(d.thigh, d.shank, length);
+        let hip = x.atan2(-y) + angle(d.thigh, length, d.shank);
+        values.push((format!("hip_flexion_{letter}"), hip));
+        values.push((format!("knee_angle_{letter}"), -knee));
+        values.push((format!("ankle_angle_{letter}"), knee - hip));
+    }
+    values
+}
+
+/// Angle between two sides of a triangle, opposite to the third.
+fn angle(a: f64, b: f64, opposite: f64) -> f64 {
+    ((a * a + b * b - opposite * opposite) / (2.0 * a * b)).clamp(-1.0, 1.0).acos()
+}
+
+/// What is recognised in a motion of some seconds.
+fn recognised(places: Places, seconds: f64) -> Activity {
+    let human = man();
+    let model = &human.model;
+    let frames = (seconds / STEP_S) as usize;
+    let value = |t: f64| -> Vec<f64> {
+        let posture = posture(&human, places(t));
+        let of = |name: &str, default| posture.iter().find(|(n, _)| n == name).map_or(default, |(_, value)| *value);
+        model.coordinates().iter().map(|c| of(&c.name, c.default_value)).collect()
+    };
+    let h = 1e-3;
+    let mut columns = vec![[const { Vec::new() }; 3]; model.coordinates().len()];
+    for frame in 0..frames {
+        let t = frame as f64 * STEP_S;
+        let [before, now, after] = [value(t - h), value(t), value(t + h)];
+        for (c, column) in columns.iter_mut().enumerate() {
+            column[0].push(now[c]);
+            column[1].push((after[c] - before[c]) / (2.0 * h));
+            column[2].push((after[c] - 2.0 * now[c] + before[c]) / (h * h));
+        }
+    }
+    let grid = TimeGrid { start_s: 0.0, step_s: STEP_S, frames };
+    let trajectory = Trajectory::new(model, grid, columns).unwrap();
+    let soles = BySide::from_fn(|side| human.sole(side));
+    let falls = footfalls(model, &trajectory, &soles, &mut Findings::default());
+    activity(model, &trajectory, &soles, human.dimensions.leg_length, &falls)
+}
+
+#[track_caller]
+fn assert_kind(places: Places, seconds: f64, expected: ActivityKind) {
+    let found = recognised(places, seconds);
+    assert_eq!(found.kind, expected, "{found:?}");
+}
+
+/// From 0 to 1 with rest at both ends.
+fn smooth(u: f64) -> f64 {
+    let u = u.clamp(0.0, 1.0);
+    u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u)
+}
+
+/// A foot that steps forward by `stride` and up by `rise` in every `period`, and is on the ground for a share of it.
+fn step(t: f64, period: f64, duty: f64, [stride, rise]: [f64; 2]) -> [f64; 2] {
+    let cycles = (t / period).floor();
+    let u = ((t / period - cycles - duty) / (1.0 - duty)).clamp(0.0, 1.0);
+    let lift = 64.0 * (u * (1.0 - u)).powi(3) * 0.15;
+    [stride * (cycles + smooth(u)), rise * (cycles + smooth(u)) + lift]
+}
+
+/// Pelvis and feet of someone who steps along, each foot half a period after the other.
+fn stepping(t: f64, period: f64, duty: f64, change: [f64; 2], height: f64) -> [[f64; 2]; 3] {
+    let from = t + 5.0 * period;
+    let [right, left] = [from, from - 0.5 * period].map(|t| step(t, period, duty, change));
+    let along = from / period - 0.25 - 0.5 * duty;
+    [[change[0] * (along + 0.5), height + change[1] * (along + 0.5)], right, left]
+}
+
+#[test]
+fn a_man_who_stands_stands() {
+    assert_kind(|t| [[0.0, 0.9 + 0.003 * (TAU * 0.3 * t).sin()], [0.0; 2], [0.0; 2]], 3.0, ActivityKind::Stand);
+}
+
+#[test]
+fn bent_knees_with_the_weight_over_the_feet_are_a_squat() {
+    let squat = |t: f64| {
+        let low = 0.5 - 0.5 * (TAU * 0.4 * t).cos();
+        [[-0.05 - 0.05 * low, 0.9 - 0.25 * low], [-0.1, 0.0], [-0.1, 0.0]]
+    };
+    assert_kind(squat, 5.0, ActivityKind::Squat);
+}
+
+#[test]
+fn rising_from_a_seat_behind_the_feet_is_sit_to_stand() {
+    let rises = |t: f64| {
+        let up = smooth((t - 1.0) / 1.5);
+        [[-0.45 * (1.0 - up), 0.52 + 0.38 * up], [0.0; 2], [0.0; 2]]
+    };
+    assert_kind(rises, 3.5, ActivityKind::SitToStand);
+}
+
+#[test]
+fn a_flight_from_both_feet_is_a_jump() {
+    // 0.4 s of flight: up and down by g t²/8 = 0.2 m; before and after it the pelvis follows the same speed smoothly.
+    let jump = |t: f64| {
+        let s: f64 = t - 1.5;
+        let ballistic = 0.9 + 0.5 * GRAVITY * (0.04 - s * s);
+        let pelvis = if s.abs() < 0.2 { ballistic } else { 0.9 - 0.2 * pushed(s.abs() - 0.2) };
+        let feet = if s.abs() < 0.2 { 0.5 * GRAVITY * (0.04 - s * s) } else { 0.0 };
+        [[-0.06, pelvis], [-0.1, feet], [-0.1, feet]]
+    };
+    assert_kind(jump, 3.0, ActivityKind::Jump);
+}
+
+/// Depth of a push-off, in shares of 0.2 m: leaves zero with the speed of the flight and returns to rest.
+fn pushed(s: f64) -> f64 {
+    let speed = 0.2 * GRAVITY / 0.2;
+    let u = s / 0.4;
+    if u < 1.0 { speed * 0.4 * u * (1.0 - u).powi(3) } else { 0.0 }
+}
+
+#[test]
+fn steps_are_walking_stairs_or_running() {
+    assert_kind(|t| stepping(t, 1.1, 0.62, [1.3, 0.0], 0.88), 4.0, ActivityKind::Walk);
+    assert_kind(|t| stepping(t, 1.4, 0.65, [0.6, 0.34], 0.85), 5.0, ActivityKind::StairsUp);
+    assert_kind(|t| stepping(t, 1.4, 0.65, [0.6, -0.34], 0.85), 5.0, ActivityKind::StairsDown);
+}
+
+#[test]
+fn people_who_walk_turn_and_run_are_recognised() {
+    if data().is_none() {
+        return;
+    }
+    let turns = ["HC032A18", "HC002D25"];
+    for recorded in everything() {
+        let Recorded { name, model, soles, .. } = recorded;
+        let trajectory = recorded.trajectory(6.0);
+        let falls = footfalls(model, &trajectory, soles, &mut Findings::default());
+        let found = activity(model, &trajectory, soles, model.stature().leg_length_m, &falls);
+        let expected = match *name {
+            "rajagopal-run" => ActivityKind::Run,
+            name if turns.iter().any(|turn| name.starts_with(turn)) => ActivityKind::Turn,
+            _ => ActivityKind::Walk,
+        };
+        assert_eq!(found.kind, expected, "{name}: {found:?}");
+        let on_belt = ["gait2392", "rajagopal-run"].iter().any(|belt| name.starts_with(belt));
+        assert_eq!(found.treadmill, on_belt, "{name}: {found:?}");
+        assert_eq!(found.words().ends_with("on a treadmill"), on_belt, "{name}");
+    }
+}
+
+#[test]
+fn a_short_flight_is_no_jump_and_a_body_without_feet_does_something_else() {
+    let heels = |t: f64| [[0.0, 0.9 + 0.02 * (TAU * 0.5 * t).sin()], [0.0; 2], [0.0; 2]];
+    let found = recognised(heels, 3.0);
+    assert_eq!((found.kind, found.steps), (ActivityKind::Stand, 0), "{found:?}");
+    let human = man();
+    let still = |c: &ambulo::model::Coordinate| [vec![c.default_value; 100], vec![0.0; 100], vec![0.0; 100]];
+    let columns = human.model.coordinates().iter().map(still).collect();
+    let grid = TimeGrid { start_s: 0.0, step_s: STEP_S, frames: 100 };
+    let trajectory = Trajectory::new(&human.model, grid, columns).unwrap();
+    let none = BySide { right: None, left: None };
+    let falls = footfalls(&human.model, &trajectory, &none, &mut Findings::default());
+    let found = activity(&human.model, &trajectory, &none, human.dimensions.leg_length, &falls);
+    assert_eq!(found.kind, ActivityKind::Other);
+}
