@@ -212,8 +212,11 @@ fn duty_factor(footfalls: &Footfalls) -> Option<f64> {
 
 /// Median change of the height of the floor from a stance to the next one of the other foot [m].
 fn rise_per_step(footfalls: &Footfalls) -> f64 {
-    let pairs = footfalls.falls.windows(2).filter(|pair| pair[0].side != pair[1].side);
-    median(pairs.map(|pair| pair[1].floor_height_m - pair[0].floor_height_m)).unwrap_or(0.0)
+    let rise = |pair: &[Footfall]| {
+        let steps = if pair[0].side == pair[1].side { 2.0 } else { 1.0 }; // the stance of the other foot was missed
+        (pair[1].floor_height_m - pair[0].floor_height_m) / steps
+    };
+    median(footfalls.falls.windows(2).map(rise)).unwrap_or(0.0)
 }
 
 /// Largest range of the flexion of a knee [rad].
