@@ -95,9 +95,12 @@ fn step(t: f64, period: f64, duty: f64, [stride, rise]: [f64; 2]) -> [f64; 2] {
 /// Pelvis and feet of someone who steps along, each foot half a period after the other.
 fn stepping(t: f64, period: f64, duty: f64, change: [f64; 2], height: f64) -> [[f64; 2]; 3] {
     let from = t + 5.0 * period;
-    let [right, left] = [from, from - 0.5 * period].map(|t| step(t, period, duty, change));
-    let along = from / period - 0.25 - 0.5 * duty;
-    [[change[0] * (along + 0.5), height + change[1] * (along + 0.5)], right, left]
+    let right = step(from, period, duty, change);
+    let behind = step(from - 0.5 * period, period, duty, change);
+    let left = [behind[0] + 0.5 * change[0], behind[1] + 0.5 * change[1]];
+    // The pelvis is above the ankle in the middle of each stance.
+    let along = from / period - 0.5 * duty;
+    [[change[0] * along, height + change[1] * along], right, left]
 }
 
 #[test]
@@ -144,10 +147,10 @@ fn pushed(s: f64) -> f64 {
 }
 
 #[test]
-fn steps_are_walking_stairs_or_running() {
+fn steps_are_walking_or_stairs() {
     assert_kind(|t| stepping(t, 1.1, 0.62, [1.3, 0.0], 0.88), 4.0, ActivityKind::Walk);
-    assert_kind(|t| stepping(t, 1.4, 0.65, [0.6, 0.34], 0.85), 5.0, ActivityKind::StairsUp);
-    assert_kind(|t| stepping(t, 1.4, 0.65, [0.6, -0.34], 0.85), 5.0, ActivityKind::StairsDown);
+    assert_kind(|t| stepping(t, 1.4, 0.65, [0.6, 0.34], 0.8), 5.0, ActivityKind::StairsUp);
+    assert_kind(|t| stepping(t, 1.4, 0.65, [0.6, -0.34], 0.8), 5.0, ActivityKind::StairsDown);
 }
 
 #[test]

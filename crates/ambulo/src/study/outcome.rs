@@ -5,8 +5,8 @@ use super::quality::Quality;
 use crate::analysis::activity::Activity;
 use crate::analysis::feasibility::{Person, Verdict};
 use crate::analysis::{
-    Analysis, BodyInMotion, ComparedAnalyses, Event, GroundAgreement, PlateCoverage, PredictionChecks,
-    TimesAndDistances,
+    Analysis, AnalysisSettings, BodyInMotion, ComparedAnalyses, Event, GroundAgreement, PlateCoverage,
+    PredictionChecks, TimesAndDistances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::ground::predict::Prediction;
@@ -77,6 +77,13 @@ pub struct Processing {
     pub force_filter: Option<LowPass>,
     /// The time range that was asked for, or that long gaps of markers leave.
     pub window: Window,
+}
+
+impl Processing {
+    pub(super) fn of(settings: &AnalysisSettings) -> Processing {
+        let AnalysisSettings { smoother, force_filter, window, .. } = *settings;
+        Processing { smoother, force_filter, window }
+    }
 }
 
 /// Predicted ground forces.

@@ -74,23 +74,17 @@ fn road(
     let observation = source.observe(settings, findings, progress)?;
     let device = device(source, &observation.model, findings)?;
     let processing = processing(&observation, settings, findings);
-    let Found { analysis, prediction, measured_events } =
-        forces(&observation, processing, settings, findings, progress)?;
-    let mass = body_mass(&observation, &analysis, findings);
+    let found = forces(&observation, processing, settings, findings, progress)?;
+    let mass = body_mass(&observation, &found.analysis, findings);
     let Observation { model, person, motion, origin, .. } = observation;
+    let Found { analysis, prediction, measured_events } = found;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
-    let (analysis, residual_reduction) =
-        residual_reduced(&model, analysis, processing, settings, &force_origin, findings)?;
-    let model = residual_reduction.as_ref().map_or(model, |reduced| reduced.model.clone());
+    let (analysis, reduction) = residual_reduced(&model, analysis, processing, settings, &force_origin, findings)?;
+    let model = reduction.as_ref().map_or(model, |reduced| reduced.model.clone());
     progress.end(Stage::ResidualReduction)?;
-    let grid = analysis.trajectory.grid();
-    let device = device.map(|device| {
-        device.report_cover(grid, findings);
-        device.on(grid)
-    });
-    report_missing_cycles(&analysis, findings);
+    let device = device.map(|device| worn(&device, &analysis, findings));
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
-    let activity = recognised(&model, &person, &analysis);
+    let activity = recognised(&model, &person, &analysis, findings);
     let judged = Judged {
         activity: activity.kind,
         cutoff_hz: processing.smoother.cutoff_hz(),
@@ -107,7 +101,7 @@ fn road(
     let evidence = QualityEvidence {
         model: &model,
         motion: motion.recorded(),
-        rate_hz: 1.0 / grid.step_s,
+        rate_hz: 1.0 / analysis.trajectory.grid().step_s,
         smoother: processing.smoother,
         force_origin,
         tracking: tracking.as_ref(),
@@ -125,14 +119,10 @@ fn road(
         analysis,
         force_origin,
         prediction,
-        residual_reduction,
+        residual_reduction: reduction,
         device,
         verdict,
-        processing: Processing {
-            smoother: processing.smoother,
-            force_filter: processing.force_filter,
-            window: processing.window,
-        },
+        processing: Processing::of(&processing),
     })
 }
 
@@ -149,6 +139,13 @@ fn device(source: &Source, model: &Model, findings: &mut Findings) -> Result<Opt
     device.transpose().map_err(StudyError::Device)
 }
 
+/// The moments of a worn device on the frames of the motion.
+fn worn(device: &DeviceRecording, analysis: &Analysis, findings: &mut Findings) -> Vec<Vec<f64>> {
+    let grid = analysis.trajectory.grid();
+    device.report_cover(grid, findings);
+    device.on(grid)
+}
+
 fn report_missing_cycles(analysis: &Analysis, findings: &mut Findings) {
     if analysis.cycles.is_empty() {
         let message = "no whole gait cycle in the window: cycles.csv and the figure were not written";
@@ -156,8 +153,9 @@ fn report_missing_cycles(analysis: &Analysis, findings: &mut Findings) {
     }
 }
 
-/// What the person does.
-fn recognised(model: &Model, person: &Person, analysis: &Analysis) -> Activity {
+/// What the person does; a recording without a whole gait cycle is reported.
+fn recognised(model: &Model, person: &Person, analysis: &Analysis, findings: &mut Findings) -> Activity {
+    report_missing_cycles(analysis, findings);
     let footfalls = footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
     activity(model, &analysis.trajectory, &person.soles, person.leg_length_m, &footfalls)
 }

@@ -35,7 +35,7 @@ pub(super) struct Evidence {
     pub(super) flight_s: f64,
     /// Whether both feet left the ground together before the longest flight.
     pub(super) leaves_with_both_feet: bool,
-    /// Median change of the height of the floor from stance to stance of the other foot [m].
+    /// Mean change of the height of the floor from stance to stance of the other foot [m].
     pub(super) rise_per_step_m: f64,
     /// Range of the heading of the pelvis [rad].
     pub(super) turn_rad: f64,
@@ -210,13 +210,13 @@ fn duty_factor(footfalls: &Footfalls) -> Option<f64> {
     median(shares)
 }
 
-/// Median change of the height of the floor from a stance to the next one of the other foot [m].
+/// Mean change of the height of the floor from a stance to the next one of the other foot [m]; who sets both feet on each stair rises with
+/// every second step.
 fn rise_per_step(footfalls: &Footfalls) -> f64 {
-    let rise = |pair: &[Footfall]| {
-        let steps = if pair[0].side == pair[1].side { 2.0 } else { 1.0 }; // the stance of the other foot was missed
-        (pair[1].floor_height_m - pair[0].floor_height_m) / steps
-    };
-    median(footfalls.falls.windows(2).map(rise)).unwrap_or(0.0)
+    let pairs = footfalls.falls.windows(2).filter(|pair| pair[0].side != pair[1].side);
+    let (count, sum) =
+        pairs.fold((0, 0.0), |(count, sum), pair| (count + 1, sum + pair[1].floor_height_m - pair[0].floor_height_m));
+    sum / f64::from(count.max(1))
 }
 
 /// Largest range of the flexion of a knee [rad].

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `jump` | both feet leave the ground at nearly the same time and the body flies for at least √(L/g)/4: the mass centre rises by more than g t²/8 |
 //! | `run` | steps with duty factor below one half, so that the stances of the two feet do not overlap (Alexander 1989) |
-//! | `stairs_up`, `stairs_down` | steps whose stances rise or fall by more than 0.08 m each |
+//! | `stairs_up`, `stairs_down` | steps that rise or fall by more than 0.08 m each, on average |
 //! | `turn` | steps while the pelvis turns by more than 45 degrees |
 //! | `walk` | steps that carry the body further than L/2 over the floor, or over the belt of a treadmill |
 //! | `sit_to_stand` | the pelvis rises or falls by a quarter of L, and at its lowest the mass centre is behind both feet: a seat carries it |
@@ -31,8 +31,8 @@ use std::fmt;
 
 /// The body flies at least this share of √(L/g) in a jump: 0.08 s and 8 mm for an adult; less is a hop of the heels.
 const LEAST_FLIGHT: f64 = 0.25;
-/// In running each foot is on the ground for less than this share of its cycle.
-const RUNNING_DUTY_FACTOR: f64 = 0.5;
+/// In running each foot is on the ground for a share of its cycle in this range; a smaller one comes from stances that were missed.
+const RUNNING_DUTY_FACTOR: [f64; 2] = [0.1, 0.5];
 /// Stances on stairs differ in height by at least this per step [m]: the lowest riser of building codes is 0.10 m.
 const LEAST_RISER_M: f64 = 0.08;
 /// A person who turns the pelvis by more than this does not walk straight [rad]: 45 degrees. In a stride the pelvis rotates by less than 30.
@@ -182,7 +182,8 @@ fn kind(found: &Evidence, leg_m: f64, gravity: f64) -> ActivityKind {
     let flies = found.flight_s > LEAST_FLIGHT * (leg_m / gravity).sqrt();
     let steps = found.steps >= 2 && found.path_m > LEAST_PATH * leg_m;
     if steps {
-        let runs = found.duty_factor.map_or(flies, |share| share < RUNNING_DUTY_FACTOR);
+        let runs =
+            found.duty_factor.map_or(flies, |share| (RUNNING_DUTY_FACTOR[0]..RUNNING_DUTY_FACTOR[1]).contains(&share));
         return match found {
             _ if flies && found.leaves_with_both_feet => ActivityKind::Jump,
             _ if runs => ActivityKind::Run,

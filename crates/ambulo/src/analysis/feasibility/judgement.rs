@@ -76,7 +76,7 @@ pub fn check(
     let limits = FeasibilityLimits::new(model, person, thresholds);
     let (tracks, coverage) = measure(motion, &limits, findings);
     let grid = trajectory.grid();
-    let (mut reasons, mut closest) = (Vec::new(), Vec::new());
+    let mut reasons = Vec::new();
     for (slot, track) in tracks.iter().enumerate() {
         let shortest = match check_of(model, slot) {
             Check::Flight => thresholds.flight_s,
@@ -87,23 +87,11 @@ pub fn check(
     }
     if !motion.forces_are_predicted {
         reasons.extend(coverage.acceleration.reason(grid, &limits));
-        closest.extend(coverage.acceleration.closest(grid, &limits));
     }
     reasons.sort_by(|a: &Reason, b| a.time_s[0].total_cmp(&b.time_s[0]).then(a.check.cmp(&b.check)));
-    for check in Check::ALL {
-        let of_check = tracks.iter().enumerate().filter(|(slot, _)| check_of(model, *slot) == check);
-        let nearest = of_check.filter_map(|(_, track)| track.closest).max_by(|a, b| a.1.share.total_cmp(&b.1.share));
-        closest.extend(nearest.filter(|(_, m)| m.share.is_finite() && check != Check::Flight).map(|(frame, m)| {
-            Closest {
-                check,
-                quantity: quantity(model, &m),
-                at_s: grid.time(frame),
-                value: m.value,
-                limit: m.limit,
-                unit: check.unit().into(),
-                share: m.share,
-            }
-        }));
+    let mut closest = closest(model, &tracks, grid);
+    if !motion.forces_are_predicted {
+        closest.extend(coverage.acceleration.closest(grid, &limits));
     }
     let mut undecided = coverage.undecided(motion, &limits);
     if motion.forces_are_predicted || motion.predicted.is_some() {
@@ -126,6 +114,24 @@ pub fn check(
         height_m: thresholds.height_m.unwrap_or(person.height_m),
         fit: coverage.fit(&limits, grid.step_s),
     }
+}
+
+/// Where each check came closest to its limit.
+fn closest(model: &Model, tracks: &[Track], grid: TimeGrid) -> Vec<Closest> {
+    let of_check = |check: Check| {
+        let tracks = tracks.iter().enumerate().filter(|(slot, _)| check_of(model, *slot) == check);
+        let nearest = tracks.filter_map(|(_, track)| track.closest).max_by(|a, b| a.1.share.total_cmp(&b.1.share));
+        nearest.filter(|(_, m)| m.share.is_finite() && check != Check::Flight).map(|(frame, m)| Closest {
+            check,
+            quantity: quantity(model, &m),
+            at_s: grid.time(frame),
+            value: m.value,
+            limit: m.limit,
+            unit: check.unit().into(),
+            share: m.share,
+        })
+    };
+    Check::ALL.into_iter().filter_map(of_check).collect()
 }
 
 /// An excess that is shorter cannot be told from noise [s]. A low-pass makes an impulse 0.603/fc wide at half of its height: that is the width
