@@ -9,6 +9,7 @@ use ambulo::kinematics::TrajectoryError;
 use ambulo::motion::MotionError;
 use ambulo::motion::skeleton::SkeletonError;
 use ambulo::study::StudyError;
+use ambulo_results::ResultsError;
 use std::error::Error;
 
 const RANGE: &str = "`--from` and `--to` choose the time range";
@@ -50,6 +51,7 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
         cause.downcast_ref().and_then(of_prediction),
         cause.downcast_ref().and_then(of_skeleton),
         cause.downcast_ref().and_then(of_comparison),
+        cause.downcast_ref().and_then(of_results),
     ];
     others.into_iter().flatten().next()
 }
@@ -99,6 +101,12 @@ fn of_prediction(error: &PredictError) -> Option<&'static str> {
 
 fn of_skeleton(error: &SkeletonError) -> Option<&'static str> {
     matches!(error, SkeletonError::Unit { .. }).then_some("`--height M` sets the stature in metres")
+}
+
+fn of_results(error: &ResultsError) -> Option<&'static str> {
+    matches!(error, ResultsError::Missing { .. }).then_some(
+        "the run may have left it out (`--keep`); `--keep tables` writes all that a page needs, `--keep report` the page itself",
+    )
 }
 
 fn of_comparison(error: &ComparisonError) -> Option<&'static str> {

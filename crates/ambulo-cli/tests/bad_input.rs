@@ -10,7 +10,7 @@ use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use ambulo_report::figure_files;
-use ambulo_results::output_files;
+use ambulo_results::{Keep, output_files};
 use std::time::Duration;
 
 #[test]
@@ -339,7 +339,10 @@ fn analysed_files(files: [&[u8]; 4]) -> Option<usize> {
         instrumented: None,
     };
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings).ok()?;
-    Some(output_files(&model, &analysis, None).ok()?.len() + figure_files(&model, &analysis, None).ok()?.len())
+    Some(
+        output_files(&model, &analysis, None, &Keep::all()).ok()?.len()
+            + figure_files(&model, &analysis, None).ok()?.len(),
+    )
 }
 
 #[test]

@@ -11,7 +11,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 const LONG: [&str; 6] = ["simulate", "pendulum.toml", "--duration", "0.6", "-o", "out"];
-const SHORT: [&str; 6] = ["simulate", "pendulum.toml", "--duration", "0.3", "-o", "out"];
+const SHORT: [&str; 7] = ["simulate", "pendulum.toml", "--duration", "0.3", "-o", "out", "--keep=report,tables"];
 
 /// A folder with a scene, the results of its long run and files of the user.
 fn bench(name: &str) -> Workbench {
@@ -21,7 +21,7 @@ fn bench(name: &str) -> Workbench {
     fs::create_dir_all(bench.folder.join("out/figures")).unwrap();
     bench.write("out/claims.json", "mine");
     bench.write("out/figures/mine.svg", "mine");
-    bench.run(&[&LONG[..], &["--plot"]].concat()).done();
+    bench.run(&LONG).done();
     bench
 }
 
@@ -130,12 +130,12 @@ fn a_full_disk_leaves_the_old_results_and_names_the_path() {
 fn of_two_runs_into_one_folder_one_is_refused() {
     let bench = bench("two");
     let (mut refused, mut whole) = (0, Vec::new());
-    for run in [&SHORT[..], &[&LONG[..], &["--plot"]].concat()] {
+    for run in [&SHORT[..], &LONG] {
         bench.run(run).done();
         whole.push(contents(&bench));
     }
     for _ in 0..6 {
-        let mut runs = [bench.command(&SHORT), bench.command(&[&LONG[..], &["--plot"]].concat())];
+        let mut runs = [bench.command(&SHORT), bench.command(&LONG)];
         let children = runs.each_mut().map(|run| run.spawn().unwrap());
         let codes = children.map(|mut child| child.wait().unwrap().code().unwrap());
         assert!(codes.contains(&0) && codes.iter().all(|code| [0, 2].contains(code)), "{codes:?}");

@@ -21,6 +21,7 @@ mod consistent;
 mod exchange;
 mod figures;
 mod folders;
+mod keep;
 mod marker_input;
 mod one_road;
 mod option_sweep;

@@ -19,7 +19,7 @@ use ambulo_formats::bvh::Bvh;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
 use ambulo_report::{clinical_file, outcome_figures};
-use ambulo_results::{Convention, GroundSource, Input, Summary, outcome_summary, outcome_tables};
+use ambulo_results::{Convention, GroundSource, Input, Keep, Summary, outcome_summary, outcome_tables};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -112,7 +112,7 @@ fn unnamed() -> Input {
 fn library_files(source: &Source, settings: &Settings, mut findings: Findings) -> (BTreeMap<String, Vec<u8>>, Value) {
     let outcome = study::run(source, settings, &mut findings).unwrap();
     let (clinical, convention) = clinical_file(&outcome, Convention::default()).unwrap();
-    let files = outcome_tables(&outcome)
+    let files = outcome_tables(&outcome, &Keep::all())
         .unwrap()
         .into_iter()
         .chain(outcome_figures(&outcome, Convention::default()).unwrap())

@@ -23,7 +23,7 @@ fn header(bench: &Workbench, name: &str) -> String {
 #[test]
 fn a_run_writes_the_documented_files_with_the_documented_columns() {
     let bench = bench("simulate_files", &["pusher.toml", "hands.toml"]);
-    let run = bench.run(&["simulate", "pusher.toml", "--duration", "0.6", "--plot", "-o", "out"]).done();
+    let run = bench.run(&["simulate", "pusher.toml", "--duration", "0.6", "-o", "out"]).done();
     assert!(run.stdout.contains("Arm pushing a box") && run.stdout.contains("600 steps"), "{}", run.stdout);
     let columns = [
         ("poses.csv", "time,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz"),
@@ -59,7 +59,7 @@ fn a_run_writes_the_documented_files_with_the_documented_columns() {
     bench.run(&["simulate", "hands.toml", "--duration", "1.2", "-o", "out"]).done();
     assert_eq!(header(&bench, "out/closures.csv"), "time,closure,fx,fy,fz,mx,my,mz,px,py,pz,gap_m");
     assert!(bench.text("out/closures.csv").contains("\n1.1,hand in hand,"));
-    assert!(!bench.exists("out/contacts.csv") && !bench.exists("out/figures/joints.svg"));
+    assert!(!bench.exists("out/contacts.csv") && !bench.exists("out/figures/contacts.svg"));
 }
 
 #[test]
@@ -206,7 +206,7 @@ fn the_example_of_the_help_runs() {
 #[test]
 fn a_walk_that_hits_something_is_judged_infeasible_with_exit_code_1() {
     let bench = bench("simulate_verdict", &["stumble.toml"]);
-    let run = bench.run(&["simulate", "stumble.toml", "--plot", "-o", "out"]).infeasible();
+    let run = bench.run(&["simulate", "stumble.toml", "-o", "out"]).infeasible();
     assert!(
         run.stdout.contains("ann\n  verdict   infeasible") && run.stdout.contains("the muscles can supply"),
         "{}",

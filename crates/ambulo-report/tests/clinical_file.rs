@@ -10,7 +10,7 @@ use ambulo::study::{self, ForceTable, MeasuredForces, Outcome, Settings, Source}
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_report::{clinical_file, outcome_figures};
-use ambulo_results::{Convention, GroundSource, Input, Summary, outcome_summary, outcome_tables, summary_json};
+use ambulo_results::{Convention, GroundSource, Input, Keep, Summary, outcome_summary, outcome_tables, summary_json};
 use std::path::Path;
 
 /// Columns of `clinical.csv` and the panels that show them.
@@ -56,7 +56,7 @@ fn files((outcome, findings): &(Outcome, Findings), convention: Convention) -> F
         ground_source: GroundSource::None,
     };
     let summary = Summary { convention: Some(used), ..outcome_summary(outcome, input, findings) };
-    let tables = outcome_tables(outcome).unwrap().into_iter().chain([clinical]);
+    let tables = outcome_tables(outcome, &Keep::all()).unwrap().into_iter().chain([clinical]);
     let mut files: Files = tables.map(|file| (file.name, file.bytes)).collect();
     files.insert("subject.osim".to_owned(), to_osim(&outcome.body).unwrap().write().unwrap());
     files.insert("summary.json".to_owned(), summary_json(&summary).unwrap());

@@ -1,7 +1,7 @@
 //! Makes the files of a run: names and contents.
 
 use crate::cycle_table::{self, CycleRow, cycle_rows};
-use crate::{CYCLES, EVENTS, tables};
+use crate::{CYCLES, EVENTS, Keep, tables};
 use ambulo::analysis::{Analysis, Event};
 use ambulo::model::{ExportError, Model, to_osim};
 use ambulo_formats::Error;
@@ -124,28 +124,42 @@ pub enum BodyFileError {
     Format(#[from] Error),
 }
 
-/// Every table of a run. `device` is the generalised forces of a worn device: one column per coordinate [N.m or N], one
+/// The tables of a run that `keep` includes. `device` is the generalised forces of a worn device: one column per coordinate [N.m or N], one
 /// entry per frame; the remaining forces of the body are written in addition to the total.
 ///
 /// # Errors
 /// Column names that a table cannot store, numbers that are not finite.
-pub fn output_files(model: &Model, analysis: &Analysis, device: Option<&[Vec<f64>]>) -> Result<Vec<OutputFile>, Error> {
-    let rows = cycle_rows(model, analysis);
-    let mut files = vec![
-        OutputFile::storage("kinematics.mot", tables::kinematics(model, analysis)?)?,
-        OutputFile::storage("moments.sto", tables::moments(model, analysis, None)?)?,
-        OutputFile::storage("powers.sto", tables::powers(model, analysis)?)?,
-        OutputFile::storage("reactions.sto", tables::reactions(model, analysis)?)?,
-    ];
-    if let Some(device) = device {
-        let biological = tables::moments(model, analysis, Some(device))?;
-        files.push(OutputFile::storage("moments_biological.sto", biological)?);
+pub fn output_files(
+    model: &Model,
+    analysis: &Analysis,
+    device: Option<&[Vec<f64>]>,
+    keep: &Keep,
+) -> Result<Vec<OutputFile>, Error> {
+    let mut files = Vec::new();
+    let mut storage = |name: &str, table: &dyn Fn() -> Result<Table, Error>| -> Result<(), Error> {
+        if keep.includes(name) {
+            files.push(OutputFile::storage(name, table()?)?);
+        }
+        Ok(())
+    };
+    storage("kinematics.mot", &|| tables::kinematics(model, analysis))?;
+    storage("moments.sto", &|| tables::moments(model, analysis, None))?;
+    storage("powers.sto", &|| tables::powers(model, analysis))?;
+    storage("reactions.sto", &|| tables::reactions(model, analysis))?;
+    if device.is_some() {
+        storage("moments_biological.sto", &|| tables::moments(model, analysis, device))?;
     }
-    if !analysis.ground.bodies.is_empty() {
-        files.push(OutputFile::storage("grf.mot", tables::ground(model, analysis)?)?);
+    let has_ground = !analysis.ground.bodies.is_empty();
+    if has_ground {
+        storage("grf.mot", &|| tables::ground(model, analysis))?;
+    }
+    if has_ground && keep.includes("external_loads.xml") {
         files.push(OutputFile::new("external_loads.xml", tables::external_loads(model, analysis).write()));
+    }
+    if has_ground && keep.includes(EVENTS) {
         files.push(OutputFile::events(&analysis.events)?);
     }
+    let rows = if keep.includes(CYCLES) { cycle_rows(model, analysis) } else { Vec::new() };
     if !rows.is_empty() {
         files.push(OutputFile::cycles(rows)?);
     }

@@ -5,6 +5,7 @@ mod convention;
 mod cycle_table;
 mod files;
 mod folder;
+mod keep;
 mod outcome;
 mod prediction_files;
 mod run_summary;
@@ -22,6 +23,7 @@ pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use files::{BodyFileError, OutputFile, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
+pub use keep::{Keep, PAGE};
 pub use outcome::{outcome_summary, outcome_tables, predicted_analysis};
 pub use prediction_files::prediction_files;
 #[cfg(feature = "schema")]

@@ -6,23 +6,24 @@ use crate::prediction_files::prediction_files;
 use crate::subject_summary::SubjectSummary;
 use crate::summary::{GroundSource, Input, Summary, summary};
 use crate::walking_summary::WalkingSummary;
+use crate::{Keep, TIMES_AND_DISTANCES};
 use ambulo::analysis::{AnalysisSettings, PredictedAnalysis};
 use ambulo::findings::Findings;
 use ambulo::study::{ForceOrigin, Outcome, Processing, Tracking};
 use ambulo_formats::Error;
 
-/// Every table of a run, including those of a prediction.
+/// The tables of a run that `keep` includes, also those of a prediction.
 ///
 /// # Errors
 /// Column names that a table cannot store, numbers that are not finite.
-pub fn outcome_tables(outcome: &Outcome) -> Result<Vec<OutputFile>, Error> {
-    let mut files = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref())?;
+pub fn outcome_tables(outcome: &Outcome, keep: &Keep) -> Result<Vec<OutputFile>, Error> {
+    let mut files = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref(), keep)?;
     let walking = WalkingSummary::of(&outcome.times_and_distances);
-    if !walking.quantities.is_empty() {
+    if keep.includes(TIMES_AND_DISTANCES) && !walking.quantities.is_empty() {
         files.push(walking.file()?);
     }
     if let Some(predicted) = predicted_analysis(outcome) {
-        files.extend(prediction_files(&outcome.body, &predicted)?);
+        files.extend(prediction_files(&outcome.body, &predicted, keep)?);
     }
     Ok(files)
 }

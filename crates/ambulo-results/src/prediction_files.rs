@@ -1,5 +1,6 @@
 //! Files of a run with predicted ground forces: standard deviations and measured forces.
 
+use crate::Keep;
 use crate::files::OutputFile;
 use crate::tables::{self, Column};
 use ambulo::analysis::PredictedAnalysis;
@@ -8,16 +9,23 @@ use ambulo::model::{Model, Side};
 use ambulo::spatial::Vec3;
 use ambulo_formats::Error;
 
-/// `grf_sd.mot` and, with force plates, `grf_measured.mot`, at the instants of `kinematics.mot`.
+const DEVIATIONS: &str = "grf_sd.mot";
+const MEASURED: &str = "grf_measured.mot";
+
+/// `grf_sd.mot` and, with force plates, `grf_measured.mot`, at the instants of `kinematics.mot`, as far as `keep` includes them.
 ///
 /// # Errors
 /// Column names that a table cannot store, numbers that are not finite.
-pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis) -> Result<Vec<OutputFile>, Error> {
-    let deviations = deviation_columns(&predicted.prediction.deviations, predicted.analysis.trajectory.grid().frames);
-    let deviations = tables::table("Standard Deviations of Ground Reactions", &predicted.analysis, deviations)?;
-    let mut files = vec![OutputFile::storage("grf_sd.mot", deviations)?];
-    if let Some(measured) = &predicted.measured {
-        files.push(OutputFile::storage("grf_measured.mot", tables::ground(model, measured)?)?);
+pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis, keep: &Keep) -> Result<Vec<OutputFile>, Error> {
+    let mut files = Vec::new();
+    if keep.includes(DEVIATIONS) {
+        let frames = predicted.analysis.trajectory.grid().frames;
+        let deviations = deviation_columns(&predicted.prediction.deviations, frames);
+        let deviations = tables::table("Standard Deviations of Ground Reactions", &predicted.analysis, deviations)?;
+        files.push(OutputFile::storage(DEVIATIONS, deviations)?);
+    }
+    if let Some(measured) = predicted.measured.as_ref().filter(|_| keep.includes(MEASURED)) {
+        files.push(OutputFile::storage(MEASURED, tables::ground(model, measured)?)?);
     }
     Ok(files)
 }

@@ -11,7 +11,7 @@ use ambulo::model::{BodyId, Model};
 use ambulo::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
-use ambulo_results::output_files;
+use ambulo_results::{Keep, output_files};
 use free_bodies::{DOWN_Y, free_bodies};
 
 /// Products and sums of numbers up to 1000 N.m, divided by hundreds of newtons.
@@ -62,7 +62,7 @@ fn an_unloaded_foot_is_zero_in_the_written_file_and_a_loaded_one_is_not() {
         instrumented: None,
     };
     let analysis = analyse(&model, &motion, &[push], settings, &mut Findings::default()).unwrap();
-    let files = output_files(&model, &analysis, None).unwrap();
+    let files = output_files(&model, &analysis, None, &Keep::all()).unwrap();
     let file = files.iter().find(|f| f.name == "grf.mot").unwrap();
     let table = Table::read_storage(&file.bytes).unwrap().0;
     let expected = [("ground_force_r_v", [1.0, 600.0, 2.0]), ("ground_force_r_p", [0.3, 0.05, 0.1])];
@@ -101,7 +101,7 @@ fn the_written_ground_force_of_a_side_is_the_sum_of_all_its_loads() {
     };
     let mut findings = Findings::default();
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings).unwrap();
-    let files = output_files(&model, &analysis, None).unwrap();
+    let files = output_files(&model, &analysis, None, &Keep::all()).unwrap();
     let file = files.iter().find(|f| f.name == "grf.mot").unwrap();
     let table = Table::read_storage(&file.bytes).unwrap().0;
     let vertical = table.column("ground_force_r_vy").unwrap();

@@ -1,7 +1,8 @@
 //! Options of `ambulo forces`.
 
 use super::values::{
-    AddedMassArg, Cutoff, FootColumns, ForceCutoff, PlateFoot, number, order, seconds, zero_or_more_seconds,
+    AddedMassArg, Cutoff, FootColumns, ForceCutoff, PlateFoot, number, order, outputs_of_run, seconds,
+    zero_or_more_seconds,
 };
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::kinematics::marker_fit::FitSettings;
@@ -23,7 +24,8 @@ were not measured, they are predicted from the motion; with --predict, the predi
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
 clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body
 used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict and force plates grf_measured.mot. The
-results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files.
+results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep writes only some of them; summary.json is
+always written.
 
 The verdict says whether a person could make this motion (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
 residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the data
@@ -93,6 +95,9 @@ pub(crate) struct ForcesArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
+    /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_run())]
+    pub(crate) keep: Vec<String>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
     #[command(flatten)]

@@ -1,17 +1,18 @@
 //! Options of `ambulo simulate`, `info`, `compare` and `reproduce`.
 
-use super::values::{above_zero, limit, seconds};
+use super::values::{above_zero, limit, outputs_of_paper, outputs_of_scene, seconds};
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, ClapArgs)]
 #[command(after_help = "Example (in the source folder, which contains examples/):
-  ambulo simulate examples/pendulum.toml --plot -o out
+  ambulo simulate examples/pendulum.toml -o out
+  ambulo simulate examples/pile.toml --keep report,energy -o out
 
 Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, shapes.json, summary.json, report.html
-(open it with `ambulo view DIR`); moments.sto if the scene has figures; figures/*.svg with --plot. Files that would be empty are not
-written. The results of an earlier run in DIR are replaced as a whole; other files stay. docs/SCENES.md describes scene files,
+(open it with `ambulo view DIR`); moments.sto if the scene has figures; figures/*.svg (the quantities under `plot` in the
+scene, or else energy, contacts, joints and heights). Files that would be empty are not written; --keep writes only some of them. The results of an earlier run in DIR are replaced as a whole; other files stay. docs/SCENES.md describes scene files,
 docs/OUTPUTS.md the results.")]
 pub(crate) struct SimulateArgs {
     /// The scene (.toml).
@@ -19,9 +20,9 @@ pub(crate) struct SimulateArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
-    /// Draw figures/*.svg: the quantities under `plot` in the scene, or else energy, contacts, joints and heights.
-    #[arg(long)]
-    pub(crate) plot: bool,
+    /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_scene())]
+    pub(crate) keep: Vec<String>,
     /// Time at which the simulation ends [s] [default: as in the scene].
     #[arg(long, value_name = "S", value_parser = above_zero)]
     pub(crate) duration: Option<f64>,
@@ -89,13 +90,16 @@ The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking.
 page; open it with `ambulo view DIR`), claims.json (each claim with the numbers computed, whether it holds, and why), figures/figure1 to
 figure7 as .svg and .csv, muscles.csv (what net moments imply about muscles), torques.csv and torques.toml (torque curves as harmonics),
 assumptions.csv (values that the paper does not give, and how other values change its claims). The results of an earlier run in DIR are
-replaced as a whole; other files stay. docs/REPRODUCTION.md describes the files.
+replaced as a whole; other files stay. --keep writes only some of the files. docs/REPRODUCTION.md describes them.
 
 Exit code: 0 whether or not claims hold, 2 if nothing could be computed.")]
 pub(crate) struct ReproduceArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
+    /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_paper())]
+    pub(crate) keep: Vec<String>,
     /// Skip the sensitivity to values that the paper does not give, which takes most of the time.
     #[arg(long)]
     pub(crate) brief: bool,

@@ -4,8 +4,30 @@ use ambulo::model::Side;
 use ambulo::motion::filter::MAX_ORDER;
 use ambulo::spatial::Vec3;
 use ambulo::study::AddedMass;
+use ambulo_results::Keep;
+use clap::builder::PossibleValuesParser;
 use std::fmt;
 use std::str::FromStr;
+
+/// Names of the outputs of a recording or a synthetic walk; all but `recording` unless it is the demo.
+pub(super) fn outputs_of_run() -> PossibleValuesParser {
+    PossibleValuesParser::new(Keep::OF_RUNS.into_iter().filter(|name| *name != "recording"))
+}
+
+/// Names of the outputs of the demo.
+pub(super) fn outputs_of_demo() -> PossibleValuesParser {
+    PossibleValuesParser::new(Keep::OF_RUNS)
+}
+
+/// Names of the outputs of a scene.
+pub(super) fn outputs_of_scene() -> PossibleValuesParser {
+    PossibleValuesParser::new(Keep::OF_SCENES)
+}
+
+/// Names of the outputs of the 1997 paper.
+pub(super) fn outputs_of_paper() -> PossibleValuesParser {
+    PossibleValuesParser::new(Keep::OF_THE_PAPER)
+}
 
 /// Any number; the library checks its range.
 pub(super) fn number(text: &str) -> Result<f64, String> {

@@ -1,6 +1,6 @@
 //! Options of `ambulo walk` and `ambulo demo`.
 
-use super::values::{number, whole_number};
+use super::values::{number, outputs_of_demo, outputs_of_run, whole_number};
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
@@ -16,6 +16,9 @@ pub(crate) struct DemoArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
+    /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_demo())]
+    pub(crate) keep: Vec<String>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
     #[command(flatten)]
@@ -41,7 +44,8 @@ and cadence to speed (docs/GAITS.md, which also describes gait files). In both c
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
 clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The
-results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files.
+results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep writes only
+some of them; summary.json is always written.
 
 The verdict says whether a person could make this motion (docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could
 be computed; with --check, 1 if the data are bad or the motion is infeasible.")]
@@ -71,6 +75,9 @@ pub(crate) struct WalkArgs {
     /// Folder for the results [default: out]; with --states, for the figure of the gait [default: none].
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
+    /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_run())]
+    pub(crate) keep: Vec<String>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
     #[command(flatten)]

@@ -11,7 +11,7 @@ use ambulo::gait::Gait;
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
-use ambulo_results::{Convention, OutputFile};
+use ambulo_results::{Convention, Keep, OutputFile};
 use anyhow::{Context, Result};
 
 pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
@@ -36,6 +36,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
         convention: Convention::default(),
         read: &[],
         options: "demo".to_owned(),
+        keep: Keep::of_names(&args.keep),
         more: &move |written| Ok([coordinate_files(written)?, recording.clone()].concat()),
         check: args.check,
     };

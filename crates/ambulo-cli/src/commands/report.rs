@@ -1,13 +1,13 @@
 //! `ambulo report`: the page of a result folder, and the page that the other commands write.
 
-use super::result_folder::{PAGE, ResultFolder};
+use super::result_folder::ResultFolder;
 use crate::args::Existing;
 use crate::args::ReportArgs;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Finding};
 use ambulo_report::page::report_page;
-use ambulo_results::{Folder, OutputFile, RunSummary};
+use ambulo_results::{Folder, OutputFile, PAGE, RunSummary};
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
 

@@ -8,7 +8,7 @@ use ambulo::reproduction::{
     Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities,
 };
 use ambulo_report::{reproduction_files, reproduction_page};
-use ambulo_results::{OutputFile, SUMMARY, summary_json};
+use ambulo_results::{Keep, OutputFile, SUMMARY, summary_json};
 use anyhow::Result;
 use serde_json::json;
 use std::time::Instant;
@@ -33,7 +33,10 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     let mut json = serde_json::to_vec_pretty(&claims)?;
     json.push(b'\n');
     written.push(OutputFile::new("claims.json", json));
-    let Record { run_id, files } = Record::of_run(run_id(&format!("reproduce brief={}", args.brief), &[])?, &written);
+    let keep = Keep::of_names(&args.keep);
+    let options = format!("reproduce brief={} keep={:?}", args.brief, args.keep);
+    written.retain(|file| keep.includes(&file.name));
+    let Record { run_id, files } = Record::of_run(run_id(&options, &[])?, &written);
     let summary = json!({ "version": env!("CARGO_PKG_VERSION"), "run_id": run_id, "files": files });
     written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));
     target.replace(&written, &[])?;

@@ -3,13 +3,11 @@
 use crate::files;
 use crate::record::Record;
 use crate::replacement::recover;
-use ambulo_results::SUMMARY;
+use ambulo_results::{PAGE, SUMMARY};
 use anyhow::{Error, Result, bail};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-/// Name of the page in a result folder.
-pub(super) const PAGE: &str = "report.html";
 /// Name of the file that only `ambulo reproduce` writes.
 const CLAIMS: &str = "claims.json";
 const OF_THE_PAPER: &str = "`ambulo reproduce` wrote this folder, and its report.html cannot be written again";

@@ -11,8 +11,8 @@ use ambulo::findings::Findings;
 use ambulo::study::{Outcome, QualityState};
 use ambulo_report::{clinical_file, outcome_figures};
 use ambulo_results::{
-    Convention, Input, OutputFile, RunSummary, SUMMARY, Summary, WalkSummary, outcome_summary, outcome_tables,
-    summary_json,
+    Convention, Input, Keep, OutputFile, PAGE, RunSummary, SUMMARY, Summary, WalkSummary, outcome_summary,
+    outcome_tables, summary_json,
 };
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
@@ -30,6 +30,8 @@ pub(super) struct RunFiles<'a> {
     pub(super) walk: Option<WalkSummary>,
     /// Files that only this kind of run has.
     pub(super) files: Vec<OutputFile>,
+    /// The outputs that are written.
+    pub(super) keep: Keep,
     /// Makes further files from the tables and figures of the run.
     pub(super) more: &'a MoreFiles,
     /// Every file that was read; none of them is overwritten.
@@ -44,22 +46,29 @@ pub(super) struct RunFiles<'a> {
 impl RunFiles<'_> {
     /// Writes all files and prints the outcome.
     pub(super) fn write(self, target: &ResultTarget, print: PrintArgs) -> Result<Completion> {
-        let RunFiles { outcome, input, convention, walk, files, more, read, options, findings, mut clock, check } =
+        let RunFiles { outcome, input, convention, walk, files, keep, more, read, options, findings, mut clock, check } =
             self;
-        let mut written = outcome_tables(outcome)?;
-        let figures = outcome_figures(outcome, convention)?;
+        let needed = keep.needed();
+        let mut written = outcome_tables(outcome, &needed)?;
+        if keep.includes("figures/") {
+            written.extend(outcome_figures(outcome, convention)?);
+        }
         let (clinical, convention) = clinical_file(outcome, convention)?;
         written.push(clinical);
-        written.extend(figures);
         written.extend(files);
         clock.lap("tables");
         let mut summary = Summary { walk, convention: Some(convention), ..outcome_summary(outcome, input, &findings) };
-        match page_of_run(target.folder(), &written, RunSummary::Motion(Box::new(summary.clone()))) {
-            Ok(page) => written.push(page),
-            Err(reason) => summary.findings.push(page_not_written(&reason)),
+        if keep.includes(PAGE) {
+            match page_of_run(target.folder(), &written, RunSummary::Motion(Box::new(summary.clone()))) {
+                Ok(page) => written.push(page),
+                Err(reason) => summary.findings.push(page_not_written(&reason)),
+            }
         }
         clock.lap("report");
-        written.extend(more(&written)?);
+        if keep.includes("input/") {
+            written.extend(more(&written)?);
+        }
+        written.retain(|file| keep.includes(&file.name));
         Record { run_id: summary.run_id, files: summary.files } = Record::of_run(run_id(&options, read)?, &written);
         summary.timing_ms = clock.into_laps();
         written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));

@@ -12,12 +12,15 @@ use ambulo::analysis::scene_verdict;
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
 use ambulo_report::{SceneCurves, scene_shapes};
-use ambulo_results::{OutputFile, RunSummary, SUMMARY, SceneExtremes, SceneInput, SceneTables, summary_json};
+use ambulo_results::{
+    Keep, OutputFile, PAGE, RunSummary, SUMMARY, SceneExtremes, SceneInput, SceneTables, summary_json,
+};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
+    let keep = Keep::of_names(&args.keep);
     let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
     let mut findings = Findings::default();
     let mut input = SceneInput { scene: args.scene.display().to_string(), ..SceneInput::default() };
@@ -35,7 +38,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     clock.lap("read");
 
     let (mut tables, mut extremes) = (SceneTables::new(&scene), SceneExtremes::default());
-    let mut curves = args.plot.then(SceneCurves::default);
+    let mut curves = keep.includes("figures/").then(SceneCurves::default);
     let statistics = scene
         .run(&mut findings, |frame| {
             tables.add(frame);
@@ -61,10 +64,13 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     clock.lap("tables");
     let mut summary = extremes.summary(&scene, &statistics, input, &findings);
     summary.verdict = verdict;
-    match page_of_run(target.folder(), &written, RunSummary::Scene(Box::new(summary.clone()))) {
-        Ok(page) => written.push(page),
-        Err(reason) => summary.findings.push(page_not_written(&reason)),
+    if keep.includes(PAGE) {
+        match page_of_run(target.folder(), &written, RunSummary::Scene(Box::new(summary.clone()))) {
+            Ok(page) => written.push(page),
+            Err(reason) => summary.findings.push(page_not_written(&reason)),
+        }
     }
+    written.retain(|file| keep.includes(&file.name));
     Record { run_id: summary.run_id, files: summary.files } =
         Record::of_run(run_id(&options(args), &inputs)?, &written);
     summary.timing_ms = clock.into_laps();

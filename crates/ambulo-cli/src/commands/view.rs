@@ -1,10 +1,11 @@
 //! `ambulo view`: opens the page of a result folder in the browser.
 
 use super::report::write_page;
-use super::result_folder::{PAGE, ResultFolder, read_checked};
+use super::result_folder::{ResultFolder, read_checked};
 use crate::args::Existing;
 use crate::args::ViewArgs;
 use crate::{Completion, files, printer};
+use ambulo_results::PAGE;
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
 

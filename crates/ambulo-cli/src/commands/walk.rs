@@ -13,7 +13,7 @@ use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use ambulo_report::gait_figure;
-use ambulo_results::{Convention, GroundSource, Input, OutputFile, WalkSummary};
+use ambulo_results::{Convention, GroundSource, Input, Keep, OutputFile, WalkSummary};
 use anyhow::{Context, Result};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -50,6 +50,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
         convention: args.convention.into(),
         read: &read,
         options: options(args),
+        keep: Keep::of_names(&args.keep),
         more: &|_| Ok(Vec::new()),
         check: args.check,
     };
@@ -74,6 +75,8 @@ pub(super) struct SyntheticRun<'a> {
     pub(super) read: &'a [PathBuf],
     /// The command with the options that matter for the results.
     pub(super) options: String,
+    /// The outputs that are written.
+    pub(super) keep: Keep,
     /// Makes further files from the tables and figures of the run.
     pub(super) more: &'a MoreFiles,
     pub(super) check: CheckArgs,
@@ -100,6 +103,7 @@ impl SyntheticRun<'_> {
             convention: self.convention,
             walk: Some(WalkSummary::new(&self.walk.human.model, &self.walk.report)),
             files: self.files()?,
+            keep: self.keep,
             more: self.more,
             read: self.read,
             options: self.options,

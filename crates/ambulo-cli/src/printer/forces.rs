@@ -8,7 +8,7 @@ use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
 use ambulo::study::{MassState, Quality};
 use ambulo_results::{
-    FilterSummary, ForceUnit, Ground, GroundOrigin, PeakSummary, ResidualSummary, Summary, WalkSummary,
+    FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Summary, WalkSummary,
 };
 use anyhow::Result;
 use std::path::Path;
@@ -41,7 +41,10 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
         print_verdict(verdict, print)?;
     }
     print_line(&format!("  written   {}", output.display()))?;
-    print_line(&format!("  next      ambulo view {}", quoted(output)))
+    match summary.files.contains_key(PAGE) {
+        true => print_line(&format!("  next      ambulo view {}", quoted(output))),
+        false => Ok(()),
+    }
 }
 
 /// The mass of the body, how well it is known, and what the force plates carry.

@@ -53,7 +53,7 @@ pub(crate) fn guide() -> Result<()> {
   ambulo forces WALK.c3d --static STANDING.c3d               joint moments, powers, ground forces from markers and force plates
   ambulo forces MOTION.trc --mass 70                         the same without force plates: predicted ground forces
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    the same from coordinates of an OpenSim model
-  ambulo simulate SCENE.toml --plot                          simulate a scene
+  ambulo simulate SCENE.toml                                 simulate a scene
   ambulo reproduce -o paper                                  recompute the claims of the 1997 paper
   ambulo view DIR                                            open the report page of a run in the browser
   ambulo report DIR --compare DIR2                           write the page again, here with two runs compared

@@ -8,7 +8,7 @@ use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_report::outcome_figures;
 use ambulo_report::page::report_page;
-use ambulo_results::{Convention, GroundSource, Input, outcome_summary, outcome_tables};
+use ambulo_results::{Convention, GroundSource, Input, Keep, outcome_summary, outcome_tables};
 use ambulo_results::{Folder, ResultsError};
 use base64::Engine;
 use serde_json::Value;
@@ -69,7 +69,7 @@ fn folder_of(body: &[u8], motion: &[u8], ground: &[u8], loads: &ExternalLoads, f
         ground_source: GroundSource::None,
     };
     let summary = outcome_summary(&outcome, input, &findings);
-    let tables = outcome_tables(&outcome).unwrap();
+    let tables = outcome_tables(&outcome, &Keep::all()).unwrap();
     let figures = outcome_figures(&outcome, Convention::Opensim).unwrap();
     let mut files: Files = tables.into_iter().chain(figures).map(|file| (file.name, file.bytes)).collect();
     files.insert("subject.osim".to_owned(), body.to_vec());

@@ -11,7 +11,7 @@ use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use ambulo_report::figure_files;
-use ambulo_results::output_files;
+use ambulo_results::{Keep, output_files};
 use std::fs;
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -77,7 +77,7 @@ fn main_job(files: &Files, stage: &mut dyn FnMut(&'static str)) -> Result<(), Bo
     let settings = Settings { force_filter: ForceFilter::Off, ..Settings::default() };
     let outcome = study::run_observed(&source, &settings, &mut findings, &mut watch)?;
     let Outcome { body, analysis, .. } = &outcome;
-    black_box((output_files(body, analysis, None)?, figure_files(body, analysis, None)?));
+    black_box((output_files(body, analysis, None, &Keep::all())?, figure_files(body, analysis, None)?));
     stage("files' content");
     Ok(())
 }

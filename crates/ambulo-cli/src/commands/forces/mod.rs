@@ -21,7 +21,7 @@ use ambulo::motion::{Smoother, SubjectParameters, Window};
 use ambulo::study::{self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, Outcome, Recording, Settings, Source};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
-use ambulo_results::{GroundSource, Input, OutputFile};
+use ambulo_results::{GroundSource, Input, Keep, OutputFile};
 use anyhow::{Context, Result, bail};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -104,6 +104,7 @@ fn compute(args: &ForcesArgs, source: &Source, reading: Reading, target: &Result
         convention: args.convention.into(),
         walk: None,
         files: body.into_iter().collect(),
+        keep: Keep::of_names(&args.keep),
         more: &|_| Ok(Vec::new()),
         read: &read,
         options: options(args),

@@ -1,0 +1,148 @@
+//! Which outputs of a run are written.
+
+use crate::{CLINICAL, CYCLES, EVENTS, SUMMARY, TIMES_AND_DISTANCES};
+
+/// Name of the report page in a result folder.
+pub const PAGE: &str = "report.html";
+
+/// The outputs that a run writes, chosen by name: all of them, or those listed. The summary is always written.
+///
+/// | name | files |
+/// |---|---|
+/// | `report` | `report.html` |
+/// | `figures` | `figures/*` |
+/// | `tables` | every table |
+/// | `model` | the body as an OpenSim model |
+/// | `recording` | `input/*` |
+/// | `summary` | `summary.json` |
+/// | any other | the table with this name |
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Keep(Option<Vec<String>>);
+
+impl Keep {
+    /// The names for the run of a recording or a synthetic walk; only `ambulo demo` has the last.
+    pub const OF_RUNS: [&'static str; 18] = [
+        "report",
+        "figures",
+        "tables",
+        "model",
+        "summary",
+        "kinematics",
+        "moments",
+        "moments_biological",
+        "powers",
+        "reactions",
+        "grf",
+        "grf_sd",
+        "grf_measured",
+        "events",
+        "cycles",
+        "clinical",
+        "times_and_distances",
+        "recording",
+    ];
+    /// The names for a simulated scene.
+    pub const OF_SCENES: [&'static str; 11] = [
+        "report",
+        "figures",
+        "tables",
+        "summary",
+        "poses",
+        "joints",
+        "reactions",
+        "contacts",
+        "closures",
+        "energy",
+        "moments",
+    ];
+    /// The names for the claims of the 1997 paper.
+    pub const OF_THE_PAPER: [&'static str; 8] =
+        ["report", "figures", "tables", "summary", "claims", "muscles", "torques", "assumptions"];
+
+    /// All outputs.
+    #[must_use]
+    pub fn all() -> Keep {
+        Keep(None)
+    }
+
+    /// The outputs with these names; all outputs without any name.
+    #[must_use]
+    pub fn of_names(names: &[String]) -> Keep {
+        Keep((!names.is_empty()).then(|| names.to_vec()))
+    }
+
+    /// Whether a file of the result folder is written.
+    #[must_use]
+    pub fn includes(&self, file: &str) -> bool {
+        let Some(names) = &self.0 else { return true };
+        let output = output(file);
+        let is_listed = |name: &str| names.iter().any(|listed| listed == name);
+        file == SUMMARY || is_listed(output) || !GROUPS.contains(&output) && is_listed("tables")
+    }
+
+    /// What has to be computed for these outputs: the page and the recording of a walk are made from the tables.
+    #[must_use]
+    pub fn needed(&self) -> Keep {
+        let from_tables = self.includes(PAGE) || self.includes("input/");
+        if from_tables { Keep::all() } else { self.clone() }
+    }
+}
+
+/// Outputs that are not tables.
+const GROUPS: [&str; 5] = ["report", "figures", "model", "recording", "summary"];
+
+/// The output that a file belongs to.
+fn output(file: &str) -> &str {
+    match file {
+        PAGE => "report",
+        SUMMARY => "summary",
+        EVENTS => "events",
+        CYCLES => "cycles",
+        CLINICAL => "clinical",
+        TIMES_AND_DISTANCES => "times_and_distances",
+        // It describes the table.
+        "external_loads.xml" => "grf",
+        "shapes.json" => "poses",
+        _ if file.starts_with("figures/") => "figures",
+        _ if file.starts_with("input/") => "recording",
+        _ if file.ends_with(".osim") => "model",
+        table => table.split_once('.').map_or(table, |(stem, _)| stem),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keep(names: &[&str]) -> Keep {
+        Keep::of_names(&names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn a_list_includes_its_outputs_and_the_summary() {
+        let files = [
+            "moments.sto",
+            "grf.mot",
+            "external_loads.xml",
+            "grf_sd.mot",
+            "report.html",
+            "figures/moments.svg",
+            "subject.osim",
+            "input/walk.c3d",
+            "summary.json",
+        ];
+        let of = |names: &[&str]| files.into_iter().filter(|file| keep(names).includes(file)).collect::<Vec<_>>();
+        assert_eq!(of(&["moments", "grf"]), ["moments.sto", "grf.mot", "external_loads.xml", "summary.json"]);
+        assert_eq!(of(&["tables"]), ["moments.sto", "grf.mot", "external_loads.xml", "grf_sd.mot", "summary.json"]);
+        assert_eq!(of(&["figures", "report"]), ["report.html", "figures/moments.svg", "summary.json"]);
+        assert_eq!(of(&["model", "recording"]), ["subject.osim", "input/walk.c3d", "summary.json"]);
+        assert_eq!(of(&["summary"]), ["summary.json"]);
+        assert_eq!(of(&[]), files);
+    }
+
+    #[test]
+    fn a_page_needs_all_tables() {
+        assert_eq!(keep(&["report"]).needed(), Keep::all());
+        assert_eq!(keep(&["moments"]).needed(), keep(&["moments"]));
+    }
+}
