@@ -2,13 +2,14 @@
 //!
 //! The id is made from version, command, options and the content of all inputs, so the same run has the same id everywhere and always.
 
-use ambulo_results::{OutputFile, SUMMARY};
+use ambulo_results::SUMMARY;
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
+use std::io;
 use std::path::{Component, Path, PathBuf};
 
 /// Which run wrote a folder, and the hashes of its files by name.
@@ -19,12 +20,6 @@ pub(crate) struct Record {
 }
 
 impl Record {
-    /// The record of the files of a run, without its summary.
-    pub(crate) fn of_run(run_id: String, written: &[OutputFile]) -> Record {
-        let files = written.iter().map(|file| (file.name.clone(), hash(&file.bytes))).collect();
-        Record { run_id, files }
-    }
-
     /// The record in the content of a `summary.json`; `None` if Ambulo did not write one there.
     pub(crate) fn from_summary(bytes: &[u8]) -> Option<Record> {
         let record: Record = serde_json::from_slice(bytes).ok()?;
@@ -75,11 +70,42 @@ pub(crate) fn run_id(options: &str, inputs: &[PathBuf]) -> Result<String> {
 
 /// SHA-256 in hexadecimal digits.
 pub(crate) fn hash(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
-        // Writing to memory does not fail.
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
+    let mut hashed = Hashed::new(io::sink());
+    hashed.hasher.update(bytes);
+    hashed.hash()
+}
+
+/// Passes bytes on and computes their hash.
+pub(crate) struct Hashed<W> {
+    out: W,
+    hasher: Sha256,
+}
+
+impl<W: io::Write> Hashed<W> {
+    pub(crate) fn new(out: W) -> Hashed<W> {
+        Hashed { out, hasher: Sha256::new() }
+    }
+
+    /// SHA-256 of all bytes so far in hexadecimal digits.
+    pub(crate) fn hash(self) -> String {
+        self.hasher.finalize().iter().fold(String::new(), |mut text, byte| {
+            // Writing to memory does not fail.
+            let _ = write!(text, "{byte:02x}");
+            text
+        })
+    }
+}
+
+impl<W: io::Write> io::Write for Hashed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.out.write(bytes)?;
+        self.hasher.update(&bytes[..count]);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
 }
 
 /// The beginning of a hash, for messages.

@@ -16,20 +16,25 @@
 
 use crate::args::Existing;
 use crate::folder_lock::FolderLock;
-use crate::record::{Record, hash, is_inside};
-use ambulo_results::{OutputFile, SUMMARY};
-use anyhow::{Context, Result, bail};
+use crate::record::{Hashed, Record, hash, is_inside};
+use ambulo_results::{OutputFile, SUMMARY, WriteError};
+use anyhow::{Context, Error, Result, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// Folder of the new files until all of them are complete.
 const NEW: &str = ".ambulo-new";
 /// In [`NEW`]: the list of its files. A run is complete as soon as this file exists.
 const MANIFEST: &str = "manifest.json";
+
+/// Makes the content of the summary from the hashes of all other files by name.
+pub(crate) type MakeSummary<'a> = dyn FnMut(BTreeMap<String, String>) -> Result<Vec<u8>> + 'a;
+/// Writes the content of a file.
+type WriteContent<'a> = dyn FnMut(&mut dyn Write) -> io::Result<()> + 'a;
 
 /// A folder that this process alone writes to.
 pub(crate) struct ResultTarget {
@@ -66,11 +71,18 @@ impl ResultTarget {
         &self.folder
     }
 
-    /// Replaces the results of an earlier run by these files; one of them is the summary, which records the others.
-    pub(crate) fn replace(&self, written: &[OutputFile], inputs: &[PathBuf]) -> Result<()> {
+    /// Replaces the results of an earlier run by these files and the summary that records them.
+    pub(crate) fn replace(
+        &self,
+        written: &[OutputFile<'_>],
+        inputs: &[PathBuf],
+        summary: &mut MakeSummary<'_>,
+    ) -> Result<()> {
         let record = self.record()?;
         let old = record.as_ref().map(|record| &record.files);
-        let names = || old.into_iter().flat_map(BTreeMap::keys).chain(written.iter().map(|file| &file.name));
+        let own = SUMMARY.to_owned();
+        let new = || written.iter().map(|file| &file.name).chain([&own]);
+        let names = || old.into_iter().flat_map(BTreeMap::keys).chain(new());
         if let Some(name) = names().find(|name| is_input(&self.folder.join(name), inputs)) {
             let path = self.folder.join(name);
             bail!("{}: this input file would be overwritten. hint: choose another folder with -o", path.display());
@@ -79,17 +91,21 @@ impl ResultTarget {
         let stale =
             old.into_iter().flat_map(BTreeMap::keys).filter(|name| written.iter().all(|file| file.name != **name));
         let removed = stale.filter_map(|name| Some((name.clone(), hash(&fs::read(self.folder.join(name)).ok()?))));
-        replace(&Disk, &self.folder, written, removed.collect())
+        replace(&Disk, &self.folder, written, summary, removed.collect())
     }
 
     /// Replaces one file of a run, and its hash in the summary.
-    pub(crate) fn replace_one(&self, file: OutputFile) -> Result<()> {
+    pub(crate) fn replace_one(&self, file: OutputFile<'_>) -> Result<()> {
         self.refuse_foreign(self.record()?.as_ref(), [&file.name])?;
         let path = self.folder.join(SUMMARY);
         let mut summary: Value = serde_json::from_slice(&read(&path)?).with_context(|| path.display().to_string())?;
-        summary["files"][&file.name] = hash(&file.bytes).into();
-        let summary = OutputFile::new(SUMMARY, ambulo_results::summary_json(&summary)?);
-        replace(&Disk, &self.folder, &[file, summary], BTreeMap::new())
+        let mut summary = |hashes: BTreeMap<String, String>| {
+            for (name, hash) in hashes {
+                summary["files"][name] = hash.into();
+            }
+            Ok(ambulo_results::summary_json(&summary)?)
+        };
+        replace(&Disk, &self.folder, &[file], &mut summary, BTreeMap::new())
     }
 
     /// The record of the run in this folder. A summary without one is replaced only with `--force`.
@@ -175,12 +191,13 @@ struct Manifest {
 fn replace(
     disk: &impl Changes,
     folder: &Path,
-    written: &[OutputFile],
+    written: &[OutputFile<'_>],
+    summary: &mut MakeSummary<'_>,
     removed: BTreeMap<String, String>,
 ) -> Result<()> {
-    let files = written.iter().map(|file| file.name.clone()).collect();
+    let files = written.iter().map(|file| file.name.clone()).chain([SUMMARY.to_owned()]).collect();
     let manifest = Manifest { files, removed };
-    if let Err(error) = stage(disk, folder, written, &manifest) {
+    if let Err(error) = stage(disk, folder, written, summary, &manifest) {
         // The next command removes the rest.
         let _ = disk.remove_dir(&folder.join(NEW));
         return Err(error.context(format!("{}: no results were written; earlier ones are unchanged", folder.display())));
@@ -194,17 +211,37 @@ fn replace(
 }
 
 /// Steps 1 and 2.
-fn stage(disk: &impl Changes, folder: &Path, written: &[OutputFile], manifest: &Manifest) -> Result<()> {
+fn stage(
+    disk: &impl Changes,
+    folder: &Path,
+    written: &[OutputFile<'_>],
+    summary: &mut MakeSummary<'_>,
+    manifest: &Manifest,
+) -> Result<()> {
     let new = folder.join(NEW);
-    for OutputFile { name, bytes, .. } in written {
-        let path = new.join(name);
+    let write = |file: &OutputFile<'_>| {
+        let path = new.join(&file.name);
         let failed = || format!("{}: cannot be written", path.display());
         disk.create_dir(path.parent().unwrap_or(&new)).with_context(failed)?;
-        disk.write(&path, bytes).with_context(failed)?;
-    }
+        let mut hash = String::new();
+        let mut content = |out: &mut dyn Write| {
+            let mut hashed = Hashed::new(out);
+            file.write_to(&mut hashed).map_err(|error| match error {
+                WriteError::Place(error) => error,
+                WriteError::Content(error) => io::Error::other(error),
+            })?;
+            hash = hashed.hash();
+            Ok(())
+        };
+        disk.write(&path, &mut content).with_context(failed)?;
+        Ok::<String, Error>(hash)
+    };
+    let hashes = written.iter().map(|file| Ok((file.name.clone(), write(file)?))).collect::<Result<_>>()?;
+    write(&OutputFile::new(SUMMARY, summary(hashes)?))?;
     let [part, complete] = ["manifest.part", MANIFEST].map(|name| new.join(name));
     let failed = || format!("{}: cannot be written", complete.display());
-    disk.write(&part, &serde_json::to_vec(manifest)?).with_context(failed)?;
+    let list = serde_json::to_vec(manifest)?;
+    disk.write(&part, &mut |out| out.write_all(&list)).with_context(failed)?;
     disk.rename(&part, &complete).with_context(failed)?;
     disk.sync_dir(&new);
     Ok(())
@@ -277,7 +314,7 @@ trait Changes {
     /// Makes a folder and those around it, if they do not exist.
     fn create_dir(&self, path: &Path) -> io::Result<()>;
     /// Writes a file; returns when it is on the disk.
-    fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()>;
+    fn write(&self, path: &Path, content: &mut WriteContent<'_>) -> io::Result<()>;
     /// Moves a file, and replaces the one at its new place.
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
     /// Removes a file.
@@ -296,8 +333,10 @@ impl Changes for Disk {
         fs::create_dir_all(path)
     }
 
-    fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        write_through(path, bytes)
+    fn write(&self, path: &Path, content: &mut WriteContent<'_>) -> io::Result<()> {
+        let mut file = BufWriter::new(File::create(path)?);
+        content(&mut file)?;
+        file.into_inner()?.sync_all()
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
@@ -369,7 +408,9 @@ mod tests {
             if !self.only_writing && self.fails() { stopped() } else { fs::create_dir_all(path) }
         }
 
-        fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        fn write(&self, path: &Path, content: &mut WriteContent<'_>) -> io::Result<()> {
+            let mut bytes = Vec::new();
+            content(&mut bytes)?;
             if self.fails() {
                 fs::write(path, &bytes[..bytes.len() / 2])?;
                 return stopped();
@@ -405,14 +446,14 @@ mod tests {
     ];
     const MINE: [(&str, &str); 3] = [("notes.txt", "mine"), ("claims.json", "mine"), ("figures/mine.svg", "mine")];
 
-    /// The files of a run with their summary.
-    fn run(files: &[(&str, &str)]) -> Vec<OutputFile> {
-        let mut written: Vec<OutputFile> =
-            files.iter().map(|(name, text)| OutputFile::new(*name, text.as_bytes().to_vec())).collect();
-        let record = Record::of_run(hash(files[0].1.as_bytes()), &written);
-        let summary = serde_json::json!({ "run_id": record.run_id, "files": record.files });
-        written.push(OutputFile::new(SUMMARY, summary.to_string().into_bytes()));
-        written
+    /// The files of a run without their summary.
+    fn run(files: &[(&str, &str)]) -> Vec<OutputFile<'static>> {
+        files.iter().map(|(name, text)| OutputFile::new(*name, text.as_bytes().to_vec())).collect()
+    }
+
+    fn summary(files: BTreeMap<String, String>) -> Result<Vec<u8>> {
+        let id = hash(files.values().cloned().collect::<String>().as_bytes());
+        Ok(serde_json::json!({ "run_id": id, "files": files }).to_string().into_bytes())
     }
 
     fn fresh(name: &str) -> PathBuf {
@@ -422,7 +463,7 @@ mod tests {
         for (name, text) in MINE {
             fs::write(folder.join(name), text).unwrap();
         }
-        replace(&Failing::after(usize::MAX), &folder, &run(&OLD), BTreeMap::new()).unwrap();
+        replace(&Failing::after(usize::MAX), &folder, &run(&OLD), &mut summary, BTreeMap::new()).unwrap();
         folder
     }
 
@@ -447,7 +488,9 @@ mod tests {
 
     fn expected(files: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> {
         let mine = MINE.map(|(name, text)| (name.to_owned(), text.as_bytes().to_vec()));
-        run(files).into_iter().map(|file| (file.name, file.bytes)).chain(mine).collect()
+        let texts = || files.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
+        let hashes = texts().map(|(name, bytes)| (name, hash(&bytes))).collect();
+        texts().chain(mine).chain([(SUMMARY.to_owned(), summary(hashes).unwrap())]).collect()
     }
 
     #[test]
@@ -457,7 +500,7 @@ mod tests {
             let mut again = 0;
             loop {
                 let folder = fresh("stopped");
-                let first = replace(&Failing::after(changes), &folder, &run(&NEWER), stale());
+                let first = replace(&Failing::after(changes), &folder, &run(&NEWER), &mut summary, stale());
                 assert!(changes < MOST - 1 || first.is_ok(), "a run makes fewer changes");
                 let complete = first.is_ok() || folder.join(NEW).join(MANIFEST).exists();
                 // Stopped or not, another recovery completes it.
@@ -482,7 +525,7 @@ mod tests {
         for writes in 0..NEWER.len() + 2 {
             let folder = fresh("full");
             let full = Failing { left: Cell::new(writes), only_writing: true };
-            let error = replace(&full, &folder, &run(&NEWER), stale()).unwrap_err();
+            let error = replace(&full, &folder, &run(&NEWER), &mut summary, stale()).unwrap_err();
             let message = format!("{error:#}");
             assert!(message.contains("earlier ones are unchanged") && message.contains(NEW), "{message}");
             assert!(contents(&folder) == expected(&OLD), "{writes}");
@@ -495,8 +538,9 @@ mod tests {
         let folder = fresh("foreign");
         let target = |existing| ResultTarget::open(&folder, existing).unwrap();
         let claims = run(&[("claims.json", "newer")]);
-        let refusal =
-            |existing, inputs: &[PathBuf]| target(existing).replace(&claims, inputs).map_err(|error| error.to_string());
+        let refusal = |existing, inputs: &[PathBuf]| {
+            target(existing).replace(&claims, inputs, &mut summary).map_err(|error| error.to_string())
+        };
         assert!(refusal(Existing::Kept, &[]).unwrap_err().contains("claims.json: no run of Ambulo recorded this file"));
         let inputs = [folder.join("claims.json")];
         assert!(refusal(Existing::Replaced, &inputs).unwrap_err().contains("input file would be overwritten"));
@@ -505,7 +549,7 @@ mod tests {
         assert!(edited.contains("cycles.csv: this file was changed"), "{edited}");
         assert_eq!(fs::read(folder.join("claims.json")).unwrap(), b"mine");
         refusal(Existing::Replaced, &[]).unwrap();
-        target(Existing::Kept).replace(&run(&NEWER), &[]).unwrap();
+        target(Existing::Kept).replace(&run(&NEWER), &[], &mut summary).unwrap();
         assert!(!folder.join("claims.json").exists(), "it was recorded");
         refusal(Existing::Kept, &[]).unwrap();
         assert_eq!(fs::read(folder.join("claims.json")).unwrap(), b"newer");

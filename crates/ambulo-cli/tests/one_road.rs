@@ -111,13 +111,13 @@ fn unnamed() -> Input {
 /// The files of the library: name and bytes.
 fn library_files(source: &Source, settings: &Settings, mut findings: Findings) -> (BTreeMap<String, Vec<u8>>, Value) {
     let outcome = study::run(source, settings, &mut findings).unwrap();
-    let (clinical, convention) = clinical_file(&outcome, Convention::default()).unwrap();
+    let (clinical, convention) = clinical_file(&outcome, Convention::default());
     let files = outcome_tables(&outcome, &Keep::all())
         .unwrap()
         .into_iter()
         .chain(outcome_figures(&outcome, Convention::default()).unwrap())
         .chain([clinical]);
-    let mut files: BTreeMap<String, Vec<u8>> = files.map(|file| (file.name, file.bytes)).collect();
+    let mut files: BTreeMap<String, Vec<u8>> = files.map(|file| (file.name.clone(), file.bytes().unwrap())).collect();
     files.insert("subject.osim".to_owned(), to_osim(&outcome.body).unwrap().write().unwrap());
     let summary = Summary { convention: Some(convention), ..outcome_summary(&outcome, unnamed(), &findings) };
     (files, serde_json::to_value(&summary).unwrap())

@@ -14,11 +14,15 @@
 
 mod csv;
 pub(crate) mod lines;
+mod rows;
 mod storage;
 
 pub use csv::{guarded, unguarded};
+pub use rows::TableRows;
 
 use crate::error::{Error, Remark, quoted};
+
+const IN_MEMORY: &str = "writing to memory does not fail";
 
 /// Named numeric columns of equal length.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +61,9 @@ impl Table {
 
     /// Writes OpenSim storage of version 1, which OpenSim 2 to 4 load if the first column is `time`.
     pub fn write_storage(&self) -> Vec<u8> {
-        storage::write(self)
+        let mut bytes = Vec::new();
+        storage::write(&self.content(), &mut bytes).expect(IN_MEMORY);
+        bytes
     }
 
     /// Reads a CSV file with a header row. The table has no name and no unit of angles.
@@ -67,7 +73,9 @@ impl Table {
 
     /// Writes CSV: a header row, then numbers, separated by commas. The name and the unit of angles are not written.
     pub fn write_csv(&self) -> Vec<u8> {
-        csv::write(self)
+        let mut bytes = Vec::new();
+        csv::write(&self.content(), &mut bytes).expect(IN_MEMORY);
+        bytes
     }
 
     /// Number of rows.

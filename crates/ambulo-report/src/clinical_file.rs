@@ -17,10 +17,10 @@ use ambulo::kinematics::{ClinicalAngles, clinical_angles};
 use ambulo::model::anatomy::{PelvicFrame, PelvicFrameError};
 use ambulo::model::{CoordinateId, Model, Side};
 use ambulo::study::{ForceOrigin, Outcome, Tracking};
-use ambulo_formats::Error;
-use ambulo_formats::table::Table;
+use ambulo_formats::table::{Table, TableRows};
 use ambulo_results::{CLINICAL, Convention, ConventionSummary, OutputFile, ground_columns};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// The angles that differ between the conventions ([`ClinicalQuantity::id`]).
 pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
@@ -33,14 +33,14 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
 ];
 
 /// `clinical.csv` of a run, and the convention of its angles.
-///
-/// # Errors
-/// Column names that a table cannot store, numbers that are not finite.
-pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> Result<(OutputFile, ConventionSummary), Error> {
+#[must_use]
+pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> (OutputFile<'_>, ConventionSummary) {
     let (angles, convention) = angles_of(outcome, chosen);
-    let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref());
-    let table = Table::new("Clinical curves", curves.columns())?;
-    Ok((OutputFile::csv(CLINICAL, table)?, convention))
+    let table = move || {
+        let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref());
+        Ok(TableRows::of_table(&Rc::new(Table::new("Clinical curves", curves.columns())?)))
+    };
+    (OutputFile::csv_by(CLINICAL, table), convention)
 }
 
 /// Angles of pelvis and hips in the clinical convention, if it is chosen and possible.

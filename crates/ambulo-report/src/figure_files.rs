@@ -2,14 +2,14 @@
 
 use crate::clinical::{ClinicalNames, clinical_quantities};
 use crate::clinical_file::{angles_of, clinical_angle};
-use crate::figures::{CycleFigures, FigureError, Mark, prediction_figure, residual_figure};
+use crate::figures::{CycleFigures, FigureError, Mark, PredictedMotion, prediction_figure, residual_figure};
 use crate::normative::dimensionless_speed;
 use ambulo::analysis::feasibility::{Check, Person, Reason};
-use ambulo::analysis::{Analysis, Cycle, PredictedAnalysis, over_cycle};
+use ambulo::analysis::{Analysis, Cycle, over_cycle};
 use ambulo::kinematics::ClinicalAngles;
 use ambulo::model::{Model, Side};
-use ambulo::study::Outcome;
-use ambulo_results::{Convention, CycleRow, OutputFile, cycle_rows, predicted_analysis};
+use ambulo::study::{Outcome, PredictedGround};
+use ambulo_results::{Convention, CycleRow, OutputFile, cycle_rows};
 
 /// `figures/quality.svg` and the figures of gait cycles. Pelvis and hips have the given angles, otherwise the coordinates of the model.
 ///
@@ -19,7 +19,7 @@ pub fn figure_files(
     model: &Model,
     analysis: &Analysis,
     angles: Option<&ClinicalAngles>,
-) -> Result<Vec<OutputFile>, FigureError> {
+) -> Result<Vec<OutputFile<'static>>, FigureError> {
     let mut files = Vec::new();
     let caption = caption(model, analysis);
     if let Some(svg) = residual_figure(model, analysis, &caption)? {
@@ -64,22 +64,15 @@ fn replace_angles(rows: &mut [CycleRow], angles: &ClinicalAngles, names: &Clinic
 ///
 /// # Errors
 /// A figure that could not be drawn.
-pub fn outcome_figures(outcome: &Outcome, chosen: Convention) -> Result<Vec<OutputFile>, FigureError> {
+pub fn outcome_figures(outcome: &Outcome, chosen: Convention) -> Result<Vec<OutputFile<'static>>, FigureError> {
     let (angles, _) = angles_of(outcome, chosen);
     let mut files = figure_files(&outcome.body, &outcome.analysis, angles.as_ref())?;
-    if let Some(predicted) = predicted_analysis(outcome) {
-        files.extend(prediction_figure_file(&outcome.body, &predicted)?);
+    if let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction {
+        let predicted = PredictedMotion { analysis: &outcome.analysis, prediction, measured: measured.as_ref() };
+        let svg = prediction_figure(&outcome.body, predicted, &caption(&outcome.body, &outcome.analysis))?;
+        files.extend(svg.map(|svg| OutputFile::new("figures/prediction.svg", svg.into_bytes())));
     }
     Ok(files)
-}
-
-/// `figures/prediction.svg`; `None` without a prediction to draw.
-///
-/// # Errors
-/// A figure that could not be drawn.
-pub fn prediction_figure_file(model: &Model, predicted: &PredictedAnalysis) -> Result<Option<OutputFile>, FigureError> {
-    let svg = prediction_figure(model, predicted, &caption(model, &predicted.analysis))?;
-    Ok(svg.map(|svg| OutputFile::new("figures/prediction.svg", svg.into_bytes())))
 }
 
 /// V / sqrt(g L), if the speed is known and the model has legs.

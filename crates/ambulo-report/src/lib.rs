@@ -20,7 +20,7 @@ pub use exchange::{
     glb_of_motion, ground_reactions, laboratory_recording, marker_paths, skeleton_of, standing_recording,
     table_of_markers, trc_of_markers,
 };
-pub use figure_files::{figure_files, outcome_figures, prediction_figure_file};
+pub use figure_files::{figure_files, outcome_figures};
 pub use figures::{CycleFigures, FigureError, Mark, SceneCurves, gait_figure, paper_figure};
 pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;

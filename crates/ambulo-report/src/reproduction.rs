@@ -19,7 +19,7 @@ pub fn reproduction_files(
     paper: &Evidence,
     corrected: Option<&Evidence>,
     sensitivities: &[Sensitivity],
-) -> Result<Vec<OutputFile>, FigureError> {
+) -> Result<Vec<OutputFile<'static>>, FigureError> {
     let file = |name: String, text: String| OutputFile::new(name, text.into_bytes());
     let mut files = Vec::new();
     if let Some(svg) = first_figure()? {

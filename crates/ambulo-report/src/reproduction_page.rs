@@ -79,7 +79,11 @@ const FIGURES: [Figure; 7] = [
 
 /// `report.html` of a reproduction; `files` are those of [`super::reproduction_files`].
 #[must_use]
-pub fn reproduction_page(claims: &[Claim], sensitivities: &[Sensitivity], files: &[OutputFile]) -> OutputFile {
+pub fn reproduction_page(
+    claims: &[Claim],
+    sensitivities: &[Sensitivity],
+    files: &[OutputFile<'_>],
+) -> OutputFile<'static> {
     let held = claims.iter().filter(|claim| claim.pass).count();
     let figures: String = FIGURES.iter().map(|figure| figure.section(claims, files)).collect();
     let body = format!(
@@ -114,7 +118,7 @@ residual forces). Claims are judged in the paper's mode; the number of the corre
 }
 
 impl Figure {
-    fn section(&self, claims: &[Claim], files: &[OutputFile]) -> String {
+    fn section(&self, claims: &[Claim], files: &[OutputFile<'_>]) -> String {
         let Figure { number, caption, says, here, .. } = self;
         let here = if here.is_empty() { String::new() } else { format!("\n<p class=\"soft\">Here: {here}</p>") };
         let own: String = claims.iter().filter(|claim| self.claims.contains(&claim.id)).map(line).collect();
@@ -129,9 +133,9 @@ impl Figure {
 }
 
 /// A figure as SVG, or a message if it could not be drawn.
-fn picture(files: &[OutputFile], number: u8) -> String {
+fn picture(files: &[OutputFile<'_>], number: u8) -> String {
     let name = format!("figures/figure{number}.svg");
-    let svg = files.iter().find(|file| file.name == name).and_then(|file| std::str::from_utf8(&file.bytes).ok());
+    let svg = files.iter().find(|file| file.name == name).and_then(|file| String::from_utf8(file.bytes().ok()?).ok());
     match svg {
         Some(svg) => svg.replacen("<svg ", &format!("<svg aria-label=\"Figure {number} as computed here\" "), 1),
         None => format!("Figure {number} could not be drawn."),

@@ -76,7 +76,7 @@ pub(super) struct GroundPlane {
 ///
 /// # Errors
 /// Data that JSON cannot store.
-pub fn scene_shapes(scene: &Scene) -> Result<OutputFile, serde_json::Error> {
+pub fn scene_shapes(scene: &Scene) -> Result<OutputFile<'static>, serde_json::Error> {
     let world = scene.world();
     let shapes = SceneShapes {
         format: FORMAT,

@@ -48,7 +48,9 @@ fn draw(rows: &[CycleRow], caption: &str, marks: &[Mark]) -> Vec<(String, Figure
         marks,
         speed_dimensionless: Some(0.4),
     };
-    let read = |file: ambulo_results::OutputFile| (file.name, Figure::read(std::str::from_utf8(&file.bytes).unwrap()));
+    let read = |file: ambulo_results::OutputFile<'_>| {
+        (file.name.clone(), Figure::read(std::str::from_utf8(&file.bytes().unwrap()).unwrap()))
+    };
     figures.files().unwrap().into_iter().map(read).collect()
 }
 
@@ -138,7 +140,7 @@ fn bands_foot_off_and_units_are_drawn_and_the_source_is_named() {
         speed_dimensionless: None,
     };
     let file = bandless.files().unwrap().remove(0);
-    let figure = Figure::read(std::str::from_utf8(&file.bytes).unwrap());
+    let figure = Figure::read(std::str::from_utf8(&file.bytes().unwrap()).unwrap());
     assert!(figure.panels.iter().all(|panel| panel.bands == 0));
     assert!(figure.texts.iter().any(|text| text.contains("the walking speed is not known")), "{:?}", figure.texts);
 }

@@ -1,10 +1,11 @@
 //! Time-normalised curves over the gait cycle, as rows of `cycles.csv`.
 
 use crate::sound::{EXPECTED, is_sound};
-use ambulo::analysis::{Analysis, CYCLE_SAMPLES, Cycle, over_cycle};
-use ambulo::ground::{feet, upward};
+use ambulo::analysis::{Analysis, CYCLE_SAMPLES, Cycle, over_cycle_of};
+use ambulo::ground::{BodyForces, upward};
 use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
 use ambulo::motion::TimeGrid;
+use ambulo::spatial::Vec3;
 use ambulo_formats::table::{guarded, unguarded};
 
 /// One curve of one cycle: 101 values.
@@ -28,25 +29,27 @@ pub struct CycleRow {
 /// into the cycles of that leg; those of pelvis and trunk into the cycles of both.
 #[must_use]
 pub fn cycle_rows(model: &Model, analysis: &Analysis) -> Vec<CycleRow> {
+    analysis.cycles.iter().flat_map(|cycle| rows_of(model, analysis, cycle)).collect()
+}
+
+/// The curves of one cycle.
+pub(crate) fn rows_of(model: &Model, analysis: &Analysis, cycle: &Cycle) -> Vec<CycleRow> {
     let grid = analysis.trajectory.grid();
-    let mut rows = Vec::new();
-    for cycle in &analysis.cycles {
-        for id in model.coordinate_ids() {
-            rows.extend(coordinate_rows(model, analysis, cycle, id));
-        }
-        rows.extend(ground_rows(model, analysis, cycle, grid));
-    }
+    let mut rows: Vec<CycleRow> =
+        model.coordinate_ids().flat_map(|id| coordinate_rows(model, analysis, cycle, id)).collect();
+    rows.extend(ground_rows(model, analysis, cycle, grid));
     rows
 }
 
-fn row(quantity: String, unit: &'static str, cycle: &Cycle, grid: TimeGrid, series: &[f64]) -> CycleRow {
+/// A curve of the cycle; `value` is the quantity at a frame.
+fn row(quantity: String, unit: &'static str, cycle: &Cycle, grid: TimeGrid, value: impl Fn(usize) -> f64) -> CycleRow {
     let duration = cycle.end_s - cycle.start_s;
     CycleRow {
         quantity,
         side: cycle.side,
         cycle: cycle.number,
         unit,
-        values: over_cycle(grid, series, cycle),
+        values: over_cycle_of(grid, value, cycle),
         foot_off_percent: cycle.foot_off_s.map(|t| 100.0 * (t - cycle.start_s) / duration),
     }
 }
@@ -59,17 +62,19 @@ fn coordinate_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, id: Coordi
     }
     let grid = analysis.trajectory.grid();
     let values = analysis.trajectory.values(id);
-    let (position, position_unit, force_unit) = match coordinate.kind {
-        CoordinateKind::Rotation => (values.iter().map(|x| x.to_degrees()).collect(), "deg", "N.m"),
-        CoordinateKind::Translation => (values.to_vec(), "m", "N"),
-        CoordinateKind::Coupled => (values.to_vec(), "rad", "N.m"),
+    let (position_unit, force_unit) = match coordinate.kind {
+        CoordinateKind::Rotation => ("deg", "N.m"),
+        CoordinateKind::Translation => ("m", "N"),
+        CoordinateKind::Coupled => ("rad", "N.m"),
     };
+    let position = |i: usize| if position_unit == "deg" { values[i].to_degrees() } else { values[i] };
+    let (force_values, powers) = (&analysis.forces.generalized[id.index()], &analysis.forces.powers[id.index()]);
     let what = if coordinate.kind == CoordinateKind::Translation { "position" } else { "angle" };
     let force = coordinate.kind.force_suffix();
     vec![
-        row(format!("{stem}_{what}"), position_unit, cycle, grid, &position),
-        row(format!("{stem}_{force}"), force_unit, cycle, grid, &analysis.forces.generalized[id.index()]),
-        row(format!("{stem}_power"), "W", cycle, grid, &analysis.forces.powers[id.index()]),
+        row(format!("{stem}_{what}"), position_unit, cycle, grid, position),
+        row(format!("{stem}_{force}"), force_unit, cycle, grid, |i| force_values[i]),
+        row(format!("{stem}_power"), "W", cycle, grid, |i| powers[i]),
     ]
 }
 
@@ -77,24 +82,30 @@ fn coordinate_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, id: Coordi
 fn ground_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, grid: TimeGrid) -> Vec<CycleRow> {
     let up = upward(model);
     let weight = analysis.mass.kg * model.gravity().norm();
-    let feet = feet(model, &analysis.ground);
-    let Some((_, foot)) = feet.into_iter().find(|(side, _)| *side == cycle.side) else { return Vec::new() };
+    let is_own = |part: &&BodyForces| model.anatomy().body_side(part.body) == Some(cycle.side);
+    let parts: Vec<&BodyForces> = analysis.ground.bodies.iter().filter(is_own).collect();
+    if parts.is_empty() {
+        return Vec::new();
+    }
+    let force = |i: usize| parts.iter().map(|part| part.force[i]).sum::<Vec3>();
     let forward = nalgebra::Vector3::x();
     [("vertical", up), ("fore_aft", forward), ("lateral", forward.cross(&up))]
         .into_iter()
-        .map(|(name, axis)| {
-            let series: Vec<f64> = foot.force.iter().map(|f| f.dot(&axis) / weight).collect();
-            row(format!("ground_force_{name}"), "BW", cycle, grid, &series)
-        })
+        .map(|(name, axis)| row(format!("ground_force_{name}"), "BW", cycle, grid, |i| force(i).dot(&axis) / weight))
         .collect()
 }
 
 const HEAD: &str = "quantity,side,cycle,percent,value,unit";
 const UNITS: [&str; 7] = ["deg", "m", "rad", "N.m", "N", "W", "BW"];
 
-/// `cycles.csv`.
-pub(crate) fn csv(rows: &[CycleRow]) -> String {
-    let mut text = format!("{HEAD}\n");
+/// The first line of `cycles.csv`.
+pub(crate) fn head() -> String {
+    format!("{HEAD}\n")
+}
+
+/// Lines of `cycles.csv`.
+pub(crate) fn lines(rows: &[CycleRow]) -> String {
+    let mut text = String::new();
     for row in rows {
         for (percent, value) in row.values.iter().enumerate() {
             let (quantity, side) = (guarded(&row.quantity), row.side.letter());

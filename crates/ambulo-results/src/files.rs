@@ -1,116 +1,237 @@
 //! Makes the files of a run: names and contents.
 
-use crate::cycle_table::{self, CycleRow, cycle_rows};
+use crate::cycle_table::{self, CycleRow};
 use crate::{CYCLES, EVENTS, Keep, tables};
 use ambulo::analysis::{Analysis, Event};
 use ambulo::model::{ExportError, Model, to_osim};
 use ambulo_formats::Error;
-use ambulo_formats::table::Table;
+use ambulo_formats::table::{Table, TableRows};
+use std::io::{self, Write};
+use std::marker::PhantomData;
+use std::rc::Rc;
 
-/// A file to be written, and the values it was made from, so that a report page of the same run needs no parsing.
-#[derive(Debug, Clone)]
-pub struct OutputFile {
+/// A file to be written. Tables are computed when they are written or read, so that they take no memory before.
+pub struct OutputFile<'a> {
     /// Name, relative to the output folder.
     pub name: String,
-    /// Content.
-    pub bytes: Vec<u8>,
-    pub(crate) value: FileValue,
+    content: Content<'a>,
 }
 
-/// The value that a file was made from.
-#[derive(Debug, Clone)]
-pub(crate) enum FileValue {
+/// What a file is made from, so that a report page of the same run needs no parsing.
+enum Content<'a> {
     /// A table of time series.
-    Table(Table),
+    Table { format: Format, make: Box<dyn MakeTable + 'a> },
     /// The events of `events.csv`.
     Events(Vec<Event>),
-    /// The curves of `cycles.csv`.
-    Cycles(Vec<CycleRow>),
-    /// A model.
-    Body(Box<Model>),
+    /// The curves of `cycles.csv`: their cycles, and what makes the curves of one.
+    Cycles { count: usize, rows: Box<dyn Fn(usize) -> Vec<CycleRow> + 'a> },
+    /// A model, and its file.
+    Body { model: Box<Model>, bytes: Vec<u8> },
     /// Bytes only.
-    Bytes,
+    Bytes(Vec<u8>),
 }
 
-impl OutputFile {
+/// Makes a table. Other than the type of a closure, this allows a file to be used where one with a shorter life is asked for.
+trait MakeTable {
+    fn make(&self) -> Result<TableRows<'_>, Error>;
+}
+
+struct Made<'a, F>(F, PhantomData<&'a ()>);
+
+impl<'a, F: Fn() -> Result<TableRows<'a>, Error>> MakeTable for Made<'a, F> {
+    fn make(&self) -> Result<TableRows<'_>, Error> {
+        (self.0)()
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Format {
+    Storage,
+    Csv,
+}
+
+/// Why a file cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    /// The content is no result.
+    #[error(transparent)]
+    Content(#[from] Error),
+    /// The place to write to failed.
+    #[error(transparent)]
+    Place(#[from] io::Error),
+}
+
+impl<'a> OutputFile<'a> {
     /// A file from which no results are read: a picture, a page, the text of a scene.
     #[must_use]
-    pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> OutputFile {
-        OutputFile { name: name.into(), bytes, value: FileValue::Bytes }
+    pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> OutputFile<'a> {
+        OutputFile { name: name.into(), content: Content::Bytes(bytes) }
     }
 
     /// A table as an OpenSim storage file.
     ///
     /// # Errors
     /// A table without rows, or with a number that is not finite.
-    pub fn storage(name: impl Into<String>, table: Table) -> Result<OutputFile, Error> {
-        let name = name.into();
-        check_table(&name, &table)?;
-        Ok(OutputFile { name, bytes: table.write_storage(), value: FileValue::Table(table) })
+    pub fn storage(name: impl Into<String>, table: Table) -> Result<OutputFile<'a>, Error> {
+        OutputFile::of_table(name.into(), Format::Storage, table)
     }
 
     /// A table as comma-separated values.
     ///
     /// # Errors
     /// A table without rows, or with a number that is not finite.
-    pub fn csv(name: impl Into<String>, table: Table) -> Result<OutputFile, Error> {
-        let name = name.into();
-        check_table(&name, &table)?;
-        Ok(OutputFile { name, bytes: table.write_csv(), value: FileValue::Table(table) })
+    pub fn csv(name: impl Into<String>, table: Table) -> Result<OutputFile<'a>, Error> {
+        OutputFile::of_table(name.into(), Format::Csv, table)
+    }
+
+    fn of_table(name: String, format: Format, table: Table) -> Result<OutputFile<'a>, Error> {
+        let table = Rc::new(table);
+        check_table(&name, &TableRows::of_table(&table))?;
+        Ok(OutputFile {
+            name,
+            content: Content::Table {
+                format,
+                make: Box::new(Made(move || Ok(TableRows::of_table(&table)), PhantomData)),
+            },
+        })
+    }
+
+    /// A table as an OpenSim storage file, made when it is needed.
+    #[must_use]
+    pub fn storage_by(name: impl Into<String>, make: impl Fn() -> Result<TableRows<'a>, Error> + 'a) -> OutputFile<'a> {
+        OutputFile {
+            name: name.into(),
+            content: Content::Table { format: Format::Storage, make: Box::new(Made(make, PhantomData)) },
+        }
+    }
+
+    /// A table as comma-separated values, made when it is needed.
+    #[must_use]
+    pub fn csv_by(name: impl Into<String>, make: impl Fn() -> Result<TableRows<'a>, Error> + 'a) -> OutputFile<'a> {
+        OutputFile {
+            name: name.into(),
+            content: Content::Table { format: Format::Csv, make: Box::new(Made(make, PhantomData)) },
+        }
     }
 
     /// `events.csv`.
     ///
     /// # Errors
     /// An instant that is not finite.
-    pub fn events(events: &[Event]) -> Result<OutputFile, Error> {
+    pub fn events(events: &[Event]) -> Result<OutputFile<'a>, Error> {
         let times: Vec<f64> = events.iter().map(|event| event.time_s).collect();
         check_column(EVENTS, "time", &times)?;
-        let bytes = tables::events_csv(events).into_bytes();
-        Ok(OutputFile { name: EVENTS.to_owned(), bytes, value: FileValue::Events(events.to_vec()) })
+        Ok(OutputFile { name: EVENTS.to_owned(), content: Content::Events(events.to_vec()) })
     }
 
-    /// `cycles.csv`.
-    ///
-    /// # Errors
-    /// A number that is not finite.
-    pub fn cycles(rows: Vec<CycleRow>) -> Result<OutputFile, Error> {
-        for row in &rows {
-            check_column(
-                CYCLES,
-                &format!("{}, side {}, cycle {}", row.quantity, row.side.letter(), row.cycle),
-                &row.values,
-            )?;
-        }
-        let bytes = cycle_table::csv(&rows).into_bytes();
-        Ok(OutputFile { name: CYCLES.to_owned(), bytes, value: FileValue::Cycles(rows) })
+    /// `cycles.csv`: the number of cycles, and what makes the curves of one.
+    #[must_use]
+    pub fn cycles(count: usize, rows: impl Fn(usize) -> Vec<CycleRow> + 'a) -> OutputFile<'a> {
+        OutputFile { name: CYCLES.to_owned(), content: Content::Cycles { count, rows: Box::new(rows) } }
     }
 
     /// A model as an OpenSim file.
     ///
     /// # Errors
     /// A model that the format cannot store.
-    pub fn body(name: impl Into<String>, model: &Model) -> Result<OutputFile, BodyFileError> {
+    pub fn body(name: impl Into<String>, model: &Model) -> Result<OutputFile<'a>, BodyFileError> {
         let bytes = to_osim(model)?.write()?;
-        Ok(OutputFile { name: name.into(), bytes, value: FileValue::Body(Box::new(model.clone())) })
+        Ok(OutputFile { name: name.into(), content: Content::Body { model: Box::new(model.clone()), bytes } })
     }
+
+    /// Writes the content piece by piece.
+    ///
+    /// # Errors
+    /// A table without rows or with a number that is not finite; a place that cannot be written to.
+    pub fn write_to(&self, out: &mut dyn Write) -> Result<(), WriteError> {
+        match &self.content {
+            Content::Table { format, make } => {
+                let table = make.make()?;
+                check_table(&self.name, &table)?;
+                match format {
+                    Format::Storage => table.write_storage(out)?,
+                    Format::Csv => table.write_csv(out)?,
+                }
+            }
+            Content::Events(events) => out.write_all(tables::events_csv(events).as_bytes())?,
+            Content::Cycles { count, rows } => {
+                out.write_all(cycle_table::head().as_bytes())?;
+                for rows in (0..*count).map(rows) {
+                    check_cycle(&rows)?;
+                    out.write_all(cycle_table::lines(&rows).as_bytes())?;
+                }
+            }
+            Content::Body { bytes, .. } | Content::Bytes(bytes) => out.write_all(bytes)?,
+        }
+        Ok(())
+    }
+
+    /// The content in memory.
+    ///
+    /// # Errors
+    /// A table without rows or with a number that is not finite.
+    pub fn bytes(&self) -> Result<Vec<u8>, WriteError> {
+        let mut bytes = Vec::new();
+        self.write_to(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    /// The table that the file is made from, if it is one.
+    pub(crate) fn table(&self) -> Option<Result<Table, Error>> {
+        match &self.content {
+            Content::Table { make, .. } => Some(make.make().map(|rows| rows.table())),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn listed_events(&self) -> Option<&[Event]> {
+        match &self.content {
+            Content::Events(events) => Some(events),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn cycle_rows(&self) -> Option<Vec<CycleRow>> {
+        match &self.content {
+            Content::Cycles { count, rows } => Some((0..*count).flat_map(rows).collect()),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn model(&self) -> Option<&Model> {
+        match &self.content {
+            Content::Body { model, .. } => Some(model),
+            _ => None,
+        }
+    }
+}
+
+fn check_cycle(rows: &[CycleRow]) -> Result<(), Error> {
+    rows.iter().try_for_each(|row| {
+        let column = format!("{}, side {}, cycle {}", row.quantity, row.side.letter(), row.cycle);
+        check_column(CYCLES, &column, &row.values)
+    })
 }
 
 /// Tables of results have rows and finite numbers. Gaps, such as the centre of pressure of an unloaded foot, have been filled by zeros, or
 /// their cells are empty (docs/OUTPUTS.md).
-fn check_table(name: &str, table: &Table) -> Result<(), Error> {
+fn check_table(name: &str, table: &TableRows<'_>) -> Result<(), Error> {
     if table.rows() == 0 {
         return Err(Error::Record {
             found: format!("the table {name} without rows"),
             expected: "one row or more".into(),
         });
     }
-    table.columns().try_for_each(|(column, values)| check_column(name, column, values))
+    table.columns().try_for_each(|(column, values)| check_values(name, column, values))
 }
 
 pub(crate) fn check_column(table: &str, column: &str, values: &[f64]) -> Result<(), Error> {
-    let Some(row) = values.iter().position(|x| !x.is_finite()) else { return Ok(()) };
-    Err(Error::NotFinite { table: table.to_owned(), column: column.to_owned(), row: row + 1, found: values[row] })
+    check_values(table, column, values.iter().copied())
+}
+
+fn check_values(table: &str, column: &str, values: impl Iterator<Item = f64>) -> Result<(), Error> {
+    let Some((row, found)) = values.enumerate().find(|(_, x)| !x.is_finite()) else { return Ok(()) };
+    Err(Error::NotFinite { table: table.to_owned(), column: column.to_owned(), row: row + 1, found })
 }
 
 /// Why a model cannot be written.
@@ -128,41 +249,32 @@ pub enum BodyFileError {
 /// entry per frame; the remaining forces of the body are written in addition to the total.
 ///
 /// # Errors
-/// Column names that a table cannot store, numbers that are not finite.
-pub fn output_files(
-    model: &Model,
-    analysis: &Analysis,
-    device: Option<&[Vec<f64>]>,
+/// Numbers that are not finite.
+pub fn output_files<'a>(
+    model: &'a Model,
+    analysis: &'a Analysis,
+    device: Option<&'a [Vec<f64>]>,
     keep: &Keep,
-) -> Result<Vec<OutputFile>, Error> {
-    let mut files = Vec::new();
-    let mut storage = |name: &str, table: &dyn Fn() -> Result<Table, Error>| -> Result<(), Error> {
-        if keep.includes(name) {
-            files.push(OutputFile::storage(name, table()?)?);
-        }
-        Ok(())
-    };
-    storage("kinematics.mot", &|| tables::kinematics(model, analysis))?;
-    storage("moments.sto", &|| tables::moments(model, analysis, None))?;
-    storage("powers.sto", &|| tables::powers(model, analysis))?;
-    storage("reactions.sto", &|| tables::reactions(model, analysis))?;
+) -> Result<Vec<OutputFile<'a>>, Error> {
+    let mut files = vec![
+        OutputFile::storage_by("kinematics.mot", || tables::kinematics(model, analysis)),
+        OutputFile::storage_by("moments.sto", || tables::moments(model, analysis, None)),
+        OutputFile::storage_by("powers.sto", || tables::powers(model, analysis)),
+        OutputFile::storage_by("reactions.sto", || tables::reactions(model, analysis)),
+    ];
     if device.is_some() {
-        storage("moments_biological.sto", &|| tables::moments(model, analysis, device))?;
+        files.push(OutputFile::storage_by("moments_biological.sto", move || tables::moments(model, analysis, device)));
     }
-    let has_ground = !analysis.ground.bodies.is_empty();
-    if has_ground {
-        storage("grf.mot", &|| tables::ground(model, analysis))?;
-    }
-    if has_ground && keep.includes("external_loads.xml") {
+    if !analysis.ground.bodies.is_empty() {
+        files.push(OutputFile::storage_by("grf.mot", || tables::ground(model, analysis)));
         files.push(OutputFile::new("external_loads.xml", tables::external_loads(model, analysis).write()));
-    }
-    if has_ground && keep.includes(EVENTS) {
         files.push(OutputFile::events(&analysis.events)?);
     }
-    let rows = if keep.includes(CYCLES) { cycle_rows(model, analysis) } else { Vec::new() };
-    if !rows.is_empty() {
-        files.push(OutputFile::cycles(rows)?);
+    if !analysis.cycles.is_empty() {
+        let rows = |k: usize| cycle_table::rows_of(model, analysis, &analysis.cycles[k]);
+        files.push(OutputFile::cycles(analysis.cycles.len(), rows));
     }
+    files.retain(|file| keep.includes(&file.name));
     Ok(files)
 }
 
@@ -178,7 +290,7 @@ mod tests {
     #[test]
     fn no_table_holds_a_number_that_is_not_finite() {
         for found in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let error = OutputFile::storage("moments.sto", table(vec![1.0, found])).unwrap_err().to_string();
+            let error = OutputFile::storage("moments.sto", table(vec![1.0, found])).err().unwrap().to_string();
             let words = format!("moments.sto: column `knee`, row 2: found {found}; expected a finite number");
             assert!(error.starts_with(&words), "{error}");
             assert!(OutputFile::csv("clinical.csv", table(vec![found])).is_err());
@@ -191,7 +303,7 @@ mod tests {
 
     #[test]
     fn a_table_without_rows_is_no_result() {
-        let error = OutputFile::csv("clinical.csv", table(Vec::new())).unwrap_err().to_string();
+        let error = OutputFile::csv("clinical.csv", table(Vec::new())).err().unwrap().to_string();
         assert!(error.contains("the table clinical.csv without rows; expected one row or more"), "{error}");
     }
 }

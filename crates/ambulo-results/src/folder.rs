@@ -1,7 +1,7 @@
 //! Reads the files of a result folder.
 
 use crate::cycle_table::{self, CycleRow};
-use crate::files::{FileValue, OutputFile};
+use crate::files::OutputFile;
 use crate::run_summary::RunSummary;
 use crate::sound::{EXPECTED, is_sound};
 use crate::{CYCLES, EVENTS, tables};
@@ -27,7 +27,7 @@ enum Content<'a> {
     /// The bytes of a file, if it exists.
     Files(&'a dyn Fn(&str) -> Option<Vec<u8>>),
     /// Values in memory; only the text of scenes is parsed.
-    Written { files: &'a [OutputFile], summary: RunSummary },
+    Written { files: &'a [OutputFile<'a>], summary: RunSummary },
 }
 
 /// File names of the model of a run: of a recording, of a synthetic walk.
@@ -69,7 +69,7 @@ impl<'a> Folder<'a> {
 
     /// The folder of a run whose results are in memory.
     #[must_use]
-    pub fn of_run(name: impl Into<String>, files: &'a [OutputFile], summary: RunSummary) -> Folder<'a> {
+    pub fn of_run(name: impl Into<String>, files: &'a [OutputFile<'a>], summary: RunSummary) -> Folder<'a> {
         Folder { name: name.into(), content: Content::Written { files, summary } }
     }
 
@@ -85,17 +85,16 @@ impl<'a> Folder<'a> {
     fn bytes(&self, file: &str) -> Option<Vec<u8>> {
         match &self.content {
             Content::Files(read) => read(file),
-            Content::Written { files, .. } => {
-                files.iter().find(|known| known.name == file).map(|known| known.bytes.clone())
-            }
+            // A table that is no result has been refused before as a table.
+            Content::Written { .. } => self.written(file).and_then(|known| known.bytes().ok()),
         }
     }
 
-    /// The value that a file of a run in memory was made from.
-    fn value(&self, file: &str) -> Option<&FileValue> {
+    /// A file of a run in memory.
+    fn written(&self, file: &str) -> Option<&OutputFile<'a>> {
         match &self.content {
             Content::Files(_) => None,
-            Content::Written { files, .. } => files.iter().find(|known| known.name == file).map(|known| &known.value),
+            Content::Written { files, .. } => files.iter().find(|known| known.name == file),
         }
     }
 
@@ -117,8 +116,8 @@ impl<'a> Folder<'a> {
     /// # Errors
     /// A file that holds anything else.
     pub fn events(&self) -> Result<Vec<Event>, ResultsError> {
-        if let Some(FileValue::Events(events)) = self.value(EVENTS) {
-            return Ok(events.clone());
+        if let Some(events) = self.written(EVENTS).and_then(OutputFile::listed_events) {
+            return Ok(events.to_vec());
         }
         let text = self.text(EVENTS)?.unwrap_or_default();
         tables::read_events(&text).map_err(|reason| self.unreadable(EVENTS, reason))
@@ -129,8 +128,8 @@ impl<'a> Folder<'a> {
     /// # Errors
     /// A file that holds anything else.
     pub fn cycles(&self) -> Result<Vec<CycleRow>, ResultsError> {
-        if let Some(FileValue::Cycles(rows)) = self.value(CYCLES) {
-            return Ok(rows.clone());
+        if let Some(rows) = self.written(CYCLES).and_then(OutputFile::cycle_rows) {
+            return Ok(rows);
         }
         let Some(text) = self.text(CYCLES)? else { return Ok(Vec::new()) };
         cycle_table::read(&text).map_err(|reason| self.unreadable(CYCLES, reason))
@@ -142,8 +141,8 @@ impl<'a> Folder<'a> {
     /// A file that is not a model.
     pub fn body(&self) -> Result<Option<(&'static str, Model)>, ResultsError> {
         for file in BODIES {
-            if let Some(FileValue::Body(model)) = self.value(file) {
-                return Ok(Some((file, Model::clone(model))));
+            if let Some(model) = self.written(file).and_then(OutputFile::model) {
+                return Ok(Some((file, model.clone())));
             }
             if let Some(bytes) = self.bytes(file) {
                 let model = Model::from_osim(&bytes, &mut Findings::default());
@@ -170,9 +169,9 @@ impl<'a> Folder<'a> {
     }
 
     fn table_by(&self, file: &str, read: ReadTable) -> Result<Option<Table>, ResultsError> {
-        let table = match self.value(file) {
-            Some(FileValue::Table(table)) => table.clone(),
-            _ => {
+        let table = match self.written(file).and_then(OutputFile::table) {
+            Some(table) => table.map_err(|error| self.refused(file, &error))?,
+            None => {
                 let Some(bytes) = self.bytes(file) else { return Ok(None) };
                 self.refuse_binary(file, &bytes)?;
                 read(&bytes).map_err(|error| self.refused(file, &error))?.0

@@ -21,10 +21,10 @@ mod walking_summary;
 pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, cycle_rows};
-pub use files::{BodyFileError, OutputFile, output_files};
+pub use files::{BodyFileError, OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use keep::{Keep, PAGE};
-pub use outcome::{outcome_summary, outcome_tables, predicted_analysis};
+pub use outcome::{outcome_summary, outcome_tables};
 pub use prediction_files::prediction_files;
 #[cfg(feature = "schema")]
 pub use run_summary::summary_schema;

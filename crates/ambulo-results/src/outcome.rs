@@ -7,36 +7,25 @@ use crate::subject_summary::SubjectSummary;
 use crate::summary::{GroundSource, Input, Summary, summary};
 use crate::walking_summary::WalkingSummary;
 use crate::{Keep, TIMES_AND_DISTANCES};
-use ambulo::analysis::{AnalysisSettings, PredictedAnalysis};
+use ambulo::analysis::AnalysisSettings;
 use ambulo::findings::Findings;
-use ambulo::study::{ForceOrigin, Outcome, Processing, Tracking};
+use ambulo::study::{ForceOrigin, Outcome, PredictedGround, Processing, Tracking};
 use ambulo_formats::Error;
 
 /// The tables of a run that `keep` includes, also those of a prediction.
 ///
 /// # Errors
 /// Column names that a table cannot store, numbers that are not finite.
-pub fn outcome_tables(outcome: &Outcome, keep: &Keep) -> Result<Vec<OutputFile>, Error> {
+pub fn outcome_tables<'a>(outcome: &'a Outcome, keep: &Keep) -> Result<Vec<OutputFile<'a>>, Error> {
     let mut files = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref(), keep)?;
     let walking = WalkingSummary::of(&outcome.times_and_distances);
     if keep.includes(TIMES_AND_DISTANCES) && !walking.quantities.is_empty() {
         files.push(walking.file()?);
     }
-    if let Some(predicted) = predicted_analysis(outcome) {
-        files.extend(prediction_files(&outcome.body, &predicted, keep)?);
+    if let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction {
+        files.extend(prediction_files(&outcome.body, &outcome.analysis, prediction, measured.as_ref(), keep));
     }
     Ok(files)
-}
-
-/// The motion with predicted and with measured forces; `None` without a prediction.
-#[must_use]
-pub fn predicted_analysis(outcome: &Outcome) -> Option<PredictedAnalysis> {
-    let found = outcome.prediction.as_ref()?;
-    Some(PredictedAnalysis {
-        analysis: outcome.analysis.clone(),
-        prediction: found.prediction.clone(),
-        measured: found.measured.clone(),
-    })
 }
 
 /// The summary of a run. `input` names the input files; the source of the ground forces is taken from the outcome.

@@ -3,31 +3,31 @@
 use crate::Keep;
 use crate::files::OutputFile;
 use crate::tables::{self, Column};
-use ambulo::analysis::PredictedAnalysis;
-use ambulo::ground::predict::FootDeviation;
+use ambulo::analysis::Analysis;
+use ambulo::ground::predict::{FootDeviation, Prediction};
 use ambulo::model::{Model, Side};
 use ambulo::spatial::Vec3;
-use ambulo_formats::Error;
-
-const DEVIATIONS: &str = "grf_sd.mot";
-const MEASURED: &str = "grf_measured.mot";
 
 /// `grf_sd.mot` and, with force plates, `grf_measured.mot`, at the instants of `kinematics.mot`, as far as `keep` includes them.
-///
-/// # Errors
-/// Column names that a table cannot store, numbers that are not finite.
-pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis, keep: &Keep) -> Result<Vec<OutputFile>, Error> {
-    let mut files = Vec::new();
-    if keep.includes(DEVIATIONS) {
-        let frames = predicted.analysis.trajectory.grid().frames;
-        let deviations = deviation_columns(&predicted.prediction.deviations, frames);
-        let deviations = tables::table("Standard Deviations of Ground Reactions", &predicted.analysis, deviations)?;
-        files.push(OutputFile::storage(DEVIATIONS, deviations)?);
+/// `analysis` is the one with the predicted forces, `measured` the one with those of the plates.
+#[must_use]
+pub fn prediction_files<'a>(
+    model: &'a Model,
+    analysis: &'a Analysis,
+    prediction: &'a Prediction,
+    measured: Option<&'a Analysis>,
+    keep: &Keep,
+) -> Vec<OutputFile<'a>> {
+    let deviations = move || {
+        let columns = deviation_columns(&prediction.deviations, analysis.trajectory.grid().frames);
+        tables::table("Standard Deviations of Ground Reactions", analysis, columns)
+    };
+    let mut files = vec![OutputFile::storage_by("grf_sd.mot", deviations)];
+    if let Some(measured) = measured {
+        files.push(OutputFile::storage_by("grf_measured.mot", move || tables::ground(model, measured)));
     }
-    if let Some(measured) = predicted.measured.as_ref().filter(|_| keep.includes(MEASURED)) {
-        files.push(OutputFile::storage(MEASURED, tables::ground(model, measured)?)?);
-    }
-    Ok(files)
+    files.retain(|file| keep.includes(&file.name));
+    files
 }
 
 /// `ground_force_{s}_vx_sd` .. `vz_sd` [N], `px_sd` .. `pz_sd` [m], `ground_torque_{s}_y_sd` [N.m]; zeros while a foot is unloaded.

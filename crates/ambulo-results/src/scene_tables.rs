@@ -84,7 +84,7 @@ impl SceneTables {
     ///
     /// # Errors
     /// Column names that a table cannot store, numbers that are not finite.
-    pub fn files(self, scene: &Scene) -> Result<Vec<OutputFile>, Error> {
+    pub fn files(self, scene: &Scene) -> Result<Vec<OutputFile<'static>>, Error> {
         let world = scene.world();
         let (kept, jointed) = (&self.kept, !scene.world().joints.is_empty() || self.joints.rows > 0);
         let mut files = Vec::new();
@@ -316,7 +316,7 @@ impl RowTable {
         self.text.push('\n');
     }
 
-    fn file(self) -> Result<OutputFile, Error> {
+    fn file(self) -> Result<OutputFile<'static>, Error> {
         self.broken.map_or_else(|| Ok(OutputFile::new(self.name, self.text.into_bytes())), Err)
     }
 }
@@ -344,7 +344,7 @@ mod tests {
         assert!(table.text.contains("\n0.5,\"knee, \"\"left\"\"\",2,1\n"), "{}", table.text);
         table.begin(0.6, &["=cmd|' /C calc'!A0"]);
         assert!(table.text.ends_with("\n0.6,'=cmd|' /C calc'!A0"), "{}", table.text);
-        let error = table.file().unwrap_err().to_string();
+        let error = table.file().err().unwrap().to_string();
         assert!(error.starts_with("joints.csv: column `rate`, row 2: found inf; expected a finite number"), "{error}");
     }
 }

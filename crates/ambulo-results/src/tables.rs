@@ -7,66 +7,95 @@ use ambulo::model::{BodyId, CoordinateKind, Model, Side};
 use ambulo::spatial::Vec3;
 use ambulo_formats::Error;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
-use ambulo_formats::table::Table;
+use ambulo_formats::table::TableRows;
 
 pub(crate) type Column = (String, Vec<f64>);
+/// A column whose values are computed when they are needed.
+pub(crate) type LazyColumn<'a> = (String, Box<dyn Fn(usize) -> f64 + 'a>);
 
-pub(crate) fn table(name: &str, analysis: &Analysis, columns: Vec<Column>) -> Result<Table, Error> {
-    let time = ("time".to_owned(), analysis.trajectory.grid().times());
-    let mut table = Table::new(name, std::iter::once(time).chain(columns).collect())?;
+pub(crate) fn table(name: &str, analysis: &Analysis, columns: Vec<Column>) -> Result<TableRows<'static>, Error> {
+    let columns =
+        columns.into_iter().map(|(name, values)| -> LazyColumn<'static> { (name, Box::new(move |i| values[i])) });
+    rows(name, analysis, columns)
+}
+
+fn rows<'a>(
+    name: &str,
+    analysis: &Analysis,
+    columns: impl IntoIterator<Item = LazyColumn<'a>>,
+) -> Result<TableRows<'a>, Error> {
+    let grid = analysis.trajectory.grid();
+    let time: LazyColumn<'a> = ("time".to_owned(), Box::new(move |i| grid.time(i)));
+    let mut table = TableRows::new(name, grid.frames, std::iter::once(time).chain(columns).collect())?;
     table.in_degrees = Some(false);
     Ok(table)
 }
 
+fn column<'a>(name: String, values: &'a [f64]) -> LazyColumn<'a> {
+    (name, Box::new(move |i| values[i]))
+}
+
 /// `kinematics.mot`: the coordinates used for the analysis, rotations in degrees.
-pub(crate) fn kinematics(model: &Model, analysis: &Analysis) -> Result<Table, Error> {
-    let columns = model.coordinate_ids().map(|id| {
+pub(crate) fn kinematics<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<TableRows<'a>, Error> {
+    let columns = model.coordinate_ids().map(|id| -> LazyColumn<'a> {
         let coordinate = &model.coordinates()[id.index()];
         let values = analysis.trajectory.values(id);
-        let shown = match coordinate.kind {
-            CoordinateKind::Rotation => values.iter().map(|x| x.to_degrees()).collect(),
-            CoordinateKind::Translation | CoordinateKind::Coupled => values.to_vec(),
+        let shown: Box<dyn Fn(usize) -> f64 + 'a> = match coordinate.kind {
+            CoordinateKind::Rotation => Box::new(move |i| values[i].to_degrees()),
+            CoordinateKind::Translation | CoordinateKind::Coupled => Box::new(move |i| values[i]),
         };
         (coordinate.name.clone(), shown)
     });
     let title = if analysis.adjusted { "Coordinates, changed to agree with the forces" } else { "Coordinates" };
-    let mut table = table(title, analysis, columns.collect())?;
+    let mut table = rows(title, analysis, columns)?;
     table.in_degrees = Some(true);
     Ok(table)
 }
 
 /// `moments.sto`: generalised forces [N.m or N]. `device`, if given, is subtracted column by column.
-pub(crate) fn moments(model: &Model, analysis: &Analysis, device: Option<&[Vec<f64>]>) -> Result<Table, Error> {
-    let mut columns: Vec<Column> =
-        model.force_names().into_iter().zip(analysis.forces.generalized.iter().cloned()).collect();
-    if let Some(device) = device {
-        for ((_, total), help) in columns.iter_mut().zip(device) {
-            for (total, help) in total.iter_mut().zip(help) {
-                *total -= help;
-            }
+pub(crate) fn moments<'a>(
+    model: &'a Model,
+    analysis: &'a Analysis,
+    device: Option<&'a [Vec<f64>]>,
+) -> Result<TableRows<'a>, Error> {
+    let of = |(k, name): (usize, String)| -> LazyColumn<'a> {
+        let total = &analysis.forces.generalized[k];
+        match device.and_then(|device| device.get(k)) {
+            Some(help) => (name, Box::new(move |i| total[i] - help[i])),
+            None => column(name, total),
         }
-    }
+    };
     let title = if device.is_some() { "Biological Generalized Forces" } else { "Inverse Dynamics Generalized Forces" };
-    table(title, analysis, columns)
+    rows(title, analysis, model.force_names().into_iter().enumerate().map(of))
 }
 
 /// `powers.sto`: power of the generalised force of each coordinate [W].
-pub(crate) fn powers(model: &Model, analysis: &Analysis) -> Result<Table, Error> {
+pub(crate) fn powers<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<TableRows<'a>, Error> {
     let names = model.coordinates().iter().map(|c| format!("{}_power", c.name));
-    table("Joint Powers", analysis, names.zip(analysis.forces.powers.iter().cloned()).collect())
+    let columns = names.zip(&analysis.forces.powers).map(|(name, values)| column(name, values));
+    rows("Joint Powers", analysis, columns)
 }
 
 /// `reactions.sto`: for each joint `<joint>_on_<child>_in_ground_` and force `f` [N], moment `m` about the joint centre
 /// [N.m] and that centre `p` [m], all of the parent on the child in world axes.
-pub(crate) fn reactions(model: &Model, analysis: &Analysis) -> Result<Table, Error> {
-    let mut columns = Vec::new();
+pub(crate) fn reactions<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<TableRows<'a>, Error> {
+    let mut columns: Vec<LazyColumn<'a>> = Vec::new();
+    let axes = || ["x", "y", "z"].into_iter().enumerate();
     for (body, series) in model.bodies().iter().zip(&analysis.forces.reactions) {
         let stem = format!("{}_on_{}_in_ground_", body.joint.name, body.name);
-        push_vector(&mut columns, &format!("{stem}f"), series.iter().map(|r| r.wrench.force));
-        push_vector(&mut columns, &format!("{stem}m"), series.iter().map(|r| r.wrench.moment));
-        push_vector(&mut columns, &format!("{stem}p"), series.iter().map(|r| r.center));
+        columns.extend(axes().map(|(k, axis)| -> LazyColumn<'a> {
+            (format!("{stem}f{axis}"), Box::new(move |i| series[i].wrench.force[k]))
+        }));
+        columns.extend(axes().map(|(k, axis)| -> LazyColumn<'a> {
+            (format!("{stem}m{axis}"), Box::new(move |i| series[i].wrench.moment[k]))
+        }));
+        columns.extend(
+            axes().map(|(k, axis)| -> LazyColumn<'a> {
+                (format!("{stem}p{axis}"), Box::new(move |i| series[i].center[k]))
+            }),
+        );
     }
-    table("Joint Reactions", analysis, columns)
+    rows("Joint Reactions", analysis, columns)
 }
 
 fn body_name(model: &Model, id: BodyId) -> &str {
@@ -74,7 +103,7 @@ fn body_name(model: &Model, id: BodyId) -> &str {
 }
 
 /// `grf.mot`: forces, centres of pressure and free moments of both feet; an unloaded foot has zeros.
-pub(crate) fn ground(model: &Model, analysis: &Analysis) -> Result<Table, Error> {
+pub(crate) fn ground(model: &Model, analysis: &Analysis) -> Result<TableRows<'static>, Error> {
     let columns = ground_columns(&feet(model, &analysis.ground), analysis.trajectory.grid().frames);
     table("Ground Reactions", analysis, columns)
 }

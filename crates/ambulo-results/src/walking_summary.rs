@@ -91,7 +91,7 @@ impl WalkingSummary {
     ///
     /// # Errors
     /// A number that is not finite.
-    pub fn file(&self) -> Result<OutputFile, Error> {
+    pub fn file(&self) -> Result<OutputFile<'static>, Error> {
         let mut text = String::from("quantity,unit,side,mean,sd,strides\n");
         for (quantity, speed) in [("speed", self.speed_m_s), ("path_speed", self.path_speed_m_s)] {
             if let Some(speed) = speed {

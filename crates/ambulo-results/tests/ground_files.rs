@@ -64,7 +64,7 @@ fn an_unloaded_foot_is_zero_in_the_written_file_and_a_loaded_one_is_not() {
     let analysis = analyse(&model, &motion, &[push], settings, &mut Findings::default()).unwrap();
     let files = output_files(&model, &analysis, None, &Keep::all()).unwrap();
     let file = files.iter().find(|f| f.name == "grf.mot").unwrap();
-    let table = Table::read_storage(&file.bytes).unwrap().0;
+    let table = Table::read_storage(&file.bytes().unwrap()).unwrap().0;
     let expected = [("ground_force_r_v", [1.0, 600.0, 2.0]), ("ground_force_r_p", [0.3, 0.05, 0.1])];
     let torque = [("ground_torque_r_", [0.0, 4.0, 0.0])];
     for (stem, values) in expected.into_iter().chain(torque) {
@@ -103,7 +103,7 @@ fn the_written_ground_force_of_a_side_is_the_sum_of_all_its_loads() {
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings).unwrap();
     let files = output_files(&model, &analysis, None, &Keep::all()).unwrap();
     let file = files.iter().find(|f| f.name == "grf.mot").unwrap();
-    let table = Table::read_storage(&file.bytes).unwrap().0;
+    let table = Table::read_storage(&file.bytes().unwrap()).unwrap().0;
     let vertical = table.column("ground_force_r_vy").unwrap();
     assert!(vertical.iter().all(|y| (y - 700.0).abs() < ROUNDING), "{} N of 700 N were written", vertical[0]);
 }

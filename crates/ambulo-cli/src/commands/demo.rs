@@ -12,7 +12,7 @@ use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkS
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
 use ambulo_results::{Convention, Keep, OutputFile};
-use anyhow::{Context, Result};
+use anyhow::{Context, Error, Result};
 
 pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
@@ -28,7 +28,6 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
     };
     let walk = synthesise(&settings, &mut findings)?;
     clock.lap("walk");
-    let recording = recording_files(&walk)?;
     let run = SyntheticRun {
         walk: &walk,
         walk_settings: &settings,
@@ -37,17 +36,17 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
         read: &[],
         options: "demo".to_owned(),
         keep: Keep::of_names(&args.keep),
-        more: &move |written| Ok([coordinate_files(written)?, recording.clone()].concat()),
+        more: &|written| Ok(coordinate_files(written)?.into_iter().chain(recording_files(&walk)?).collect()),
         check: args.check,
     };
     run.analyse_and_write(findings, clock, &target, args.print)
 }
 
 /// The results as recorded coordinates: model, motion, ground forces and external loads.
-fn coordinate_files(written: &[OutputFile]) -> Result<Vec<OutputFile>> {
+fn coordinate_files(written: &[OutputFile<'_>]) -> Result<Vec<OutputFile<'static>>> {
     let result = |name: &str| {
         let found = written.iter().find(|file| file.name == name);
-        found.map(|file| file.bytes.clone()).with_context(|| format!("the walk has no {name}"))
+        Ok::<_, Error>(found.with_context(|| format!("the walk has no {name}"))?.bytes()?)
     };
     let (mut loads, _) = ExternalLoads::read(&result("external_loads.xml")?)?;
     loads.datafile = Some("walk_grf.mot".to_owned());
@@ -60,7 +59,7 @@ fn coordinate_files(written: &[OutputFile]) -> Result<Vec<OutputFile>> {
 }
 
 /// The walk as a laboratory recording (markers and force plates) with a standing trial, as markers of the model and as a skeleton.
-fn recording_files(walk: &SyntheticWalk) -> Result<Vec<OutputFile>> {
+fn recording_files(walk: &SyntheticWalk) -> Result<Vec<OutputFile<'static>>> {
     let SyntheticWalk { human, trajectory, loads, .. } = walk;
     let recording = laboratory_recording(human, trajectory, loads)?;
     let standing = standing_recording(human, recording.point_rate_hz)?;

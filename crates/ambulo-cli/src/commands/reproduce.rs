@@ -1,14 +1,14 @@
 //! `ambulo reproduce`: recomputes the claims and figures of the 1997 paper.
 
 use crate::args::ReproduceArgs;
-use crate::record::{Record, run_id};
+use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, printer};
 use ambulo::reproduction::{
     Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities,
 };
 use ambulo_report::{reproduction_files, reproduction_page};
-use ambulo_results::{Keep, OutputFile, SUMMARY, summary_json};
+use ambulo_results::{Keep, OutputFile, summary_json};
 use anyhow::Result;
 use serde_json::json;
 use std::time::Instant;
@@ -36,10 +36,11 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     let keep = Keep::of_names(&args.keep);
     let options = format!("reproduce brief={} keep={:?}", args.brief, args.keep);
     written.retain(|file| keep.includes(&file.name));
-    let Record { run_id, files } = Record::of_run(run_id(&options, &[])?, &written);
-    let summary = json!({ "version": env!("CARGO_PKG_VERSION"), "run_id": run_id, "files": files });
-    written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));
-    target.replace(&written, &[])?;
+    let run_id = run_id(&options, &[])?;
+    target.replace(&written, &[], &mut |files| {
+        let summary = json!({ "version": env!("CARGO_PKG_VERSION"), "run_id": run_id, "files": files });
+        Ok(summary_json(&summary)?)
+    })?;
     printer::reproduce(&claims, &others, &args.output, args.print)?;
     Ok(Completion::Passed)
 }

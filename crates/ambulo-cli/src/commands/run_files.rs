@@ -3,7 +3,7 @@
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
 use crate::args::{CheckArgs, PrintArgs};
-use crate::record::{Record, run_id};
+use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Thresholds, VerdictState};
@@ -11,14 +11,14 @@ use ambulo::findings::Findings;
 use ambulo::study::{Outcome, QualityState};
 use ambulo_report::{clinical_file, outcome_figures};
 use ambulo_results::{
-    Convention, Input, Keep, OutputFile, PAGE, RunSummary, SUMMARY, Summary, WalkSummary, outcome_summary,
-    outcome_tables, summary_json,
+    Convention, Input, Keep, OutputFile, PAGE, RunSummary, Summary, WalkSummary, outcome_summary, outcome_tables,
+    summary_json,
 };
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
 /// Makes files from other files of the same run.
-pub(super) type MoreFiles = dyn Fn(&[OutputFile]) -> Result<Vec<OutputFile>>;
+pub(super) type MoreFiles<'a> = dyn Fn(&[OutputFile<'_>]) -> Result<Vec<OutputFile<'static>>> + 'a;
 
 /// An outcome with everything else that is written to the result folder.
 pub(super) struct RunFiles<'a> {
@@ -29,11 +29,11 @@ pub(super) struct RunFiles<'a> {
     /// How a synthetic walk was computed.
     pub(super) walk: Option<WalkSummary>,
     /// Files that only this kind of run has.
-    pub(super) files: Vec<OutputFile>,
+    pub(super) files: Vec<OutputFile<'static>>,
     /// The outputs that are written.
     pub(super) keep: Keep,
     /// Makes further files from the tables and figures of the run.
-    pub(super) more: &'a MoreFiles,
+    pub(super) more: &'a MoreFiles<'a>,
     /// Every file that was read; none of them is overwritten.
     pub(super) read: &'a [PathBuf],
     /// The command with the options that matter for the results.
@@ -53,7 +53,7 @@ impl RunFiles<'_> {
         if keep.includes("figures/") {
             written.extend(outcome_figures(outcome, convention)?);
         }
-        let (clinical, convention) = clinical_file(outcome, convention)?;
+        let (clinical, convention) = clinical_file(outcome, convention);
         written.push(clinical);
         written.extend(files);
         clock.lap("tables");
@@ -69,10 +69,12 @@ impl RunFiles<'_> {
             written.extend(more(&written)?);
         }
         written.retain(|file| keep.includes(&file.name));
-        Record { run_id: summary.run_id, files: summary.files } = Record::of_run(run_id(&options, read)?, &written);
+        summary.run_id = run_id(&options, read)?;
         summary.timing_ms = clock.into_laps();
-        written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));
-        target.replace(&written, read)?;
+        target.replace(&written, read, &mut |files| {
+            summary.files = files;
+            Ok(summary_json(&summary)?)
+        })?;
         printer::forces(&summary, target.folder(), print)?;
         let is_refused =
             outcome.quality.state == QualityState::Bad || outcome.verdict.state == VerdictState::Infeasible;

@@ -4,17 +4,15 @@ use super::report::{page_not_written, page_of_run};
 use super::run_files::completion;
 use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
-use crate::record::{Record, run_id};
+use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Thresholds, VerdictState};
-use ambulo::analysis::scene_verdict;
+use ambulo::analysis::{SceneVerdict, scene_verdict};
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
 use ambulo_report::{SceneCurves, scene_shapes};
-use ambulo_results::{
-    Keep, OutputFile, PAGE, RunSummary, SUMMARY, SceneExtremes, SceneInput, SceneTables, summary_json,
-};
+use ambulo_results::{Keep, OutputFile, PAGE, RunSummary, SceneExtremes, SceneInput, SceneTables, summary_json};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 
@@ -54,13 +52,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     let state = verdict.as_ref().map_or(VerdictState::Feasible, |verdict| verdict.state);
     clock.lap("feasibility");
 
-    let mut written = tables.files(&scene)?;
-    if scene.outputs().poses {
-        written.push(scene_shapes(&scene)?);
-    }
-    if let Some(curves) = &curves {
-        written.extend(curves.files(&scene, verdict.as_ref())?);
-    }
+    let mut written = scene_files(&scene, tables, curves.as_ref(), verdict.as_ref())?;
     clock.lap("tables");
     let mut summary = extremes.summary(&scene, &statistics, input, &findings);
     summary.verdict = verdict;
@@ -71,16 +63,34 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
         }
     }
     written.retain(|file| keep.includes(&file.name));
-    Record { run_id: summary.run_id, files: summary.files } =
-        Record::of_run(run_id(&options(args), &inputs)?, &written);
+    summary.run_id = run_id(&options(args), &inputs)?;
     summary.timing_ms = clock.into_laps();
-    written.push(OutputFile::new(SUMMARY, summary_json(&summary)?));
-    target.replace(&written, &inputs)?;
+    target.replace(&written, &inputs, &mut |files| {
+        summary.files = files;
+        Ok(summary_json(&summary)?)
+    })?;
     if let Some(path) = &args.save {
         files::write(path, &summary_json(&scene.save())?)?;
     }
     printer::simulate(&summary, target.folder(), args.print)?;
     Ok(completion(state == VerdictState::Infeasible, args.check))
+}
+
+/// Tables, shapes and figures.
+fn scene_files(
+    scene: &Scene,
+    tables: SceneTables,
+    curves: Option<&SceneCurves>,
+    verdict: Option<&SceneVerdict>,
+) -> Result<Vec<OutputFile<'static>>> {
+    let mut written = tables.files(scene)?;
+    if scene.outputs().poses {
+        written.push(scene_shapes(scene)?);
+    }
+    if let Some(curves) = curves {
+        written.extend(curves.files(scene, verdict)?);
+    }
+    Ok(written)
 }
 
 /// Builds the scene and reads every file that it names; adds their paths to `inputs`.

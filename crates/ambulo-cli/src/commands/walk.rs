@@ -30,7 +30,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
             let file = gait_file(&walk)?;
             let path = output.join(&file.name);
             files::check_target(&path, &read, args.replace.existing())?;
-            files::write(&path, &file.bytes)?;
+            files::write(&path, &file.bytes()?)?;
         }
         return printer::states(&state_table(&walk), &findings, args.print).map(|()| Completion::Passed);
     }
@@ -78,7 +78,7 @@ pub(super) struct SyntheticRun<'a> {
     /// The outputs that are written.
     pub(super) keep: Keep,
     /// Makes further files from the tables and figures of the run.
-    pub(super) more: &'a MoreFiles,
+    pub(super) more: &'a MoreFiles<'a>,
     pub(super) check: CheckArgs,
 }
 
@@ -128,13 +128,13 @@ impl SyntheticRun<'_> {
     }
 
     /// The figure as an OpenSim model, and the picture of the gait.
-    fn files(&self) -> Result<Vec<OutputFile>> {
+    fn files(&self) -> Result<Vec<OutputFile<'static>>> {
         Ok(vec![OutputFile::body("figure.osim", &self.walk.human.model)?, gait_file(&self.walk.walk)?])
     }
 }
 
 /// The picture of a gait.
-fn gait_file(walk: &Walk) -> Result<OutputFile> {
+fn gait_file(walk: &Walk) -> Result<OutputFile<'static>> {
     Ok(OutputFile::new("figures/gait.svg", gait_figure(walk)?.into_bytes()))
 }
 

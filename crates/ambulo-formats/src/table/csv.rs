@@ -2,9 +2,11 @@
 
 use super::Table;
 use super::lines::{Lines, counted, duplicate, expected_number, number};
+use super::rows::Content;
 use crate::error::{Error, Remark, quoted};
 use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder, Trim, WriterBuilder};
 use std::borrow::Cow;
+use std::io::{self, Write};
 
 /// Reads a CSV file whose cells are separated by commas, semicolons or tabs, whichever the header row has most of.
 pub(super) fn read(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
@@ -151,16 +153,14 @@ pub fn unguarded(cell: &str) -> &str {
 }
 
 /// Writes names and numbers, separated by commas.
-pub(super) fn write(table: &Table) -> Vec<u8> {
+pub(super) fn write(table: &Content<'_>, out: &mut dyn Write) -> io::Result<()> {
     // A semicolon in a name could be taken for the separator; quotes prevent that.
     let quote = table.names.iter().any(|name| name.contains(';'));
     let style = if quote { QuoteStyle::NonNumeric } else { QuoteStyle::Necessary };
-    let mut writer = WriterBuilder::new().quote_style(style).from_writer(Vec::new());
-    let in_memory = "writing to memory does not fail";
-    let names = table.names.iter().map(|name| guarded(name).into_owned());
-    writer.write_record(names).expect(in_memory);
-    for row in 0..table.rows() {
-        writer.write_record(table.data.iter().map(|column| format!("{:?}", column[row]))).expect(in_memory);
+    let mut writer = WriterBuilder::new().quote_style(style).from_writer(out);
+    writer.write_record(table.names.iter().map(|name| guarded(name).into_owned()))?;
+    for row in 0..table.rows {
+        writer.write_record((0..table.names.len()).map(|column| format!("{:?}", (table.cell)(row, column))))?;
     }
-    writer.into_inner().expect(in_memory)
+    writer.flush()
 }

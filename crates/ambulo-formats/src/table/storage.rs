@@ -2,8 +2,9 @@
 
 use super::Table;
 use super::lines::{Line, Lines, counted, duplicate, expected_number, number};
+use super::rows::Content;
 use crate::error::{Error, Remark, quoted};
-use std::io::Write;
+use std::io::{self, Write};
 
 /// A header is ten lines long; some programs add a few dozen lines of comments.
 const MAX_HEADER_LINES: usize = 4096;
@@ -240,23 +241,24 @@ fn read_row(line: &Line<'_>, columns: &mut [Vec<f64>]) -> Result<(), Error> {
 }
 
 /// Writes version 1, tab separated.
-pub(super) fn write(table: &Table) -> Vec<u8> {
-    let mut out = name_line(&table.name).into_bytes();
-    let header = format!("version=1\nnRows={}\nnColumns={}\n", table.rows(), table.names.len());
-    out.extend_from_slice(header.as_bytes());
-    if let Some(in_degrees) = table.in_degrees {
-        out.extend_from_slice(if in_degrees { b"inDegrees=yes\n" } else { b"inDegrees=no\n" });
-    }
-    out.extend_from_slice(format!("{ENDHEADER}\n{}\n", table.names.join("\t")).as_bytes());
-    for row in 0..table.rows() {
-        for (k, column) in table.data.iter().enumerate() {
-            let separator = if k == 0 { "" } else { "\t" };
+pub(super) fn write(table: &Content<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let degrees = match table.in_degrees {
+        Some(true) => "inDegrees=yes\n",
+        Some(false) => "inDegrees=no\n",
+        None => "",
+    };
+    let (name, names) = (name_line(table.name), table.names.join("\t"));
+    let (rows, columns) = (table.rows, table.names.len());
+    write!(out, "{name}version=1\nnRows={rows}\nnColumns={columns}\n{degrees}{ENDHEADER}\n{names}\n")?;
+    for row in 0..rows {
+        for column in 0..columns {
+            let separator = if column == 0 { "" } else { "\t" };
             // `{:?}` is the shortest text that reads back as the same bits, with an exponent for very large and small.
-            write!(out, "{separator}{:?}", column[row]).expect("writing to memory does not fail");
+            write!(out, "{separator}{:?}", (table.cell)(row, column))?;
         }
-        out.push(b'\n');
+        out.write_all(b"\n")?;
     }
-    out
+    Ok(())
 }
 
 /// The name is the first line, unless a reader could take it for something else.

@@ -139,7 +139,7 @@ impl CycleFigures<'_> {
     ///
     /// # Errors
     /// A style that cannot be read.
-    pub fn files(&self) -> Result<Vec<OutputFile>, FigureError> {
+    pub fn files(&self) -> Result<Vec<OutputFile<'static>>, FigureError> {
         let figures = PLANS.iter().map(|plan| Ok(self.figure(plan)?.map(|svg| (plan.name, svg))));
         let drawn = figures.collect::<Result<Vec<_>, FigureError>>()?;
         let file = |(name, svg): (&str, String)| OutputFile::new(format!("figures/{name}"), svg.into_bytes());

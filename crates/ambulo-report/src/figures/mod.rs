@@ -16,7 +16,7 @@ pub use cycle_figures::CycleFigures;
 pub use gait_figure::gait_figure;
 pub use paper_figure::paper_figure;
 pub use scene_figures::SceneCurves;
-pub use time_figures::{prediction_figure, residual_figure};
+pub use time_figures::{PredictedMotion, prediction_figure, residual_figure};
 
 use ambulo::model::Side;
 

@@ -114,7 +114,11 @@ impl SceneCurves {
     ///
     /// # Errors
     /// A style that cannot be read.
-    pub fn files(&self, scene: &Scene, verdict: Option<&SceneVerdict>) -> Result<Vec<OutputFile>, FigureError> {
+    pub fn files(
+        &self,
+        scene: &Scene,
+        verdict: Option<&SceneVerdict>,
+    ) -> Result<Vec<OutputFile<'static>>, FigureError> {
         let reasons = verdict.into_iter().flat_map(|v| &v.figures).flat_map(|figure| &figure.verdict.reasons);
         let faults: Vec<[f64; 2]> = reasons.map(|reason| reason.time_s).collect();
         let plots = &scene.outputs().plots;

@@ -6,7 +6,8 @@ use super::cycle_panel::dashes;
 use super::sheet::{Sample, Sheet, Slot};
 use super::svg::{Drawing, Stroke};
 use crate::style::{Style, style};
-use ambulo::analysis::{Analysis, PredictedAnalysis, residual_sizes};
+use ambulo::analysis::{Analysis, residual_sizes};
+use ambulo::ground::predict::Prediction;
 use ambulo::ground::{BodyForces, feet, upward};
 use ambulo::model::{Model, Side};
 use ambulo::spatial::Vec3;
@@ -83,13 +84,24 @@ pub fn residual_figure(model: &Model, analysis: &Analysis, caption: &str) -> Res
     Ok(Some(figure.draw(&analysis.trajectory.grid().times(), &panels)))
 }
 
+/// A motion with predicted forces.
+#[derive(Clone, Copy)]
+pub struct PredictedMotion<'a> {
+    /// The analysis with predicted forces.
+    pub analysis: &'a Analysis,
+    /// The prediction.
+    pub prediction: &'a Prediction,
+    /// The same motion with measured forces; `None` without plates.
+    pub measured: Option<&'a Analysis>,
+}
+
 /// `prediction.svg`: predicted ground forces over time with their uncertainty, and the measured forces if there are plates.
 ///
 /// # Errors
 /// A style that cannot be read.
 pub fn prediction_figure(
     model: &Model,
-    predicted: &PredictedAnalysis,
+    predicted: PredictedMotion<'_>,
     caption: &str,
 ) -> Result<Option<String>, FigureError> {
     let style = style().map_err(|e| FigureError { name: "prediction.svg", reason: e.to_string() })?;
@@ -155,7 +167,7 @@ impl<'a> Shown<'a> {
         Stroke { dash: self.dash(side), ..Stroke::solid(&style.measured.color, 1.2 * style.lines_pt.cycle) }
     }
 
-    fn series(&self, model: &Model, predicted: &PredictedAnalysis, axis: Vec3) -> Vec<Series<'a>> {
+    fn series(&self, model: &Model, predicted: PredictedMotion<'_>, axis: Vec3) -> Vec<Series<'a>> {
         let along = |foot: &BodyForces| foot.force.iter().map(|f| f.dot(&axis) / self.weight).collect::<Vec<f64>>();
         let mut series = Vec::new();
         for (side, foot) in feet(model, &predicted.analysis.ground) {

@@ -4,21 +4,21 @@ use ambulo_formats::table::unguarded;
 use ambulo_results::{EXPECTED, Folder, ResultsError, is_sound};
 
 /// A row with its number in the file.
-pub(crate) struct Row<'a> {
+pub(crate) struct Row<'a, 'f> {
     pub(crate) line: usize,
     cells: Vec<String>,
     file: &'static str,
-    folder: &'a Folder<'a>,
+    folder: &'a Folder<'f>,
 }
 
-impl<'a> Row<'a> {
+impl<'a, 'f> Row<'a, 'f> {
     /// The rows below the header of a file, which must begin with these names.
     pub(crate) fn all<'t>(
-        folder: &'a Folder<'a>,
+        folder: &'a Folder<'f>,
         file: &'static str,
         text: &'t str,
         head: &str,
-    ) -> Result<impl Iterator<Item = Row<'a>> + use<'a, 't>, ResultsError> {
+    ) -> Result<impl Iterator<Item = Row<'a, 'f>> + use<'a, 'f, 't>, ResultsError> {
         let found = text.lines().next().unwrap_or_default();
         if !found.starts_with(head) {
             let found: String = found.chars().take(80).collect();

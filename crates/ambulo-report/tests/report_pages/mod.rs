@@ -71,7 +71,8 @@ fn folder_of(body: &[u8], motion: &[u8], ground: &[u8], loads: &ExternalLoads, f
     let summary = outcome_summary(&outcome, input, &findings);
     let tables = outcome_tables(&outcome, &Keep::all()).unwrap();
     let figures = outcome_figures(&outcome, Convention::Opensim).unwrap();
-    let mut files: Files = tables.into_iter().chain(figures).map(|file| (file.name, file.bytes)).collect();
+    let mut files: Files =
+        tables.into_iter().chain(figures).map(|file| (file.name.clone(), file.bytes().unwrap())).collect();
     files.insert("subject.osim".to_owned(), body.to_vec());
     files.insert("summary.json".to_owned(), serde_json::to_vec(&summary).unwrap());
     files

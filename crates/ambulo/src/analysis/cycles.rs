@@ -42,11 +42,22 @@ pub fn cycles(events: &[Event], grid: TimeGrid) -> Vec<Cycle> {
 /// Time-normalises a series: values at 0, 1, ... 100 % of a cycle by linear interpolation.
 #[must_use]
 pub fn over_cycle(grid: TimeGrid, series: &[f64], cycle: &Cycle) -> Vec<f64> {
-    let times = grid.times();
+    over_cycle_of(grid, |frame| series[frame], cycle)
+}
+
+/// The same for a series of which only the frames of the cycle are computed.
+#[must_use]
+pub fn over_cycle_of(grid: TimeGrid, value: impl Fn(usize) -> f64, cycle: &Cycle) -> Vec<f64> {
+    // One frame more on each side than the interpolation needs.
+    let first = (((cycle.start_s - grid.start_s) / grid.step_s).floor() as usize).saturating_sub(1);
+    let last = (((cycle.end_s - grid.start_s) / grid.step_s).ceil() as usize + 2).min(grid.frames);
+    let frames = first.min(last.saturating_sub(1))..last;
+    let times: Vec<f64> = frames.clone().map(|frame| grid.time(frame)).collect();
+    let series: Vec<f64> = frames.map(value).collect();
     (0..CYCLE_SAMPLES)
         .map(|percent| {
             let share = percent as f64 / (CYCLE_SAMPLES - 1) as f64;
-            interpolate(&times, series, cycle.start_s + share * (cycle.end_s - cycle.start_s))
+            interpolate(&times, &series, cycle.start_s + share * (cycle.end_s - cycle.start_s))
         })
         .collect()
 }

@@ -22,7 +22,7 @@ mod walking_direction;
 mod weighing;
 
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
-pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
+pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle, over_cycle_of};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts_from_force, events};
 pub use ground_agreement::{

@@ -122,7 +122,7 @@ fn options(args: &ForcesArgs) -> String {
 }
 
 /// The body that was used as an OpenSim model; a note if it cannot be written.
-fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile> {
+fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile<'static>> {
     match OutputFile::body("subject.osim", model) {
         Ok(file) => Some(file),
         Err(reason) => {
