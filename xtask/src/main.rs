@@ -34,6 +34,7 @@ usage: cargo xtask <command>
   fit-ground        fit the parameters of the ground-force estimator, leave one subject out  [--write: docs/measured/GROUND_FIT.md]
                     [--evaluations N] [--seed N] [--pull X]
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
+  twins             judge recordings of people, and twins of them that no person could make  [--only NAME]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
   walk-bands        compare corrected walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
   help              print this text
@@ -48,7 +49,7 @@ environment:
 const OWN: [&str; 5] = ["check", "house", "build-time", "measured", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 12] = [
+const MEASUREMENTS: [&str; 13] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -59,6 +60,7 @@ const MEASUREMENTS: [&str; 12] = [
     "fit-gait",
     "fit-ground",
     "normative-bands",
+    "twins",
     "validate",
     "walk-bands",
 ];

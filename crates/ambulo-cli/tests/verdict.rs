@@ -110,7 +110,7 @@ fn without_ground_forces_only_joints_are_checked() {
     bench.run(&[&FORCES[..4], &RAW, &["--no-ground"]].concat()).done();
     let verdict = bench.json("out/summary.json")["verdict"].clone();
     let unjudged = verdict["not_judged"].as_array().unwrap().iter().filter(|n| n["why"] == "no ground forces").count();
-    assert_eq!(unjudged, 6, "{verdict}");
+    assert_eq!(unjudged, 7, "{verdict}");
     assert!(verdict["closest"].as_array().unwrap().iter().any(|c| c["check"] == "strength"));
 }
 

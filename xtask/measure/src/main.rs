@@ -12,6 +12,7 @@ mod oracle_c3d;
 mod peers;
 mod simulators;
 mod table;
+mod twins;
 mod validate;
 mod walk_bands;
 mod workspace;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
         ("fit-gait", []) => fit_gait::run(),
         ("normative-bands", []) => normative_bands::run(),
         ("fit-ground", _) => fit_ground::run(rest),
+        ("twins", _) => twins::run(rest),
         ("validate", _) => validate::run(rest),
         ("walk-bands", _) => walk_bands::run(rest),
         _ => {

@@ -1,0 +1,214 @@
+//! Judges recordings of people, and twins of them that no person could make: `cargo xtask twins [--only NAME]`.
+//!
+//! A recording is analysed, and its coordinates and ground forces are then changed:
+//!
+//! | twin        | change                                                                                            |
+//! |-------------|---------------------------------------------------------------------------------------------------|
+//! | `fast`      | the clock of motion and forces runs 1.5 times as fast; not of people who stand, who may do so     |
+//! | `lifted`    | the body is 0.3 m higher, the forces stay                                                         |
+//! | `wrong foot`| the force of each foot acts on the other one                                                      |
+//! | `torque`    | a device works against both knees with 5 N.m/kg, more than twice what a knee can supply           |
+//!
+//! Every recording should be feasible or not judged, every twin infeasible. Only recordings that are called feasible have twins; those that
+//! are refused or not judged are listed. `--only` takes the recordings whose name contains a text.
+
+use crate::validate::recording::{Recording, all};
+use crate::workspace;
+use ambulo::analysis::activity::ActivityKind;
+use ambulo::analysis::feasibility::{Reason, Verdict, VerdictState};
+use ambulo::findings::Findings;
+use ambulo::ground::GroundForces;
+use ambulo::model::anthropometry::SegmentTable;
+use ambulo::model::{CoordinateKind, Movement, Side};
+use ambulo::motion::{ForceRecording, Motion};
+use ambulo::spatial::Vec3;
+use ambulo::study::{
+    self, ForceFilter, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Outcome, Settings, Source,
+};
+use ambulo_formats::table::Table;
+use std::fs;
+use std::path::Path;
+
+/// A recording that is this much too fast [1].
+const FASTER: f64 = 1.5;
+/// Height of the lifted body above its place [m].
+const LIFT_M: f64 = 0.3;
+/// Moment of a device against the knee [N.m/kg].
+const AGAINST_KNEE_NM_KG: f64 = 5.0;
+
+/// The kinds of twins.
+const KINDS: [&str; 4] = ["fast", "lifted", "wrong foot", "torque"];
+
+/// A recording with its name; an error if it cannot be read.
+type Named = (String, Result<Source, String>);
+
+/// Runs all recordings and their twins and prints the shares.
+#[expect(clippy::print_stdout, reason = "the answer of the command")]
+pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    let only = match words {
+        [] => "",
+        [option, name] if option == "--only" => name.as_str(),
+        _ => return Err("expected `cargo xtask twins [--only NAME]`".to_owned()),
+    };
+    let data = workspace::data().join("data");
+    if !data.is_dir() {
+        println!("skipped: no data");
+        return Ok(());
+    }
+    let mut counts = [[0; 2]; KINDS.len()];
+    let (mut feasible, mut infeasible, mut others) = (0, 0, 0);
+    for (name, source) in sources(&data)?.into_iter().filter(|(name, _)| name.contains(only)) {
+        let outcome = match source.and_then(|source| analysed(&source, &Settings::default())) {
+            Ok(outcome) => outcome,
+            Err(why) => {
+                others += 1;
+                println!("{name}: refused: {why}");
+                continue;
+            }
+        };
+        match outcome.verdict.state {
+            VerdictState::Feasible => feasible += 1,
+            VerdictState::Infeasible => {
+                infeasible += 1;
+                println!("{name}: infeasible, falsely: {}", reasons(&outcome.verdict));
+                continue;
+            }
+            VerdictState::NotJudged => {
+                others += 1;
+                println!("{name}: not judged: {}", outcome.verdict.undecided.join("; "));
+                continue;
+            }
+        }
+        for (kind, count) in KINDS.iter().zip(&mut counts) {
+            if *kind == "fast" && outcome.activity.kind == ActivityKind::Stand {
+                continue;
+            }
+            let verdict = twin(&outcome, kind)?;
+            let is_found = verdict.state == VerdictState::Infeasible;
+            count[0] += usize::from(is_found);
+            count[1] += 1;
+            if !is_found {
+                println!("{name}, {kind}: {}, {}", verdict.state.words(), verdict.undecided.join("; "));
+            }
+        }
+    }
+    println!("recordings of people: {feasible} feasible, {infeasible} infeasible, {others} refused or not judged");
+    for (kind, [found, made]) in KINDS.iter().zip(counts) {
+        println!("{kind}: {found} of {made} twins are infeasible");
+    }
+    Ok(())
+}
+
+fn analysed(source: &Source, settings: &Settings) -> Result<Outcome, String> {
+    study::run(source, settings, &mut Findings::default()).map_err(|e| e.to_string())
+}
+
+fn reasons(verdict: &Verdict) -> String {
+    verdict.reasons.iter().map(|reason: &Reason| reason.message.as_str()).collect::<Vec<_>>().join("; ")
+}
+
+/// The recordings of the validation, and every C3D file of one trial with force plates.
+fn sources(data: &Path) -> Result<Vec<Named>, String> {
+    let validated = all().into_iter().map(|recording: Recording| (recording.label.to_owned(), recording.read(data)));
+    let mut list: Vec<_> = validated.collect();
+    let is_of_people =
+        |name: &str| ["biomechzoo-", "btkdata-", "motonms-", "opensim-core-"].iter().any(|n| name.starts_with(n));
+    for folder in entries(data)?.into_iter().filter(|folder| is_of_people(&file_name(folder))) {
+        for file in entries(&folder)?.into_iter().filter(|file| file.extension().is_some_and(|e| e == "c3d")) {
+            list.push((file_name(&file), trial(&file)));
+        }
+    }
+    Ok(list)
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+fn entries(folder: &Path) -> Result<Vec<std::path::PathBuf>, String> {
+    let read = fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let mut list: Vec<_> = read.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    list.sort();
+    Ok(list)
+}
+
+/// A file on the built-in body, weighed by its own plates.
+fn trial(path: &Path) -> Result<Source, String> {
+    let bytes = fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let trial =
+        LaboratoryFile::from_c3d(&bytes, &file_name(path), &mut Findings::default()).map_err(|e| e.to_string())?;
+    let body = MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg: None, height_m: None, set: None };
+    Ok(Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() }))
+}
+
+/// The verdict on a twin. Motion and forces are filtered already, and are filtered once more as those of a recording are.
+fn twin(outcome: &Outcome, kind: &str) -> Result<Verdict, String> {
+    let model = &outcome.body;
+    let trajectory = &outcome.analysis.trajectory;
+    let clock = if kind == "fast" { FASTER } else { 1.0 };
+    let times: Vec<f64> = trajectory.grid().times().iter().map(|time| time / clock).collect();
+    let mut columns: Vec<Vec<f64>> = model.coordinate_ids().map(|id| trajectory.values(id).to_vec()).collect();
+    if kind == "lifted" {
+        let id = vertical(outcome).ok_or("the root has no vertical translation")?;
+        columns[id].iter_mut().for_each(|height| *height += LIFT_M);
+    }
+    let mut loads = loads(&outcome.analysis.ground, &times);
+    if kind == "wrong foot"
+        && let [first, second] = &mut loads[..]
+    {
+        std::mem::swap(&mut first.body, &mut second.body);
+    }
+    let columns = columns.into_iter().map(Some).collect();
+    let motion = Motion { origin: format!("twin, {kind}"), times: times.clone(), columns };
+    let mut source = Source::coordinates(model.clone(), motion).with_forces(MeasuredForces::OnBodies(loads));
+    if kind == "torque" {
+        source.device = Some(device(outcome, times)?);
+    }
+    let settings = Settings { force_filter: ForceFilter::Off, ..Settings::default() };
+    Ok(analysed(&source, &settings)?.verdict)
+}
+
+/// The translation of the root along the vertical.
+fn vertical(outcome: &Outcome) -> Option<usize> {
+    let model = &outcome.body;
+    let root = model.bodies().iter().find(|body| body.joint.parent.is_none())?;
+    let up = -model.gravity().normalize();
+    let translations = root
+        .joint
+        .coordinates()
+        .into_iter()
+        .filter(|id| model.coordinates()[id.index()].kind == CoordinateKind::Translation);
+    let axis = (0..3).max_by(|a, b| up[*a].abs().total_cmp(&up[*b].abs()))?;
+    let mut sorted: Vec<usize> = translations.map(|id| id.index()).collect();
+    sorted.sort_unstable();
+    sorted.get(axis).copied()
+}
+
+/// The ground forces as loads on the same bodies.
+fn loads(ground: &GroundForces, times: &[f64]) -> Vec<ForceRecording> {
+    let load = |(number, foot): (usize, &ambulo::ground::BodyForces)| ForceRecording {
+        name: format!("foot {number}"),
+        body: foot.body,
+        force_frame: None,
+        point_frame: None,
+        times: times.to_vec(),
+        force: foot.force.clone(),
+        point: vec![Vec3::zeros(); times.len()],
+        moment: foot.moment.clone(),
+    };
+    ground.bodies.iter().enumerate().map(load).collect()
+}
+
+/// A constant moment that flexes both knees.
+fn device(outcome: &Outcome, times: Vec<f64>) -> Result<Table, String> {
+    let moment_nm = AGAINST_KNEE_NM_KG * outcome.body.mass();
+    let count = times.len();
+    let mut columns = vec![("time".to_owned(), times)];
+    for side in Side::BOTH {
+        let (id, sign) =
+            outcome.body.anatomy().coordinate(Movement::KneeFlexion, Some(side)).ok_or("the body has no knees")?;
+        let name = format!("{}_moment", outcome.body.coordinates()[id.index()].name);
+        columns.push((name, vec![sign * moment_nm; count]));
+    }
+    Table::new("device", columns).map_err(|e| e.to_string())
+}
