@@ -86,6 +86,7 @@ mod retarget;
 mod scaling;
 mod scene_file;
 mod scene_run;
+mod scene_start;
 mod scene_walkers;
 mod simulation_closed_form;
 mod simulation_contact;

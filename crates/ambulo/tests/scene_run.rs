@@ -186,7 +186,7 @@ fn friction_lifts_and_holds_the_box() {
             pressed.push(forces.efforts[slide][0]);
         }
     });
-    assert!(findings.has(Code::DriveGaveWay) && !findings.has(Code::SolverNotConverged));
+    assert!(findings.as_slice().iter().all(|f| f.code == Code::DriveAtLimit) && findings.has(Code::DriveAtLimit));
     let p = place(&scene, "box");
     assert!((p - Vec3::new(0.0, 0.34, 0.0)).norm() < 1e-6 && speed(&scene, "box") < 1e-6, "{p:?}");
     assert!(pressed.iter().all(|force| (force - 20.0).abs() < 1e-6), "the fingers press with 20 N");

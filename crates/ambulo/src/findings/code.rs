@@ -423,8 +423,20 @@ codes! {
         "No small change makes this gait dynamically consistent; residual forces remain, and the verdict judges them."
         "Choose another speed, step length or style.";
     DriveGaveWay "drive.gave_way" Warning
-        "A driven joint could not follow its motion with the largest force allowed."
-        "Allow a larger force, or prescribe a slower motion.";
+        "A drive without a largest force would need an unreasonable one, above 1,000 times the total weight; it gave way."
+        "Prescribe a motion that the other constraints allow, or give the drive a largest force.";
+    DriveAtLimit "drive.at_limit" Note
+        "A drive with a largest force or moment reached it, and follows its motion no further than that allows."
+        "Nothing to do if it is meant to press or to hold; otherwise allow a larger force.";
+    StartContradictory "start.contradictory" Warning
+        "The initial velocities contradict joints, drives or closed loops; the nearest ones by mass are used."
+        "Give velocities that the joints allow, or only the rates of their coordinates.";
+    EnergyRose "energy.rose" Warning
+        "The mechanical energy rose above that of the start although nothing drives the scene."
+        "Use a smaller time step, and remove overlaps and contradictory constraints.";
+    ContactDeepOverlap "contact.deep_overlap" Warning
+        "Two surfaces overlap deeply at the start and are pushed apart."
+        "Correct the initial positions.";
     SolverNotConverged "solver.not_converged" Warning
         "The constraints of a time step could not all be satisfied."
         "Use a smaller time step, or remove constraints that contradict each other.";

@@ -120,6 +120,18 @@ impl Assembly {
         for slot in 0..self.slots.len() {
             self.add_coordinate(world, state, prescribed, yielding, slot, step_s);
         }
+        self.add_closures(world, state);
+    }
+
+    /// Removes the rows of coordinates: only loops remain.
+    pub(crate) fn keep_loops(&mut self, world: &World, state: &WorldState) {
+        self.graph.rows.clear();
+        self.graph.groups.clear();
+        self.keys.clear();
+        self.add_closures(world, state);
+    }
+
+    fn add_closures(&mut self, world: &World, state: &WorldState) {
         for (number, closure) in world.closures.iter().enumerate().filter(|(_, c)| c.active) {
             let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
             let frames = Frames {

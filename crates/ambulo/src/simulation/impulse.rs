@@ -194,12 +194,18 @@ impl StepWorkspace {
     fn report(&self, world: &World, yielding: &Yielding, findings: &mut Findings) {
         for &(joint, coordinate, max) in yielding {
             let joint = &world.joints[joint];
+            let limited = joint.coordinates[coordinate].drive.as_ref().is_some_and(|drive| drive.max.is_some());
             let name = joint.kind.coordinate_names()[coordinate];
             let unit = if joint.kind.turns(coordinate) { "N.m" } else { "N" };
-            findings.report(
-                Code::DriveGaveWay,
-                format!("the drive of `{}` ({name}) gave way: its motion needs more than {max:.4} {unit}", joint.name),
-            );
+            let joint = &joint.name;
+            if limited {
+                let message = format!("the drive of `{joint}` ({name}) is at its limit of {max:.4} {unit}");
+                findings.report(Code::DriveAtLimit, message);
+            } else {
+                let message =
+                    format!("the drive of `{joint}` ({name}) gave way: its motion needs more than {max:.4} {unit}");
+                findings.report(Code::DriveGaveWay, message);
+            }
         }
         let convergence = &self.solution.convergence;
         let contradicts = convergence.residual > CONTRADICTION || convergence.residual.is_nan();

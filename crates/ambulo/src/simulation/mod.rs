@@ -63,6 +63,7 @@ mod impact;
 mod impulse;
 mod projection;
 mod smooth;
+mod start;
 mod step;
 mod touch;
 mod workspace;

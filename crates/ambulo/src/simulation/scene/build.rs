@@ -17,6 +17,8 @@ use super::walk_recorder::FigureRecorder;
 use super::{CoordinateEntry, coordinate::MotionKind};
 use super::{Place, SceneError};
 use crate::findings::{Code, Findings};
+use crate::simulation::energy::EnergyWatch;
+use crate::simulation::start::{project_velocities, report_overlaps};
 use crate::simulation::state::WorldState;
 use crate::simulation::workspace::{StepSettings, StepWorkspace};
 use crate::simulation::world::{
@@ -52,6 +54,8 @@ pub struct Scene {
     /// Recorders of the walking figures.
     pub(super) recorders: Vec<FigureRecorder>,
     pub(super) workspace: StepWorkspace,
+    /// Watches the energy of a scene without drives, until it has risen.
+    pub(super) watch: Option<EnergyWatch>,
     /// Poses at the beginning of the last step, to which its forces belong; only if there are figures.
     pub(super) before: Vec<Pose>,
 }
@@ -116,8 +120,14 @@ impl Scene {
             state.coordinates[number].copy_from_slice(start);
             state.measure(&world, number);
         }
+        let settings = settings(file, changes);
+        let trees = |error: crate::dynamics::LinkError| Place { line: 1, key: "joint".into() }.error(error.to_string());
+        project_velocities(&world, &mut state, &settings.solver, findings).map_err(trees)?;
+        report_overlaps(&world, &state, findings);
+        let watch = EnergyWatch::new(&world, &state).filter(|_| file.events.is_empty());
         Ok(Scene {
-            settings: settings(file, changes),
+            settings,
+            watch,
             duration_s,
             output_rate_hz: file.output_rate_hz.min(1.0 / changes.step_s.unwrap_or(file.step_s)),
             outputs: file.outputs.clone(),

@@ -240,6 +240,9 @@ impl Scene {
                 recorder.after_step(&self.world, &self.state, &self.workspace, step_s, solved);
             }
         }
+        if self.watch.as_mut().is_some_and(|watch| watch.rises(&self.world, &self.state, findings)) {
+            self.watch = None;
+        }
         let finite = |body: usize| {
             let (pose, twist) = (&self.state.poses[body], &self.state.twists[body]);
             let numbers = pose.translation.iter().chain(pose.rotation.iter());
