@@ -222,7 +222,10 @@ fn check_table(name: &str, table: &TableRows<'_>) -> Result<(), Error> {
             expected: "one row or more".into(),
         });
     }
-    table.columns().try_for_each(|(column, values)| check_values(name, column, values))
+    match table.first_not_finite() {
+        Some((column, row, found)) => Err(not_finite(name, column, row, found)),
+        None => Ok(()),
+    }
 }
 
 pub(crate) fn check_column(table: &str, column: &str, values: &[f64]) -> Result<(), Error> {
@@ -230,8 +233,14 @@ pub(crate) fn check_column(table: &str, column: &str, values: &[f64]) -> Result<
 }
 
 fn check_values(table: &str, column: &str, values: impl Iterator<Item = f64>) -> Result<(), Error> {
-    let Some((row, found)) = values.enumerate().find(|(_, x)| !x.is_finite()) else { return Ok(()) };
-    Err(Error::NotFinite { table: table.to_owned(), column: column.to_owned(), row: row + 1, found })
+    match values.enumerate().find(|(_, x)| !x.is_finite()) {
+        Some((row, found)) => Err(not_finite(table, column, row, found)),
+        None => Ok(()),
+    }
+}
+
+fn not_finite(table: &str, column: &str, row: usize, found: f64) -> Error {
+    Error::NotFinite { table: table.to_owned(), column: column.to_owned(), row: row + 1, found }
 }
 
 /// Why a model cannot be written.

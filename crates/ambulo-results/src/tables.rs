@@ -2,12 +2,14 @@
 
 use crate::sound::is_sound;
 use ambulo::analysis::{Analysis, Event, EventKind};
+use ambulo::dynamics::JointReaction;
 use ambulo::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet};
 use ambulo::model::{BodyId, CoordinateKind, Model, Side};
 use ambulo::spatial::Vec3;
 use ambulo_formats::Error;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::TableRows;
+use std::rc::Rc;
 
 pub(crate) type Column = (String, Vec<f64>);
 /// A column whose values are computed when they are needed.
@@ -81,19 +83,16 @@ pub(crate) fn powers<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<Tab
 pub(crate) fn reactions<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<TableRows<'a>, Error> {
     let mut columns: Vec<LazyColumn<'a>> = Vec::new();
     let axes = || ["x", "y", "z"].into_iter().enumerate();
-    for (body, series) in model.bodies().iter().zip(&analysis.forces.reactions) {
+    let reactions = Rc::new(analysis.reactions(model));
+    for (id, body) in model.body_ids().zip(model.bodies()) {
+        let at = |pick: fn(&JointReaction) -> Vec3, k: usize| -> Box<dyn Fn(usize) -> f64 + 'a> {
+            let reactions = Rc::clone(&reactions);
+            Box::new(move |i| pick(&reactions.at(id, i))[k])
+        };
         let stem = format!("{}_on_{}_in_ground_", body.joint.name, body.name);
-        columns.extend(axes().map(|(k, axis)| -> LazyColumn<'a> {
-            (format!("{stem}f{axis}"), Box::new(move |i| series[i].wrench.force[k]))
-        }));
-        columns.extend(axes().map(|(k, axis)| -> LazyColumn<'a> {
-            (format!("{stem}m{axis}"), Box::new(move |i| series[i].wrench.moment[k]))
-        }));
-        columns.extend(
-            axes().map(|(k, axis)| -> LazyColumn<'a> {
-                (format!("{stem}p{axis}"), Box::new(move |i| series[i].center[k]))
-            }),
-        );
+        columns.extend(axes().map(|(k, axis)| (format!("{stem}f{axis}"), at(|reaction| reaction.wrench.force, k))));
+        columns.extend(axes().map(|(k, axis)| (format!("{stem}m{axis}"), at(|reaction| reaction.wrench.moment, k))));
+        columns.extend(axes().map(|(k, axis)| (format!("{stem}p{axis}"), at(|reaction| reaction.center, k))));
     }
     rows("Joint Reactions", analysis, columns)
 }

@@ -38,7 +38,7 @@ fn trajectory(body: &Calibrated, markers: &MarkerRecording) -> (Trajectory, usiz
     let settings = SmoothSettings { smoother: Smoother::Off, window: Window::default(), rate_hz: None };
     let smooth = smooth(model, &motion, settings, &mut findings).unwrap();
     let first = markers.times.partition_point(|t| *t < smooth.grid.start_s - 1e-6);
-    (Trajectory::complete(model, &smooth, &mut findings).unwrap(), first)
+    (Trajectory::complete(model, smooth, &mut findings).unwrap(), first)
 }
 
 fn walked(subject: &Subject) -> Walked {

@@ -28,7 +28,7 @@ fn of_file(file: &str, cutoff_hz: f64) -> Option<(Footfalls, TimeGrid, Vec<f64>)
     let smoother = Smoother::Butterworth(LowPass { order: 3, cutoff_hz });
     let settings = SmoothSettings { smoother, window: Window::default(), rate_hz: None };
     let smoothed = smooth(model, &moved.fit.motion, settings, &mut findings).unwrap();
-    let trajectory = Trajectory::complete(model, &smoothed, &mut findings).unwrap();
+    let trajectory = Trajectory::complete(model, smoothed, &mut findings).unwrap();
     let found = footfalls(model, &trajectory, &Person::of_human(&moved.human).soles, &mut findings);
     let forces = inverse(&mut Workspace::new(model), &trajectory, &[]);
     let weight = model.mass() * model.gravity().norm();

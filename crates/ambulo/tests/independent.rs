@@ -12,7 +12,7 @@
 
 use crate::common::random::{self, Case, Curves, KINDS, Kind, Random, Recipe};
 use crate::common::{State, distance, largest, load_series, trajectory, turn};
-use ambulo::dynamics::{self, BodyLoad, Workspace};
+use ambulo::dynamics::{self, BodyLoad, ReactionReader, Workspace};
 use ambulo::model::{BodyId, Displacement, Joint, JointSpeeds, Model};
 use ambulo::spatial::{Mat3, Vec3};
 use nalgebra::{Matrix6, Vector6};
@@ -338,6 +338,30 @@ fn frames_side_by_side_have_the_bits_of_frames_alone() {
                 let together = collected.reactions[body.index()][frame];
                 assert_eq!(alone.reaction(body), together, "seed {seed}, frame {frame}, body {}", body.index());
             }
+        }
+    }
+}
+
+#[test]
+fn reactions_that_are_computed_again_have_the_same_bits() {
+    for seed in 0..20 {
+        let (model, states, loads) = many_frames(seed);
+        let (path, series) = (trajectory(&model, &states), load_series(&loads));
+        let mut workspace = Workspace::new(&model);
+        let all = dynamics::inverse(&mut workspace, &path, &series);
+        let less = dynamics::inverse_with_residual(&mut workspace, &path, &series);
+        assert_eq!((&less.generalized, &less.powers), (&all.generalized, &all.powers), "seed {seed}");
+        let reader = ReactionReader::new(&model, &path, series);
+        // Forwards, and from the last frame to the first.
+        for frame in (0..states.len()).chain((0..states.len()).rev()) {
+            for body in model.body_ids() {
+                assert_eq!(reader.at(body, frame), all.reactions[body.index()][frame], "seed {seed}, frame {frame}");
+            }
+        }
+        for body in model.body_ids() {
+            let is_root = model.bodies()[body.index()].joint.parent.is_none();
+            let kept = if is_root { all.reactions[body.index()].as_slice() } else { &[] };
+            assert_eq!(less.reactions[body.index()], kept, "seed {seed}, body {}", body.index());
         }
     }
 }

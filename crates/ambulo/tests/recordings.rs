@@ -432,7 +432,7 @@ fn complete(columns: Vec<Option<[Vec<f64>; 3]>>) -> (Trajectory, Findings) {
     let grid = TimeGrid { start_s: 0.5, step_s: 0.01, frames: 50 };
     let mut findings = Findings::default();
     let motion = SmoothMotion { grid, noise: vec![None; columns.len()], columns };
-    (Trajectory::complete(&driven(), &motion, &mut findings).unwrap(), findings)
+    (Trajectory::complete(&driven(), motion, &mut findings).unwrap(), findings)
 }
 
 /// 0.4 sin 5t with its derivatives on the grid of `complete`.

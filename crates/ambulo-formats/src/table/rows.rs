@@ -57,10 +57,29 @@ impl<'a> TableRows<'a> {
         self.columns.iter().map(|(name, value)| (name.as_str(), (0..self.rows).map(value)))
     }
 
+    /// The first number that is not finite: its column, its row from 0 and itself. Of several columns with one, the leftmost counts.
+    #[must_use]
+    pub fn first_not_finite(&self) -> Option<(&str, usize, f64)> {
+        // Row by row, because that is the order in which cells are cheap.
+        let mut found: Option<(usize, usize, f64)> = None;
+        for row in 0..self.rows {
+            let left = found.map_or(self.columns.len(), |(column, ..)| column);
+            let cells = self.columns[..left].iter().enumerate().map(|(k, (_, value))| (k, value(row)));
+            if let Some((column, value)) = cells.into_iter().find(|(_, x)| !x.is_finite()) {
+                found = Some((column, row, value));
+            }
+        }
+        found.map(|(column, row, value)| (self.columns[column].0.as_str(), row, value))
+    }
+
     /// All cells in memory.
     #[must_use]
     pub fn table(&self) -> Table {
-        let (names, data) = self.columns().map(|(name, values)| (name.to_owned(), values.collect())).unzip();
+        let names = self.columns.iter().map(|(name, _)| name.clone()).collect();
+        let mut data: Vec<Vec<f64>> = self.columns.iter().map(|_| Vec::with_capacity(self.rows)).collect();
+        for row in 0..self.rows {
+            data.iter_mut().zip(&self.columns).for_each(|(cells, (_, value))| cells.push(value(row)));
+        }
         Table { name: self.name.clone(), in_degrees: self.in_degrees, names, data, lines: Vec::new() }
     }
 

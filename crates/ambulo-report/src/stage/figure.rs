@@ -161,7 +161,7 @@ fn trajectory(model: &Model, table: &Table) -> Result<Trajectory, String> {
     };
     let noise = vec![None; columns.len()];
     let motion = SmoothMotion { grid, columns: columns.into_iter().map(|c| c.map(still)).collect(), noise };
-    Trajectory::complete(model, &motion, &mut Findings::default()).map_err(|error| error_chain(&error))
+    Trajectory::complete(model, motion, &mut Findings::default()).map_err(|error| error_chain(&error))
 }
 
 fn grid(times: &[f64]) -> Option<TimeGrid> {

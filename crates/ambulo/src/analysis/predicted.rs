@@ -9,7 +9,7 @@ use super::recording::{
     Analysis, AnalysisError, AnalysisSettings, ForceSource, Mass, MassSource, trajectory_within, with_forces,
 };
 use super::residual::residual;
-use crate::dynamics::{Workspace, inverse};
+use crate::dynamics::{Workspace, inverse_with_residual};
 use crate::findings::{Code, Finding, Findings};
 use crate::ground::predict::{PredictSettings, Prediction, Prescribed, predict};
 use crate::ground::upward;
@@ -176,7 +176,7 @@ fn with_prediction(
     findings: &mut Findings,
 ) -> Analysis {
     let (grid, ground) = (trajectory.grid(), prediction.ground.clone());
-    let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
+    let forces = inverse_with_residual(&mut Workspace::new(model), &trajectory, &ground.loads());
     let inside = |event: &Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
     let events: Vec<Event> = prediction.footfalls.events().into_iter().filter(inside).collect();
     if !events.iter().any(|event| event.kind == EventKind::Strike) {

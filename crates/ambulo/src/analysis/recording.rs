@@ -6,7 +6,7 @@ use super::feasibility::{Verdict, over_ground};
 use super::plausibility;
 use super::progress::{Progress, Stage, Stopped};
 use super::residual::{Residual, residual_within};
-use crate::dynamics::{Forces, Workspace, inverse};
+use crate::dynamics::{Forces, ReactionReader, Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings};
 use crate::ground::predict::PredictError;
 use crate::ground::{self, BodyForces, GroundForces};
@@ -43,7 +43,7 @@ pub struct Analysis {
     pub adjusted: bool,
     /// The ground forces at the times of the trajectory.
     pub ground: GroundForces,
-    /// Joint forces, powers and reactions.
+    /// Joint forces, powers, and the reactions in the joints to ground.
     pub forces: Forces,
     /// Foot strikes and foot offs inside the trajectory, in order of time.
     pub events: Vec<Event>,
@@ -79,6 +79,14 @@ pub enum MassSource {
     Standing,
     /// The model's own mass.
     Model,
+}
+
+impl Analysis {
+    /// The reactions in all joints; [`Analysis::forces`] has those of the joints to ground only.
+    #[must_use]
+    pub fn reactions(&self, model: &Model) -> ReactionReader<'_> {
+        ReactionReader::new(model, &self.trajectory, self.ground.loads())
+    }
 }
 
 impl MassSource {
@@ -164,7 +172,7 @@ pub(super) fn trajectory_within(
     let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
     let smoothed = smooth(model, motion, smoothing, findings)
         .map_err(|e| AnalysisError::Motion(with_requested_window(e, settings.window, motion, plates)))?;
-    Ok(Trajectory::complete(model, &smoothed, findings)?)
+    Ok(Trajectory::complete(model, smoothed, findings)?)
 }
 
 /// Where the ground forces come from.
@@ -229,7 +237,7 @@ pub(super) fn with_forces(
     let ground = ground::measured(model, &trajectory, plates, filter, findings).map_err(AnalysisError::Ground)?;
     report_sides(model, &ground, findings);
     progress.end(Stage::Ground)?;
-    let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
+    let forces = inverse_with_residual(&mut Workspace::new(model), &trajectory, &ground.loads());
     progress.end(Stage::InverseDynamics)?;
     let up = ground::upward(model);
     let vertical = vertical_by_side(model, plates, up);

@@ -5,7 +5,7 @@ use super::residual::residual_within;
 use crate::dynamics::residual_reduction::{
     ReducedMotion, ResidualReductionError, ResidualReductionSettings, reduce_residuals,
 };
-use crate::dynamics::{Workspace, inverse};
+use crate::dynamics::{Workspace, inverse_with_residual};
 use crate::findings::Findings;
 use crate::model::Model;
 use crate::motion::filter::LowPass;
@@ -46,7 +46,7 @@ pub fn reduce_residual(
     let done = reduce_residuals(model, &analysis.trajectory, &loads, &reduction, findings)?;
     let [from, to] = done.window_s;
     let (first, frames) = analysis.trajectory.grid().inside(Window { from_s: Some(from), to_s: Some(to) });
-    let forces = inverse(&mut Workspace::new(&done.model), &done.trajectory, &loads);
+    let forces = inverse_with_residual(&mut Workspace::new(&done.model), &done.trajectory, &loads);
     let residual = residual_within(&done.model, &forces, first..first + frames);
     let mass = match analysis.mass.source {
         MassSource::Model => Mass { kg: done.model.mass(), ..analysis.mass },

@@ -29,9 +29,12 @@ use crate::kinematics::{BodyMotion, Posture, Trajectory};
 use crate::model::{BodyId, Model};
 use crate::spatial::{Vec3, Wrench};
 use pulp::{Arch, Simd, WithSimd};
+use std::cell::RefCell;
 
 /// Number of frames computed together: eight doubles fill the widest vector register in use (512 bits).
 const SIDE_BY_SIDE: usize = 8;
+/// The parent of joints to ground in [`Segment::parent`].
+const GROUND: usize = 0;
 
 /// Scratch memory of inverse dynamics for one model. Made once; later calls allocate nothing per frame.
 #[derive(Debug, Clone)]
@@ -65,8 +68,19 @@ pub struct Forces {
     pub generalized: Vec<Vec<f64>>,
     /// Power of each generalised force [W]: one column per coordinate.
     pub powers: Vec<Vec<f64>>,
-    /// Reaction in the joint of each body: one column per body.
+    /// Reaction in the joint of each body: one column per body. From [`inverse_with_residual`] only the joints to ground have one, the other
+    /// columns are empty.
     pub reactions: Vec<Vec<JointReaction>>,
+}
+
+/// The reactions in all joints of a motion, computed when they are read: eight frames are kept at a time, instead of 72 bytes per joint and
+/// frame. Made for reading frame after frame.
+#[derive(Debug)]
+pub struct ReactionReader<'a> {
+    trajectory: &'a Trajectory,
+    loads: Vec<LoadSeries>,
+    /// Scratch memory with eight frames, and the first of them.
+    block: RefCell<(Workspace, Option<usize>)>,
 }
 
 /// A known load on a body at one instant (ground reaction, device), in world axes.
@@ -192,12 +206,50 @@ pub fn inverse_frames(
 /// ```
 #[must_use]
 pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[LoadSeries]) -> Forces {
+    collect(workspace, trajectory, loads, |_| true)
+}
+
+/// As [`inverse`], but of the reactions only those of joints to ground, which are the residual. The other reactions take more than half of
+/// the memory of [`inverse`]; [`ReactionReader`] gives them.
+#[must_use]
+pub fn inverse_with_residual(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[LoadSeries]) -> Forces {
+    collect(workspace, trajectory, loads, |segment| segment.parent == GROUND)
+}
+
+/// Reactions in the joints to ground without loads, in the order of the bodies: `visit` gets them frame after frame.
+pub(crate) fn each_root_reaction(
+    workspace: &mut Workspace,
+    trajectory: &Trajectory,
+    mut visit: impl FnMut(&[JointReaction]),
+) {
     let Workspace { plan, arch, many: kernel, .. } = workspace;
     let frames = trajectory.grid().frames;
+    let roots: Vec<usize> = (0..plan.segments.len()).filter(|&i| plan.segments[i].parent == GROUND).collect();
+    let mut reactions = Vec::with_capacity(roots.len());
+    for first in (0..frames).step_by(SIDE_BY_SIDE) {
+        kernel.solve_block(plan, *arch, trajectory, &[], first);
+        for lane in 0..SIDE_BY_SIDE.min(frames - first) {
+            reactions.clear();
+            reactions.extend(roots.iter().map(|&root| kernel.reaction(root, lane)));
+            visit(&reactions);
+        }
+    }
+}
+
+fn collect(
+    workspace: &mut Workspace,
+    trajectory: &Trajectory,
+    loads: &[LoadSeries],
+    has_reaction: impl Fn(&Segment) -> bool,
+) -> Forces {
+    let Workspace { plan, arch, many: kernel, .. } = workspace;
+    let frames = trajectory.grid().frames;
+    let room_for = |segment: &Segment| Vec::with_capacity(if has_reaction(segment) { frames } else { 0 });
+    let column = |_| Vec::with_capacity(frames);
     let mut forces = Forces {
-        generalized: vec![Vec::with_capacity(frames); plan.coordinates],
-        powers: vec![Vec::with_capacity(frames); plan.coordinates],
-        reactions: vec![Vec::with_capacity(frames); plan.segments.len()],
+        generalized: (0..plan.coordinates).map(column).collect(),
+        powers: (0..plan.coordinates).map(column).collect(),
+        reactions: plan.segments.iter().map(room_for).collect(),
     };
     for first in (0..frames).step_by(SIDE_BY_SIDE) {
         let count = SIDE_BY_SIDE.min(frames - first);
@@ -209,11 +261,36 @@ pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[Load
         for (column, power) in forces.powers.iter_mut().zip(&kernel.power) {
             column.extend_from_slice(&power[..count]);
         }
-        for (i, column) in forces.reactions.iter_mut().enumerate() {
+        for (i, column) in forces.reactions.iter_mut().enumerate().filter(|(i, _)| has_reaction(&plan.segments[*i])) {
             column.extend((0..count).map(|lane| kernel.reaction(i, lane)));
         }
     }
     forces
+}
+
+impl<'a> ReactionReader<'a> {
+    /// Reads the reactions of a motion of `model` under loads, each with one entry per frame.
+    #[must_use]
+    pub fn new(model: &Model, trajectory: &'a Trajectory, loads: Vec<LoadSeries>) -> ReactionReader<'a> {
+        ReactionReader { trajectory, loads, block: RefCell::new((Workspace::new(model), None)) }
+    }
+
+    /// Reaction in the joint of a body.
+    ///
+    /// # Panics
+    /// If the trajectory has no such frame, or the model no such body.
+    #[must_use]
+    pub fn at(&self, body: BodyId, frame: usize) -> JointReaction {
+        assert!(frame < self.trajectory.grid().frames, "frame {frame} of a shorter motion");
+        let (workspace, solved) = &mut *self.block.borrow_mut();
+        let first = frame - frame % SIDE_BY_SIDE;
+        if *solved != Some(first) {
+            let Workspace { plan, arch, many: kernel, .. } = workspace;
+            kernel.solve_block(plan, *arch, self.trajectory, &self.loads, first);
+            *solved = Some(first);
+        }
+        workspace.many.reaction(body.index(), frame - first)
+    }
 }
 
 /// Projects known joint wrenches on the coordinates: one generalised force per coordinate [N.m or N]. This is the last step

@@ -33,9 +33,10 @@ pub use constraint::{
 };
 pub use elimination::{EliminationWorkspace, Offsets};
 pub use elimination_order::{Elimination, Link, LinkError, LinkTerms};
+pub(crate) use inverse::each_root_reaction;
 pub use inverse::{
-    BodyLoad, Forces, FrameForces, JointReaction, LoadSeries, Workspace, inverse, inverse_frame, inverse_frames,
-    project_wrenches,
+    BodyLoad, Forces, FrameForces, JointReaction, LoadSeries, ReactionReader, Workspace, inverse, inverse_frame,
+    inverse_frames, inverse_with_residual, project_wrenches,
 };
 pub use problem::{Method, SolverSettings};
 pub(crate) use roots::Roots;

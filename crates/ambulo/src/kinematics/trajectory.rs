@@ -89,13 +89,14 @@ impl Trajectory {
     /// Numbers that are not finite.
     pub fn complete(
         model: &Model,
-        motion: &SmoothMotion,
+        mut motion: SmoothMotion,
         findings: &mut Findings,
     ) -> Result<Trajectory, TrajectoryError> {
         let grid = motion.grid;
+        let missing = missing(model, &motion);
         let mut columns: Vec<[Vec<f64>; 3]> =
-            model.coordinate_ids().map(|id| recorded_or_driven(model, motion, id, findings)).collect();
-        report_missing(model, motion, findings);
+            model.coordinate_ids().map(|id| recorded_or_driven(model, &mut motion, id, findings)).collect();
+        report_missing(&missing, findings);
         for id in model.coordinate_ids() {
             if let Drive::Coupled(leader, function) = &model.coordinates()[id.index()].drive {
                 let follower = follow(&columns[leader.index()], |x| function.at(x));
@@ -150,11 +151,17 @@ impl Trajectory {
 
 fn recorded_or_driven(
     model: &Model,
-    motion: &SmoothMotion,
+    motion: &mut SmoothMotion,
     id: CoordinateId,
     findings: &mut Findings,
 ) -> [Vec<f64>; 3] {
     let coordinate = &model.coordinates()[id.index()];
+    if let Drive::Free = coordinate.drive
+        && let Some(recorded) = motion.columns.get_mut(id.index()).and_then(Option::take)
+    {
+        return recorded;
+    }
+    let motion = &*motion;
     let held = || [vec![coordinate.default_value; motion.grid.frames], zeros(motion), zeros(motion)];
     match (&coordinate.drive, motion.column(id)) {
         (Drive::Locked, recorded) => {
@@ -165,21 +172,23 @@ fn recorded_or_driven(
             let times = [motion.grid.times(), vec![1.0; motion.grid.frames], zeros(motion)];
             follow(&times, |t| function.at(t))
         }
-        (Drive::Coupled(..), _) => held(),
-        (Drive::Free, Some(recorded)) => recorded.clone(),
-        (Drive::Free, None) => held(),
+        (Drive::Coupled(..) | Drive::Free, _) => held(),
     }
 }
 
-fn report_missing(model: &Model, motion: &SmoothMotion, findings: &mut Findings) {
+/// Free coordinates without a column, with their default values.
+fn missing(model: &Model, motion: &SmoothMotion) -> Vec<String> {
     let is_missing = |(c, column): &(&Coordinate, &Option<_>)| matches!(c.drive, Drive::Free) && column.is_none();
-    let missing: Vec<String> = model
+    let missing = model
         .coordinates()
         .iter()
         .zip(&motion.columns)
         .filter(is_missing)
-        .map(|(c, _)| format!("`{}` ({})", c.name, c.default_value))
-        .collect();
+        .map(|(c, _)| format!("`{}` ({})", c.name, c.default_value));
+    missing.collect()
+}
+
+fn report_missing(missing: &[String], findings: &mut Findings) {
     if !missing.is_empty() {
         let message =
             format!("the recording has no column for {}; the default values in brackets are used", missing.join(", "));

@@ -13,6 +13,7 @@ use super::time_grid::{TimeGrid, Window};
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, Drive, Model};
 use crate::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineFitter};
+use std::borrow::Cow;
 
 /// The smoothing method.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,7 +91,7 @@ pub fn smooth(
 ) -> Result<SmoothMotion, MotionError> {
     let SmoothSettings { smoother, window, rate_hz } = settings;
     check_range(motion, window)?;
-    let motion = &usable(model, motion, window);
+    let motion = &*usable(model, motion, window);
     let whole = uniform_grid(motion, window, findings)?;
     let resampled = TimeGrid::through(&motion.times).is_none();
     let (first, frames) = whole.inside(window);
@@ -136,16 +137,19 @@ pub(crate) fn check_range(motion: &Motion, window: Window) -> Result<(), MotionE
 }
 
 /// The part of the recording around the window that has all the numbers in use.
-fn usable(model: &Model, motion: &Motion, window: Window) -> Motion {
+fn usable<'m>(model: &Model, motion: &'m Motion, window: Window) -> Cow<'m, Motion> {
     let free = |(c, _): &(&Coordinate, &Option<Vec<f64>>)| matches!(c.drive, Drive::Free);
     let used: Vec<&Vec<f64>> =
         model.coordinates().iter().zip(&motion.columns).filter(free).filter_map(|(_, c)| c.as_ref()).collect();
     let rows = rows_around(&motion.times, window, |row| used.iter().all(|c| c[row].is_finite()));
-    Motion {
+    if rows == (0..motion.times.len()) {
+        return Cow::Borrowed(motion);
+    }
+    Cow::Owned(Motion {
         origin: motion.origin.clone(),
         times: motion.times[rows.clone()].to_vec(),
         columns: motion.columns.iter().map(|c| c.as_ref().map(|c| c[rows.clone()].to_vec())).collect(),
-    }
+    })
 }
 
 /// The grid with the same start at another rate.

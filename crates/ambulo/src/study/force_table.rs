@@ -100,7 +100,7 @@ impl Walker<'_> {
         let settings = SmoothSettings { smoother: Smoother::Off, window: self.window, rate_hz: None };
         let unheard = &mut Findings::default();
         let smoothed = smooth(self.model, self.motion, settings, unheard).ok()?;
-        let trajectory = Trajectory::complete(self.model, &smoothed, unheard).ok()?;
+        let trajectory = Trajectory::complete(self.model, smoothed, unheard).ok()?;
         FootPaths::new(self.model, &trajectory, self.soles)
     }
 

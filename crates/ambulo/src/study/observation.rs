@@ -26,10 +26,10 @@ use crate::spatial::Vec3;
 use std::borrow::Cow;
 
 /// A body, its motion and the forces under its feet, as observed.
-pub(super) struct Observation {
+pub(super) struct Observation<'s> {
     pub(super) model: Model,
     pub(super) person: Person,
-    pub(super) motion: ObservedMotion,
+    pub(super) motion: ObservedMotion<'s>,
     pub(super) forces: Vec<ForceRecording>,
     pub(super) origin: Origin,
     /// What is known of the body mass without the motion.
@@ -37,14 +37,14 @@ pub(super) struct Observation {
 }
 
 /// A motion as observed.
-pub(super) enum ObservedMotion {
+pub(super) enum ObservedMotion<'s> {
     /// Samples, possibly with gaps.
-    Recorded(Motion),
+    Recorded(Cow<'s, Motion>),
     /// Complete, with the exact forces of a simulation.
-    Complete(Trajectory),
+    Complete(&'s Trajectory),
 }
 
-impl ObservedMotion {
+impl ObservedMotion<'_> {
     /// The samples, if it was recorded.
     pub(super) fn recorded(&self) -> Option<&Motion> {
         match self {
@@ -69,7 +69,7 @@ pub(super) struct Followed {
     pub(super) listed: Vec<Event>,
 }
 
-impl Observation {
+impl Observation<'_> {
     /// What plates carried in a standing trial [kg].
     pub(super) fn standing_kg(&self) -> Option<f64> {
         self.known_mass.standing.as_ref().map(|standing| standing.kg)
@@ -116,12 +116,12 @@ impl Origin {
 
 impl Source {
     /// The body in motion that this source describes.
-    pub(super) fn observe(
-        &self,
+    pub(super) fn observe<'s>(
+        &'s self,
         settings: &Settings,
         findings: &mut Findings,
         progress: &mut Progress<'_>,
-    ) -> Result<Observation, StudyError> {
+    ) -> Result<Observation<'s>, StudyError> {
         match &self.recording {
             Recording::Coordinates { model, motion } => self.observe_coordinates(model, motion, settings, findings),
             Recording::Markers(markers) => self.observe_markers(markers, settings, findings, progress),
@@ -132,7 +132,7 @@ impl Source {
             Recording::Complete(made) => Ok(Observation {
                 model: self.loaded(&made.model)?,
                 person: made.person.clone(),
-                motion: ObservedMotion::Complete(made.trajectory.clone()),
+                motion: ObservedMotion::Complete(&made.trajectory),
                 forces: made.loads.clone(),
                 origin: Origin::Simulation { rule: made.rule },
                 known_mass: KnownMass::stated(Some(made.model.mass())),
@@ -140,16 +140,16 @@ impl Source {
         }
     }
 
-    fn observe_coordinates(
-        &self,
+    fn observe_coordinates<'s>(
+        &'s self,
         model: &Model,
-        motion: &Motion,
+        motion: &'s Motion,
         settings: &Settings,
         findings: &mut Findings,
-    ) -> Result<Observation, StudyError> {
+    ) -> Result<Observation<'s>, StudyError> {
         let is_measured =
             settings.ground != GroundSettings::NoContact && !matches!(self.forces, MeasuredForces::InRecording);
-        let motion = &self.stated.moved(model, motion, is_measured);
+        let motion = self.stated.moved(model, motion, is_measured);
         let model = self.loaded(&self.stated.applied(model, findings)?)?;
         let of_model = Person::of_model(&model);
         let person = Person { estimated: self.stated.height_m.is_none(), ..of_model };
@@ -164,7 +164,7 @@ impl Source {
             MeasuredForces::Table(table) => {
                 let walker = Walker {
                     model: &model,
-                    motion,
+                    motion: &motion,
                     soles: &person.soles,
                     window: settings.window,
                     world_from_lab: None,
@@ -175,7 +175,7 @@ impl Source {
         Ok(Observation {
             person,
             model,
-            motion: ObservedMotion::Recorded(motion.clone()),
+            motion: ObservedMotion::Recorded(motion),
             forces,
             origin: Origin::Coordinates,
             known_mass: KnownMass::stated(self.stated.mass_kg),
@@ -189,7 +189,7 @@ impl Source {
         settings: &Settings,
         findings: &mut Findings,
         progress: &mut Progress<'_>,
-    ) -> Result<Observation, StudyError> {
+    ) -> Result<Observation<'static>, StudyError> {
         let body = retarget(build, skeleton, findings)?;
         progress.end(Stage::Markers)?;
         if settings.ground != GroundSettings::NoContact {
@@ -199,7 +199,7 @@ impl Source {
         Ok(Observation {
             person: Person::of_human(&body.human),
             model: self.loaded(&body.human.model)?,
-            motion: ObservedMotion::Recorded(body.fit.motion.clone()),
+            motion: ObservedMotion::Recorded(Cow::Owned(body.fit.motion.clone())),
             forces: Vec::new(),
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
@@ -215,7 +215,7 @@ impl Source {
         settings: &Settings,
         findings: &mut Findings,
         progress: &mut Progress<'_>,
-    ) -> Result<Observation, StudyError> {
+    ) -> Result<Observation<'static>, StudyError> {
         let known = KnownMass::of_markers(markers);
         let markers = &*self.with_known_mass(markers, &known, settings, findings)?;
         let mut body = self.follow(markers, settings, findings, progress)?;
@@ -226,7 +226,7 @@ impl Source {
         Ok(Observation {
             model: body.subject.model.clone(),
             person: body.subject.person.clone(),
-            motion: ObservedMotion::Recorded(body.fit.motion.clone()),
+            motion: ObservedMotion::Recorded(Cow::Owned(body.fit.motion.clone())),
             forces,
             known_mass: known,
             origin: Origin::Markers(Box::new(Followed { body, listed: markers.trial.events.clone() })),
@@ -296,7 +296,7 @@ impl Source {
             .map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) });
         let smoothing = SmoothSettings { smoother: settings.smoother, window: whole, rate_hz: None };
         let smoothed = smooth(model, &body.fit.motion, smoothing, unheard).map_err(AnalysisError::Motion)?;
-        let trajectory = Trajectory::complete(model, &smoothed, unheard).map_err(AnalysisError::Trajectory)?;
+        let trajectory = Trajectory::complete(model, smoothed, unheard).map_err(AnalysisError::Trajectory)?;
         Ok(Carried::new(model, &trajectory, &forces, &body.subject.person.soles, Some(&body)).estimates())
     }
 

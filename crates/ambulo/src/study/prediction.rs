@@ -24,7 +24,7 @@ pub(super) struct Found {
 
 /// Predicts the ground forces, weighs the body, checks the prediction and compares it with the plates.
 pub(super) fn predicted(
-    observation: &Observation,
+    observation: &Observation<'_>,
     motion: &Motion,
     processing: analysis::AnalysisSettings,
     settings: &Settings,
@@ -92,7 +92,7 @@ fn report_weak_evidence(origin: &Origin, motion: &Motion, findings: &mut Finding
 }
 
 /// What plates measured completely; `None` without plates.
-fn coverage(observation: &Observation, predicted: &PredictedAnalysis) -> Option<PlateCoverage> {
+fn coverage(observation: &Observation<'_>, predicted: &PredictedAnalysis) -> Option<PlateCoverage> {
     let measured = predicted.measured.as_ref()?;
     match observation.origin.followed() {
         Some(Followed { body, .. }) if !body.on_plates.contacts.is_empty() => Some(body.coverage()),
@@ -101,14 +101,14 @@ fn coverage(observation: &Observation, predicted: &PredictedAnalysis) -> Option<
 }
 
 /// Events and mass of the measured forces alongside a prediction; with the events that plates measured.
-fn completed(predicted: PredictedAnalysis, observation: &Observation) -> (PredictedAnalysis, Vec<Event>) {
+fn completed(predicted: PredictedAnalysis, observation: &Observation<'_>) -> (PredictedAnalysis, Vec<Event>) {
     let PredictedAnalysis { analysis, prediction, measured } = predicted;
     let (measured, events) = measured.map(|measured| with_markers(measured, observation)).unzip();
     (PredictedAnalysis { analysis, prediction, measured }, events.unwrap_or_default())
 }
 
 /// An analysis with measured forces, with the events and the weighing that a recording of markers allows.
-pub(super) fn with_markers(analysis: Analysis, observation: &Observation) -> (Analysis, Vec<Event>) {
+pub(super) fn with_markers(analysis: Analysis, observation: &Observation<'_>) -> (Analysis, Vec<Event>) {
     let Observation { model, origin, .. } = observation;
     let Some(Followed { body, listed }) = origin.followed() else { return (analysis, Vec::new()) };
     let (mut analysis, measured_events) = with_events_of_markers(analysis, body, listed);

@@ -15,7 +15,7 @@ use crate::analysis::{
     analyse_with_progress, reduce_residual, times_and_distances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
-use crate::dynamics::{Workspace, inverse};
+use crate::dynamics::{Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings};
 use crate::ground::footfalls::footfalls;
 use crate::ground::predict::predict;
@@ -127,7 +127,7 @@ fn road(
 }
 
 /// What states and weighs the body.
-fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Findings) -> BodyMass {
+fn body_mass(observation: &Observation<'_>, analysis: &Analysis, findings: &mut Findings) -> BodyMass {
     let weighed = observation.weighed_in_motion(&analysis.trajectory);
     let mass = BodyMass::of(observation.model.mass(), &observation.known_mass, weighed);
     mass.report(findings);
@@ -196,7 +196,7 @@ impl Judged<'_> {
             || predict(model, trajectory, &person.soles, &settings.prediction, &mut Findings::default()).ok();
         if let Some(prediction) = is_incomplete.then(prediction).flatten() {
             let ground = &prediction.ground;
-            let forces = &inverse(&mut Workspace::new(model), trajectory, &ground.loads());
+            let forces = &inverse_with_residual(&mut Workspace::new(model), trajectory, &ground.loads());
             let evidence = MotionAndForces { predicted: Some(PredictedForces { ground, forces }), ..evidence };
             verdict = feasibility::check(&evidence, person, &settings.thresholds, findings);
         } else {
@@ -208,7 +208,11 @@ impl Judged<'_> {
 }
 
 /// Filters and time range for this recording.
-fn processing(observation: &Observation, settings: &Settings, findings: &mut Findings) -> analysis::AnalysisSettings {
+fn processing(
+    observation: &Observation<'_>,
+    settings: &Settings,
+    findings: &mut Findings,
+) -> analysis::AnalysisSettings {
     let whole = Window::default();
     let as_it_is = analysis::AnalysisSettings {
         smoother: Smoother::Off,
@@ -247,7 +251,7 @@ fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
 
 /// Ground forces and joint forces.
 fn forces(
-    observation: &Observation,
+    observation: &Observation<'_>,
     processing: analysis::AnalysisSettings,
     settings: &Settings,
     findings: &mut Findings,
@@ -257,7 +261,7 @@ fn forces(
     let (analysis, measured_events) = match &observation.motion {
         ObservedMotion::Complete(trajectory) => {
             let source = ForceSource::Simulated;
-            (analyse_measured(model, trajectory.clone(), forces, source, findings, progress)?, Vec::new())
+            (analyse_measured(model, (*trajectory).clone(), forces, source, findings, progress)?, Vec::new())
         }
         ObservedMotion::Recorded(motion) if observation.is_predicted(settings) => {
             return predicted(observation, motion, processing, settings, findings, progress);

@@ -6,6 +6,7 @@ use crate::ground::upward;
 use crate::model::{CoordinateKind, Displacement, Model};
 use crate::motion::Motion;
 use crate::spatial::Vec3;
+use std::borrow::Cow;
 
 /// Along the vertical, rather than along the floor, if the upward part of a unit direction is larger: half a right angle.
 const UPWARD: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -51,7 +52,10 @@ impl StatedSize {
 
     /// The motion of the scaled model: recorded lengths grow with the body, so that feet stay on the floor and do not slide. Where ground
     /// forces were measured, the path along the floor is that of the laboratory and stays.
-    pub(super) fn moved(self, model: &Model, motion: &Motion, is_measured: bool) -> Motion {
+    pub(super) fn moved<'m>(self, model: &Model, motion: &'m Motion, is_measured: bool) -> Cow<'m, Motion> {
+        if self.height_m.is_none() {
+            return Cow::Borrowed(motion);
+        }
         let factor = self.length_factor(model);
         let up = upward(model);
         let mut moved = motion.clone();
@@ -65,6 +69,6 @@ impl StatedSize {
                 }
             }
         }
-        moved
+        Cow::Owned(moved)
     }
 }

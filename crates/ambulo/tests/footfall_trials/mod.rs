@@ -49,7 +49,7 @@ impl Recorded {
         let settings = SmoothSettings { smoother, window: Window::default(), rate_hz: None };
         let mut findings = Findings::default();
         let smooth = smooth(&self.model, &self.motion, settings, &mut findings).unwrap();
-        Trajectory::complete(&self.model, &smooth, &mut findings).unwrap()
+        Trajectory::complete(&self.model, smooth, &mut findings).unwrap()
     }
 }
 

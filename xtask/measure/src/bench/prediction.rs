@@ -120,7 +120,7 @@ fn of_markers(model: &Model, markers: &MarkerRecording) -> Result<Vec<Row>, Stri
         let smoother = Smoother::Butterworth(LowPass::MOTION);
         let settings = SmoothSettings { smoother, window: Window::default(), rate_hz: None };
         let smoothed = smooth(model, &fit.motion, settings, &mut findings).map_err(|e| e.to_string())?;
-        Trajectory::complete(model, &smoothed, &mut findings).map_err(|e| e.to_string())
+        Trajectory::complete(model, smoothed, &mut findings).map_err(|e| e.to_string())
     };
     let run = || {
         let trajectory = fitted()?;

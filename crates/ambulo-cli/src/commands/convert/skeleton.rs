@@ -80,7 +80,7 @@ pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Convert
     let window = Window { from_s: None, to_s: None };
     let settings = SmoothSettings { smoother: Smoother::Off, window, rate_hz: None };
     let smoothed = smooth(&model, &motion, settings, &mut findings).with_context(|| shown.clone())?;
-    let trajectory = Trajectory::complete(&model, &smoothed, &mut findings).with_context(|| shown.clone())?;
+    let trajectory = Trajectory::complete(&model, smoothed, &mut findings).with_context(|| shown.clone())?;
     if to == "glb" {
         report_lost(&mut findings, &["masses and inertias".to_owned()]);
         findings.report(Code::ConvertAxes, "lengths are in metres; x forward, y up, z right");

@@ -4,7 +4,7 @@
 //!
 //! Computed as the reaction of the joints to ground in inverse dynamics without loads, expressed about the world's origin.
 
-use crate::dynamics::{JointReaction, Workspace, inverse};
+use crate::dynamics::{JointReaction, Workspace, each_root_reaction};
 use crate::kinematics::Trajectory;
 use crate::model::Model;
 use crate::spatial::Wrench;
@@ -12,15 +12,12 @@ use crate::spatial::Wrench;
 /// Total ground force [N] and moment about the world's origin [N.m] that the motion requires, one entry per frame.
 #[must_use]
 pub fn total_wrench(model: &Model, trajectory: &Trajectory) -> Vec<Wrench> {
-    let forces = inverse(&mut Workspace::new(model), trajectory, &[]);
-    let is_root = |body: &usize| model.bodies()[*body].joint.parent.is_none();
-    let roots: Vec<usize> = (0..model.bodies().len()).filter(is_root).collect();
-    let total = |frame: usize| {
-        roots.iter().fold(Wrench::ZERO, |sum, &root| {
-            let JointReaction { wrench, center } = forces.reactions[root][frame];
+    let mut total = Vec::with_capacity(trajectory.grid().frames);
+    each_root_reaction(&mut Workspace::new(model), trajectory, |roots| {
+        total.push(roots.iter().fold(Wrench::ZERO, |sum, &JointReaction { wrench, center }| {
             let wrench = wrench.about(center);
             Wrench { force: sum.force + wrench.force, moment: sum.moment + wrench.moment }
-        })
-    };
-    (0..trajectory.grid().frames).map(total).collect()
+        }));
+    });
+    total
 }

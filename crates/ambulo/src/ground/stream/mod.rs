@@ -205,7 +205,7 @@ impl Stream {
         let settings = SmoothSettings { smoother: self.smoother, window: all, rate_hz: None };
         let motion = continued(self.buffer.motion(), self.buffer.time(1));
         let smoothed = smooth(&self.model, &motion, settings, &mut findings)?;
-        let trajectory = Trajectory::complete(&self.model, &smoothed, &mut findings)?;
+        let trajectory = Trajectory::complete(&self.model, smoothed, &mut findings)?;
         let mut footfalls = footfalls(&self.model, &trajectory, &self.soles, &mut findings);
         self.step_timing.update(&footfalls);
         self.step_timing.extrapolate(&mut footfalls, trajectory.grid());
