@@ -87,6 +87,7 @@ mod scaling;
 mod scene_file;
 mod scene_run;
 mod scene_start;
+mod scene_verdict;
 mod scene_walkers;
 mod simulation_closed_form;
 mod simulation_contact;

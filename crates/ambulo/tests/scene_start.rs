@@ -1,8 +1,9 @@
 //! The start of scenes: contradictory velocities, deep overlaps, and energy that rises.
 
+use ambulo::dynamics::SolverSettings;
 use ambulo::findings::{Code, Findings};
-use ambulo::simulation::energy;
 use ambulo::simulation::scene::{Scene, SceneFile, SceneSettings};
+use ambulo::simulation::{WorldState, energy, start};
 
 fn built(text: &str) -> (Scene, Findings) {
     let mut findings = Findings::default();
@@ -60,6 +61,21 @@ fn a_body_whose_velocity_points_away_from_its_hinge_keeps_its_angular_momentum_a
         let found = energy(scene.world(), scene.state()).total();
         assert!((found - 4.1 * 4.1 / 2.2).abs() < 1e-9, "{integrator}: {found} J");
         assert!(findings.has(Code::StartContradictory), "{integrator}");
+    }
+}
+
+#[test]
+fn a_world_without_a_scene_starts_the_same_way() {
+    let text = hinged("impulse", "[3, 4, 0]", 1.0);
+    let (scene, _) = built(&text);
+    let mut contradictory = WorldState::new(scene.world());
+    let given = energy(scene.world(), &contradictory).total();
+    let mut findings = Findings::default();
+    start(scene.world(), &mut contradictory, &SolverSettings::default(), &mut findings).unwrap();
+    assert!(findings.has(Code::StartContradictory));
+    assert!(energy(scene.world(), &contradictory).total() < given);
+    for (own, of_scene) in contradictory.twists.iter().zip(&scene.state().twists) {
+        assert!((own.linear - of_scene.linear).norm() < 1e-12 && (own.angular - of_scene.angular).norm() < 1e-12);
     }
 }
 

@@ -1,18 +1,19 @@
-//! The verdict on the walking figures of a scene.
+//! The verdict on the figures of a scene that walk or follow a recording.
 
-use crate::analysis::activity::ActivityKind;
+use crate::analysis::activity::{ActivityKind, activity};
 use crate::analysis::feasibility::{MotionAndForces, Person, Thresholds, Verdict, VerdictState, check};
-use crate::dynamics::{Forces, JointReaction};
+use crate::dynamics::{Forces, JointReaction, Workspace, inverse_with_residual};
 use crate::findings::Findings;
+use crate::ground::footfalls::footfalls;
 use crate::ground::{BodyForces, GroundForces, upward};
 use crate::kinematics::{TrajectoryError, each_body_motion};
 use crate::model::{CoordinateKind, Model};
-use crate::simulation::scene::{FigureWalk, Scene};
+use crate::simulation::scene::{FigureMotion, FigureRecord, FigureWalk, ObstacleForces, Scene};
 use crate::simulation::walking::WalkRecording;
 use crate::spatial::{Vec3, Wrench};
 use serde::{Deserialize, Serialize};
 
-/// The verdict on all figures of a scene that walk.
+/// The verdict on all figures of a scene that walk or follow a recording.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SceneVerdict {
@@ -33,7 +34,7 @@ pub struct FigureVerdict {
     pub verdict: Verdict,
 }
 
-/// Judges every figure that walked; `None` if none did.
+/// Judges every figure that walked or followed a recording; `None` if none did.
 ///
 /// # Errors
 /// A scene that has not been stepped.
@@ -42,17 +43,44 @@ pub fn scene_verdict(
     thresholds: &Thresholds,
     findings: &mut Findings,
 ) -> Result<Option<SceneVerdict>, TrajectoryError> {
-    let judged = |walk: FigureWalk| {
-        let verdict = judged(&walk, thresholds, findings);
-        FigureVerdict { figure: walk.name, verdict }
+    let judged = |record: FigureRecord| match record {
+        FigureRecord::Walk(walk) => {
+            FigureVerdict { verdict: walk_verdict(&walk, thresholds, findings), figure: walk.name }
+        }
+        FigureRecord::Motion(motion) => {
+            FigureVerdict { verdict: motion_verdict(&motion, thresholds, findings), figure: motion.name }
+        }
     };
-    let figures: Vec<FigureVerdict> = scene.walks()?.into_iter().map(judged).collect();
+    let figures: Vec<FigureVerdict> = scene.records()?.into_iter().map(judged).collect();
     let any = |state| figures.iter().any(|figure| figure.verdict.state == state);
     let worst = [VerdictState::Infeasible, VerdictState::NotJudged].into_iter().find(|state| any(*state));
     Ok((!figures.is_empty()).then_some(SceneVerdict { state: worst.unwrap_or(VerdictState::Feasible), figures }))
 }
 
-fn judged(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
+/// The verdict on a motion with the forces of the scene on it. Joint forces and residual are those of inverse dynamics.
+fn motion_verdict(motion: &FigureMotion, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
+    let FigureMotion { model, trajectory, ground, loads, .. } = motion;
+    let forces = inverse_with_residual(&mut Workspace::new(model), trajectory, loads);
+    let up = upward(model);
+    let body_forces = |on: &ObstacleForces| BodyForces::on_ground(on.body, &on.force, &on.moment, up, &on.height);
+    let ground = &GroundForces { bodies: ground.iter().map(body_forces).collect() };
+    let person = Person::of_model(model);
+    let footfalls = footfalls(model, trajectory, &person.soles, &mut Findings::default());
+    let evidence = MotionAndForces {
+        model,
+        trajectory,
+        forces: &forces,
+        ground,
+        device: None,
+        predicted: None,
+        activity: activity(model, trajectory, &person.soles, person.leg_length_m, &footfalls).kind,
+        cutoff_hz: None,
+        forces_are_predicted: false,
+    };
+    check(&evidence, &person, thresholds, findings)
+}
+
+fn walk_verdict(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
     let recording = &walk.recording;
     let forces = forces(recording);
     let ground = ground(recording);

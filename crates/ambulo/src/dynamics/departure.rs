@@ -184,6 +184,11 @@ impl BestIterate {
         }
     }
 
+    /// The kept forces.
+    pub(super) fn lambda(&self) -> &[f64] {
+        &self.lambda
+    }
+
     /// Restores the kept iterate if it is better than this one.
     pub(super) fn restore(
         &self,

@@ -11,8 +11,9 @@
 //! halved until |F|² falls below the largest of the last few values; ∂F/∂λ contains the dependence of friction on the normal
 //! force, which the friction disc of `proximal` does not. Redundant rows make W singular, and steps along the forces that move
 //! nothing leave the cones; a share of its diagonal is therefore added to the derivative (not to F), more where a step fails, as
-//! in the method of Levenberg and Marquardt. Where no step lowers |F|², sweeps over the rows one by one (Gauss and Seidel, with
-//! the same projections) lead to another place. The iterate with the smallest departure is returned.
+//! in the method of Levenberg and Marquardt. Where no step lowers |F|², the best forces are changed at
+//! random, or set to zero, and sweeps over the rows one by one (Gauss and Seidel, with the same projections) lead to the next
+//! place to start from. The iterate with the smallest departure is returned.
 //!
 //! Source: Alart and Curnier 1991 for F; Jourdan, Alart and Jean 1998 for the sweeps (unverified pages). Derivatives derived above.
 //! Cost: one factorisation of n rows per step, n³/3 products.
@@ -29,12 +30,17 @@ use crate::numerics::DenseLu;
 /// More rows are not attempted: the factors of 400 rows cost some 20 million products.
 pub(super) const MOST_ROWS: usize = 400;
 /// Number of turns, and the largest number of Newton steps in a turn.
-const TURNS: usize = 8;
+const TURNS: usize = 48;
 const STEPS: usize = 40;
-/// Number of sweeps before each turn but the first; together they cost about as much as its steps.
-const SWEEPS: usize = 1000;
-/// ρ W of each turn: another ρ makes another |F|², which has its own places without descent.
-const SCALES: [f64; TURNS] = [1.0, 0.1, 10.0, 1.0, 0.01, 100.0, 1.0, 0.3];
+/// ρ W of the turns, over and over: another ρ makes another |F|², which has its own places without descent.
+const SCALES: [f64; 8] = [1.0, 0.1, 10.0, 1.0, 0.01, 100.0, 1.0, 0.3];
+/// Every turn of this number starts without forces, after so many sweeps: about as much work as its steps.
+const FRESH: usize = 4;
+const FRESH_SWEEPS: usize = 1000;
+/// The others start at the best forces so far, each changed by up to this share, after a few sweeps. Few, since many lead back
+/// to where the last descent ended.
+const CHANGE: f64 = 0.25;
+const SWEEPS: usize = 10;
 /// Number of halvings of a step.
 const HALVINGS: usize = 12;
 /// |F|² may rise up to the largest of this many last values.
@@ -67,18 +73,23 @@ pub(super) struct NonsmoothWorkspace {
     best: BestIterate,
     /// Share that is added to the diagonal of the derivative.
     added: f64,
+    /// Products so far; no turn begins after the largest number.
+    products: usize,
+    most_products: usize,
 }
 
-/// Improves motion and forces if it can; returns whether the laws hold. The factors of the problem are those of the trees afterwards.
+/// Improves motion and forces if it can, in about so many products; returns whether the laws hold. The factors of the problem are those of the trees afterwards.
 pub(super) fn solve(
     problem: &mut Problem<'_>,
     w: &mut NonsmoothWorkspace,
+    most_products: usize,
     motions: &mut Vec<Six>,
     coordinates: &mut Vec<f64>,
     lambda: &mut [f64],
     convergence: &mut Convergence,
 ) -> bool {
     w.begin(problem, lambda);
+    w.most_products = most_products;
     convergence.factorizations += 1;
     convergence.iterations += 1;
     let mut found = *convergence;
@@ -94,6 +105,7 @@ impl NonsmoothWorkspace {
         let graph = problem.graph;
         self.delassus.fill(problem);
         self.best.forget();
+        self.products = 0;
         for list in [&mut self.u, &mut self.left, &mut self.step, &mut self.trial] {
             list.clear();
             list.resize(lambda.len(), 0.0);
@@ -127,14 +139,32 @@ impl Nonsmooth<'_, '_> {
         for turn in 0..TURNS {
             self.w.added = ADDED;
             if turn > 0 {
-                self.sweep();
+                if self.w.products > self.w.most_products {
+                    return;
+                }
+                self.start_again(turn);
             }
             self.w.rho.clear();
-            self.w.rho.extend(self.w.inertia.iter().map(|m| SCALES[turn] * m));
+            self.w.rho.extend(self.w.inertia.iter().map(|m| SCALES[turn % SCALES.len()] * m));
             if self.descend(convergence) {
                 return;
             }
         }
+    }
+
+    /// Moves the forces to another place to descend from.
+    fn start_again(&mut self, turn: usize) {
+        let NonsmoothWorkspace { lambda, best, .. } = &mut *self.w;
+        if turn.is_multiple_of(FRESH) {
+            lambda.fill(0.0);
+            self.sweep(FRESH_SWEEPS);
+            return;
+        }
+        lambda.copy_from_slice(best.lambda());
+        for (force, number) in lambda.iter_mut().zip(pseudo_random(turn)) {
+            *force *= 1.0 + CHANGE * (2.0 * number - 1.0);
+        }
+        self.sweep(SWEEPS);
     }
 
     /// Newton steps from the present forces; returns whether the laws hold.
@@ -197,8 +227,9 @@ impl Nonsmooth<'_, '_> {
     fn newton_direction(&mut self) -> bool {
         self.w.trial.clone_from(&self.w.lambda);
         self.measure();
-        let NonsmoothWorkspace { delassus, lu, lambda, u, left, rho, step, added, .. } = &mut *self.w;
+        let NonsmoothWorkspace { delassus, lu, lambda, u, left, rho, step, added, products, .. } = &mut *self.w;
         lu.clear(lambda.len());
+        *products += lambda.len().pow(3) / 3;
         for group in &self.graph.groups {
             differentiate(group, rho, lambda, u, delassus, *added, lu);
         }
@@ -229,13 +260,14 @@ impl Nonsmooth<'_, '_> {
     }
 
     /// Sweeps over the rows, each of which moves to its own law.
-    fn sweep(&mut self) {
-        let NonsmoothWorkspace { delassus, lambda, u, inertia, .. } = &mut *self.w;
+    fn sweep(&mut self, times: usize) {
+        let NonsmoothWorkspace { delassus, lambda, u, inertia, products, .. } = &mut *self.w;
+        *products += times * lambda.len().pow(2);
         for group in &self.graph.groups {
             confine(group, lambda);
         }
         delassus.motion(lambda, u);
-        for _ in 0..SWEEPS {
+        for _ in 0..times {
             for group in &self.graph.groups {
                 let start = group.rows.start;
                 for row in group.rows.clone() {
@@ -258,6 +290,11 @@ impl Nonsmooth<'_, '_> {
             }
         }
     }
+}
+
+/// Fixed numbers between 0 and 1: those of Weyl's sequence of √2, a new part of it for each turn.
+fn pseudo_random(turn: usize) -> impl Iterator<Item = f64> {
+    (1..).map(move |k| ((k + 1009 * turn) as f64 * std::f64::consts::SQRT_2).fract())
 }
 
 /// u := u + W_row Δλ.

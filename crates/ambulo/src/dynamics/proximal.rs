@@ -32,7 +32,7 @@
 //! A guess of the forces, for example from the last time step, determines the initial active set, which is kept for one round.
 //! If forces are not unique and the least-squares forces would leave a cone, the guess is moved towards them as far as all
 //! cones allow. Slip directions that oscillate from step to step are damped; contacts that still do not converge are passed to
-//! [`super::nonsmooth_newton`], and if that fails too, to [`super::relaxed`].
+//! [`super::nonsmooth_newton`], if that fails to [`super::relaxed`], and then to the first again with more patience.
 //!
 //! Source: proximal handling of constraints on articulated bodies as in Carpentier, Budhiraja, Mansard 2021, "Proximal
 //! and sparse resolution of constrained dynamic equations" (unverified page); friction disc of lagged radius after
@@ -71,8 +71,12 @@ const PATIENCE: usize = 12;
 const STALLED: usize = 30;
 /// Maximum number of Newton steps after the convex problem.
 const POLISH: usize = 20;
-/// A residual that is accepted if Newton's method does not converge.
+/// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and tenths of a second.
+const FIRST_PRODUCTS: usize = 10_000_000;
+const LAST_PRODUCTS: usize = 150_000_000;
+/// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing more is tried.
 const NEARLY: f64 = 1e-6;
+const FAR: f64 = 1e-2;
 /// Number of rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row with relevant mobility.
 const ROUNDS: usize = 3;
 
@@ -219,9 +223,10 @@ impl Newton<'_, '_> {
         }
         let most = self.problem.settings.max_iterations;
         let patience = if self.is_dense() { most.min(STALLED) } else { most };
-        if !self.iterate(motions, coordinates, lambda, convergence, patience)
-            && !self.solve_laws(motions, coordinates, lambda, convergence, patience)
-        {
+        let done = self.iterate(motions, coordinates, lambda, convergence, patience)
+            || convergence.iterations >= patience
+                && self.solve_laws(motions, coordinates, lambda, convergence, FIRST_PRODUCTS);
+        if !done {
             self.accept_nearest(motions, coordinates, lambda, convergence);
         }
         if self.rho > self.plain {
@@ -317,15 +322,16 @@ impl Newton<'_, '_> {
         coordinates: &mut Vec<f64>,
         lambda: &mut [f64],
         convergence: &mut Convergence,
-        patience: usize,
+        most_products: usize,
     ) -> bool {
-        if convergence.iterations < patience || !self.is_dense() {
+        if !self.is_dense() {
             return false;
         }
         convergence.residual = f64::INFINITY;
         self.w.best.restore(motions, coordinates, lambda, convergence);
         let nonsmooth = &mut self.w.nonsmooth;
-        let solved = nonsmooth_newton::solve(self.problem, nonsmooth, motions, coordinates, lambda, convergence);
+        let solved =
+            nonsmooth_newton::solve(self.problem, nonsmooth, most_products, motions, coordinates, lambda, convergence);
         self.w.best.keep(motions, coordinates, lambda, convergence);
         // Displacements are projected on the rows that are active now.
         self.restart(lambda, convergence);
@@ -342,7 +348,7 @@ impl Newton<'_, '_> {
         self.w.mixing.forget();
     }
 
-    /// After Newton steps that did not converge: the best iterate if it is nearly a solution, else the convex problem.
+    /// After Newton steps that did not converge: the convex problem, then more work on the laws, else the best iterate.
     fn accept_nearest(
         &mut self,
         motions: &mut Vec<Six>,
@@ -360,10 +366,11 @@ impl Newton<'_, '_> {
             if self.iterate(motions, coordinates, lambda, convergence, most) {
                 return;
             }
-            convergence.residual = f64::INFINITY;
-        } else {
-            convergence.residual = f64::INFINITY;
         }
+        if self.w.best.residual() < FAR && self.solve_laws(motions, coordinates, lambda, convergence, LAST_PRODUCTS) {
+            return;
+        }
+        convergence.residual = f64::INFINITY;
         self.w.best.restore(motions, coordinates, lambda, convergence);
         // Displacements are projected on the rows that are active now.
         self.guess(lambda);

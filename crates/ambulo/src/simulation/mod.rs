@@ -80,6 +80,7 @@ pub use joint::JointKind;
 pub use projection::largest_joint_error;
 pub use samples::Samples;
 pub use signal::Signal;
+pub use start::start;
 pub use state::{RowKey, WorldState};
 pub use step::{accelerations, step};
 pub use workspace::{Integrator, StepSettings, StepWorkspace};

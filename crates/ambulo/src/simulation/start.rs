@@ -29,8 +29,23 @@ const DEEP_SOFT_M: f64 = 0.02;
 /// Duration of the instant for which moving obstacles are placed [s].
 const INSTANT_S: f64 = 1e-9;
 
-/// Replaces the velocities by the nearest ones that agree with joints, drives and closed loops, if they do not.
-pub(super) fn project_velocities(
+/// Prepares a state for its first [`step`](super::step()): velocities that contradict joints, drives or closed loops are replaced by
+/// the nearest ones by mass, and surfaces that overlap deeply are reported. Scenes do this by themselves.
+///
+/// # Errors
+/// Joints that do not form trees.
+pub fn start(
+    world: &World,
+    state: &mut WorldState,
+    solver: &SolverSettings,
+    findings: &mut Findings,
+) -> Result<(), LinkError> {
+    project_velocities(world, state, solver, findings)?;
+    report_overlaps(world, state, findings);
+    Ok(())
+}
+
+fn project_velocities(
     world: &World,
     state: &mut WorldState,
     solver: &SolverSettings,
@@ -88,7 +103,7 @@ fn keep_drives(world: &World, state: &WorldState, assembly: &mut Assembly) {
 }
 
 /// Reports pairs of surfaces that overlap deeply, with the deepest point of each.
-pub(super) fn report_overlaps(world: &World, state: &WorldState, findings: &mut Findings) {
+fn report_overlaps(world: &World, state: &WorldState, findings: &mut Findings) {
     let (mut obstacles, mut touch) = (ObstaclePoses::new(), TouchWorkspace::default());
     obstacle_motion(world, state.time_s, INSTANT_S, &mut obstacles);
     touch.detect(world, state, &obstacles, 0.0);

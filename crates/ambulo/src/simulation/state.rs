@@ -42,7 +42,8 @@ pub enum RowKey {
 }
 
 impl WorldState {
-    /// The initial state of a world: bodies as described, coordinates measured from their poses.
+    /// The initial state of a world: bodies as described, coordinates measured from their poses. [`start`](super::start()) prepares it
+    /// for the first step.
     #[must_use]
     pub fn new(world: &World) -> WorldState {
         let mut state = WorldState {

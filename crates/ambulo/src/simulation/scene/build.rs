@@ -10,15 +10,15 @@ use super::model_figure::{self, PlacedFigure};
 use super::names::{Attachment, ContactPartner};
 use super::output::Outputs;
 use super::placement::{order, place};
+use super::recorder::Recorder;
 use super::sources::{InputFiles, ReadFile};
 use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
-use super::walk_recorder::FigureRecorder;
 use super::{CoordinateEntry, coordinate::MotionKind};
 use super::{Place, SceneError};
 use crate::findings::{Code, Findings};
 use crate::simulation::energy::EnergyWatch;
-use crate::simulation::start::{project_velocities, report_overlaps};
+use crate::simulation::start::start;
 use crate::simulation::state::WorldState;
 use crate::simulation::workspace::{StepSettings, StepWorkspace};
 use crate::simulation::world::{
@@ -52,7 +52,7 @@ pub struct Scene {
     pub(super) joint_names: Vec<String>,
     pub(super) walkers: Vec<PlacedFigure>,
     /// Recorders of the walking figures.
-    pub(super) recorders: Vec<FigureRecorder>,
+    pub(super) recorders: Vec<Recorder>,
     pub(super) workspace: StepWorkspace,
     /// Watches the energy of a scene without drives, until it has risen.
     pub(super) watch: Option<EnergyWatch>,
@@ -122,8 +122,7 @@ impl Scene {
         }
         let settings = settings(file, changes);
         let trees = |error: crate::dynamics::LinkError| Place { line: 1, key: "joint".into() }.error(error.to_string());
-        project_velocities(&world, &mut state, &settings.solver, findings).map_err(trees)?;
-        report_overlaps(&world, &state, findings);
+        start(&world, &mut state, &settings.solver, findings).map_err(trees)?;
         let watch = EnergyWatch::new(&world, &state).filter(|_| file.events.is_empty());
         Ok(Scene {
             settings,
@@ -162,7 +161,7 @@ fn add_bodies(
     world: &mut World,
     file: &SceneFile,
     sources: &mut InputFiles<'_, '_>,
-) -> Result<(Vec<PlacedFigure>, Vec<FigureRecorder>), SceneError> {
+) -> Result<(Vec<PlacedFigure>, Vec<Recorder>), SceneError> {
     for (i, body) in file.bodies.iter().enumerate() {
         world.bodies.push(RigidBody {
             name: body.name.clone(),
@@ -204,9 +203,9 @@ fn add_bodies(
     }
     let add = |(i, figure): (usize, &FigureEntry)| match &figure.built {
         Some(built) => built_figure::add(world, figure, built, i + 1, sources),
-        None => model_figure::add(world, figure, i + 1, sources).map(|walker| (walker, None)),
+        None => model_figure::add(world, figure, i + 1, sources),
     };
-    let added: Vec<(PlacedFigure, Option<FigureRecorder>)> =
+    let added: Vec<(PlacedFigure, Option<Recorder>)> =
         file.figures.iter().enumerate().map(add).collect::<Result<_, _>>()?;
     let (walkers, recorders): (Vec<_>, Vec<_>) = added.into_iter().unzip();
     Ok((walkers, recorders.into_iter().flatten().collect()))

@@ -6,9 +6,11 @@
 use super::build::acting;
 use super::built_entry::{BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
 use super::figure::FigureEntry;
-use super::model_figure::{Placed, PlacedFigure, add_spheres};
+use super::model_figure::{PlacedFigure, add_spheres};
+use super::recorder::Recorder;
 use super::sources::{InputFiles, chain};
 use super::walk_recorder::FigureRecorder;
+use super::walk_recorder::Placed;
 use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
@@ -44,7 +46,7 @@ pub(super) fn add(
     built: &BuiltFigure,
     number: usize,
     sources: &mut InputFiles<'_, '_>,
-) -> Result<(PlacedFigure, Option<FigureRecorder>), SceneError> {
+) -> Result<(PlacedFigure, Option<Recorder>), SceneError> {
     let wrong = |e: &dyn std::error::Error| built.place.error(chain(e));
     let mut human = built.build.human().map_err(|e| wrong(&e))?;
     let mut motion = match &built.walk {
@@ -77,7 +79,8 @@ pub(super) fn add(
     add_spheres(world, entry, number, model, first_body)?;
     let soles = add_soles(world, built, &human, first_body)?;
     world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
-    let recorder = built.walk.is_some().then(|| FigureRecorder::new(&entry.name, &human, placed.clone(), soles));
+    let recorder = || FigureRecorder::new(&entry.name, &human, placed.clone(), soles);
+    let recorder = built.walk.is_some().then(|| Recorder::Walk(Box::new(recorder())));
     Ok((PlacedFigure { figure, first_body, name: entry.name.clone(), placed: Some(placed) }, recorder))
 }
 

@@ -6,8 +6,11 @@
 
 use super::figure::{DrivenCoordinates, FigureEntry, RootMotion};
 use super::joint::JointAxes;
+use super::motion_recorder::MotionRecorder;
 use super::placement::place;
+use super::recorder::Recorder;
 use super::sources::InputFiles;
+use super::walk_recorder::Placed;
 use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::findings::Code;
@@ -36,15 +39,6 @@ pub(super) struct PlacedFigure {
     pub(super) placed: Option<Vec<Placed>>,
 }
 
-/// The joint coordinate of a coordinate of a figure's model.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Placed {
-    /// Index of the joint's child among the bodies of the world.
-    pub(super) body: usize,
-    /// Index of the coordinate within the joint.
-    pub(super) coordinate: usize,
-}
-
 /// A figure under construction.
 struct FigureAssembly<'a> {
     entry: &'a FigureEntry,
@@ -57,13 +51,13 @@ struct FigureAssembly<'a> {
     figure: usize,
 }
 
-/// Adds a figure to the world.
+/// Adds a figure to the world; one that follows a recording is recorded.
 pub(super) fn add(
     world: &mut World,
     entry: &FigureEntry,
     number: usize,
     sources: &mut InputFiles<'_, '_>,
-) -> Result<PlacedFigure, SceneError> {
+) -> Result<(PlacedFigure, Option<Recorder>), SceneError> {
     let model = sources.model(&entry.model_place, &entry.model)?;
     let model =
         standing_at(&model, &entry.pose).map_err(|e| entry.model_place.error(format!("{}: {e}", entry.model)))?;
@@ -80,9 +74,14 @@ pub(super) fn add(
     }
     assembly.refuse_massless(world)?;
     add_spheres(world, entry, number, &assembly.model, first_body)?;
+    let follows: Vec<bool> =
+        (0..assembly.model.coordinates().len()).map(|id| assembly.follows(CoordinateId(id))).collect();
     let FigureAssembly { model, signals, .. } = assembly;
+    let is_judged = entry.motion.is_some() && entry.driven != DrivenCoordinates::Nothing;
+    let recorder = || MotionRecorder::new(&entry.name, &model, signals.clone(), follows, first_body);
+    let recorder = is_judged.then(|| Recorder::Motion(Box::new(recorder())));
     world.figures.push(Figure { model, coordinates: signals });
-    Ok(PlacedFigure { figure, first_body, name: entry.name.clone(), placed: None })
+    Ok((PlacedFigure { figure, first_body, name: entry.name.clone(), placed: None }, recorder))
 }
 
 /// The model with its ground moved.

@@ -3,9 +3,10 @@
 use super::build::Scene;
 use super::event::EventAction;
 use super::file::MOST_STEPS;
-use super::model_figure::{Placed, PlacedFigure};
+use super::model_figure::PlacedFigure;
 use super::output::Outputs;
-use super::walk_recorder::FigureWalk;
+use super::recorder::FigureRecord;
+use super::walk_recorder::Placed;
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::findings::{Code, Findings};
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
@@ -237,7 +238,7 @@ impl Scene {
             self.workspace.read_wrenches();
             for recorder in &mut self.recorders {
                 let (step_s, solved) = (self.settings.step_s, convergence.converged);
-                recorder.after_step(&self.world, &self.state, &self.workspace, step_s, solved);
+                recorder.after_step(&self.world, &self.before, &self.state, &self.workspace, step_s, solved);
             }
         }
         if self.watch.as_mut().is_some_and(|watch| watch.rises(&self.world, &self.state, findings)) {
@@ -263,12 +264,12 @@ impl Scene {
         self.workspace.forces(&self.world)
     }
 
-    /// Recordings of the walking figures since the scene was built or resumed, in the order of the file.
+    /// Recordings of the figures that walk or follow a recording since the scene was built or resumed, in the order of the file.
     ///
     /// # Errors
     /// If no step was made yet.
-    pub fn walks(&self) -> Result<Vec<FigureWalk>, TrajectoryError> {
-        self.recorders.iter().map(|recorder| recorder.walk(self.settings.step_s)).collect()
+    pub fn records(&self) -> Result<Vec<FigureRecord>, TrajectoryError> {
+        self.recorders.iter().map(|recorder| recorder.record(self.settings.step_s)).collect()
     }
 
     /// Whether the last step has passed an instant of output.

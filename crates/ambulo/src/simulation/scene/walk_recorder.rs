@@ -1,6 +1,5 @@
 //! Records a walking figure of a scene step by step, for its verdict.
 
-use super::model_figure::Placed;
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anthropometry::Human;
 use crate::model::{BodyId, Side};
@@ -15,6 +14,15 @@ use crate::simulation::world::{Owner, World};
 const GROUND: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Largest number of recorded steps.
 const MOST_ROWS: usize = 1_000_000;
+
+/// The joint coordinate of a coordinate of a figure's model.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Placed {
+    /// Index of the joint's child among the bodies of the world.
+    pub(super) body: usize,
+    /// Index of the coordinate within the joint.
+    pub(super) coordinate: usize,
+}
 
 /// A walk of a scene's figure.
 #[derive(Debug, Clone)]

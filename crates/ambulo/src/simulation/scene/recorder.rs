@@ -1,0 +1,57 @@
+//! Records figures of a scene for their verdicts: those that walk, and those that follow a recording.
+
+use super::motion_recorder::{FigureMotion, MotionRecorder};
+use super::walk_recorder::{FigureRecorder, FigureWalk};
+use crate::kinematics::TrajectoryError;
+use crate::simulation::state::WorldState;
+use crate::simulation::workspace::StepWorkspace;
+use crate::simulation::world::World;
+use crate::spatial::Pose;
+
+/// The recording of a figure.
+#[derive(Debug, Clone)]
+pub enum FigureRecord {
+    /// A built figure that walks.
+    Walk(Box<FigureWalk>),
+    /// A figure that follows a recording.
+    Motion(Box<FigureMotion>),
+}
+
+/// A recording under way.
+#[derive(Debug, Clone)]
+pub(super) enum Recorder {
+    Walk(Box<FigureRecorder>),
+    Motion(Box<MotionRecorder>),
+}
+
+impl Recorder {
+    pub(super) fn before_step(&mut self, world: &World, state: &WorldState) {
+        match self {
+            Recorder::Walk(recorder) => recorder.before_step(world, state),
+            Recorder::Motion(recorder) => recorder.before_step(state),
+        }
+    }
+
+    /// Records a step; the wrenches of the workspace must have been read. `poses` are those at the start of the step.
+    pub(super) fn after_step(
+        &mut self,
+        world: &World,
+        poses: &[Pose],
+        state: &WorldState,
+        w: &StepWorkspace,
+        step_s: f64,
+        solved: bool,
+    ) {
+        match self {
+            Recorder::Walk(recorder) => recorder.after_step(world, state, w, step_s, solved),
+            Recorder::Motion(recorder) => recorder.after_step(world, poses, state, w, step_s),
+        }
+    }
+
+    pub(super) fn record(&self, step_s: f64) -> Result<FigureRecord, TrajectoryError> {
+        Ok(match self {
+            Recorder::Walk(recorder) => FigureRecord::Walk(Box::new(recorder.walk(step_s)?)),
+            Recorder::Motion(recorder) => FigureRecord::Motion(Box::new(recorder.motion(step_s)?)),
+        })
+    }
+}

@@ -1,0 +1,99 @@
+//! Verdicts on figures of a scene that follow a recording.
+
+use crate::shared_data::data;
+use ambulo::analysis::feasibility::{Thresholds, VerdictState};
+use ambulo::analysis::{FigureVerdict, scene_verdict};
+use ambulo::dynamics::{Workspace, inverse};
+use ambulo::findings::Findings;
+use ambulo::simulation::scene::{FigureMotion, FigureRecord, Scene, SceneFile, SceneSettings};
+
+/// A scene with a Gait2392 figure that follows a recorded walk, after it has run.
+fn walked(settings: &str, figure: &str) -> Option<Scene> {
+    let folder = data()?.join("opensim-gait2392-subject01");
+    let text = format!(
+        "{settings}[[figure]]\nname = \"walker\"\nmodel = \"subject01_simbody.osim\"\n\
+         motion = \"subject01_walk1_ik.mot\"\nfrom = 1.0\n{figure}"
+    );
+    let mut findings = Findings::default();
+    let mut load = |path: &str| std::fs::read(folder.join(path)).map_err(|e| format!("{path}: {e}"));
+    let file = SceneFile::parse(&text).unwrap_or_else(|e| panic!("{e}"));
+    let mut scene = Scene::build(&file, SceneSettings::default(), &mut load, &mut findings).unwrap();
+    scene.run(&mut findings, |_| ()).unwrap();
+    Some(scene)
+}
+
+fn verdict(scene: &Scene) -> FigureVerdict {
+    let found = scene_verdict(scene, &Thresholds::default(), &mut Findings::default()).unwrap();
+    found.expect("a verdict").figures.remove(0)
+}
+
+fn motion(scene: &Scene) -> FigureMotion {
+    match scene.records().unwrap().remove(0) {
+        FigureRecord::Motion(motion) => *motion,
+        FigureRecord::Walk(_) => panic!("a walk"),
+    }
+}
+
+/// Largest and mean generalised force on the root [N, N.m] that remain after the scene's forces on the figure. The first step is left out:
+/// driven coordinates have their velocity there, and the recording has no place before it that tells their acceleration.
+fn residual(motion: &FigureMotion) -> [f64; 2] {
+    let forces = inverse(&mut Workspace::new(&motion.model), &motion.trajectory, &motion.loads);
+    let root = motion.model.bodies().iter().find(|body| body.joint.parent.is_none()).unwrap().joint.coordinates();
+    let remaining = root.iter().flat_map(|id| &forces.generalized[id.index()][1..]).map(|force| force.abs());
+    let count = remaining.clone().count() as f64;
+    [remaining.clone().fold(0.0, f64::max), remaining.sum::<f64>() / count]
+}
+
+const FLOOR: &str =
+    "[[obstacle]]\nname = \"floor\"\nkind = \"plane\"\nnormal = [0, 1, 0]\nat = [0, 0, 0]\nmaterial = \"shoe\"\n";
+
+/// Spheres under heels and toes.
+fn spheres() -> String {
+    let sphere = |body: &str, at: &str| {
+        format!("[[figure.sphere]]\nbody = \"{body}\"\nat = {at}\nradius = 0.02\nmaterial = \"shoe\"\n")
+    };
+    let sides = ["r", "l"].map(|side| {
+        sphere(&format!("calcn_{side}"), "[0.02, 0, 0]") + &sphere(&format!("toes_{side}"), "[0.04, 0, 0]")
+    });
+    sides.concat()
+}
+
+#[test]
+fn what_the_scene_does_to_a_figure_with_a_free_root_leaves_no_residual() {
+    let material = "[material.shoe]\nfriction = 0.8\n";
+    let figure = format!("root = \"free\"\nat = [0, 0.05, 0]\n{}", spheres());
+    let mut found = Vec::new();
+    for step in [0.0005, 0.00025] {
+        let settings = format!("step = {step}\nduration = 0.3\n{material}{FLOOR}");
+        let Some(scene) = walked(&settings, &figure) else { return };
+        let motion = motion(&scene);
+        assert!(!motion.ground.is_empty(), "the feet must meet the floor");
+        let weight = motion.model.mass() * 9.80665;
+        found.push(residual(&motion).map(|force| force / weight));
+    }
+    let [[worst, coarse], [_, fine]] = [found[0], found[1]];
+    println!(
+        "residual of the root: {worst:.1e} body weights at worst, {coarse:.1e} on average, {fine:.1e} with half the step"
+    );
+    // Steps are of first order; the worst one is the impact of a foot.
+    assert!(worst < 0.02 && coarse < 1e-3 && fine < 0.6 * coarse, "{found:?}");
+}
+
+#[test]
+fn a_figure_that_is_carried_along_by_nothing_is_not_called_feasible() {
+    let Some(scene) = walked("step = 0.001\nduration = 0.6\n", "root = \"driven\"\n") else { return };
+    let found = verdict(&scene);
+    println!("{:?}: {:?} {:?}", found.verdict.state, found.verdict.reasons.first(), found.verdict.undecided);
+    assert_ne!(found.verdict.state, VerdictState::Feasible);
+}
+
+#[test]
+fn a_walk_that_begins_above_the_floor_is_infeasible() {
+    let settings = format!("step = 0.001\nduration = 0.8\n[material.shoe]\nfriction = 0.8\n{FLOOR}");
+    let figure = format!("root = \"free\"\nat = [0, 0.6, 0]\n{}", spheres());
+    let Some(scene) = walked(&settings, &figure) else { return };
+    let found = verdict(&scene);
+    let first = found.verdict.reasons.first();
+    println!("{:?}: {first:?}", found.verdict.state);
+    assert_eq!(found.verdict.state, VerdictState::Infeasible);
+}
