@@ -17,7 +17,7 @@ pub struct OutputFile<'a> {
     content: Content<'a>,
 }
 
-/// What a file is made from, so that a report page of the same run needs no parsing.
+/// The data of a file. The report page of the same run uses it directly and parses nothing.
 enum Content<'a> {
     /// A table of time series.
     Table { format: Format, make: Box<dyn MakeTable + 'a> },

@@ -116,7 +116,7 @@ impl Table {
     }
 }
 
-/// What is written of a table.
+/// The parts of a table that the writers of its formats need.
 pub(super) struct Content<'a> {
     pub(super) name: &'a str,
     pub(super) in_degrees: Option<bool>,

@@ -1,8 +1,8 @@
 //! Body mass: what states or weighs it, which of these is used, and whether they agree.
 //!
-//! Weights beside the force plates make a person lighter on them, and nothing makes a person heavier there but the calibration of the
-//! plates or a carried load. So no single witness decides: a standing trial, the motion on the plates and the stated mass are compared in
-//! pairs, and where two disagree the third decides.
+//! Three measurements are compared in pairs: a standing trial, the motion on the force plates, and the stated mass. Where two disagree, the
+//! third one decides. The errors are not symmetric: a load that rests next to the plates makes the person too light on them, while only a
+//! wrong calibration or a carried load makes the person too heavy.
 
 use super::laboratory_file::LaboratoryFile;
 use super::source::{MarkerBody, MarkerSource};
@@ -34,7 +34,7 @@ pub struct BodyMass {
     pub kg: f64,
     /// Where this mass comes from.
     pub source: MassWitness,
-    /// What the force plates say [kg]; `null` if they weighed nobody.
+    /// Mass by the force plates [kg]; `null` if nobody was weighed.
     pub plates_kg: Option<f64>,
     /// Standard error of `plates_kg` [kg].
     pub plates_error_kg: Option<f64>,
@@ -145,7 +145,7 @@ impl MassEstimate {
     }
 }
 
-/// What is known of the mass without the motion.
+/// Estimates of the mass that do not need the motion.
 #[derive(Debug, Clone, Default)]
 pub(super) struct KnownMass {
     pub(super) stated: Option<MassEstimate>,
@@ -280,8 +280,8 @@ fn combined(estimates: &[MassEstimate]) -> Option<MassEstimate> {
     Some(MassEstimate { kg, error_kg: birge * best.error_kg, ..best.clone() })
 }
 
-/// What the plates say. Where standing and motion disagree, the one that agrees with the used mass is believed, otherwise the heavier:
-/// a load beside the plates makes a person lighter.
+/// Mass by the plates. Where standing and motion disagree, the one that agrees with the used mass is believed, otherwise the heavier:
+/// a load next to the plates makes a person lighter.
 fn on_plates(known: &KnownMass, moving: Option<MassEstimate>, used: &MassEstimate) -> Option<MassEstimate> {
     match (known.standing.clone(), moving) {
         (Some(standing), Some(moving)) if standing.agrees(&moving) => {

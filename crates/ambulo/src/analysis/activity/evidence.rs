@@ -1,4 +1,4 @@
-//! What a motion and its stances show about the activity.
+//! Measures a motion and its stances for the recognition of the activity.
 
 use crate::ground::footfalls::{Footfall, Footfalls};
 use crate::ground::predict::total_wrench;
@@ -22,7 +22,7 @@ const STRIDE_S: f64 = 1.0;
 /// The path is measured in pieces of about half a stride, so that sway does not lengthen it [s].
 const PIECE_S: f64 = 0.5;
 
-/// What a motion and its stances show.
+/// The quantities that distinguish one activity from another.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Evidence {
     /// Number of foot strikes.

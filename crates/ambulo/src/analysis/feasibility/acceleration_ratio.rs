@@ -16,9 +16,9 @@
 //!
 //! Pinned by: tests/feasibility.rs
 
-use super::frame::{FeasibilityLimits, Frame};
-use super::verdict::{Check, Closest, Reason};
-use crate::motion::TimeGrid;
+use super::frame::{CheckedPart, CheckedValue, FeasibilityLimits, Frame};
+use super::spans::Span;
+use super::verdict::Check;
 use crate::spatial::Vec3;
 
 /// Less change of velocity is not enough for a slope: a person who stands [m/s, rms].
@@ -62,39 +62,13 @@ impl AccelerationRatio {
         (change_m_s > LEAST_CHANGE_M_S).then(|| product / square)
     }
 
-    /// How near the ratio is to its limit.
-    pub(super) fn closest(&self, grid: TimeGrid, limits: &FeasibilityLimits) -> Option<Closest> {
+    /// The ratio with its limit, and the frames that it was found from.
+    pub(super) fn span(&self, step_s: f64, limits: &FeasibilityLimits) -> Option<Span> {
         let check = Check::Acceleration;
         let limit = limits.thresholds.acceleration_ratio;
-        let value = self.ratio(grid.step_s, limits.mass).filter(|_| limits.thresholds.judges(check))?;
-        Some(Closest {
-            check,
-            quantity: check.name().to_owned(),
-            at_s: grid.time(self.frames.first()?.number),
-            value,
-            limit,
-            unit: check.unit().into(),
-            share: value / limit,
-        })
-    }
-
-    /// Why the motion is infeasible, if the ratio is too large.
-    pub(super) fn reason(&self, grid: TimeGrid, limits: &FeasibilityLimits) -> Option<Reason> {
-        let Closest { check, value, limit, .. } = self.closest(grid, limits).filter(|found| found.share > 1.0)?;
-        let time_s = [self.frames.first()?, self.frames.last()?].map(|frame| grid.time(frame.number));
-        Some(Reason {
-            check,
-            quantity: check.name().to_owned(),
-            side: None,
-            time_s,
-            at_s: time_s[0],
-            value,
-            limit,
-            unit: check.unit().into(),
-            message: format!(
-                "the body accelerates {value:.2} times as much as the measured ground forces make it; {limit:.2} times is allowed (from {:.3} to {:.3} s). hint: check the frame rate of the motion, and whether motion and forces are of one recording",
-                time_s[0], time_s[1]
-            ),
-        })
+        let value = self.ratio(step_s, limits.mass).filter(|_| limits.thresholds.judges(check))?;
+        let [first, last] = [self.frames.first()?, self.frames.last()?].map(|frame| frame.number);
+        let worst = CheckedValue { check, of: CheckedPart::Body, value, limit, share: value / limit };
+        Some(Span { first, last, worst_at: first, worst })
     }
 }

@@ -46,7 +46,7 @@ pub struct MotionAndForces<'a> {
     pub device: Option<&'a [Vec<f64>]>,
     /// Forces predicted from the motion, for frames in which measured ground forces are incomplete.
     pub predicted: Option<PredictedForces<'a>>,
-    /// What the person does: who walks or stands keeps a foot on the ground.
+    /// The activity: walking and standing keep a foot on the ground, running and jumping do not.
     pub activity: ActivityKind,
     /// Cut-off of the low-pass filter of the motion [Hz]; `None` without a filter.
     pub cutoff_hz: Option<f64>,
@@ -85,14 +85,12 @@ pub fn check(
         let spans = track.settled(grid.step_s, shortest);
         reasons.extend(spans.iter().map(|span| reason(model, grid, span, coverage.is_predicted(span.worst_at))));
     }
-    if !motion.forces_are_predicted {
-        reasons.extend(coverage.acceleration.reason(grid, &limits));
-    }
+    let acceleration = coverage.acceleration.span(grid.step_s, &limits).filter(|_| !motion.forces_are_predicted);
+    let too_fast = acceleration.filter(|span| span.worst.share > 1.0);
+    reasons.extend(too_fast.map(|span| reason(model, grid, &span, false)));
     reasons.sort_by(|a: &Reason, b| a.time_s[0].total_cmp(&b.time_s[0]).then(a.check.cmp(&b.check)));
     let mut closest = closest(model, &tracks, grid);
-    if !motion.forces_are_predicted {
-        closest.extend(coverage.acceleration.closest(grid, &limits));
-    }
+    closest.extend(acceleration.map(|span| nearest(model, grid, span.worst_at, &span.worst)));
     let mut undecided = coverage.undecided(motion, &limits);
     if motion.forces_are_predicted || motion.predicted.is_some() {
         let is_predicted = |at_s: f64| {
@@ -120,18 +118,24 @@ pub fn check(
 fn closest(model: &Model, tracks: &[Track], grid: TimeGrid) -> Vec<Closest> {
     let of_check = |check: Check| {
         let tracks = tracks.iter().enumerate().filter(|(slot, _)| check_of(model, *slot) == check);
-        let nearest = tracks.filter_map(|(_, track)| track.closest).max_by(|a, b| a.1.share.total_cmp(&b.1.share));
-        nearest.filter(|(_, m)| m.share.is_finite() && check != Check::Flight).map(|(frame, m)| Closest {
-            check,
-            quantity: quantity(model, &m),
-            at_s: grid.time(frame),
-            value: m.value,
-            limit: m.limit,
-            unit: check.unit().into(),
-            share: m.share,
-        })
+        let found = tracks.filter_map(|(_, track)| track.closest).max_by(|a, b| a.1.share.total_cmp(&b.1.share));
+        let nearest_frame = found.filter(|(_, m)| m.share.is_finite() && check != Check::Flight);
+        nearest_frame.map(|(frame, m)| nearest(model, grid, frame, &m))
     };
     Check::ALL.into_iter().filter_map(of_check).collect()
+}
+
+/// A value as it is reported.
+fn nearest(model: &Model, grid: TimeGrid, frame: usize, m: &CheckedValue) -> Closest {
+    Closest {
+        check: m.check,
+        quantity: quantity(model, m),
+        at_s: grid.time(frame),
+        value: m.value,
+        limit: m.limit,
+        unit: m.check.unit().into(),
+        share: m.share,
+    }
 }
 
 /// An excess that is shorter cannot be told from noise [s]. A low-pass makes an impulse 0.603/fc wide at half of its height: that is the width
@@ -561,7 +565,9 @@ fn message(m: &CheckedValue, quantity: &str, side: Option<Side>, [from, to]: [f6
         Check::Pull => format!(
             "the motion needs a ground that pulls down with {value:.2} body weights; {limit:.2} are allowed. hint: check unit and frame rate of the motion ({when})"
         ),
-        Check::Acceleration => String::new(), // `AccelerationRatio` has its own sentence
+        Check::Acceleration => format!(
+            "the body accelerates {value:.2} times as much as the measured ground forces make it; {limit:.2} times is allowed (from {from:.3} to {to:.3} s). hint: check the frame rate of the motion, and whether motion and forces are of one recording"
+        ),
         Check::Balance => format!(
             "the residual moment about the root is {value:.2} N.m/kg, which neither ground nor muscles supply; {limit:.2} are allowed ({when})"
         ),
