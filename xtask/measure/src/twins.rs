@@ -17,9 +17,9 @@ use crate::workspace;
 use ambulo::analysis::activity::ActivityKind;
 use ambulo::analysis::feasibility::{Reason, Verdict, VerdictState};
 use ambulo::findings::Findings;
-use ambulo::ground::GroundForces;
+use ambulo::ground::{GroundForces, upward};
 use ambulo::model::anthropometry::SegmentTable;
-use ambulo::model::{CoordinateKind, Movement, Side};
+use ambulo::model::{Displacement, JointAxis, Movement, Side};
 use ambulo::motion::{ForceRecording, Motion};
 use ambulo::spatial::Vec3;
 use ambulo::study::{
@@ -36,8 +36,27 @@ const LIFT_M: f64 = 0.3;
 /// Moment of a device against the knee [N.m/kg].
 const AGAINST_KNEE_NM_KG: f64 = 5.0;
 
-/// The kinds of twins.
-const KINDS: [&str; 4] = ["fast", "lifted", "wrong foot", "torque"];
+/// The impossible change of a twin; see the table above.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Change {
+    Fast,
+    Lifted,
+    WrongFoot,
+    Torque,
+}
+
+impl Change {
+    const ALL: [Change; 4] = [Change::Fast, Change::Lifted, Change::WrongFoot, Change::Torque];
+
+    fn name(self) -> &'static str {
+        match self {
+            Change::Fast => "fast",
+            Change::Lifted => "lifted",
+            Change::WrongFoot => "wrong foot",
+            Change::Torque => "torque",
+        }
+    }
+}
 
 /// A recording with its name; an error if it cannot be read.
 type Named = (String, Result<Source, String>);
@@ -55,7 +74,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         println!("skipped: no data");
         return Ok(());
     }
-    let mut counts = [[0; 2]; KINDS.len()];
+    let mut counts = [[0; 2]; Change::ALL.len()];
     let (mut feasible, mut infeasible, mut others) = (0, 0, 0);
     for (name, source) in sources(&data)?.into_iter().filter(|(name, _)| name.contains(only)) {
         let outcome = match source.and_then(|source| analysed(&source, &Settings::default())) {
@@ -79,22 +98,22 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
                 continue;
             }
         }
-        for (kind, count) in KINDS.iter().zip(&mut counts) {
-            if *kind == "fast" && outcome.activity.kind == ActivityKind::Stand {
+        for (change, count) in Change::ALL.into_iter().zip(&mut counts) {
+            if change == Change::Fast && outcome.activity.kind == ActivityKind::Stand {
                 continue;
             }
-            let verdict = twin(&outcome, kind)?;
+            let verdict = twin(&outcome, change)?;
             let is_found = verdict.state == VerdictState::Infeasible;
             count[0] += usize::from(is_found);
             count[1] += 1;
             if !is_found {
-                println!("{name}, {kind}: {}, {}", verdict.state.words(), verdict.undecided.join("; "));
+                println!("{name}, {}: {}, {}", change.name(), verdict.state.words(), verdict.undecided.join("; "));
             }
         }
     }
     println!("recordings of people: {feasible} feasible, {infeasible} infeasible, {others} refused or not judged");
-    for (kind, [found, made]) in KINDS.iter().zip(counts) {
-        println!("{kind}: {found} of {made} twins are infeasible");
+    for (change, [found, made]) in Change::ALL.into_iter().zip(counts) {
+        println!("{}: {found} of {made} twins are infeasible", change.name());
     }
     Ok(())
 }
@@ -142,46 +161,42 @@ fn trial(path: &Path) -> Result<Source, String> {
 }
 
 /// The verdict on a twin. Motion and forces are filtered already, and are filtered once more as those of a recording are.
-fn twin(outcome: &Outcome, kind: &str) -> Result<Verdict, String> {
+fn twin(outcome: &Outcome, change: Change) -> Result<Verdict, String> {
     let model = &outcome.body;
     let trajectory = &outcome.analysis.trajectory;
-    let clock = if kind == "fast" { FASTER } else { 1.0 };
+    let clock = if change == Change::Fast { FASTER } else { 1.0 };
     let times: Vec<f64> = trajectory.grid().times().iter().map(|time| time / clock).collect();
     let mut columns: Vec<Vec<f64>> = model.coordinate_ids().map(|id| trajectory.values(id).to_vec()).collect();
-    if kind == "lifted" {
+    if change == Change::Lifted {
         let id = vertical(outcome).ok_or("the root has no vertical translation")?;
         columns[id].iter_mut().for_each(|height| *height += LIFT_M);
     }
     let mut loads = loads(&outcome.analysis.ground, &times);
-    if kind == "wrong foot"
+    if change == Change::WrongFoot
         && let [first, second] = &mut loads[..]
     {
         std::mem::swap(&mut first.body, &mut second.body);
     }
     let columns = columns.into_iter().map(Some).collect();
-    let motion = Motion { origin: format!("twin, {kind}"), times: times.clone(), columns };
+    let motion = Motion { origin: format!("twin, {}", change.name()), times: times.clone(), columns };
     let mut source = Source::coordinates(model.clone(), motion).with_forces(MeasuredForces::OnBodies(loads));
-    if kind == "torque" {
+    if change == Change::Torque {
         source.device = Some(device(outcome, times)?);
     }
     let settings = Settings { force_filter: ForceFilter::Off, ..Settings::default() };
     Ok(analysed(&source, &settings)?.verdict)
 }
 
-/// The translation of the root along the vertical.
+/// The coordinate that moves the root along the vertical.
 fn vertical(outcome: &Outcome) -> Option<usize> {
     let model = &outcome.body;
-    let root = model.bodies().iter().find(|body| body.joint.parent.is_none())?;
-    let up = -model.gravity().normalize();
-    let translations = root
-        .joint
-        .coordinates()
-        .into_iter()
-        .filter(|id| model.coordinates()[id.index()].kind == CoordinateKind::Translation);
-    let axis = (0..3).max_by(|a, b| up[*a].abs().total_cmp(&up[*b].abs()))?;
-    let mut sorted: Vec<usize> = translations.map(|id| id.index()).collect();
-    sorted.sort_unstable();
-    sorted.get(axis).copied()
+    let joint = &model.bodies().iter().find(|body| body.joint.parent.is_none())?.joint;
+    let upward_part = |axis: &&JointAxis| (joint.parent_from_joint.rotation * axis.direction).dot(&upward(model)).abs();
+    let axis = joint.translations.iter().max_by(|a, b| upward_part(a).total_cmp(&upward_part(b)))?;
+    match &axis.displacement {
+        Displacement::Follows(id, _) => Some(id.index()),
+        Displacement::Fixed(_) => None,
+    }
 }
 
 /// The ground forces as loads on the same bodies.
