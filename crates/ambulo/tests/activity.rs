@@ -3,12 +3,13 @@
 use crate::footfall_trials::{Recorded, everything};
 use crate::shared_data::data;
 use ambulo::analysis::activity::{Activity, ActivityKind, activity};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::footfalls::footfalls;
 use ambulo::kinematics::Trajectory;
 use ambulo::model::BySide;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::motion::TimeGrid;
+use ambulo::motion::{Motion, TimeGrid};
+use ambulo::study::{self, Settings, Source};
 use std::f64::consts::TAU;
 
 const STEP_S: f64 = 0.01;
@@ -44,13 +45,12 @@ fn angle(a: f64, b: f64, opposite: f64) -> f64 {
     ((a * a + b * b - opposite * opposite) / (2.0 * a * b)).clamp(-1.0, 1.0).acos()
 }
 
-/// What is recognised in a motion of some seconds.
-fn recognised(places: Places, seconds: f64) -> Activity {
-    let human = man();
+/// A motion of some seconds.
+fn moving(human: &Human, places: Places, seconds: f64) -> Trajectory {
     let model = &human.model;
     let frames = (seconds / STEP_S) as usize;
     let value = |t: f64| -> Vec<f64> {
-        let posture = posture(&human, places(t));
+        let posture = posture(human, places(t));
         let of = |name: &str, default| posture.iter().find(|(n, _)| n == name).map_or(default, |(_, value)| *value);
         model.coordinates().iter().map(|c| of(&c.name, c.default_value)).collect()
     };
@@ -66,7 +66,14 @@ fn recognised(places: Places, seconds: f64) -> Activity {
         }
     }
     let grid = TimeGrid { start_s: 0.0, step_s: STEP_S, frames };
-    let trajectory = Trajectory::new(model, grid, columns).unwrap();
+    Trajectory::new(model, grid, columns).unwrap()
+}
+
+/// The activity that is recognised in a motion of some seconds.
+fn recognised(places: Places, seconds: f64) -> Activity {
+    let human = man();
+    let model = &human.model;
+    let trajectory = moving(&human, places, seconds);
     let soles = BySide::from_fn(|side| human.sole(side));
     let falls = footfalls(model, &trajectory, &soles, &mut Findings::default());
     activity(model, &trajectory, &soles, human.dimensions.leg_length, &falls)
@@ -108,13 +115,29 @@ fn a_man_who_stands_stands() {
     assert_kind(|t| [[0.0, 0.9 + 0.003 * (TAU * 0.3 * t).sin()], [0.0; 2], [0.0; 2]], 3.0, ActivityKind::Stand);
 }
 
+fn squat(t: f64) -> [[f64; 2]; 3] {
+    let low = 0.5 - 0.5 * (TAU * 0.4 * t).cos();
+    [[-0.05 - 0.05 * low, 0.9 - 0.25 * low], [-0.1, 0.0], [-0.1, 0.0]]
+}
+
 #[test]
 fn bent_knees_with_the_weight_over_the_feet_are_a_squat() {
-    let squat = |t: f64| {
-        let low = 0.5 - 0.5 * (TAU * 0.4 * t).cos();
-        [[-0.05 - 0.05 * low, 0.9 - 0.25 * low], [-0.1, 0.0], [-0.1, 0.0]]
-    };
     assert_kind(squat, 5.0, ActivityKind::Squat);
+}
+
+#[test]
+fn predicted_forces_of_an_activity_without_validation_are_reported() {
+    let standing = |t: f64| [[-0.05, 0.9 + 0.003 * (TAU * 0.3 * t).sin()], [-0.1, 0.0], [-0.1, 0.0]];
+    for (places, is_reported) in [(squat as Places, true), (standing, false)] {
+        let human = man();
+        let trajectory = moving(&human, places, 5.0);
+        let columns = human.model.coordinate_ids().map(|id| Some(trajectory.values(id).to_vec())).collect();
+        let motion = Motion { origin: "puppet".into(), times: trajectory.grid().times(), columns };
+        let mut findings = Findings::default();
+        let source = Source::coordinates(human.model, motion);
+        study::run(&source, &Settings::default(), &mut findings).unwrap();
+        assert_eq!(findings.has(Code::PredictionUntested), is_reported, "{:?}", findings.as_slice());
+    }
 }
 
 #[test]

@@ -393,6 +393,9 @@ codes! {
     PredictionMass "prediction.mass" Warning
         "The model's mass differs from what force plates measured; all predicted forces are wrong in proportion."
         "Give the right mass, or scale the model to this person.";
+    PredictionUntested "prediction.untested" Warning
+        "Ground forces were predicted for an activity on which the prediction was never compared with force plates."
+        "Use force plates, or read ground forces and joint moments as estimates.";
     PredictionNotThroughTheFeet "prediction.not_through_the_feet" Warning
         "The motion needs forces that cannot act through the feet alone."
         "Check for a hand on a rail, a seat, a load that is carried, and errors of the motion.";

@@ -85,6 +85,7 @@ fn road(
     let device = device.map(|device| worn(&device, &analysis, findings));
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
     let activity = recognised(&model, &person, &analysis, findings);
+    report_untested_prediction(activity.kind, &force_origin, findings);
     let judged = Judged {
         activity: activity.kind,
         cutoff_hz: processing.smoother.cutoff_hz(),
@@ -160,7 +161,17 @@ fn recognised(model: &Model, person: &Person, analysis: &Analysis, findings: &mu
     activity(model, &analysis.trajectory, &person.soles, person.leg_length_m, &footfalls)
 }
 
-/// What a verdict is about.
+/// Reports ground forces that are predicted for an activity without validation.
+fn report_untested_prediction(activity: ActivityKind, force_origin: &ForceOrigin, findings: &mut Findings) {
+    if matches!(force_origin, ForceOrigin::Predicted { .. }) && !activity.has_validated_prediction() {
+        let message = format!(
+            "activity: {activity}; predicted ground forces were compared with force plates only for walking, turning, standing and running"
+        );
+        findings.report(Code::PredictionUntested, message);
+    }
+}
+
+/// The motion, forces and limits that a verdict judges.
 struct Judged<'a> {
     activity: ActivityKind,
     cutoff_hz: Option<f64>,

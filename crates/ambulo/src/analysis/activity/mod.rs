@@ -37,7 +37,7 @@ const RUNNING_DUTY_FACTOR: [f64; 2] = [0.1, 0.5];
 const LEAST_RISER_M: f64 = 0.08;
 /// A person who turns the pelvis by more than this does not walk straight [rad]: 45 degrees. In a stride the pelvis rotates by less than 30.
 const TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
-/// Who walks moves further than this share of the leg length.
+/// A person who walks moves further than this share of the leg length.
 const LEAST_PATH: f64 = 0.5;
 /// The pelvis of a person who stands stays within this share of the leg length.
 const STANDING: f64 = 0.1;
@@ -105,7 +105,14 @@ impl ActivityKind {
         }
     }
 
-    /// Whether at least one foot is on the ground at all times. Who runs or jumps flies; of the unknown nothing is demanded.
+    /// Whether predicted ground forces of this activity were compared with force plates (docs/measured/VALIDATION.md; of standing in
+    /// tests/standing_ground.rs).
+    #[must_use]
+    pub fn has_validated_prediction(self) -> bool {
+        matches!(self, ActivityKind::Walk | ActivityKind::Run | ActivityKind::Turn | ActivityKind::Stand)
+    }
+
+    /// Whether at least one foot is on the ground at all times. Running and jumping have flights; an unknown activity may have some.
     #[must_use]
     pub fn keeps_a_foot_down(self) -> bool {
         !matches!(self, ActivityKind::Run | ActivityKind::Jump | ActivityKind::Other)
@@ -118,11 +125,11 @@ impl fmt::Display for ActivityKind {
     }
 }
 
-/// What a person does in a recording, and what shows it.
+/// The recognised activity of a recording, with the quantities that it was recognised by.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Activity {
-    /// What the person does.
+    /// The activity.
     pub kind: ActivityKind,
     /// Whether the floor moves under the feet, as on a treadmill.
     pub treadmill: bool,
