@@ -62,8 +62,7 @@ pub(crate) fn run_id(options: &str, inputs: &[PathBuf]) -> Result<String> {
     let mut text = format!("{}\n{options}\n", env!("CARGO_PKG_VERSION"));
     // A pipe can be read only once.
     for input in inputs.iter().filter(|input| input.is_file()) {
-        let bytes = fs::read(input).with_context(|| format!("{}: cannot be read again", input.display()))?;
-        text += &hash(&bytes);
+        text += &hash_of_file(input).with_context(|| format!("{}: cannot be read again", input.display()))?;
     }
     Ok(hash(text.as_bytes()))
 }
@@ -73,6 +72,13 @@ pub(crate) fn hash(bytes: &[u8]) -> String {
     let mut hashed = Hashed::new(io::sink());
     hashed.hasher.update(bytes);
     hashed.hash()
+}
+
+/// SHA-256 of a file in hexadecimal digits, read piece by piece.
+pub(crate) fn hash_of_file(path: &Path) -> io::Result<String> {
+    let mut hashed = Hashed::new(io::sink());
+    io::copy(&mut fs::File::open(path)?, &mut hashed)?;
+    Ok(hashed.hash())
 }
 
 /// Passes bytes on and computes their hash.

@@ -16,7 +16,7 @@
 
 use crate::args::Existing;
 use crate::folder_lock::FolderLock;
-use crate::record::{Hashed, Record, hash, is_inside};
+use crate::record::{Hashed, Record, hash, hash_of_file, is_inside};
 use ambulo_results::{OutputFile, SUMMARY, WriteError};
 use anyhow::{Context, Error, Result, bail};
 use serde::{Deserialize, Serialize};
@@ -90,7 +90,7 @@ impl ResultTarget {
         self.refuse_foreign(record.as_ref(), names())?;
         let stale =
             old.into_iter().flat_map(BTreeMap::keys).filter(|name| written.iter().all(|file| file.name != **name));
-        let removed = stale.filter_map(|name| Some((name.clone(), hash(&fs::read(self.folder.join(name)).ok()?))));
+        let removed = stale.filter_map(|name| Some((name.clone(), hash_of_file(&self.folder.join(name)).ok()?)));
         replace(&Disk, &self.folder, written, summary, removed.collect())
     }
 

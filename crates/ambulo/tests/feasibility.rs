@@ -368,7 +368,7 @@ fn judged_with(
         let body = model.body(&format!("calcn_{}", side.letter())).unwrap();
         BodyForces::on_level_ground(body, &forces, &moments, Vec3::y(), 0.0)
     });
-    let ground = GroundForces { bodies: bodies.to_vec() };
+    let ground = GroundForces { bodies: bodies.into() };
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
     let evidence = MotionAndForces {
         model,
@@ -525,7 +525,7 @@ fn frames_without_measured_forces_are_judged_on_predicted_ones() {
             let body = model.body(&format!("calcn_{}", side.letter())).unwrap();
             BodyForces::on_level_ground(body, &forces, &moments, Vec3::y(), 0.0)
         });
-        let ground = GroundForces { bodies: bodies.to_vec() };
+        let ground = GroundForces { bodies: bodies.into() };
         let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
         (ground, forces)
     };
@@ -613,7 +613,7 @@ fn bobbing(clock: f64) -> Verdict {
         let body = model.body(&format!("calcn_{}", side.letter())).unwrap();
         BodyForces::on_level_ground(body, &forces, &moments, Vec3::y(), 0.0)
     });
-    let ground = GroundForces { bodies: bodies.to_vec() };
+    let ground = GroundForces { bodies: bodies.into() };
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
     let evidence = MotionAndForces {
         model,

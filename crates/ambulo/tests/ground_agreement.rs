@@ -20,6 +20,7 @@ use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::ForceRecording;
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::Vec3;
+use std::sync::Arc;
 use std::sync::LazyLock;
 
 static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
@@ -76,7 +77,7 @@ fn identical_forces_have_no_error() {
 #[test]
 fn forces_that_are_a_tenth_larger_have_a_relative_error_of_a_tenth() {
     let larger = against(|analysis| {
-        for foot in &mut analysis.ground.bodies {
+        for foot in Arc::make_mut(&mut analysis.ground.bodies) {
             foot.force.iter_mut().for_each(|force| *force *= 1.1);
         }
     });
@@ -102,7 +103,7 @@ fn swapped_feet_give_large_errors() {
         let [right, left] = &of_feet(analysis)[..] else { panic!("two feet") };
         let (mut on_right, mut on_left) = (left.clone(), right.clone());
         (on_right.body, on_left.body) = (right.body, left.body);
-        analysis.ground = GroundForces { bodies: vec![on_right, on_left] };
+        analysis.ground = GroundForces { bodies: [on_right, on_left].into() };
     });
     for foot in &exchanged.feet {
         assert!(foot.vertical.rmse_bw > 0.5 && foot.vertical.r < 0.0, "{:?}", foot.vertical);

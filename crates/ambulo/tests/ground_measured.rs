@@ -51,7 +51,7 @@ fn on_foot(model: &Model, trajectory: &Trajectory, plates: &[ForceRecording], fi
     let mut findings = Findings::default();
     let ground = measured(model, trajectory, plates, filter, &mut findings).unwrap();
     assert!(findings.as_slice().is_empty(), "{:?}", findings.as_slice());
-    ground.bodies.into_iter().find(|b| b.body == right(model)).unwrap()
+    ground.bodies.iter().find(|b| b.body == right(model)).unwrap().clone()
 }
 
 #[track_caller]

@@ -43,7 +43,7 @@ fn predicted(walk: &SyntheticWalk, prescribed: Prescribed) -> Prediction {
 fn true_footfalls(walk: &SyntheticWalk, applied: &GroundForces) -> Footfalls {
     let times = walk.trajectory.grid().times();
     let mut falls = Vec::new();
-    for (side, foot) in Side::BOTH.into_iter().zip(&applied.bodies) {
+    for (side, foot) in Side::BOTH.into_iter().zip(applied.bodies.iter()) {
         let vertical: Vec<f64> = foot.force.iter().map(|f| f.y).collect();
         falls.extend(contacts_from_force(&times, &vertical).into_iter().map(|contact| Footfall {
             side,
@@ -119,7 +119,7 @@ fn with_everything_prescribed_the_forces_are_those_that_were_applied() {
     };
     let vertical = |prescribed: Prescribed| {
         let prediction = predicted(&walk, prescribed);
-        let feet = prediction.ground.bodies.iter().zip(&applied.bodies);
+        let feet = prediction.ground.bodies.iter().zip(applied.bodies.iter());
         feet.flat_map(|(found, truth)| found.force.iter().zip(&truth.force).map(|(a, b)| (a.y - b.y).abs()))
             .fold(0.0, f64::max)
     };
@@ -158,7 +158,7 @@ fn fore_aft_and_vertical_forces_follow_those_of_the_simulator() {
     let walk = walk();
     let (prediction, applied) = (predicted(&walk, Prescribed::default()), applied(&walk));
     let weight = walk.human.model.mass() * walk.human.model.gravity().norm();
-    for (found, truth) in prediction.ground.bodies.iter().zip(&applied.bodies) {
+    for (found, truth) in prediction.ground.bodies.iter().zip(applied.bodies.iter()) {
         for (axis, most) in [(0, 0.05), (1, 0.15)] {
             let pairs: Vec<(f64, f64)> =
                 found.force.iter().zip(&truth.force).map(|(a, b)| (a[axis], b[axis])).collect();
@@ -186,7 +186,7 @@ fn twice_the_mass_needs_twice_the_force() {
     let one = predicted(&walk, Prescribed::default());
     let two =
         predict(&heavier, &walk.trajectory, &soles, &PredictSettings::default(), &mut Findings::default()).unwrap();
-    for (a, b) in one.ground.bodies.iter().zip(&two.ground.bodies) {
+    for (a, b) in one.ground.bodies.iter().zip(two.ground.bodies.iter()) {
         for (a, b) in a.force.iter().zip(&b.force) {
             assert!((a * 2.0 - b).norm() < 1e-6 * (1.0 + b.norm()), "{a} {b}");
         }
@@ -208,7 +208,7 @@ fn a_prescribed_stance_before_the_recording_changes_nothing_and_a_reversed_one_i
     let mut usual: Vec<f64> = footfalls.falls.iter().filter_map(|fall| Some(fall.off_s? - fall.strike_s?)).collect();
     usual.sort_by(f64::total_cmp);
     let earlier = predicted(&walk, with(fall(-60.0, -60.0 + usual[usual.len() / 2])));
-    for (a, b) in plain.ground.bodies.iter().zip(&earlier.ground.bodies) {
+    for (a, b) in plain.ground.bodies.iter().zip(earlier.ground.bodies.iter()) {
         let worst = largest_difference(&a.force, &b.force);
         assert!(worst < 0.1, "{worst} N");
     }

@@ -119,7 +119,7 @@ fn a_synthetic_walk_is_streamed_as_it_is_predicted_whole() {
 fn as_frames(batch: &Prediction, streamed: &[StreamFrame]) -> Vec<StreamFrame> {
     let mut out = streamed.to_vec();
     for given in &mut out {
-        for (foot, whole) in given.feet.iter_mut().zip(&batch.ground.bodies) {
+        for (foot, whole) in given.feet.iter_mut().zip(batch.ground.bodies.iter()) {
             foot.force = whole.force[given.frame];
         }
     }
@@ -290,7 +290,7 @@ fn row(trial: &Recorded) -> Row {
         if grid.time(i) < grid.start_s + SETTLED_S {
             continue;
         }
-        for (foot, batch) in given.feet.iter().zip(&batch.ground.bodies) {
+        for (foot, batch) in given.feet.iter().zip(batch.ground.bodies.iter()) {
             let center = foot.center_of_pressure.unwrap_or(Vec3::repeat(f64::NAN));
             if foot.force.y > LOADED_N || batch.force[i].y > LOADED_N {
                 forces[0].push(foot.force - batch.force[i]);

@@ -187,3 +187,72 @@ fn labels_exchanged_from_the_first_frame_are_found() {
         assert!(difference < 1e-6, "{difference}");
     }
 }
+
+/// The recording with swapped labels, gaps, jumps and frozen markers: `count` faults of up to a sixth of its length.
+fn damaged(subject: &Subject, count: usize, seed: u64) -> MarkerRecording {
+    let mut r = Random::new(seed);
+    let (used, frames) = (names(subject), subject.markers.frames());
+    let mut wild = subject.markers.clone();
+    for fault in 0..count {
+        let (a, b) = (used[r.below(used.len())], used[r.below(used.len())]);
+        let start = 3 + r.below(frames - 3);
+        let end = (start + 1 + r.below(frames / 6)).min(frames);
+        let frozen = wild.markers[a].positions[start];
+        for frame in start..end {
+            let [at_a, at_b] = [a, b].map(|marker| wild.markers[marker].positions[frame]);
+            match fault % 4 {
+                0 => (wild.markers[a].positions[frame], wild.markers[b].positions[frame]) = (at_b, at_a),
+                1 => wild.markers[a].positions[frame] = Vec3::repeat(f64::NAN),
+                2 => wild.markers[a].positions[frame] = at_a + Vec3::new(0.3, 0.0, -0.2),
+                _ => wild.markers[a].positions[frame] = frozen,
+            }
+        }
+    }
+    wild
+}
+
+/// Most linear solves of a fit: those of the budget, and of the last step, which tries up to 16.
+fn most_solves(frames: usize) -> usize {
+    36 * frames + 5000 + 16
+}
+
+fn rms(fit: &MarkerFit) -> f64 {
+    let known: Vec<f64> = fit.rms_m.iter().copied().filter(|rms| rms.is_finite()).collect();
+    (known.iter().map(|rms| rms * rms).sum::<f64>() / known.len() as f64).sqrt()
+}
+
+/// Frames without any value.
+fn empty_frames(fit: &MarkerFit) -> usize {
+    let columns = || fit.motion.columns.iter().flatten();
+    (0..fit.rms_m.len()).filter(|&frame| columns().all(|column| column[frame].is_nan())).count()
+}
+
+#[test]
+fn a_damaged_recording_is_fitted_with_bounded_work() {
+    let Some(subject) = rajagopal() else { return };
+    let frames = subject.markers.frames();
+    let (clean, _) = fitted(&subject, &subject.markers, OutlierDetection::On);
+    assert!(clean.solves < 8 * frames, "{} solves for {frames} frames", clean.solves);
+    for seed in 0..4 {
+        let (fit, findings) = fitted(&subject, &damaged(&subject, 10, seed), OutlierDetection::On);
+        println!("seed {seed}: {} solves for {frames} frames, {:.2} mm", fit.solves, 1e3 * rms(&fit));
+        assert!(fit.solves <= most_solves(frames), "seed {seed}: {} solves", fit.solves);
+        assert!(!findings.has(Code::MarkersUnfitted), "seed {seed}: {:?}", findings.as_slice());
+        assert_eq!(empty_frames(&fit), 0, "seed {seed}");
+        assert!(rms(&fit) < 1.5 * rms(&clean), "seed {seed}: {} m, clean {} m", rms(&fit), rms(&clean));
+    }
+}
+
+#[test]
+fn frames_whose_fit_takes_too_many_steps_are_reported() {
+    let Some(subject) = rajagopal() else { return };
+    let frames = subject.markers.frames();
+    for seed in 0..3 {
+        let (fit, findings) = fitted(&subject, &damaged(&subject, 150, seed), OutlierDetection::On);
+        let empty = empty_frames(&fit);
+        println!("seed {seed}: {} solves for {frames} frames, {empty} without values", fit.solves);
+        assert!(fit.solves <= most_solves(frames), "seed {seed}: {} solves", fit.solves);
+        assert!(empty < frames / 2, "seed {seed}: {empty} of {frames} frames without values");
+        assert!(findings.has(Code::MarkersUnfitted), "seed {seed}: {:?}", findings.as_slice());
+    }
+}

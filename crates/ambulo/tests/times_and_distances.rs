@@ -10,6 +10,7 @@ use ambulo::study::{self, ForceFilter, MeasuredForces, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The body and the analysis of an invented walk of two strides.
 fn walk() -> (Model, Analysis) {
@@ -99,7 +100,7 @@ fn a_belt_changes_no_step() {
         let [value, rate] = at(name);
         (name == "pelvis_tx").then(|| [value - speed * passed(frame), rate - speed])
     });
-    for foot in &mut analysis.ground.bodies {
+    for foot in Arc::make_mut(&mut analysis.ground.bodies) {
         for (frame, place) in foot.center_of_pressure.iter_mut().enumerate() {
             place.x -= speed * passed(frame);
         }
@@ -139,7 +140,7 @@ fn a_turn_keeps_the_steps() {
     let [x, z] = ["pelvis_tx", "pelvis_tz"].map(|name| model.coordinate(name).unwrap());
     let moved: Vec<[f64; 2]> =
         bent.trajectory.values(x).iter().zip(bent.trajectory.values(z)).map(|(x, z)| [*x, *z]).collect();
-    for foot in &mut bent.ground.bodies {
+    for foot in Arc::make_mut(&mut bent.ground.bodies) {
         for (frame, place) in foot.center_of_pressure.iter_mut().enumerate() {
             let pelvis = |of: &Analysis| [x, z].map(|id| of.trajectory.values(id)[frame]);
             let [old, new] = [pelvis(&analysis), moved[frame]];

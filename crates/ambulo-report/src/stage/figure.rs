@@ -52,14 +52,17 @@ impl Stage {
             RunSummary::Motion(summary) => summary,
             RunSummary::Scene(_) => return Ok(Err("No figure: the summary is that of a scene.".to_owned())),
         };
+        let rows = angles.rows();
+        drop(angles);
         let mut stage = Stage::of_motion(&model, &trajectory, summary.height_m);
+        drop(trajectory);
         stage.plates = plates(&summary);
         for (file, role) in [("grf.mot", ForceRole::Main), ("grf_measured.mot", ForceRole::Measured)] {
-            if let Some(table) = same_rows(folder, file, &angles)? {
+            if let Some(table) = same_rows(folder, file, rows)? {
                 stage.forces.extend(arrow::forces(&table, role));
             }
         }
-        if let Some(moments) = same_rows(folder, "moments.sto", &angles)? {
+        if let Some(moments) = same_rows(folder, "moments.sto", rows)? {
             stage.torques = torque::torques(&model, &moments, summary.mass_kg);
         }
         stage.floor_m = floor::height(&stage.plates, &stage.forces, &stage.bodies, &stage.contacts);
@@ -140,7 +143,8 @@ fn shapes(
 }
 
 fn paths(model: &Model, trajectory: &Trajectory) -> Vec<BodyPath> {
-    let mut paths = vec![BodyPath::default(); model.bodies().len()];
+    let frames = trajectory.grid().frames;
+    let mut paths: Vec<BodyPath> = model.bodies().iter().map(|_| BodyPath::with_room(frames)).collect();
     each_body_motion(model, trajectory, |_, bodies| {
         for (path, motion) in paths.iter_mut().zip(bodies) {
             path.push(&motion.pose);
@@ -172,12 +176,12 @@ fn grid(times: &[f64]) -> Option<TimeGrid> {
 }
 
 /// A table with one row per row of the motion.
-fn same_rows(folder: &Folder<'_>, file: &str, angles: &Table) -> Result<Option<Table>, ResultsError> {
+fn same_rows(folder: &Folder<'_>, file: &str, rows: usize) -> Result<Option<Table>, ResultsError> {
     let Some(table) = folder.table(file)? else { return Ok(None) };
-    if table.rows() == angles.rows() {
+    if table.rows() == rows {
         return Ok(Some(table));
     }
-    let found = format!("{} rows; expected {}, one for each of {MOTION}", table.rows(), angles.rows());
+    let found = format!("{} rows; expected {rows}, one for each of {MOTION}", table.rows());
     Err(folder.unreadable(file, found))
 }
 

@@ -13,6 +13,11 @@ pub(crate) struct BodyPath {
 }
 
 impl BodyPath {
+    /// Without entries, with room for this number of them.
+    pub(crate) fn with_room(instants: usize) -> BodyPath {
+        BodyPath { position: Vec::with_capacity(instants), rotation: Vec::with_capacity(instants) }
+    }
+
     /// Adds the next instant.
     pub(crate) fn push(&mut self, pose: &Pose) {
         let matrix: Matrix3<f64> = pose.rotation;

@@ -34,7 +34,7 @@ pub(super) fn report_loads(model: &Model, analysis: &Analysis, findings: &mut Fi
 
 /// Reports forces that pull a foot down: forces on the plate instead of on the foot.
 fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, findings: &mut Findings) {
-    for body in &ground.bodies {
+    for body in ground.bodies.iter() {
         let mean = body.force.iter().map(|f| f.dot(&up)).sum::<f64>() / body.force.len().max(1) as f64;
         if mean < -CENTER_OF_PRESSURE_LOAD_N {
             let name = &model.bodies()[body.body.index()].name;

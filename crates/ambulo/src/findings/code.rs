@@ -176,6 +176,9 @@ codes! {
     MarkersJump "markers.jump" Warning
         "A marker left its place on the body at some times and was not used there."
         "Correct the trajectory of the marker.";
+    MarkersUnfitted "markers.unfitted" Warning
+        "The fit of the body to the markers took too many steps at some times and was stopped; coordinates are approximate there, or have no values."
+        "Correct markers that jump or have the labels of others, or leave those times out.";
     MarkersSwap "markers.swap" Warning
         "Two markers had exchanged labels at some times and were exchanged back."
         "Correct the labels.";

@@ -26,6 +26,7 @@ use crate::motion::gaps::rows_around;
 use crate::motion::{ForceRecording, MotionError, TimeGrid, Window, interpolate};
 use crate::spatial::{Pose, Vec3, Wrench};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Below this vertical force the centre of pressure is undefined and a foot counts as unloaded [N].
 pub const CENTER_OF_PRESSURE_LOAD_N: f64 = crate::motion::force_plate::CENTER_OF_PRESSURE_LOAD_N;
@@ -47,11 +48,11 @@ pub struct BodyForces {
     surface_height: Vec<f64>,
 }
 
-/// Ground reaction forces by body: measured, simulated or predicted.
+/// Ground reaction forces by body: measured, simulated or predicted. A clone shares their memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundForces {
     /// One entry per body in contact.
-    pub bodies: Vec<BodyForces>,
+    pub bodies: Arc<[BodyForces]>,
 }
 
 impl GroundForces {
@@ -154,7 +155,7 @@ pub fn measured(
             bodies.push(combine(body, &parts, up));
         }
     }
-    Ok(GroundForces { bodies })
+    Ok(GroundForces { bodies: bodies.into() })
 }
 
 /// The part of the recording around the trajectory that has no gap.

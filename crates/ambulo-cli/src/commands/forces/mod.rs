@@ -46,7 +46,7 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
     };
     let source = Source { device: read_device(args, &mut reading)?, ..source };
     reading.read.extend(args.device.iter().chain(&args.thresholds).cloned());
-    compute(args, &source, reading, &target)
+    compute(args, source, reading, &target)
 }
 
 /// The kinds of recording, by the extension of the file name.
@@ -88,19 +88,22 @@ struct Reading {
     ground: Option<PathBuf>,
 }
 
-fn compute(args: &ForcesArgs, source: &Source, reading: Reading, target: &ResultTarget) -> Result<Completion> {
+fn compute(args: &ForcesArgs, source: Source, reading: Reading, target: &ResultTarget) -> Result<Completion> {
     let settings = settings(args)?;
     let Reading { mut findings, mut clock, read, ground } = reading;
     let mut watch = |stage: study::Stage| {
         clock.lap(stage.word());
         ControlFlow::Continue(())
     };
-    let outcome = study::run_observed(source, &settings, &mut findings, &mut watch)
+    let outcome = study::run_observed(&source, &settings, &mut findings, &mut watch)
         .map_err(|error| errors::with_file(error, args, ground.as_deref()))?;
     let body = body_file(&outcome.body, &mut findings);
+    let input = input(args, ground.as_deref(), &source, &outcome);
+    // The page needs memory too.
+    drop(source);
     let files = RunFiles {
         outcome: &outcome,
-        input: input(args, ground.as_deref(), source, &outcome),
+        input,
         convention: args.convention.into(),
         walk: None,
         files: body.into_iter().collect(),

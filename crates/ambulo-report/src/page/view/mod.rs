@@ -25,15 +25,16 @@ pub(super) struct Viewed {
 /// A file that cannot be read as its name suggests.
 pub(super) fn view(folder: &Folder<'_>, block: &mut Block) -> Result<Viewed, ResultsError> {
     match Stage::of_folder(folder)? {
-        Ok(stage) => Ok(drawn(&stage, block)),
+        Ok(stage) => Ok(drawn(stage, block)),
         Err(reason) => Ok(Viewed { view: None, time: None, missing: vec![reason] }),
     }
 }
 
-fn drawn(stage: &Stage, block: &mut Block) -> Viewed {
+fn drawn(stage: Stage, block: &mut Block) -> Viewed {
     let view = View {
-        bodies: stage.bodies.iter().map(|body| of_body(body, block)).collect(),
-        fixed: stage.fixed.clone(),
+        // The numbers of a body are freed when they are packed.
+        bodies: stage.bodies.into_iter().map(|body| of_body(body, block)).collect(),
+        fixed: stage.fixed,
         plates: stage.plates.iter().map(of_plate).collect(),
         forces: stage.forces.iter().map(|force| of_force(force, block)).collect(),
         torques: stage.torques.iter().map(|torque| of_torque(torque, block)).collect(),
@@ -42,16 +43,16 @@ fn drawn(stage: &Stage, block: &mut Block) -> Viewed {
         weight_n: stage.weight_n,
     };
     let time = TimeAxis { start_s: stage.grid.start_s, step_s: stage.grid.step_s, frames: stage.grid.frames };
-    Viewed { view: Some(view), time: Some(time), missing: stage.missing.clone() }
+    Viewed { view: Some(view), time: Some(time), missing: stage.missing }
 }
 
-fn of_body(body: &StageBody, block: &mut Block) -> ViewBody {
-    let BodyPath { position, rotation } = &body.path;
+fn of_body(body: StageBody, block: &mut Block) -> ViewBody {
+    let BodyPath { position, rotation } = body.path;
     ViewBody {
-        name: body.name.clone(),
+        name: body.name,
         side: page_side(body.side),
-        shapes: body.shapes.clone(),
-        position: vectors(position, block),
+        shapes: body.shapes,
+        position: vectors(&position, block),
         // x, y, z, w is nalgebra's own order.
         rotation: [0, 1, 2, 3].map(|i| block.add(&rotation.iter().map(|q| q.coords[i]).collect::<Vec<f64>>())),
     }

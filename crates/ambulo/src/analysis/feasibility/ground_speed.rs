@@ -31,7 +31,7 @@ pub(in crate::analysis) fn over_ground(
         let momentum: Vec3 = model.bodies().iter().zip(bodies).map(|(b, m)| m.twist.linear * b.inertia.mass()).sum();
         center += momentum / model.mass();
         frames += 1.0;
-        for foot in &ground.bodies {
+        for foot in ground.bodies.iter() {
             if foot.force[frame].dot(&up) > STANDING_SHARE * weight {
                 let motion = &bodies[foot.body.index()];
                 feet.push(motion.twist.velocity_at(foot.center_of_pressure[frame] - motion.center));

@@ -30,6 +30,8 @@ pub(super) struct Frames {
     targets: Vec<Vec3>,
     /// Whether the frame was fitted to the markers of the model, without offsets.
     plain: Vec<bool>,
+    /// Whether no linear solve was left before the fit of the frame was complete.
+    unfinished: Vec<bool>,
 }
 
 impl Frames {
@@ -52,6 +54,7 @@ impl Frames {
             offsets: vec![Vec3::repeat(f64::NAN); frames * markers],
             targets: vec![Vec3::repeat(f64::NAN); frames * markers],
             plain: vec![false; frames],
+            unfinished: vec![false; frames],
             seen,
         };
         all.choose_core();
@@ -179,6 +182,7 @@ impl Frames {
         self.plain[frame] = plain;
         self.posture_mut(frame).copy_from_slice(x);
         self.outcomes[frame] = Some(outcome);
+        self.unfinished[frame] = outcome.ran_out;
         for i in 0..self.markers {
             let used = problem.frame_weights[i] > 0.0;
             self.offsets[frame * self.markers + i] =
@@ -189,6 +193,27 @@ impl Frames {
     /// Whether the frame was fitted to the markers of the model, without offsets.
     pub(super) fn is_plain(&self, frame: usize) -> bool {
         self.plain[frame]
+    }
+
+    /// Whether no linear solve was left before the fit of a frame was complete.
+    pub(super) fn is_unfinished(&self, frame: usize) -> bool {
+        self.unfinished[frame]
+    }
+
+    /// Whether no linear solve was left for a frame at all, so that it has at most a posture that frames before it predict.
+    pub(super) fn is_unfitted(&self, frame: usize) -> bool {
+        self.unfinished[frame] && self.outcomes[frame].is_none_or(|outcome| outcome.ran_out && outcome.steps == 0)
+    }
+
+    /// Keeps the posture of a frame, because no linear solve is left for a better one.
+    pub(super) fn leave_unfinished(&mut self, frame: usize) {
+        self.unfinished[frame] = true;
+    }
+
+    /// Removes the posture of a frame for whose fit no linear solve is left.
+    pub(super) fn leave_unfitted(&mut self, frame: usize) {
+        self.remove_posture(frame);
+        self.unfinished[frame] = true;
     }
 
     /// Removes the posture of a frame.

@@ -20,7 +20,7 @@
 use super::frames::Frames;
 use super::problem::FitProblem;
 use super::skin_motion::{LEAST_DRIFT, OffsetDrift, SkinMotion};
-use super::solve::Outcome;
+use super::solve::{Outcome, STEPS};
 use crate::numerics::BandMatrix;
 use crate::spatial::Vec3;
 use std::f64::consts::TAU;
@@ -35,10 +35,17 @@ const LOSS: f64 = 3.0;
 const DRIFT: f64 = LEAST_DRIFT;
 /// Maximum number of fits of a frame, each with the offsets of the posture before.
 const PASSES: usize = 30;
+/// Steps of each of these fits where few linear solves are left: the offsets change with the posture, so that only the last one must be exact.
+const STEPS_BETWEEN: usize = 1;
 /// The posture has converged when no unknown moves by more from one fit to the next [rad or m].
 const REST: f64 = 1e-7;
+/// The fit of a frame whose posture still moves by more when no linear solve is left is reported [rad or m]: 0.06 degrees.
+const NEARLY_AT_REST: f64 = 1e-3;
 /// Third derivative of a joint angle [rad/s³]: 0.3 rad at 2 Hz give 0.3 (4π)³.
 const JERK: f64 = 600.0;
+
+/// An unfinished fit with a larger root mean square distance from the markers is none [m]: about the distance between neighbouring joints.
+const LOST: f64 = 0.2;
 
 /// Known values this far on both sides of a gap determine its curve [s].
 const REACH_S: f64 = 0.25;
@@ -73,6 +80,7 @@ pub(super) fn refit(problem: &mut FitProblem<'_>, frames: &mut Frames, longest_s
         }
         refit_complete(problem, frames, frame);
     }
+    problem.solver.budget.divide(complete.iter().filter(|complete| !**complete).count());
     let skin = SkinMotion::learn(problem, frames, &complete);
     let mut drifts = OffsetDrift::default();
     // Weight of each marker in frames that lack markers.
@@ -98,6 +106,26 @@ pub(super) fn refit(problem: &mut FitProblem<'_>, frames: &mut Frames, longest_s
     states
 }
 
+/// Frames for which no linear solve was left, and unfinished ones in which the body is lost, have no values.
+pub(super) fn open_unfitted(problem: &mut FitProblem<'_>, frames: &mut Frames, states: &mut [Determination]) {
+    let unknowns = states.len() / frames.count();
+    for frame in 0..frames.count() {
+        if !(frames.is_unfitted(frame) || frames.is_unfinished(frame) && is_lost(problem, frames, frame)) {
+            continue;
+        }
+        frames.leave_unfitted(frame);
+        states[frame * unknowns..(frame + 1) * unknowns].fill(Determination::Gap);
+    }
+}
+
+/// Whether the markers are far from the body on average.
+fn is_lost(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize) -> bool {
+    frames.load(frame, problem);
+    let cost = problem.pose_at(frames.posture(frame));
+    let total: f64 = problem.frame_weights.iter().sum();
+    cost > LOST * LOST * total
+}
+
 /// Weight of each marker: the inverse square of its drift, 1 for [`DRIFT`]; its own weight if the drift is unknown.
 fn gap_weights(problem: &FitProblem<'_>, drifts: &[f64]) -> Vec<f64> {
     let weight = |(drift, own): (&f64, &f64)| if drift.is_finite() { (DRIFT / drift).powi(2) } else { *own };
@@ -113,6 +141,9 @@ fn load_weighted(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize, we
 }
 
 fn refit_complete(problem: &mut FitProblem<'_>, frames: &mut Frames, frame: usize) {
+    if problem.solver.budget.is_spent() {
+        return frames.leave_unfinished(frame);
+    }
     let Some(mut x) = nearby(frames, frame) else { return };
     frames.load(frame, problem);
     let outcome = problem.fit(&mut x);
@@ -155,6 +186,12 @@ fn refit_run(
     for frame in start..end {
         let Some(mut x) = nearby(frames, frame) else { continue };
         let mut outcome = None;
+        problem.solver.budget.open_part();
+        if problem.solver.budget.is_spent() {
+            problem.solver.budget.release();
+            frames.leave_unfinished(frame);
+            continue;
+        }
         // The offsets depend on the posture, so this is a fixed-point iteration.
         for _ in 0..PASSES {
             load_weighted(problem, frames, frame, weights);
@@ -162,11 +199,17 @@ fn refit_run(
             frames.set_targets(frame, &offsets);
             let known = known_offsets(problem, frames, frame);
             let before = x.clone();
-            outcome = Some(problem.fit_with_offsets(&known, &mut x));
-            if x.iter().zip(&before).all(|(now, before)| (now - before).abs() < REST) {
+            let steps = if problem.solver.budget.has_half_of_part() { STEPS } else { STEPS_BETWEEN };
+            outcome = Some(problem.approach_offsets(&known, &mut x, steps));
+            let moved = x.iter().zip(&before).map(|(now, before)| (now - before).abs()).fold(0.0, f64::max);
+            if let Some(outcome) = &mut outcome {
+                outcome.ran_out = problem.solver.budget.is_spent() && moved > NEARLY_AT_REST;
+            }
+            if moved < REST || problem.solver.budget.is_spent() {
                 break;
             }
         }
+        problem.solver.budget.release();
         let Some(outcome) = outcome else { continue };
         frames.keep(frame, problem, &x, outcome, false);
         judge_loaded(problem, frame, &usual, states);
@@ -324,6 +367,9 @@ fn fit_on_springs(
     weights: &[f64],
     springs: &[(f64, f64)],
 ) {
+    if problem.solver.budget.is_spent() {
+        return frames.leave_unfinished(frame);
+    }
     let Some(mut x) = nearby(frames, frame) else { return };
     for (u, (value, stiffness)) in springs.iter().enumerate().filter(|(_, (value, _))| value.is_finite()) {
         (problem.bounds.stiffness[u], problem.bounds.anchor[u]) = (*stiffness, *value);
@@ -348,6 +394,9 @@ fn known_offsets(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize) ->
 
 /// Fits a frame to the visible markers and to the missing ones where the posture has them at their offsets.
 fn fit_as_if_seen(problem: &mut FitProblem<'_>, frames: &mut Frames, frame: usize) {
+    if problem.solver.budget.is_spent() {
+        return frames.leave_unfinished(frame);
+    }
     let Some(mut x) = nearby(frames, frame) else { return };
     frames.load_as_if_seen(frame, problem, true);
     let outcome = problem.fit(&mut x);

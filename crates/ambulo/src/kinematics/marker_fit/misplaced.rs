@@ -155,7 +155,9 @@ pub(super) fn reduce_weights(problem: &mut FitProblem<'_>, frames: &mut Frames) 
         let Some(worst) = misplaced.max_by(|a, b| a.rms_m.total_cmp(&b.rms_m)) else { break };
         problem.weights[worst.marker] *= (worst.usual_m / worst.rms_m).powi(2);
         for frame in 0..frames.count() {
-            if enter(problem, frames, frame) && frames.is_complete(frame) {
+            if problem.solver.budget.is_spent() {
+                frames.leave_unfinished(frame);
+            } else if enter(problem, frames, frame) && frames.is_complete(frame) {
                 let mut x = frames.posture(frame).to_vec();
                 let outcome = problem.fit(&mut x);
                 frames.keep(frame, problem, &x, outcome, true);

@@ -17,12 +17,14 @@
 //!
 //! Source: T.-W. Lu, J.J. O'Connor 1999, J. Biomech. 32:129-134 (global optimisation) (unverified).
 //! Cost: about 10 µs per step, three or four steps per frame; `cargo xtask bench-markers`.
+//! The number of linear solves is bounded by 36 per frame and 5000 for the first (`budget`).
 //! Not handled: markers fixed to ground; weights that vary in time.
 //! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_misplaced.rs, tests/marker_outliers.rs, tests/marker_smoothing.rs
 
 mod result;
 mod settings;
 
+mod budget;
 mod normal;
 mod problem;
 mod solve;
@@ -109,16 +111,19 @@ pub fn fit_markers(
     let default: Vec<f64> =
         (0..problem.tree.unknowns()).map(|u| model.coordinates()[problem.tree.coordinate(u)].default_value).collect();
     sequence::run(&mut problem, &mut frames, settings.outliers, &default);
+    problem.solver.budget.grant_afterwards(frames.count());
     let mut elsewhere = Vec::new();
     if settings.outliers == OutlierDetection::On {
         misplaced::exchange_back(&mut problem, &mut frames);
         elsewhere = misplaced::reduce_weights(&mut problem, &mut frames);
     }
-    let states = gaps::refit(&mut problem, &mut frames, settings.longest_gap_s);
+    let mut states = gaps::refit(&mut problem, &mut frames, settings.longest_gap_s);
     if let Some(smoothing) = settings.smoothing {
         smoothing::smooth(model, &mut problem, &mut frames, &states, smoothing);
     }
+    gaps::open_unfitted(&mut problem, &mut frames, &mut states);
     report::markers(&problem, &frames, findings);
+    report::unfitted(&problem, &frames, findings);
     report::misplaced(&problem, &elsewhere, findings);
     report::coordinates(model, &problem, &frames, &states, settings.longest_gap_s, findings);
     Ok(report::fit(model, markers, &mut problem, &frames, &states))

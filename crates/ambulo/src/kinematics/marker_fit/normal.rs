@@ -181,51 +181,65 @@ impl Normal {
     }
 }
 
-/// Replaces the lower half of `a` (rows of `n`) by L of A = L Lᵀ. Returns false if the matrix is not positive definite.
+/// Cholesky factor of A = L Lᵀ, of which `a` (rows of `n`) has the lower half. Lᵀ replaces the upper half with the diagonal. Returns false
+/// if the matrix is not positive definite.
+///
+/// The sums of a column of L are accumulated side by side, so that they need not wait for each other; each keeps its order.
 pub(super) fn cholesky_factor(a: &mut [f64], n: usize) -> bool {
-    for i in 0..n {
-        let (above, row) = a.split_at_mut(i * n);
-        for j in 0..i {
-            let other = &above[j * n..j * n + j + 1];
-            let sum: f64 = row[..j].iter().zip(other).map(|(x, y)| x * y).sum();
-            row[j] = (row[j] - sum) / other[j];
+    for j in 0..n {
+        let (above, rest) = a.split_at_mut(j * n);
+        let (row, below) = rest.split_at_mut(n);
+        let diagonal = row[j];
+        let sums = &mut row[j..];
+        sums.fill(-0.0);
+        for k in 0..j {
+            let other = &above[k * n + j..(k + 1) * n];
+            let factor = other[0];
+            sums.iter_mut().zip(other).for_each(|(sum, x)| *sum += x * factor);
         }
-        let square: f64 = row[..i].iter().map(|x| x * x).sum();
-        let pivot = row[i] - square;
+        let pivot = diagonal - sums[0];
         if !(pivot > 0.0 && pivot.is_finite()) {
             return false;
         }
-        row[i] = pivot.sqrt();
+        let root = pivot.sqrt();
+        sums[0] = root;
+        for (sum, entry) in sums[1..].iter_mut().zip(below.iter().skip(j).step_by(n)) {
+            *sum = (entry - *sum) / root;
+        }
     }
     true
 }
 
-/// Solves L Lᵀ x = b in place.
-pub(super) fn cholesky_solve(l: &[f64], n: usize, x: &mut [f64]) {
+/// Solves L Lᵀ x = b in place, with the factor of [`cholesky_factor`]; `scratch` has n numbers.
+pub(super) fn cholesky_solve(l: &[f64], n: usize, scratch: &mut [f64], x: &mut [f64]) {
+    scratch.fill(-0.0);
     for i in 0..n {
-        let known: f64 = l[i * n..i * n + i].iter().zip(x.iter()).map(|(a, b)| a * b).sum();
-        x[i] = (x[i] - known) / l[i * n + i];
+        x[i] = (x[i] - scratch[i]) / l[i * n + i];
+        let value = x[i];
+        let column = &l[i * n + i + 1..(i + 1) * n];
+        scratch[i + 1..].iter_mut().zip(column).for_each(|(known, a)| *known += a * value);
     }
     for i in (0..n).rev() {
         x[i] /= l[i * n + i];
         let value = x[i];
-        for (x, a) in x[..i].iter_mut().zip(&l[i * n..i * n + i]) {
+        for (x, a) in x[..i].iter_mut().zip(l.iter().skip(i).step_by(n)) {
             *x -= a * value;
         }
     }
 }
 
-/// The diagonal of (L Lᵀ)⁻¹; `scratch` has n numbers.
+/// The diagonal of (L Lᵀ)⁻¹, with the factor of [`cholesky_factor`]; `scratch` has n numbers.
 pub(super) fn cholesky_inverse_diagonal(l: &[f64], n: usize, scratch: &mut [f64], diagonal: &mut [f64]) {
     for k in 0..n {
         // Entry k of A⁻¹ eₖ is |L⁻¹ eₖ|².
-        scratch.fill(0.0);
-        scratch[k] = 1.0;
+        scratch.fill(-0.0);
         let mut square = 0.0;
         for i in k..n {
-            let known: f64 = l[i * n + k..i * n + i].iter().zip(&scratch[k..i]).map(|(a, b)| a * b).sum();
-            scratch[i] = (scratch[i] - known) / l[i * n + i];
-            square += scratch[i] * scratch[i];
+            let right = if i == k { 1.0 } else { 0.0 };
+            let value = (right - scratch[i]) / l[i * n + i];
+            let column = &l[i * n + i + 1..(i + 1) * n];
+            scratch[i + 1..].iter_mut().zip(column).for_each(|(known, a)| *known += a * value);
+            square += value * value;
         }
         diagonal[k] = square;
     }

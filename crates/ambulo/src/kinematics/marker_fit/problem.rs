@@ -3,7 +3,7 @@
 use super::normal::{Point, Targets, cost};
 use super::result::FitError;
 use super::settings::{FitSettings, JointLimits};
-use super::solve::{Bounds, Outcome, Solver};
+use super::solve::{Bounds, Outcome, STEPS, Solver};
 use super::tree::MarkerTree;
 use crate::findings::{Code, Findings};
 use crate::model::{Drive, Function, Model};
@@ -112,16 +112,21 @@ impl<'a> FitProblem<'a> {
     /// Fits the loaded markers to the markers of the model.
     pub(super) fn fit(&mut self, x: &mut [f64]) -> Outcome {
         let targets = Targets { points: &self.points, positions: &self.positions, weights: &self.frame_weights };
-        self.solver.fit(&mut self.tree, &targets, &self.bounds, x)
+        self.solver.fit(&mut self.tree, &targets, &self.bounds, x, STEPS)
     }
 
     /// Fits the loaded markers to markers of the model that are shifted by offsets in the axes of their bodies [m].
     pub(super) fn fit_with_offsets(&mut self, offsets: &[Vec3], x: &mut [f64]) -> Outcome {
+        self.approach_offsets(offsets, x, STEPS)
+    }
+
+    /// As [`FitProblem::fit_with_offsets`], with at most this number of steps.
+    pub(super) fn approach_offsets(&mut self, offsets: &[Vec3], x: &mut [f64], most_steps: usize) -> Outcome {
         for ((shifted, point), offset) in self.shifted.iter_mut().zip(&self.points).zip(offsets) {
             shifted.place = point.place + offset;
         }
         let targets = Targets { points: &self.shifted, positions: &self.positions, weights: &self.frame_weights };
-        self.solver.fit(&mut self.tree, &targets, &self.bounds, x)
+        self.solver.fit(&mut self.tree, &targets, &self.bounds, x, most_steps)
     }
 
     /// Change of each unknown per metre of error in the loaded markers [rad/m or m/m].

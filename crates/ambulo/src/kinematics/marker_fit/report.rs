@@ -47,6 +47,7 @@ pub(super) fn fit(
         followed: followed(recording, problem, frames, states),
         iterations: frames.outcomes.iter().map(|o| o.map_or(0, |o| o.steps)).collect(),
         converged: frames.outcomes.iter().map(|o| o.is_none_or(|o| o.converged)).collect(),
+        solves: problem.solver.budget.spent(),
     }
 }
 
@@ -179,6 +180,18 @@ pub(super) fn markers(problem: &FitProblem<'_>, frames: &Frames, findings: &mut 
     }
 }
 
+/// Reports frames whose fit took too many steps.
+pub(super) fn unfitted(problem: &FitProblem<'_>, frames: &Frames, findings: &mut Findings) {
+    let unfinished = spans(frames.count(), |frame| frames.is_unfinished(frame));
+    if !unfinished.is_empty() {
+        let message = format!(
+            "the fit was stopped at {}, because it took too many steps; the coordinates are approximate there, or have no values. hint: correct markers that jump or have the labels of others",
+            times(problem, &unfinished)
+        );
+        findings.report(Code::MarkersUnfitted, message);
+    }
+}
+
 /// Reports misplaced markers.
 pub(super) fn misplaced(problem: &FitProblem<'_>, markers: &[Misplaced], findings: &mut Findings) {
     for Misplaced { marker, rms_m, usual_m } in markers {
@@ -213,7 +226,7 @@ pub(super) fn coordinates(
             );
             findings.report(Code::MarkersBridged, message);
         }
-        let gaps = spans(frames.count(), |f| states[f * unknowns + u] == Determination::Gap);
+        let gaps = spans(frames.count(), |f| states[f * unknowns + u] == Determination::Gap && !frames.is_unfitted(f));
         if !gaps.is_empty() {
             let message = format!(
                 "too few markers to determine `{name}` at {}; it has no value there (only gaps of up to {longest_s} s inside the recording are bridged)",

@@ -18,6 +18,8 @@ pub struct MarkerFit {
     pub iterations: Vec<usize>,
     /// Whether the iteration converged in each frame.
     pub converged: Vec<bool>,
+    /// Linear solves of the whole fit, which bound its time: at most 36 per frame and 5000 for the first.
+    pub solves: usize,
 }
 
 /// Distance of one recorded marker from its place on the fitted model.

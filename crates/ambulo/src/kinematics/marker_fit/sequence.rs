@@ -11,7 +11,7 @@
 use super::frames::{FEWEST, Frames};
 use super::problem::FitProblem;
 use super::settings::OutlierDetection;
-use super::solve::Outcome;
+use super::solve::{Outcome, STEPS};
 use super::start;
 use crate::spatial::Vec3;
 
@@ -31,6 +31,10 @@ const BACK: f64 = 0.8;
 /// Distance at which the weight of a marker is a quarter while a frame is fitted again [m].
 const SCALE: f64 = 0.020;
 const REWEIGHTINGS: usize = 10;
+/// Steps of a fit with these weights where few linear solves are left: the weights change with the posture, so that it need not be exact.
+const STEPS_BETWEEN: usize = 2;
+/// The weights are settled when a reweighting moves no unknown by more [rad or m].
+const SETTLED: f64 = 1e-4;
 /// A posture older than this [s] is not used for prediction.
 const MEMORY: f64 = 0.25;
 /// In the first frame a swap of labels must reduce both distances from above this [m] to less than half.
@@ -107,6 +111,7 @@ fn fit_frame(
     outliers: OutlierDetection,
     default: &[f64],
 ) {
+    problem.solver.budget.grant_frame();
     frames.exchange(frame, &memory.paths);
     for i in 0..frames.markers() {
         frames.set_used(frame, i, memory.used[i]);
@@ -118,6 +123,10 @@ fn fit_frame(
     let t = problem.times[frame];
     let is_fresh = predict_posture(problem, frames, memory, frame);
     if !is_fresh {
+        if memory.last[0].is_some() && !problem.solver.budget.allows_search() {
+            frames.leave_unfitted(frame);
+            return;
+        }
         // After a gap, the last posture selects one of several sets of angles.
         memory.x = match memory.last[0] {
             Some(last) => start::posture(problem, frames.posture(last)),
@@ -221,7 +230,14 @@ fn guarded(
     }
     frames.load(frame, problem);
     drop_unknown(problem, memory);
+    problem.solver.budget.reserve();
     robust(problem, memory);
+    let ran_out = problem.solver.budget.is_spent();
+    problem.solver.budget.release();
+    if ran_out {
+        (0..frames.markers()).for_each(|i| frames.set_used(frame, i, memory.used[i]));
+        return None;
+    }
     exchange(problem, frames, memory, frame, t);
     for i in 0..frames.markers() {
         if memory.distances[i].is_finite() {
@@ -282,7 +298,13 @@ fn robust(problem: &mut FitProblem<'_>, memory: &mut Tracking) {
             let share = 1.0 + (r / scale).powi(2);
             problem.frame_weights[i] = if r.is_finite() { memory.weights[i] / (share * share) } else { 0.0 };
         }
-        problem.fit_with_offsets(&memory.usable, &mut x);
+        memory.trial.copy_from_slice(&x);
+        let is_ample = problem.solver.budget.is_ample();
+        problem.approach_offsets(&memory.usable, &mut x, if is_ample { STEPS } else { STEPS_BETWEEN });
+        let moved = x.iter().zip(&memory.trial).any(|(now, before)| (now - before).abs() > SETTLED);
+        if !is_ample && !moved && scale <= SCALE {
+            break;
+        }
     }
     note_distances(problem, memory);
     memory.x = x;

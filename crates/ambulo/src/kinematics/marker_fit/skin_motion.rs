@@ -98,7 +98,8 @@ impl MarkerSkinMotion {
         if !cholesky_factor(&mut matrix, terms) {
             return MarkerSkinMotion::default();
         }
-        right.iter_mut().for_each(|side| cholesky_solve(&matrix, terms, side));
+        let mut scratch = vec![0.0; terms];
+        right.iter_mut().for_each(|side| cholesky_solve(&matrix, terms, &mut scratch, side));
         skin.slopes = (0..terms).map(|k| Vec3::new(right[0][k], right[1][k], right[2][k])).collect();
         skin
     }

@@ -87,7 +87,7 @@ pub(super) fn smooth(
         let own = &x[frame * unknowns..(frame + 1) * unknowns];
         frames.load(frame, problem);
         let cost = problem.pose_at(own);
-        frames.keep(frame, problem, own, Outcome { cost, steps, converged }, false);
+        frames.keep(frame, problem, own, Outcome { cost, steps, converged, ran_out: false }, false);
     }
 }
 

@@ -10,6 +10,7 @@
 //!
 //! Pinned by: tests/marker_fit.rs
 
+use super::budget::Budget;
 use super::normal::{Normal, Targets, cholesky_factor, cholesky_inverse_diagonal, cholesky_solve, cost};
 use super::tree::MarkerTree;
 
@@ -69,6 +70,8 @@ pub(super) struct Outcome {
     pub(super) cost: f64,
     pub(super) steps: usize,
     pub(super) converged: bool,
+    /// Whether the iteration ended because no linear solve was left.
+    pub(super) ran_out: bool,
 }
 
 /// Scratch memory of fits; nothing is allocated after [`Solver::new`].
@@ -80,6 +83,7 @@ pub(super) struct Solver {
     trial: Vec<f64>,
     fixed: Vec<bool>,
     scratch: Vec<f64>,
+    pub(super) budget: Budget,
 }
 
 impl Solver {
@@ -93,16 +97,18 @@ impl Solver {
             trial: zeros(),
             fixed: vec![false; n],
             scratch: zeros(),
+            budget: Budget::to_begin(),
         }
     }
 
-    /// Iterates from `x` to convergence; leaves the tree at the final posture.
+    /// Iterates from `x` to convergence, with at most this number of steps, or until no linear solve is left; leaves the tree at the final posture.
     pub(super) fn fit(
         &mut self,
         tree: &mut MarkerTree,
         targets: &Targets<'_>,
         bounds: &Bounds,
         x: &mut [f64],
+        most_steps: usize,
     ) -> Outcome {
         bounds.project(x);
         tree.pose_at(x);
@@ -110,20 +116,20 @@ impl Solver {
         let mut total = markers + bounds.spring_cost(x);
         let mut damping = 0.0;
         let mut steps = 0;
-        while steps < STEPS {
+        while steps < most_steps && !self.budget.is_spent() {
             self.gather(tree, targets, bounds, x);
             let Some((after, longest)) = self.step(tree, targets, bounds, x, total, &mut damping) else {
                 tree.pose_at(x);
-                return Outcome { cost: markers, steps, converged: true };
+                return Outcome { cost: markers, steps, converged: true, ran_out: false };
             };
             steps += 1;
             markers = after;
             total = markers + bounds.spring_cost(x);
             if longest < SMALL_STEP {
-                return Outcome { cost: markers, steps, converged: true };
+                return Outcome { cost: markers, steps, converged: true, ran_out: false };
             }
         }
-        Outcome { cost: markers, steps, converged: false }
+        Outcome { cost: markers, steps, converged: false, ran_out: steps < most_steps }
     }
 
     fn gather(&mut self, tree: &MarkerTree, targets: &Targets<'_>, bounds: &Bounds, x: &[f64]) {
@@ -183,6 +189,7 @@ impl Solver {
 
     /// Computes the damped step of the unknowns that are not fixed. Returns false if the matrix is not positive definite.
     fn solve(&mut self, damping: f64, newton: bool) -> bool {
+        self.budget.spend_one();
         let n = self.step.len();
         self.factor.copy_from_slice(&self.normal.matrix);
         if newton {
@@ -203,7 +210,7 @@ impl Solver {
         if !cholesky_factor(&mut self.factor, n) {
             return false;
         }
-        cholesky_solve(&self.factor, n, &mut self.step);
+        cholesky_solve(&self.factor, n, &mut self.scratch, &mut self.step);
         let longest = self.step.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         if longest > LONGEST_STEP {
             self.step.iter_mut().for_each(|x| *x *= LONGEST_STEP / longest);
