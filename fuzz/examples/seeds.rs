@@ -2,6 +2,8 @@
 //!
 //! `cargo run --manifest-path fuzz/Cargo.toml --example seeds`
 
+use ambulo::findings::Findings;
+use ambulo::simulation::scene::{Scene, SceneFile, SceneSettings};
 use ambulo_formats::bvh::{Bvh, Channel as BvhChannel, Joint};
 use ambulo_formats::c3d::{C3d, Channel, Encoding, Event, EventPlace, Platform, Point, Processor, Storage};
 use ambulo_formats::external_loads::ExternalLoads;
@@ -34,10 +36,79 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in ["pendulum", "four-bar", "carry", "top"] {
         copy("scene", &format!("examples/{name}.toml"))?;
     }
+    for name in ["pendulum", "four-bar", "top", "pile", "slope", "grasp"] {
+        copy("scene_run", &format!("examples/{name}.toml"))?;
+    }
+    save("saved_state", "top.json", &saved()?)?;
+    save("thresholds", "weak.toml", THRESHOLDS.as_bytes())?;
+    save("result_folder", "events.csv", b"time,side,event\n0.5,right,foot strike\n1.1,right,foot off\n")?;
+    save("result_folder", "summary.json", b"{\"format\":1,\"version\":\"0\",\"mass_kg\":70.5,\"files\":[{\"name\":\"grf.mot\"}]}")?;
+    save("study_coordinates", "sway.mot", &sway()?.write_storage())?;
+    save("study_markers", "legs.c3d", &legs().write()?)?;
     for name in ["keypoints", "oxford-foot"] {
         copy("marker_set", &format!("crates/ambulo/data/markers/{name}.toml"))?;
     }
     Ok(())
+}
+
+/// The state of the scene of the target after some steps.
+fn saved() -> Result<Vec<u8>, Box<dyn Error>> {
+    let text = fs::read_to_string(here().join("../examples/top.toml"))?;
+    let mut load = |path: &str| Err(format!("no file {path}"));
+    let mut findings = Findings::default();
+    let mut scene = Scene::build(&SceneFile::parse(&text)?, SceneSettings::default(), &mut load, &mut findings)?;
+    for _ in 0..10 {
+        scene.step(&mut findings)?;
+    }
+    Ok(serde_json::to_vec(&scene.save())?)
+}
+
+const THRESHOLDS: &str = "shortest_s = 0.05\nskip = [\"power\"]\n[person]\nmass_kg = 60.0\n[strength]\nshare = 0.8\n\
+    [friction]\navailable = 0.5\n[support]\nacceleration_ratio = 1.5\n";
+
+/// Someone of 1.65 m who sways and bends the knees.
+fn sway() -> Result<Table, ambulo_formats::Error> {
+    let times: Vec<f64> = (0..80).map(|k| 0.02 * f64::from(k)).collect();
+    let wave = |size: f64, rate: f64| times.iter().map(|t| size * (rate * t).sin()).collect::<Vec<f64>>();
+    let high: Vec<f64> = times.iter().map(|t| 0.84 + 0.01 * (2.0 * t).cos()).collect();
+    let mut columns = vec![("time".to_owned(), times.clone()), ("pelvis_ty".to_owned(), high)];
+    columns.push(("pelvis_tilt".to_owned(), wave(3.0, 1.0)));
+    for side in ["r", "l"] {
+        columns.push((format!("hip_flexion_{side}"), wave(10.0, 2.0)));
+        columns.push((format!("knee_angle_{side}"), wave(-20.0, 2.0)));
+        columns.push((format!("ankle_angle_{side}"), wave(10.0, 2.0)));
+    }
+    let mut table = Table::new("Coordinates", columns)?;
+    table.in_degrees = Some(true);
+    Ok(table)
+}
+
+/// Places of the markers of one leg of a person of 1.7 m: along the walk, to the right, up [mm].
+const LEG: [(&str, [f64; 3]); 8] = [
+    ("ASI", [100.0, 120.0, 950.0]),
+    ("PSI", [-100.0, 50.0, 960.0]),
+    ("THI", [40.0, 160.0, 700.0]),
+    ("KNE", [0.0, 150.0, 480.0]),
+    ("TIB", [20.0, 140.0, 300.0]),
+    ("ANK", [0.0, 130.0, 80.0]),
+    ("HEE", [-60.0, 90.0, 40.0]),
+    ("TOE", [130.0, 100.0, 40.0]),
+];
+
+/// Legs that swing like pendulums under a pelvis in uniform motion.
+fn legs() -> C3d {
+    let mut record = C3d::new(50.0, "mm");
+    for (letter, sense) in [("R", 1.0), ("L", -1.0)] {
+        for (name, [ahead, aside, up]) in LEG {
+            let at = |frame: u8| {
+                let t = 0.02 * f64::from(frame);
+                let swing = sense * 0.4 * (6.0 * t).sin() * (900.0 - f64::min(up, 900.0));
+                [1000.0 * t + ahead + swing, -sense * aside, up]
+            };
+            record.points.push(Point::new(&format!("{letter}{name}"), (0..60).map(at).collect()));
+        }
+    }
+    record
 }
 
 fn here() -> PathBuf {

@@ -1,24 +1,30 @@
-//! What the fuzz targets check of each reader: no panic, and what was written reads back.
+//! What the fuzz targets check: readers do not panic, what was written reads back, scenes can be stepped, and studies of small files end
+//! in results or an error.
 //!
 //! Each function is the body of the target of its name, and `examples/replay.rs` runs them on the corpus with a stable compiler.
 
+use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
+use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::from_osim;
 use ambulo::model::marker_set::MarkerSet;
-use ambulo::simulation::scene::SceneFile;
+use ambulo::motion::coordinates_from_table;
+use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
+use ambulo::study::{self, LaboratoryFile, MarkerBody, MarkerSource, Settings, Source};
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
+use ambulo_results::Folder;
 
 /// A check of one input.
 pub type Check = fn(&[u8]);
 
 /// All checks, by the name of target and corpus folder.
-pub const CHECKS: [(&str, Check); 10] = [
+pub const CHECKS: [(&str, Check); 16] = [
     ("c3d", c3d),
     ("trc", trc),
     ("storage", storage),
@@ -29,6 +35,12 @@ pub const CHECKS: [(&str, Check); 10] = [
     ("scene", scene),
     ("gait", gait),
     ("marker_set", marker_set),
+    ("thresholds", thresholds),
+    ("scene_run", scene_run),
+    ("saved_state", saved_state),
+    ("result_folder", result_folder),
+    ("study_coordinates", study_coordinates),
+    ("study_markers", study_markers),
 ];
 
 /// C3D files: what is read can be used; what is written reads back with the same counts.
@@ -108,4 +120,87 @@ pub fn marker_set(bytes: &[u8]) {
     if let Ok(text) = std::str::from_utf8(bytes) {
         let _ = MarkerSet::from_toml(text);
     }
+}
+
+/// Limits of what a person can do.
+pub fn thresholds(bytes: &[u8]) {
+    if let Ok(text) = std::str::from_utf8(bytes) {
+        let _ = Thresholds::from_toml(text);
+    }
+}
+
+/// Largest number of bodies, figures and obstacles of a scene that is stepped, and number of steps.
+const MOST_THINGS: usize = 12;
+const STEPS: usize = 20;
+
+/// A scene without other files, if it is small.
+fn built(text: &str) -> Option<Scene> {
+    let file = SceneFile::parse(text).ok()?;
+    if file.bodies.len() + file.figures.len() + file.obstacles.len() > MOST_THINGS {
+        return None;
+    }
+    let mut load = |path: &str| Err(format!("no file {path}"));
+    Scene::build(&file, SceneSettings::default(), &mut load, &mut Findings::default()).ok()
+}
+
+/// Scene files: built and stepped; a saved state resumes.
+pub fn scene_run(bytes: &[u8]) {
+    let Some(mut scene) = std::str::from_utf8(bytes).ok().and_then(built) else { return };
+    for _ in 0..STEPS {
+        if scene.step(&mut Findings::default()).is_err() {
+            return;
+        }
+    }
+    let saved = scene.save();
+    scene.resume(&saved).expect("a scene resumes its own state");
+}
+
+/// The scene of the saved states.
+const TOP: &str = include_str!("../corpus/scene/top.toml");
+
+/// Saved states of one scene: resumed and stepped.
+pub fn saved_state(bytes: &[u8]) {
+    let Ok(saved) = serde_json::from_slice::<SavedState>(bytes) else { return };
+    let mut scene = built(TOP).expect("a scene of the corpus");
+    if scene.resume(&saved).is_ok() {
+        let _ = scene.step(&mut Findings::default());
+    }
+}
+
+/// Result folders: every file of a folder has these bytes.
+pub fn result_folder(bytes: &[u8]) {
+    let file = |_: &str| Some(bytes.to_vec());
+    let folder = Folder::of_files("results", &file);
+    let _ = (folder.summary(), folder.events(), folder.cycles(), folder.body().is_ok());
+    let _ = (folder.table("moments.sto"), folder.csv_table("clinical.csv"));
+}
+
+/// Largest number of samples of a recording that is studied.
+const MOST_SAMPLES: usize = 100_000;
+
+/// Coordinates of the built-in body, studied with predicted forces.
+pub fn study_coordinates(bytes: &[u8]) {
+    let Ok((table, _)) = Table::read_storage(bytes) else { return };
+    if table.rows() * table.columns().count() > MOST_SAMPLES {
+        return;
+    }
+    let build = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true };
+    let model = build.human().expect("a built-in body").model;
+    let mut findings = Findings::default();
+    if let Ok(motion) = coordinates_from_table(&model, &table, "recording", &mut findings) {
+        let _ = study::run(&Source::coordinates(model, motion), &Settings::default(), &mut findings);
+    }
+}
+
+/// Markers with or without plates, studied with the built-in body.
+pub fn study_markers(bytes: &[u8]) {
+    let mut findings = Findings::default();
+    let Ok((record, _)) = C3d::read(bytes) else { return };
+    if record.frames() * record.points.len() > MOST_SAMPLES {
+        return;
+    }
+    let Ok(trial) = LaboratoryFile::from_c3d(bytes, "recording", &mut findings) else { return };
+    let body = MarkerBody::BuiltIn { table: SegmentTable::DeLevaFemale, mass_kg: Some(60.0), height_m: None, set: None };
+    let source = Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() });
+    let _ = study::run(&source, &Settings::default(), &mut findings);
 }
