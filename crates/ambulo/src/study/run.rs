@@ -84,8 +84,7 @@ fn road(
     progress.end(Stage::ResidualReduction)?;
     let device = device.map(|device| worn(&device, &analysis, findings));
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
-    let activity = recognised(&model, &person, &analysis, findings);
-    report_untested_prediction(activity.kind, &force_origin, findings);
+    let activity = recognised(&model, &person, &analysis, &force_origin, findings);
     let judged = Judged {
         activity: activity.kind,
         cutoff_hz: processing.smoother.cutoff_hz(),
@@ -154,11 +153,19 @@ fn report_missing_cycles(analysis: &Analysis, findings: &mut Findings) {
     }
 }
 
-/// What the person does; a recording without a whole gait cycle is reported.
-fn recognised(model: &Model, person: &Person, analysis: &Analysis, findings: &mut Findings) -> Activity {
+/// Recognises the activity; reports a recording without a whole gait cycle, and predicted forces without validation.
+fn recognised(
+    model: &Model,
+    person: &Person,
+    analysis: &Analysis,
+    force_origin: &ForceOrigin,
+    findings: &mut Findings,
+) -> Activity {
     report_missing_cycles(analysis, findings);
     let footfalls = footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
-    activity(model, &analysis.trajectory, &person.soles, person.leg_length_m, &footfalls)
+    let found = activity(model, &analysis.trajectory, &person.soles, person.leg_length_m, &footfalls);
+    report_untested_prediction(found.kind, force_origin, findings);
+    found
 }
 
 /// Reports ground forces that are predicted for an activity without validation.
