@@ -102,6 +102,22 @@ fn contact_convergence_of_piles_that_the_solver_was_not_made_on() {
     pile(&[[BALL, BOX]]).check("pile of boxes");
 }
 
+#[test]
+fn a_box_of_almost_no_mass_on_a_slope_ends_in_an_error_or_a_step() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let text = std::fs::read_to_string(folder.join("slope.toml")).unwrap();
+    assert!(text.contains("mass = 2.0"));
+    let scene = SceneFile::parse(&text.replace("mass = 2.0", "mass = 1e-308")).unwrap();
+    let mut load = |path: &str| Err(format!("no file {path}"));
+    let mut findings = Findings::default();
+    let Ok(mut scene) = Scene::build(&scene, SceneSettings::default(), &mut load, &mut findings) else { return };
+    for _ in 0..20 {
+        if scene.step(&mut findings).is_err() {
+            return;
+        }
+    }
+}
+
 const GRAVITY: f64 = 9.80665;
 /// Segments of a person of 75 kg: mass [kg], height of the mass centre above that of the joint above it [m], radius of gyration
 /// [m], stiffness of the joint above it [N.m/rad].

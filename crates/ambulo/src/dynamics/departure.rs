@@ -184,9 +184,9 @@ impl BestIterate {
         }
     }
 
-    /// The kept forces.
-    pub(super) fn lambda(&self) -> &[f64] {
-        &self.lambda
+    /// The kept forces, if any were.
+    pub(super) fn lambda(&self) -> Option<&[f64]> {
+        self.found.map(|_| self.lambda.as_slice())
     }
 
     /// Restores the kept iterate if it is better than this one.

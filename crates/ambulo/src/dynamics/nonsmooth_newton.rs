@@ -155,12 +155,13 @@ impl Nonsmooth<'_, '_> {
     /// Moves the forces to another place to descend from.
     fn start_again(&mut self, turn: usize) {
         let NonsmoothWorkspace { lambda, best, .. } = &mut *self.w;
-        if turn.is_multiple_of(FRESH) {
+        // Nothing was kept if no residual was a number.
+        let Some(kept) = best.lambda().filter(|_| !turn.is_multiple_of(FRESH)) else {
             lambda.fill(0.0);
             self.sweep(FRESH_SWEEPS);
             return;
-        }
-        lambda.copy_from_slice(best.lambda());
+        };
+        lambda.copy_from_slice(kept);
         for (force, number) in lambda.iter_mut().zip(pseudo_random(turn)) {
             *force *= 1.0 + CHANGE * (2.0 * number - 1.0);
         }
