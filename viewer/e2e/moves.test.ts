@@ -6,7 +6,8 @@ import { drawn, PHONE, picture, timeOf, withPage } from "./page";
 /** Point at half the height and a fraction of the width of a panel's plot, in CSS pixels of the window. */
 async function inPlot(page: Page, panel: string, part: number): Promise<{ x: number; y: number }> {
   const plot = page.locator(`#panel-${panel} .u-over`);
-  await plot.scrollIntoViewIfNeeded();
+  // At the lower edge of the window: on a phone the figure covers the upper half.
+  await plot.evaluate((element) => element.scrollIntoView({ block: "end" }));
   const box = await plot.boundingBox();
   assert.ok(box, `${panel} is not drawn`);
   return { x: box.x + part * box.width, y: box.y + box.height / 2 };
