@@ -1,5 +1,5 @@
-//! What the fuzz targets check: readers do not panic, what was written reads back, scenes can be stepped, and studies of small files end
-//! in results or an error.
+//! The checks of the fuzz targets. Readers do not panic, and a file that was written reads back; scenes can be stepped; a study of a
+//! small file ends in results or in an error.
 //!
 //! Each function is the body of the target of its name, and `examples/replay.rs` runs them on the corpus with a stable compiler.
 

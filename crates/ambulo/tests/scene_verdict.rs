@@ -80,6 +80,21 @@ fn what_the_scene_does_to_a_figure_with_a_free_root_leaves_no_residual() {
 }
 
 #[test]
+fn a_loop_and_a_bag_that_pull_at_a_figure_leave_no_residual() {
+    // Moments of a loop about a wrong point, or with the wrong sign, would leave most of the weight.
+    let bag = "[[body]]\nname = \"bag\"\nmass = 5.0\ninertia = [0.1, 0.1, 0.1]\nposition = [0, 0.5, 0]\n";
+    let hook = "[[closure]]\nname = \"hook\"\nkind = \"ball\"\nfirst = \"walker/torso\"\nsecond = \"world\"\nat = [0, 1.4, 0]\n";
+    let strap = "[[closure]]\nname = \"strap\"\nkind = \"ball\"\nfirst = \"bag\"\nsecond = \"walker/pelvis\"\nat = [0, 0.7, 0]\n";
+    let settings = format!("step = 0.0005\nduration = 0.3\n{bag}{hook}{strap}");
+    let Some(scene) = walked(&settings, "root = \"free\"\n") else { return };
+    let motion = motion(&scene);
+    assert_eq!(motion.loads.len(), 2, "torso and pelvis");
+    let [worst, mean] = residual(&motion).map(|force| force / (motion.model.mass() * 9.80665));
+    println!("residual of the root: {worst:.1e} body weights at worst, {mean:.1e} on average");
+    assert!(worst < 0.02 && mean < 1e-3, "{worst} {mean}");
+}
+
+#[test]
 fn a_figure_that_is_carried_along_by_nothing_is_not_called_feasible() {
     let Some(scene) = walked("step = 0.001\nduration = 0.6\n", "root = \"driven\"\n") else { return };
     let found = verdict(&scene);
