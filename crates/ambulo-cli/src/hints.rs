@@ -28,7 +28,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
-        Code::MassStandingMismatch | Code::PredictionMass | Code::MassContradicted => "`--mass KG` sets the mass",
+        Code::MassStandingMismatch | Code::MassContradicted => "`--mass KG` sets the mass",
         Code::MassUnverified => "give `--mass KG` or, with markers, a standing trial on force plates (`--static`)",
         Code::GroundPredicted => "`--grf` reads measured forces, `--no-ground` computes a motion without contact",
         Code::WalkNotConsistent => "`--mode paper` computes the unchanged gait",

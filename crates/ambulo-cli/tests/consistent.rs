@@ -43,7 +43,7 @@ fn the_written_motion_agrees_with_the_forces_and_is_labelled_as_changed() {
     assert!(number(part, "/residual_before/force_rms_bw") > 0.01, "{part}");
     assert!(number(part, "/residual_after/force_rms_bw") < 0.003, "{part}");
     assert!((number(part, "/mass_percent") + 2.0).abs() < 0.5, "{part}");
-    assert!((number(&reduced, "/mass_model_kg") - 75.0).abs() < 0.4, "{}", reduced["mass_model_kg"]);
+    assert!((number(&reduced, "/mass/kg") - 75.0).abs() < 0.4, "{}", reduced["mass"]);
     let changes = part["changes"].as_object().unwrap();
     assert!(
         changes.values().all(|c| c["unit"] == "deg" && c["max"].as_f64() < Some(2.0) || c["unit"] == "mm"),

@@ -29,7 +29,10 @@ fn forces_are_predicted_where_none_were_measured() {
     let summary = bench.json("out/summary.json");
     assert_eq!(summary["ground"]["source"], "predicted");
     assert!(summary["ground"]["rule"].as_str().is_some_and(|rule| !rule.is_empty()), "{}", summary["ground"]);
-    assert_eq!((summary["mass"]["state"].as_str(), summary["mass_source"].as_str()), (Some("unknown"), Some("model")));
+    assert_eq!(
+        (summary["mass"]["state"].as_str(), summary["mass"]["normalised_by"].as_str()),
+        (Some("unknown"), Some("model"))
+    );
     assert!(summary["comparison"].is_null());
     for name in ["grf.mot", "grf_sd.mot", "external_loads.xml", "events.csv", "moments.sto", "powers.sto", "cycles.csv"]
     {
@@ -97,7 +100,10 @@ fn a_prediction_is_compared_with_measured_forces() {
         assert!(run.stdout.contains(words), "`{words}` is missing in: {}", run.stdout);
     }
     let summary = bench.json("out/summary.json");
-    assert_eq!((summary["mass"]["state"].as_str(), summary["mass_source"].as_str()), (Some("weighed"), Some("plates")));
+    assert_eq!(
+        (summary["mass"]["state"].as_str(), summary["mass"]["normalised_by"].as_str()),
+        (Some("weighed"), Some("plates"))
+    );
     assert_eq!(summary["filter"]["force"]["cutoff_hz"], 20.0, "the plates' own filter, whatever the motion's");
     let comparison = &summary["comparison"];
     let feet = comparison["feet"].as_array().unwrap();
@@ -178,7 +184,7 @@ fn half_the_mass_is_only_detected_with_force_plates() {
         (run, bench.json("out/summary.json")["mass"]["state"].as_str().unwrap().to_owned())
     };
     let (run, known) = mass(&[]);
-    run.reports(&["the force plates alongside the prediction measure 7", "the model has 40.0 kg", "hint: ", "--mass"]);
+    run.reports(&["forces are computed with 40.0 kg (stated), but the ground forces carry 7", "hint: ", "--mass"]);
     assert_eq!(known, "contradicted");
     assert!(run.stdout.contains("40.00 kg (stated, contradicted; the force plates carry 7"), "{}", run.stdout);
     ran(bench.run(&["forces", "demo/input/walk.bvh", "--mass", "40", "--height", "1.75"]));

@@ -80,7 +80,7 @@ fn the_summary_has_its_stable_keys() {
         "input",
         "model",
         "mass_kg",
-        "mass_source",
+        "mass",
         "height_m",
         "speed_m_s",
         "window_s",

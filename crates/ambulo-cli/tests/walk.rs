@@ -54,7 +54,7 @@ fn the_summary_states_how_the_walk_was_computed() {
     let summary: Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!(summary, bench.json("out/summary.json"));
     assert_eq!((&summary["ground"]["source"], &summary["ground"]["rule"]), (&"simulated".into(), &"soft shoes".into()));
-    assert_eq!((&summary["height_m"], &summary["mass_source"]), (&1.75.into(), &"model".into()));
+    assert_eq!((&summary["height_m"], &summary["mass"]["normalised_by"]), (&1.75.into(), &"model".into()));
     let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{value} is no number"));
     assert!((number(&summary["mass_kg"]) - 75.0).abs() < 1e-9);
     assert!((number(&summary["speed_m_s"]) / number(&summary["walk"]["speed_asked_m_s"]) - 1.0).abs() < 0.03);

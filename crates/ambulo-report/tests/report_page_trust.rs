@@ -86,7 +86,7 @@ fn friction_is_drawn_where_the_verdict_judges_it() {
     let mut files = recorded();
     let weight = {
         let mass: Value = serde_json::from_slice(&files["summary.json"]).unwrap();
-        mass["mass_model_kg"].as_f64().unwrap() * 9.81
+        mass["mass"]["kg"].as_f64().unwrap() * 9.81
     };
     let table = Table::read_storage(&files["grf.mot"]).unwrap().0;
     // The left foot's load is put just below and just above the load from which on friction is judged.

@@ -75,9 +75,9 @@ fn a_turn_that_the_laboratory_saw_counts() {
 fn both_masses_are_shown_if_they_differ() {
     let mut files = recorded();
     let mass = |files: &Files| Shown::of(files).header("Body mass");
-    with_summary(&mut files, |summary| summary["mass_model_kg"] = json!(1.004 * summary["mass_kg"].as_f64().unwrap()));
+    with_summary(&mut files, |summary| summary["mass"]["kg"] = json!(1.004 * summary["mass_kg"].as_f64().unwrap()));
     assert!(!mass(&files).contains("dynamics"), "{}", mass(&files));
-    with_summary(&mut files, |summary| (summary["mass_kg"], summary["mass_model_kg"]) = (json!(70.0), json!(72.84)));
+    with_summary(&mut files, |summary| (summary["mass_kg"], summary["mass"]["kg"]) = (json!(70.0), json!(72.84)));
     assert_eq!(mass(&files), "70.0 kg (normalises moments and powers); 72.8 kg (model, used for the dynamics)");
 }
 

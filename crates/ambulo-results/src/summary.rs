@@ -8,7 +8,7 @@ use crate::walk_summary::WalkSummary;
 use crate::walking_summary::WalkingSummary;
 use ambulo::analysis::activity::Activity;
 use ambulo::analysis::feasibility::Verdict;
-use ambulo::analysis::{Analysis, AnalysisSettings, GroundAgreement, MassSource, PredictionChecks, peak};
+use ambulo::analysis::{Analysis, AnalysisSettings, GroundAgreement, PredictionChecks, peak};
 use ambulo::findings::{Finding, Findings};
 use ambulo::model::Model;
 use ambulo::motion::Smoother;
@@ -38,11 +38,7 @@ pub struct Summary {
     pub mass_kg: f64,
     /// Gravity [m/s²].
     pub gravity_m_s2: f64,
-    /// Mass of the model, used for the dynamics [kg].
-    pub mass_model_kg: f64,
-    /// Source of the body mass.
-    pub mass_source: MassSource,
-    /// The body mass by each source, and how well it is known.
+    /// The mass that forces are computed with, the body mass by each source, and how well it is known.
     pub mass: BodyMass,
     /// Stature [m], if it was given.
     pub height_m: Option<f64>,
@@ -312,8 +308,6 @@ pub fn summary(
         model: model.name().to_owned(),
         mass_kg: analysis.mass.kg,
         gravity_m_s2: model.gravity().norm(),
-        mass_model_kg: model.mass(),
-        mass_source: analysis.mass.source,
         mass: BodyMass::alone(model.mass(), MassWitness::Model),
         height_m: None,
         speed_m_s: analysis.speed_m_s,

@@ -137,7 +137,7 @@ fn walkers_without_a_stated_mass_are_weighed() {
 }
 
 #[test]
-fn weight_beside_the_plates_is_not_a_lighter_person() {
+fn weight_next_to_the_plates_is_not_a_lighter_person() {
     let Some(folder) = data() else { return };
     for person in PEOPLE.iter().take(2) {
         let mut source = person.source(&folder);

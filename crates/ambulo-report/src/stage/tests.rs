@@ -62,7 +62,7 @@ fn summary(height_m: f64) -> Vec<u8> {
     let off = json!({"kind": "off", "cutoff_hz": null, "order": null});
     let summary = json!({
         "version": "0.1.0", "input": {"motion": "walk.mot", "model": "built-in", "added_mass": []}, "model": "figure",
-        "mass_kg": 61.0, "gravity_m_s2": 9.80665, "mass_model_kg": 61.0, "mass_source": "model", "mass": { "state": "unknown", "kg": 61.0, "source": "model", "plates_kg": null, "plates_error_kg": null, "sources": [] },
+        "mass_kg": 61.0, "gravity_m_s2": 9.80665, "mass": { "state": "unknown", "kg": 61.0, "source": "model", "normalised_by": "model", "plates_kg": null, "plates_error_kg": null, "sources": [] },
         "height_m": height_m, "window_s": [0.5, 1.0], "requested_window_s": [null, null], "rate_hz": 100.0, "frames": FRAMES,
         "filter": {"motion": off, "force": off}, "ground": {"source": "none", "rule": null, "threshold_n": 20.0},
         "times_and_distances": {"quantities": []}, "peaks": [], "findings": [], "timing_ms": {},

@@ -227,16 +227,13 @@ codes! {
         "No mass is stated; the person was weighed by the force plates while moving."
         "Nothing to do, or state the mass.";
     MassMismatch "mass.mismatch" Warning
-        "Force plates measured another mass over whole gait cycles than the model has; results are normalised by the measured mass, the dynamics use the model's."
+        "The mass by force plates over whole gait cycles differs from the model's by 3 to 5 %: results are normalised by the measured mass, the dynamics use the model's."
         "Scale the model to this person.";
     MassStandingMismatch "mass.standing_mismatch" Warning
-        "The stated body mass differs from what force plates measured in the standing trial; the stated mass was used."
+        "The stated body mass was not used: the standing trial and the motion on the force plates agree on another one."
         "Give the measured mass, or check the standing trial.";
-    MassNotWholeBody "mass.not_whole_body" Warning
-        "Force plates carry much less than the model's mass over whole gait cycles, so that the model's mass was used."
-        "Check that every foot is on a plate, and that the model is scaled to this person.";
     MassContradicted "mass.contradicted" Warning
-        "The ground forces carry another mass than forces are computed with."
+        "Force plates, in motion or in the standing trial, measured another mass than forces are computed with: by more than 5 %, and more than the error of the measurement."
         "Give the right mass, or scale the model to this person; check that every foot is on a plate.";
     MassScaled "mass.scaled" Note
         "The model was scaled to the stated mass and stature."
@@ -393,9 +390,6 @@ codes! {
     PredictionPull "prediction.pull" Warning
         "The motion accelerates downwards faster than gravity, which no floor can cause."
         "Check unit and rate of the motion.";
-    PredictionMass "prediction.mass" Warning
-        "The model's mass differs from what force plates measured; all predicted forces are wrong in proportion."
-        "Give the right mass, or scale the model to this person.";
     PredictionUntested "prediction.untested" Warning
         "Ground forces were predicted for an activity on which the prediction was never compared with force plates."
         "Use force plates, or read ground forces and joint moments as estimates.";

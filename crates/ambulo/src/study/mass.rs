@@ -6,6 +6,7 @@
 
 use super::laboratory_file::LaboratoryFile;
 use super::source::{MarkerBody, MarkerSource};
+use crate::analysis::MassSource;
 use crate::findings::{Code, Findings};
 use crate::motion::PlateRecording;
 use crate::motion::force_plate::standing_weight_n;
@@ -34,6 +35,8 @@ pub struct BodyMass {
     pub kg: f64,
     /// Where this mass comes from.
     pub source: MassWitness,
+    /// Where the mass comes from that results are normalised by; it can differ from `kg` by up to 5 %.
+    pub normalised_by: MassSource,
     /// Mass by the force plates [kg]; `null` if nobody was weighed.
     pub plates_kg: Option<f64>,
     /// Standard error of `plates_kg` [kg].
@@ -202,7 +205,15 @@ impl BodyMass {
     pub fn alone(kg: f64, source: MassWitness) -> BodyMass {
         let state = if source == MassWitness::Model { MassState::Unknown } else { MassState::Stated };
         let sources = vec![MassEstimate { by: source, kg, error_kg: 0.0, times: 1, time_s: None }];
-        BodyMass { state, kg, source, plates_kg: None, plates_error_kg: None, sources }
+        BodyMass {
+            state,
+            kg,
+            source,
+            normalised_by: MassSource::Model,
+            plates_kg: None,
+            plates_error_kg: None,
+            sources,
+        }
     }
 
     /// From all sources; `model_kg` is the mass that the forces are computed with.
@@ -224,7 +235,13 @@ impl BodyMass {
         sources.push(MassEstimate { by: MassWitness::Model, ..used });
         let [plates_kg, plates_error_kg] =
             [plates.as_ref().map(|plates| plates.kg), plates.as_ref().map(|plates| plates.error_kg)];
-        BodyMass { state, kg: model_kg, source, plates_kg, plates_error_kg, sources }
+        let normalised_by = MassSource::Model;
+        BodyMass { state, kg: model_kg, source, normalised_by, plates_kg, plates_error_kg, sources }
+    }
+
+    /// After residual reduction, which may have changed the mass of the body.
+    pub(super) fn computed_with(self, model_kg: f64, normalised_by: MassSource) -> BodyMass {
+        BodyMass { kg: model_kg, normalised_by, ..self }
     }
 
     /// The motion on the plates, all ways of weighing together.
@@ -253,9 +270,9 @@ impl BodyMass {
         let why = match (self.state, others.iter().all(|other| other.kg < self.kg)) {
             (MassState::Contradicted, false) => "the body is not this person's: every force is wrong in proportion",
             (MassState::Contradicted, true) => {
-                "either the body is not this person's, or a part of the weight was beside the plates"
+                "either the body is not this person's, or a part of the weight was next to the plates"
             }
-            (_, true) => "the other weighing confirms it, so a part of the weight was beside the plates",
+            (_, true) => "the other weighing confirms it, so a part of the weight was next to the plates",
             (_, false) => "the other sources confirm it",
         };
         let message = format!(
@@ -333,10 +350,10 @@ pub(super) fn report_decided(known: &KnownMass, decided: &MassEstimate, findings
             );
             findings.report(Code::MassStanding, message);
         }
-        (Some(stated), Some(standing)) => {
-            let which = if decided.by == MassWitness::Standing { "standing" } else { "stated" };
+        // Where the stated mass is used, `BodyMass::report` names the weighing that contradicts it.
+        (Some(stated), Some(standing)) if decided.by == MassWitness::Standing => {
             let message = format!(
-                "the stated mass is {:.1} kg, force plates measured {:.1} kg in the standing trial; the {which} mass was used",
+                "the stated mass is {:.1} kg, force plates measured {:.1} kg in the standing trial and in motion; the measured mass was used",
                 stated.kg, standing.kg
             );
             findings.report(Code::MassStandingMismatch, message);
@@ -353,7 +370,7 @@ pub(super) fn report_decided(known: &KnownMass, decided: &MassEstimate, findings
             );
             findings.report(Code::MassWeighed, message);
         }
-        (Some(_), None) => {}
+        (Some(_), _) => {}
     }
 }
 
@@ -381,11 +398,16 @@ mod tests {
         assert_eq!(kg(None, Some(60.0)), Some(60.0));
         assert_eq!(kg(Some(60.0), None), Some(60.0));
         assert_eq!(kg(None, None), None);
-        assert_eq!(kg(Some(60.0), Some(41.0)), Some(60.0), "a foot beside the plates");
-        let mut findings = Findings::default();
-        let both = known(Some(60.0), Some(41.0));
-        report_decided(&both, &both.decided(&[]).unwrap(), &mut findings);
-        assert!(findings.has(Code::MassStandingMismatch));
+        assert_eq!(kg(Some(60.0), Some(41.0)), Some(60.0), "a foot next to the plates");
+        let codes = |known: &KnownMass, motion: &[MassEstimate]| {
+            let mut findings = Findings::default();
+            let decided = known.decided(motion).unwrap();
+            report_decided(known, &decided, &mut findings);
+            BodyMass::of(decided.kg, known, motion.to_vec()).report(&mut findings);
+            findings.as_slice().iter().map(|finding| finding.code).collect::<Vec<Code>>()
+        };
+        assert_eq!(codes(&known(Some(60.0), Some(41.0)), &[]), [Code::MassContradicted]);
+        assert_eq!(codes(&known(Some(60.0), Some(41.0)), &moving(41.2)), [Code::MassStandingMismatch]);
     }
 
     #[test]
@@ -405,7 +427,7 @@ mod tests {
     }
 
     #[test]
-    fn a_light_model_is_contradicted_and_weight_beside_the_plates_is_not_a_lighter_person() {
+    fn a_light_model_is_contradicted_and_weight_next_to_the_plates_is_not_a_lighter_person() {
         let light = BodyMass::of(0.85 * 70.0, &KnownMass::default(), moving(70.0));
         assert_eq!(
             (light.state, light.source, light.plates_kg),
@@ -416,7 +438,7 @@ mod tests {
         let mut findings = Findings::default();
         beside.report(&mut findings);
         let said = &findings.as_slice()[0].message;
-        assert!(said.contains("42.0 kg") && said.contains("beside the plates"), "{said}");
+        assert!(said.contains("42.0 kg") && said.contains("next to the plates"), "{said}");
         let unknown = BodyMass::of(70.0, &KnownMass::default(), Vec::new());
         assert_eq!(unknown.state, MassState::Unknown);
         assert_eq!(BodyMass::of(70.0, &known(Some(70.0), None), Vec::new()).state, MassState::Stated);

@@ -110,7 +110,7 @@ fn road(
     };
     Ok(Outcome {
         quality: evidence.quality(),
-        mass,
+        mass: mass.computed_with(model.mass(), analysis.mass.source),
         tracking,
         activity,
         times_and_distances: times_and_distances(&model, &person.soles, &analysis),

@@ -75,7 +75,7 @@ fn subject(results: &Results) -> Fact {
 
 fn mass(results: &Results) -> Fact {
     let summary = &results.summary;
-    let source = match summary.mass_source {
+    let source = match summary.mass.normalised_by {
         MassSource::Plates => "measured by the force plates over whole gait cycles",
         MassSource::Standing => "measured by the force plates in the standing trial",
         MassSource::Model => "from the model",
@@ -90,7 +90,7 @@ fn mass(results: &Results) -> Fact {
         MassState::Unknown => "; neither given nor measured".to_owned(),
         MassState::Contradicted => format!("; contradicted{}", by_plates()),
     };
-    let (mass, model) = (results.mass_kg, summary.mass_model_kg);
+    let (mass, model) = (results.mass_kg, summary.mass.kg);
     let value = match (model / mass - 1.0).abs() > SAME_MASS {
         true => format!("{mass:.1} kg (normalises moments and powers); {model:.1} kg (model, used for the dynamics)"),
         false => format!("{mass:.1} kg"),
