@@ -32,6 +32,7 @@ mod contact_geometry;
 mod conventions;
 mod elimination;
 mod feasibility;
+mod feasibility_motions;
 mod feet_on_plates;
 mod filters;
 mod findings;

@@ -14,7 +14,7 @@
 //! | F, N   | N    | measured and needed total ground force           |
 //! | V, W   | N.s  | their changes of momentum, up to a linear trend  |
 //!
-//! Pinned by: tests/feasibility.rs
+//! Pinned by: tests/feasibility_motions.rs
 
 use super::frame::{CheckedPart, CheckedValue, FeasibilityLimits, Frame};
 use super::spans::Span;
