@@ -12,7 +12,7 @@ use std::time::Instant;
 /// Unit of the times in `/proc` [1/s]; Linux has used this value on every common machine for twenty years.
 const TICKS_PER_SECOND: f64 = 100.0;
 
-/// What a build takes.
+/// Duration of a build.
 #[derive(Debug, Clone, Copy)]
 struct Cost {
     wall_s: f64,

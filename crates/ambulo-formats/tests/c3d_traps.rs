@@ -1,4 +1,4 @@
-//! What C3D files do beside their description, one hand-made file for each.
+//! C3D files that deviate from the description of the format: one hand-made file per deviation.
 
 use crate::c3d_bytes::File;
 use ambulo_formats::Error;

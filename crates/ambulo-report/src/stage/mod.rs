@@ -90,7 +90,7 @@ pub(crate) struct StagePlate {
     pub(crate) corners: [[f64; 3]; 4],
 }
 
-/// What a force is shown for.
+/// The part of a force in the view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ForceRole {
     /// The results are based on it.

@@ -19,7 +19,7 @@ use crate::model::{BySide, Model};
 use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 
-/// What a prediction needs besides the motion.
+/// Inputs of a prediction, in addition to the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PredictionInput<'a> {
     /// Right and left sole.

@@ -6,7 +6,7 @@ use super::Severity;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
 
-/// What is known of a code.
+/// The name, severity and meaning of a code.
 struct Entry {
     code: Code,
     name: &'static str,

@@ -71,7 +71,7 @@ pub(crate) enum Direction {
     General(Vec3),
 }
 
-/// What determines the angle or displacement along an axis: a constant, or a function of one coordinate.
+/// The angle or displacement along an axis: a constant, or a function of one coordinate.
 #[derive(Debug, Clone)]
 pub(crate) enum Source {
     Fixed(f64),

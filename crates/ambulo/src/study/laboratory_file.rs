@@ -1,4 +1,4 @@
-//! What one file of a laboratory holds: markers, force plates, events, and what it states about the person.
+//! One file of a laboratory: markers, force plates, events, and statements about the person.
 
 use crate::analysis::LaboratoryRecording;
 use crate::findings::{Code, Finding, Findings};
@@ -17,7 +17,7 @@ pub struct LaboratoryFile {
     pub recording: LaboratoryRecording,
     /// Foot strikes and foot offs that the file lists.
     pub events: Vec<Event>,
-    /// What the file states about the person.
+    /// Statements of the file about the person.
     pub subject: SubjectParameters,
 }
 

@@ -32,7 +32,7 @@ pub(super) struct Observation<'s> {
     pub(super) motion: ObservedMotion<'s>,
     pub(super) forces: Vec<ForceRecording>,
     pub(super) origin: Origin,
-    /// What is known of the body mass without the motion.
+    /// Estimates of the body mass that do not need the motion.
     pub(super) known_mass: KnownMass,
 }
 
@@ -54,7 +54,7 @@ impl ObservedMotion<'_> {
     }
 }
 
-/// What a body in motion was made from.
+/// The kind of recording that a body in motion was made from.
 pub(super) enum Origin {
     Coordinates,
     Markers(Box<Followed>),
@@ -70,7 +70,7 @@ pub(super) struct Followed {
 }
 
 impl Observation<'_> {
-    /// What plates carried in a standing trial [kg].
+    /// Body mass measured by force plates in a standing trial [kg].
     pub(super) fn standing_kg(&self) -> Option<f64> {
         self.known_mass.standing.as_ref().map(|standing| standing.kg)
     }
@@ -364,7 +364,7 @@ impl MarkerSource {
         Ok(recording)
     }
 
-    /// What is known about the person, for the built-in body.
+    /// Measurements of the person, for the built-in body.
     fn person(&self) -> Result<calibration::PersonMeasurements, StudyError> {
         let MarkerSource { trial, standing, body, .. } = self;
         let MarkerBody::BuiltIn { table, mass_kg, height_m, .. } = body else { return Err(StudyError::MassUnknown) };

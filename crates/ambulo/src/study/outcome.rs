@@ -1,4 +1,4 @@
-//! What a study found.
+//! The results of a study.
 
 use super::mass::BodyMass;
 use super::quality::Quality;
@@ -25,7 +25,7 @@ pub struct Outcome {
     pub person: Person,
     /// Motion, ground forces, joint forces, events, cycles, body mass and residual.
     pub analysis: Analysis,
-    /// What the person does; the limits of the verdict follow it.
+    /// The activity of the person; the limits of the verdict follow it.
     pub activity: Activity,
     /// Speed, cadence, lengths, stance, swing and support.
     pub times_and_distances: TimesAndDistances,

@@ -74,7 +74,7 @@ pub(super) fn predicted(
     Ok(Found { analysis, prediction: Some(prediction), measured_events })
 }
 
-/// What makes a prediction a guess.
+/// Reports missing evidence that makes a prediction unreliable.
 fn report_weak_evidence(origin: &Origin, motion: &Motion, findings: &mut Findings) {
     if !origin.shows_both_feet() {
         findings.report(
@@ -91,7 +91,7 @@ fn report_weak_evidence(origin: &Origin, motion: &Motion, findings: &mut Finding
     }
 }
 
-/// What plates measured completely; `None` without plates.
+/// The stances that plates measured completely; `None` without plates.
 fn coverage(observation: &Observation<'_>, predicted: &PredictedAnalysis) -> Option<PlateCoverage> {
     let measured = predicted.measured.as_ref()?;
     match observation.origin.followed() {

@@ -23,7 +23,7 @@ use crate::model::Model;
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
 use std::ops::ControlFlow;
 
-/// Computes the forces behind a recording. What is odd, but leaves results, goes to `findings`.
+/// Computes the forces behind a recording. Problems that still allow results are reported in `findings`.
 ///
 /// # Errors
 /// Recordings that give no forces: see [`StudyError`].
@@ -126,7 +126,7 @@ fn road(
     })
 }
 
-/// What states and weighs the body.
+/// The body mass by every source.
 fn body_mass(observation: &Observation<'_>, analysis: &Analysis, findings: &mut Findings) -> BodyMass {
     let weighed = observation.weighed_in_motion(&analysis.trajectory);
     let mass = BodyMass::of(observation.model.mass(), &observation.known_mass, weighed);

@@ -1,4 +1,4 @@
-//! What was recorded, and what the laboratory stated about it.
+//! A recording, with the statements of the laboratory about it.
 
 use super::error::StudyError;
 use super::laboratory_file::LaboratoryFile;
@@ -18,15 +18,15 @@ use ambulo_formats::table::Table;
 /// A recording with everything that is known about it. It holds data; names of files appear in messages only.
 #[derive(Debug, Clone)]
 pub struct Source {
-    /// What was recorded.
+    /// The recorded motion.
     pub recording: Recording,
     /// The measured ground forces.
     pub forces: MeasuredForces,
-    /// What a worn device contributes to the joints: a table with columns named as in `moments.sto`.
+    /// Joint moments of a worn device: a table with columns named as in `moments.sto`.
     pub device: Option<Table>,
     /// Masses that the person carried.
     pub added_mass: Vec<AddedMass>,
-    /// What a given model is scaled to: with coordinates, and with markers that no standing trial scales. The built-in body has its own
+    /// Mass and stature that a given model is scaled to, if no standing trial scales it. The built-in body has its own
     /// ([`MarkerBody::BuiltIn`]).
     pub stated: StatedSize,
 }
@@ -130,7 +130,7 @@ pub enum MarkerBody {
     Calibrated(Box<Subject>),
 }
 
-/// What the laboratory knows about a force plate.
+/// Assignment of a force plate by the laboratory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PlateAssignment {
     /// The plate, counted from 0.
@@ -139,7 +139,7 @@ pub struct PlateAssignment {
     pub used: PlateUse,
 }
 
-/// Who used a force plate.
+/// The feet that were on a force plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlateUse {
     /// One foot.

@@ -29,7 +29,7 @@ use crate::spatial::Vec3;
 /// recording. Markers on soft tissue, filtered at 6 Hz, show less than this in steady walking.
 const PRIOR_VELOCITY_M_S: f64 = 0.1;
 const PRIOR_S: f64 = 0.5;
-/// A shorter time weighs nobody [s]: the prior error would be a twentieth of the body mass.
+/// A shorter time does not determine the mass [s]: the prior error would be a twentieth of the body mass.
 const SHORTEST_S: f64 = 0.3;
 /// An event of the motion nearer to one of the forces is the same event [s].
 const SAME_EVENT_S: f64 = 0.15;

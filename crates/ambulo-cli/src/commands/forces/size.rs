@@ -10,7 +10,7 @@ const BODY_MASS_KG: RangeInclusive<f64> = 2.0..=300.0;
 /// Accepted statures [m].
 const HEIGHT_M: RangeInclusive<f64> = 0.4..=2.5;
 
-/// What the options state.
+/// Mass and stature from the options.
 pub(super) fn stated(args: &SubjectArgs) -> StatedSize {
     StatedSize { mass_kg: args.mass, height_m: args.height }
 }

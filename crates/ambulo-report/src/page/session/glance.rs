@@ -14,7 +14,7 @@ use ambulo::model::Side;
 /// How many differences from normal are listed.
 const DEVIATIONS: usize = 3;
 
-/// What to know of a recording or walk before anything else.
+/// The most important results of a recording or walk, shown first.
 pub(super) fn glance(results: &Results, size: &BodySize, quantities: &[ClinicalQuantity]) -> Glance {
     let summary = &results.summary;
     let stated = |label, value: &Option<String>| value.as_ref().map(|value| fact(label, value.as_str(), None));
@@ -79,7 +79,7 @@ struct Deviation<'a> {
     value: f64,
     /// The normal mean there.
     normal: f64,
-    /// Who the healthy people are.
+    /// Source of the normative data.
     citation: String,
 }
 
@@ -127,7 +127,7 @@ impl Deviation<'_> {
     }
 }
 
-/// Who is compared with, or why nobody is.
+/// The normative group of the comparison, or why there is none.
 fn norm(size: &BodySize, deviations: &[Deviation<'_>]) -> String {
     match (size.why_no_norm(), deviations.first()) {
         (Some(why), _) => format!("No comparison with normal curves: {why}."),
