@@ -9,6 +9,7 @@ mod check;
 mod documents;
 mod house;
 mod measured;
+mod mutants;
 mod sweep;
 mod workspace;
 
@@ -22,6 +23,8 @@ usage: cargo xtask <command>
   house             print size and shape of the source; fails where it exceeds a limit  [--baseline REV] [--list]
   build-time        time a cold release build of the `ambulo` command  [--baseline REV]
   measured          write the generated pages of docs/measured/  [PAGE..] [--check: list pages that are out of date]
+  mutants           run mutants of the science and write docs/measured/MUTANTS.md  [MODULE..] [--sample N] [--seed S]
+                    [--retry: only survivors of the last run] [--page: only the page]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
@@ -46,7 +49,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 5] = ["check", "house", "build-time", "measured", "sweep"];
+const OWN: [&str; 6] = ["check", "house", "build-time", "measured", "mutants", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
 const MEASUREMENTS: [&str; 13] = [
@@ -76,6 +79,7 @@ fn main() -> ExitCode {
         ("check", _) => check::run(rest),
         ("build-time", _) => build_time::run(rest),
         ("measured", _) => measured::run(rest),
+        ("mutants", _) => mutants::run(rest),
         ("sweep", []) => sweep::run(),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),

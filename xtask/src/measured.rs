@@ -1,8 +1,8 @@
 //! Generated pages: `cargo xtask measured [PAGE...]`, `cargo xtask measured --check`.
 //!
-//! The pages of `docs/measured/` are written by commands of `xtask-measure`. This command runs them and puts a first line on
-//! each page: version, commit and a hash of the page's inputs. A test computes the hash again, so a page whose inputs have
-//! changed is found.
+//! The pages of `docs/measured/` are written by commands of `xtask-measure`, and one by `cargo xtask mutants` from outcomes that it has
+//! recorded. This command runs them and puts a first line on each page: version, commit and a hash of the page's inputs. A test
+//! computes the hash again, so a page whose inputs have changed is found.
 //!
 //! Hash: 64-bit FNV-1a over path and content of every input file. Of Rust source, only the tokens count: comments, formatting,
 //! items for tests and texts with a blank in them (messages) do not, so that a change of wording does not age a page.
@@ -23,7 +23,7 @@ const PRIME: u64 = 0x0100_0000_01b3;
 struct Page {
     /// File name without `.md`, as typed on the command line.
     name: &'static str,
-    /// The command of `xtask-measure` that writes it, with `--write`.
+    /// The command that writes it: `mutants`, or one of `xtask-measure` with `--write`.
     command: &'static str,
     /// Files and folders whose content the page depends on, relative to the workspace root.
     inputs: &'static [&'static str],
@@ -84,7 +84,10 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         return Err(format!("unknown page `{word}`, expected one of {}, or --check", names.join(", ")));
     }
     for page in PAGES.iter().filter(|page| words.is_empty() || words.iter().any(|word| word == page.name)) {
-        crate::measure(&[page.command.to_owned(), "--write".to_owned()])?;
+        match page.command {
+            "mutants" => crate::mutants::write_page()?,
+            command => crate::measure(&[command.to_owned(), "--write".to_owned()])?,
+        }
         println!("written: {FOLDER}/{}.md", page.name);
     }
     Ok(())

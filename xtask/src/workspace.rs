@@ -27,6 +27,21 @@ pub(crate) fn target() -> PathBuf {
     here.parent().and_then(Path::parent).map_or_else(|| root().join("target"), Path::to_path_buf)
 }
 
+/// Unpacks a revision (a commit, a tag or a branch) into a folder. Its files are as old as the unpacking, so that cargo compiles them.
+pub(crate) fn unpack(name: &str, folder: &Path) -> Result<(), String> {
+    let mut archive = Command::new("git");
+    archive.current_dir(root()).args(["archive", "--format=tar", name]).stdout(Stdio::piped());
+    let mut archive = archive.spawn().map_err(|e| format!("git: cannot start: {e}"))?;
+    let mut tar = Command::new("tar");
+    tar.args(["-x", "-m", "-C"]).arg(folder).stdin(archive.stdout.take().map_or_else(Stdio::null, Stdio::from));
+    let unpacked = tar.status().map_err(|e| format!("tar: cannot start: {e}"))?;
+    let read = archive.wait().map_err(|e| format!("git: {e}"))?;
+    if read.success() && unpacked.success() {
+        return Ok(());
+    }
+    Err(format!("the revision `{name}` could not be unpacked, see above\nhint: `git log` lists revisions"))
+}
+
 /// Files of one revision in a temporary folder, removed when dropped.
 pub(crate) struct Revision {
     folder: PathBuf,
@@ -39,20 +54,8 @@ impl Revision {
             Revision { folder: std::env::temp_dir().join(format!("ambulo-revision-{}", std::process::id())) };
         std::fs::create_dir_all(&revision.folder)
             .map_err(|e| format!("{}: cannot create: {e}", revision.folder.display()))?;
-        let mut archive = Command::new("git");
-        archive.current_dir(root()).args(["archive", "--format=tar", name]).stdout(Stdio::piped());
-        let mut archive = archive.spawn().map_err(|e| format!("git: cannot start: {e}"))?;
-        let mut tar = Command::new("tar");
-        tar.arg("-x")
-            .arg("-C")
-            .arg(&revision.folder)
-            .stdin(archive.stdout.take().map_or_else(Stdio::null, Stdio::from));
-        let unpacked = tar.status().map_err(|e| format!("tar: cannot start: {e}"))?;
-        let read = archive.wait().map_err(|e| format!("git: {e}"))?;
-        if read.success() && unpacked.success() {
-            return Ok(revision);
-        }
-        Err(format!("the revision `{name}` could not be unpacked, see above\nhint: `git log` lists revisions"))
+        unpack(name, &revision.folder)?;
+        Ok(revision)
     }
 
     /// The folder of the revision's `Cargo.toml`.

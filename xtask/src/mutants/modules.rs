@@ -1,0 +1,159 @@
+//! The modules whose tests are tested, and the tests for each.
+
+/// A part of the library.
+pub(super) struct Module {
+    /// As typed on the command line.
+    pub(super) name: &'static str,
+    /// Its files, from the workspace root; `**` is any folder.
+    pub(super) files: &'static str,
+    /// How many mutants are drawn; none: all are run.
+    pub(super) sample: Option<usize>,
+    /// Tests that each mutant is run with: parts of their names. They take a few seconds together.
+    pub(super) quick: &'static [&'static str],
+    /// Tests that what survives the quick ones is run with.
+    pub(super) wide: &'static [&'static str],
+}
+
+/// Tests that take more than five seconds, left out everywhere: a mutant that only they would notice counts as a survivor.
+pub(super) const SLOW: [&str; 15] = [
+    "a_simulated_walk_in_a_plane_hardly_changes",
+    "a_thousand_random_scenes",
+    "a_wrong_mass_is_only_detected_with_plates",
+    "contact_convergence_of",
+    "exchanged_labels_are_found",
+    "flails_for_a_minute",
+    "gait_style_1997",
+    "ground_forces_explain_the_change_of_momentum",
+    "ground_stream",
+    "jumps_are_found_and_change_no_angle",
+    "losing_markers_for_a_while",
+    "reproduction",
+    "residual_reduction::",
+    "spoiled_copies_are_never_good",
+    "the_size_of_a_disturbed_model",
+];
+
+/// Tests that take more than a second, left out of the quick ones.
+pub(super) const LONG: [&str; 6] = [
+    "a_model_without_feet",
+    "forces_that_are_a_tenth_larger",
+    "marker_outliers",
+    "too_little_gravity_is_rejected",
+    "unusual_numbers_are_rejected_or_ignored",
+    "with_everything_prescribed",
+];
+
+/// Tests of the simulator that take less than a second each.
+const SIMULATOR: &[&str] = &["simulation_closed_form", "simulation_contact", "simulation_smooth"];
+
+pub(super) const MODULES: [Module; 7] = [
+    Module {
+        name: "inverse",
+        files: "crates/ambulo/src/dynamics/inverse.rs",
+        sample: None,
+        quick: &[
+            "identities",
+            "independent",
+            "conventions",
+            "mujoco_parity",
+            "full_body",
+            "synthetic_walk::inverse",
+            "opensim_parity",
+        ],
+        wide: &["analysis", "recordings", "walking", "residual_reduction", "calibration", "feasibility"],
+    },
+    Module {
+        name: "step",
+        files: "crates/ambulo/src/simulation/step.rs",
+        sample: None,
+        quick: SIMULATOR,
+        wide: &["simulation_", "scene_", "walking", "consistent_walk"],
+    },
+    Module {
+        name: "contact",
+        files: "crates/ambulo/src/contact/**",
+        sample: Some(40),
+        quick: &["contact_geometry", "simulation_closed_form", "simulation_contact"],
+        wide: &["simulation_", "scene_", "walking", "consistent_walk"],
+    },
+    Module {
+        name: "touch",
+        files: "crates/ambulo/src/simulation/touch.rs",
+        sample: Some(40),
+        quick: SIMULATOR,
+        wide: &["simulation_", "scene_", "walking", "consistent_walk"],
+    },
+    Module {
+        name: "kinematics",
+        files: "crates/ambulo/src/kinematics/**",
+        sample: Some(40),
+        quick: &[
+            "identities",
+            "independent",
+            "retarget",
+            "scaling",
+            "clinical_angles",
+            "calibration",
+            "marker_",
+            "opensim_parity",
+        ],
+        wide: &["analysis", "laboratory", "recordings", "skeleton", "plug_in_gait", "anatomy", "splines"],
+    },
+    Module {
+        name: "predict",
+        files: "crates/ambulo/src/ground/predict/**",
+        sample: Some(40),
+        quick: &[
+            "both_feet_together_give_the_total",
+            "fore_aft_and_vertical_forces",
+            "prediction_checks",
+            "standing_ground",
+        ],
+        wide: &["ground_", "ground::predict", "prediction_checks", "footfalls", "feasibility", "activity"],
+    },
+    Module {
+        name: "analysis",
+        files: "crates/ambulo/src/analysis/**",
+        sample: Some(40),
+        quick: &[
+            "analysis",
+            "activity",
+            "feasibility",
+            "ground_agreement",
+            "prediction_checks",
+            "times_and_distances",
+            "weighing",
+            "scene_verdict",
+        ],
+        wide: &[
+            "recordings",
+            "laboratory",
+            "calibration",
+            "quality",
+            "ground_",
+            "synthetic_walk",
+            "study",
+            "events",
+            "walking",
+        ],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Source of all tests of the library, and the names of their files.
+    fn tests_of_the_library() -> String {
+        let folder = crate::workspace::root().join("crates/ambulo/tests");
+        let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let files = files.filter(|file| file.extension().is_some_and(|ending| ending == "rs"));
+        files.map(|file| format!("{}::\n{}\n", file.display(), std::fs::read_to_string(&file).unwrap())).collect()
+    }
+
+    #[test]
+    fn every_test_that_is_left_out_exists() {
+        let tests = tests_of_the_library().replace(".rs::", "::");
+        assert_eq!(SLOW.iter().chain(&LONG).find(|name| !tests.contains(**name)), None);
+    }
+}

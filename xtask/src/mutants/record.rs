@@ -1,0 +1,176 @@
+//! Outcomes of mutants, one file per module, and the reasons for survivors.
+//!
+//! A file begins with `commit`, `seed` and `mutants` (how many the module has); then one line per mutant that was run: outcome, blank,
+//! name as `cargo mutants --list` shows it. A line of `reasons.txt` is a name, ` => ` and the reason.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+/// What became of a mutant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// A test failed.
+    Caught,
+    /// A test did not end: noticed as well.
+    Timeout,
+    /// No test noticed.
+    Missed,
+    /// No test noticed; one that was written since does.
+    Mended,
+    /// It does not compile.
+    Unviable,
+}
+
+const WORDS: [(Outcome, &str); 5] = [
+    (Outcome::Caught, "caught"),
+    (Outcome::Timeout, "timeout"),
+    (Outcome::Missed, "missed"),
+    (Outcome::Mended, "mended"),
+    (Outcome::Unviable, "unviable"),
+];
+
+/// The outcomes of one module.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Record {
+    /// Commit whose mutants they are.
+    pub(super) commit: String,
+    /// Seed of the sample.
+    pub(super) seed: u64,
+    /// Mutants of the module, run or not.
+    pub(super) mutants: usize,
+    /// Outcome of each mutant that was run, by name.
+    pub(super) outcomes: BTreeMap<String, Outcome>,
+}
+
+/// How often each outcome occurred.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Counts {
+    pub(super) caught: usize,
+    pub(super) timeout: usize,
+    pub(super) missed: usize,
+    pub(super) mended: usize,
+    pub(super) unviable: usize,
+}
+
+impl Counts {
+    /// Mutants that were run.
+    pub(super) fn run(&self) -> usize {
+        self.viable() + self.unviable
+    }
+
+    /// Mutants that compile.
+    pub(super) fn viable(&self) -> usize {
+        self.caught + self.timeout + self.missed + self.mended
+    }
+
+    /// Mutants that the tests noticed when they were drawn.
+    pub(super) fn noticed_at_first(&self) -> usize {
+        self.caught + self.timeout
+    }
+
+    pub(super) fn sentence(&self) -> String {
+        let Counts { caught, timeout, missed, mended, unviable } = self;
+        format!("{caught} caught, {timeout} timeouts, {missed} missed, {mended} mended, {unviable} unviable")
+    }
+}
+
+impl std::ops::Add for Counts {
+    type Output = Counts;
+
+    fn add(self, other: Counts) -> Counts {
+        Counts {
+            caught: self.caught + other.caught,
+            timeout: self.timeout + other.timeout,
+            missed: self.missed + other.missed,
+            mended: self.mended + other.mended,
+            unviable: self.unviable + other.unviable,
+        }
+    }
+}
+
+impl Record {
+    pub(super) fn read(folder: &Path, module: &str) -> Result<Record, String> {
+        let path = folder.join(module).with_extension("txt");
+        let text = fs::read_to_string(&path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
+        Record::parse(&text).map_err(|message| format!("{}: {message}", path.display()))
+    }
+
+    pub(super) fn write(&self, folder: &Path, module: &str) -> Result<(), String> {
+        let path = folder.join(module).with_extension("txt");
+        fs::write(&path, self.text()).map_err(|e| format!("{}: cannot write: {e}", path.display()))
+    }
+
+    fn parse(text: &str) -> Result<Record, String> {
+        let mut record = Record { commit: String::new(), seed: 0, mutants: 0, outcomes: BTreeMap::new() };
+        for (index, line) in text.lines().enumerate() {
+            let wrong = || format!("line {}: found `{line}`, expected an outcome and a mutant", index + 1);
+            let (word, rest) = line.split_once(' ').ok_or_else(wrong)?;
+            match word {
+                "commit" => record.commit = rest.to_owned(),
+                "seed" => record.seed = rest.parse().map_err(|_| wrong())?,
+                "mutants" => record.mutants = rest.parse().map_err(|_| wrong())?,
+                _ => {
+                    let known = WORDS.iter().find(|(_, known)| *known == word).ok_or_else(wrong)?;
+                    record.outcomes.insert(rest.to_owned(), known.0);
+                }
+            }
+        }
+        Ok(record)
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("commit {}\nseed {}\nmutants {}\n", self.commit, self.seed, self.mutants);
+        for (name, outcome) in &self.outcomes {
+            let word = WORDS.iter().find(|(known, _)| known == outcome).map_or("", |(_, word)| word);
+            let _ = writeln!(text, "{word} {name}");
+        }
+        text
+    }
+
+    pub(super) fn counts(&self) -> Counts {
+        let of = |outcome: Outcome| self.outcomes.values().filter(|known| **known == outcome).count();
+        Counts {
+            caught: of(Outcome::Caught),
+            timeout: of(Outcome::Timeout),
+            missed: of(Outcome::Missed),
+            mended: of(Outcome::Mended),
+            unviable: of(Outcome::Unviable),
+        }
+    }
+
+    /// Names of the mutants with one outcome.
+    pub(super) fn with(&self, wanted: Outcome) -> Vec<String> {
+        self.outcomes.iter().filter(|(_, outcome)| **outcome == wanted).map(|(name, _)| name.clone()).collect()
+    }
+}
+
+/// The reasons for survivors, by the name of the mutant.
+pub(super) fn reasons(folder: &Path) -> Result<BTreeMap<String, String>, String> {
+    let path = folder.join("reasons.txt");
+    let text = fs::read_to_string(&path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
+    let lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let pair = |line: &str| {
+        let parts = line.split_once(" => ").map(|(name, reason)| (name.to_owned(), reason.to_owned()));
+        parts.ok_or_else(|| format!("{}: found `{line}`, expected a mutant, ` => ` and a reason", path.display()))
+    };
+    lines.map(pair).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_that_was_written_reads_back() {
+        let outcomes =
+            [("a.rs:1:2: replace + with -", Outcome::Caught), ("a.rs:9:1: replace f with ()", Outcome::Mended)];
+        let outcomes = outcomes.into_iter().map(|(name, outcome)| (name.to_owned(), outcome)).collect();
+        let record = Record { commit: "abc".to_owned(), seed: 3, mutants: 12, outcomes };
+        assert_eq!(Record::parse(&record.text()), Ok(record.clone()));
+        assert_eq!(record.with(Outcome::Mended), ["a.rs:9:1: replace f with ()"]);
+        assert_eq!((record.counts().run(), record.counts().noticed_at_first()), (2, 1));
+        assert!(Record::parse("escaped a.rs:1:2: replace + with -").is_err());
+    }
+}
