@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 /// Tests of one mutant that take longer [s] have hung: the quick ones take less than ten seconds, the wide ones less than a minute.
-const QUICK_LIMIT_S: u32 = 60;
+const QUICK_LIMIT_S: u32 = 40;
 const WIDE_LIMIT_S: u32 = 300;
 /// Exit codes of `cargo mutants` when it has run: nothing missed, some missed, some timed out.
 const RAN: [i32; 3] = [0, 2, 3];
@@ -43,7 +43,7 @@ impl Tests {
     /// The quick tests are among the wide ones.
     fn wide(module: &Module) -> Tests {
         let named = module.quick.iter().chain(module.wide).copied().collect();
-        Tests { named, skipped: SLOW.to_vec(), unit: true, limit_s: WIDE_LIMIT_S }
+        Tests { named, skipped: SLOW.to_vec(), unit: module.unit, limit_s: WIDE_LIMIT_S }
     }
 }
 
