@@ -7,7 +7,9 @@ use crate::common::random::{self, Random, Recipe};
 use crate::free_bodies;
 use crate::free_bodies::{DOWN_Y, free_bodies};
 use crate::shared_data;
+use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::findings::Findings;
+use ambulo::kinematics::Posture;
 use ambulo::kinematics::retarget::retarget;
 use ambulo::model::anatomy::{Anatomy, Meaning, Movement};
 use ambulo::model::anthropometry::{Build, SegmentTable};
@@ -316,6 +318,30 @@ fn statures_and_soles_are_those_of_people() {
             assert_eq!(Some(sole.points[0].body), model.body(&format!("calcn_{}", side.letter())));
             // Forward in the foot's frame is x in all of these models.
             assert!(rear.x < ball.x && ball.x < tip.x && (rear.y - tip.y).abs() < 1e-12, "{}", model.name());
+        }
+    }
+}
+
+/// Drillis and Contini 1966: the ankle is 3.9 % of the stature above the ground. Published models carry no soles, so theirs are below the
+/// ankle of the model by that share of the estimated stature, which also lengthens the leg: thigh and shank are 48 % of it.
+#[test]
+fn soles_are_3_9_percent_of_the_stature_below_the_ankle() {
+    for model in published() {
+        let stature = model.stature();
+        assert_near(stature.leg_length_m / stature.height_m, 0.48 + 0.039, 1e-12, model.name());
+    }
+    for model in published().into_iter().chain(built()) {
+        let q: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
+        let rest = vec![0.0; q.len()];
+        let mut workspace = Workspace::new(&model);
+        let standing = inverse_frame(&mut workspace, Posture { q: &q, qd: &rest, qdd: &rest }, &[]);
+        let height = model.stature().height_m;
+        for (leg, sole) in model.anatomy().legs().values().zip(model.anatomy().soles(height).values()) {
+            let (leg, sole) = (leg.as_ref().unwrap(), sole.as_ref().unwrap());
+            let ankle = standing.reaction(leg.ankle).center;
+            let in_foot = standing.body_motion(leg.foot).pose.inverse().place(ankle);
+            // Up in the foot's frame is y in all of these models.
+            assert_near(in_foot.y - sole.points[0].place.y, 0.039 * height, 1e-9, model.name());
         }
     }
 }

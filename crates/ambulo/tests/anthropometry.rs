@@ -77,6 +77,30 @@ fn a_standing_figure_touches_the_ground_with_all_spheres_and_reaches_its_height(
     }
 }
 
+/// Drillis and Contini 1966 as in Winter, figure 4.1. The feet of the paper and of de Leva are horizontal, their mass centre is half as
+/// high; Dempster's slopes down to the ball.
+#[test]
+fn the_ankle_is_3_9_percent_of_the_stature_high_and_the_mass_centre_of_the_foot_half_as_high() {
+    for human in everyone() {
+        let (model, high) = (&human.model, 0.039 * 1.78);
+        let bodies = standing(model);
+        assert_near(human.dimensions.ankle_height, high, ROUNDING, model.name());
+        for side in ["r", "l"] {
+            assert_near(marker(model, &bodies, &format!("ankle_{side}")).y, high, ROUNDING, model.name());
+            let foot = ["calcn", "toes"].iter().filter_map(|part| model.body(&format!("{part}_{side}")));
+            let parts: Vec<(f64, f64)> =
+                foot.map(|part| (model.bodies()[part.index()].inertia.mass(), bodies[part.index()].center.y)).collect();
+            let mass: f64 = parts.iter().map(|part| part.0).sum();
+            let center = parts.iter().map(|part| part.0 * part.1).sum::<f64>() / mass;
+            let expected = match human.build.table {
+                SegmentTable::DempsterWinter => 0.5 * (high + human.dimensions.ball_radius),
+                _ => 0.5 * high,
+            };
+            assert_near(center, expected, ROUNDING, model.name());
+        }
+    }
+}
+
 #[test]
 fn the_soles_end_where_the_foot_ends() {
     for human in everyone() {

@@ -95,6 +95,26 @@ fn a_block_slides_down_a_slope_with_the_exact_acceleration() {
     }
 }
 
+/// A floor of one material, a slope of 0.6 rad, and a block of another on it.
+fn block_on_another_material(floor: f64, block: f64) -> Run {
+    let mut run = block_on_slope(0.6, floor);
+    run.world.materials.push(Material { friction: block, ..run.world.materials[0].clone() });
+    run.world.surfaces[1].material = 1;
+    run
+}
+
+#[test]
+fn two_materials_rub_with_the_geometric_mean_of_their_frictions() {
+    // 0.2 and 0.8 give 0.4; their mean would be 0.5, the smaller 0.2, the product 0.16.
+    for (floor, block, both) in [(0.2, 0.8, 0.4), (0.8, 0.2, 0.4), (0.9, 0.1, 0.3), (0.0, 0.8, 0.0)] {
+        let mut run = block_on_another_material(floor, block);
+        run.to(1.0);
+        let downhill = turn(Vec3::z(), 0.6) * v(-1.0, 0.0, 0.0);
+        let exact = G * (0.6_f64.sin() - both * 0.6_f64.cos());
+        assert_near(run.velocity(0).dot(&downhill), exact, 1e-6 * G, "acceleration");
+    }
+}
+
 #[test]
 fn a_ball_rolls_down_a_slope_with_five_sevenths_of_the_acceleration() {
     let roll = |friction: f64| {
@@ -229,6 +249,27 @@ fn a_dropped_ball_bounces_with_e_times_its_speed_and_comes_to_rest() {
     assert!(run.velocity(0).norm() < SOLVED && (run.place(0).y - 0.1).abs() < SOLVED, "at rest in the end");
     assert_near(force_on(&run, 1).y, 0.7 * G, SOLVED * 7.0, "weight");
     assert!((bounces[0][2] - bounces[0][1]).abs() > 1.0, "e = 1 must not pass");
+}
+
+#[test]
+fn two_materials_bounce_with_the_larger_of_their_restitutions() {
+    for (floor, ball) in [(0.2, 0.7), (0.7, 0.2)] {
+        let mut world = of_rigid(0.5, floor);
+        add_floor(&mut world, Pose::IDENTITY);
+        world.materials.push(Material { restitution: ball, ..world.materials[0].clone() });
+        add_ball(&mut world, 0.7, 0.1, v(0.0, 0.6, 0.0));
+        world.surfaces[1].material = 1;
+        let mut run = Run::new(world, 1e-3);
+        let (mut before, mut ratios) = (0.0, Vec::new());
+        run.watch(0.5, |run| {
+            let speed = run.velocity(0).y;
+            if before < -0.1 && speed > 0.0 {
+                ratios.push(-speed / before);
+            }
+            before = speed;
+        });
+        assert_near(ratios[0], 0.7, 1e-9, "speed after over speed before");
+    }
 }
 
 #[test]
@@ -556,6 +597,24 @@ fn a_ball_on_regularised_ground_settles_where_the_spring_bears_it() {
     assert_near(force_on(&run, 1).y, 2.0 * G, 1e-7, "force");
     // A semi-implicit fall loses and gains m g h v/2 against its own invariant, 1e-2 J.
     assert!(gained < 0.01);
+}
+
+#[test]
+fn two_springs_are_in_series() {
+    let spring = |stiffness: f64, damping: f64| Material {
+        friction: 0.5,
+        restitution: 0.0,
+        law: ContactLaw::Regularised { stiffness, damping },
+    };
+    let mut world = of_material(spring(1000.0, 60.0));
+    world.materials.push(spring(3000.0, 90.0));
+    add_floor(&mut world, Pose::IDENTITY);
+    world.surfaces[0].material = 1;
+    add_ball(&mut world, 2.0, 0.1, v(0.0, 0.1, 0.0));
+    let mut run = Run::new(world, 1e-3);
+    run.to(3.0);
+    // One of them alone would give 2/3 or 3/4 of this depth; poles at -15 /s decay by e^-45.
+    assert_near(0.1 - run.place(0).y, 2.0 * G * (1.0 / 1000.0 + 1.0 / 3000.0), 1e-9, "depth");
 }
 
 #[test]
