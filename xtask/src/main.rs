@@ -24,7 +24,7 @@ usage: cargo xtask <command>
   build-time        time a cold release build of the `ambulo` command  [--baseline REV]
   measured          write the generated pages of docs/measured/  [PAGE..] [--check: list pages that are out of date]
   mutants           run mutants of the science and write docs/measured/MUTANTS.md  [MODULE..] [--sample N] [--seed S]
-                    [--retry: only survivors of the last run] [--page: only the page]
+                    [--resume: those not yet run] [--retry: survivors again] [--page: only the page]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]

@@ -9,8 +9,10 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 /// Tests of one mutant that take longer [s] have hung: the quick ones take less than ten seconds, the wide ones less than a minute.
-const QUICK_LIMIT_S: u32 = 40;
+const QUICK_LIMIT_S: u32 = 30;
 const WIDE_LIMIT_S: u32 = 300;
+/// Mutants between two savings of the record.
+const BATCH: usize = 20;
 /// Exit codes of `cargo mutants` when it has run: nothing missed, some missed, some timed out.
 const RAN: [i32; 3] = [0, 2, 3];
 /// Its files of outcomes.
@@ -20,6 +22,14 @@ const FILES: [(&str, Outcome); 4] = [
     ("missed.txt", Outcome::Missed),
     ("unviable.txt", Outcome::Unviable),
 ];
+
+/// How mutants are drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Draws {
+    /// How many; none: all.
+    pub(super) sample: Option<usize>,
+    pub(super) seed: u64,
+}
 
 type Outcomes = BTreeMap<String, Outcome>;
 
@@ -32,18 +42,20 @@ struct Tests {
     /// Whether the tests inside the library are among them.
     unit: bool,
     limit_s: u32,
+    /// Whether they are known to pass without a mutation.
+    passed: bool,
 }
 
 impl Tests {
     fn quick(module: &Module) -> Tests {
         let skipped = SLOW.iter().chain(&LONG).copied().collect();
-        Tests { named: module.quick.to_vec(), skipped, unit: false, limit_s: QUICK_LIMIT_S }
+        Tests { named: module.quick.to_vec(), skipped, unit: false, limit_s: QUICK_LIMIT_S, passed: false }
     }
 
     /// The quick tests are among the wide ones.
     fn wide(module: &Module) -> Tests {
         let named = module.quick.iter().chain(module.wide).copied().collect();
-        Tests { named, skipped: SLOW.to_vec(), unit: module.unit, limit_s: WIDE_LIMIT_S }
+        Tests { named, skipped: SLOW.to_vec(), unit: module.unit, limit_s: WIDE_LIMIT_S, passed: false }
     }
 }
 
@@ -93,14 +105,16 @@ impl Place {
     }
 
     /// Runs mutants with some tests.
-    fn run(&self, module: &Module, names: &[String], tests: &Tests) -> Result<Outcomes, String> {
+    fn run(&self, module: &Module, names: &[String], tests: &mut Tests) -> Result<Outcomes, String> {
         let mut command = self.mutants(module);
         command.args(["--in-place", "--annotations", "none", "--cargo-arg=--test=library"]);
         command.args(tests.unit.then_some("--cargo-arg=--lib"));
+        command.args(["--baseline", if tests.passed { "skip" } else { "run" }]);
         command.arg("--timeout").arg(tests.limit_s.to_string()).arg("--output").arg(&self.output);
         command.args(names.iter().flat_map(|name| ["--re".to_owned(), format!("^{}$", escaped(name))]));
         command.args(["--", "--"]).args(&tests.named).args(tests.skipped.iter().flat_map(|name| ["--skip", name]));
         let status = command.status().map_err(|e| format!("cargo mutants: cannot start: {e}"))?;
+        tests.passed = true;
         if !status.code().is_some_and(|code| RAN.contains(&code)) {
             return Err(format!("cargo mutants failed ({status}), see above"));
         }
@@ -118,18 +132,36 @@ impl Place {
     }
 }
 
-/// Draws mutants of a module and runs them.
-pub(super) fn fresh(place: &Place, module: &Module, sample: Option<usize>, seed: u64) -> Result<Record, String> {
+/// Draws mutants of a module and runs those that `known` does not have yet. After every few mutants `save` gets the record, so that a run
+/// that is interrupted is a smaller sample.
+pub(super) fn sample(
+    place: &Place,
+    module: &Module,
+    draws: &Draws,
+    known: Option<Record>,
+    save: impl Fn(&Record) -> Result<(), String>,
+) -> Result<Record, String> {
     let all = place.list(module)?;
-    let mutants = all.len();
-    let drawn = draw(all, sample.unwrap_or(mutants), seed);
-    let mut outcomes = place.run(module, &drawn, &Tests::quick(module))?;
-    let record = Record { commit: place.commit.clone(), seed, mutants, outcomes: outcomes.clone() };
-    let missed = record.with(Outcome::Missed);
-    if !missed.is_empty() {
-        outcomes.extend(place.run(module, &missed, &Tests::wide(module))?);
+    let mut record = known.unwrap_or_default();
+    if let Some(lost) = record.outcomes.keys().find(|name| !all.contains(name)) {
+        return Err(format!("{}: `{lost}` no longer exists\nhint: run the module again without --resume", module.name));
     }
-    Ok(Record { outcomes, ..record })
+    record.mutants = all.len();
+    record.seed = draws.seed;
+    record.measured_at(&place.commit);
+    let mut drawn = draw(all, draws.sample.unwrap_or(record.mutants), draws.seed);
+    drawn.retain(|name| !record.outcomes.contains_key(name));
+    let (mut quick, mut wide) = (Tests::quick(module), Tests::wide(module));
+    for batch in drawn.chunks(BATCH) {
+        let mut outcomes = place.run(module, batch, &mut quick)?;
+        let missed: Vec<String> = outcomes.keys().filter(|name| outcomes[*name] == Outcome::Missed).cloned().collect();
+        if !missed.is_empty() {
+            outcomes.extend(place.run(module, &missed, &mut wide)?);
+        }
+        record.outcomes.extend(outcomes);
+        save(&record)?;
+    }
+    Ok(record)
 }
 
 /// Runs the survivors of a record again, with the tests of today.
@@ -142,7 +174,8 @@ pub(super) fn retry(place: &Place, module: &Module, mut record: Record) -> Resul
     if missed.is_empty() {
         return Ok(record);
     }
-    for (name, outcome) in place.run(module, &missed, &Tests::wide(module))? {
+    record.measured_at(&place.commit);
+    for (name, outcome) in place.run(module, &missed, &mut Tests::wide(module))? {
         let outcome = if outcome == Outcome::Missed { Outcome::Missed } else { Outcome::Mended };
         record.outcomes.insert(name, outcome);
     }

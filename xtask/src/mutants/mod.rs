@@ -1,4 +1,4 @@
-//! Mutation tests of the science: `cargo xtask mutants [MODULE..] [--sample N] [--seed S]`, `[--retry]`, `[--page]`.
+//! Mutation tests of the science: `cargo xtask mutants [MODULE..] [--sample N] [--seed S]`, `[--resume]`, `[--retry]`, `[--page]`.
 //!
 //! `cargo mutants` changes one function at a time (another operator, another return value, a lost branch) and runs the tests. A mutant
 //! that no test notices survives: that line could be wrong unseen. This command runs all mutants of small modules and a random
@@ -15,6 +15,7 @@ mod page;
 mod record;
 
 use crate::workspace;
+use campaign::Draws;
 use modules::{MODULES, Module};
 use record::Record;
 use std::fs;
@@ -29,6 +30,7 @@ struct Request {
     modules: Vec<String>,
     sample: Option<usize>,
     seed: u64,
+    resume: bool,
     retry: bool,
     page: bool,
 }
@@ -40,13 +42,17 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     if !request.page {
         let place = campaign::Place::unpack()?;
         for module in MODULES.iter().filter(|module| request.names(module)) {
+            let known = || Record::read(&folder(), module.name);
+            let save = |record: &Record| record.write(&folder(), module.name);
             let record = if request.retry {
-                campaign::retry(&place, module, Record::read(&folder(), module.name)?)?
+                campaign::retry(&place, module, known()?)?
             } else {
-                campaign::fresh(&place, module, request.sample.or(module.sample), request.seed)?
+                let draws = Draws { sample: request.sample.or(module.sample), seed: request.seed };
+                let known = if request.resume { Some(known()?) } else { None };
+                campaign::sample(&place, module, &draws, known, save)?
             };
             println!("{}: {}", module.name, record.counts().sentence());
-            record.write(&folder(), module.name)?;
+            save(&record)?;
         }
     }
     write_page()
@@ -70,7 +76,8 @@ fn folder() -> PathBuf {
 
 impl Request {
     fn parse(words: &[String]) -> Result<Request, String> {
-        let mut request = Request { modules: Vec::new(), sample: None, seed: SEED, retry: false, page: false };
+        let mut request =
+            Request { modules: Vec::new(), sample: None, seed: SEED, resume: false, retry: false, page: false };
         let mut words = words.iter();
         while let Some(word) = words.next() {
             let mut number = || {
@@ -80,13 +87,14 @@ impl Request {
             match word.as_str() {
                 "--sample" => request.sample = Some(number()? as usize),
                 "--seed" => request.seed = number()?,
+                "--resume" => request.resume = true,
                 "--retry" => request.retry = true,
                 "--page" => request.page = true,
                 name if MODULES.iter().any(|module| module.name == name) => request.modules.push(name.to_owned()),
                 other => {
                     let names: Vec<&str> = MODULES.iter().map(|module| module.name).collect();
                     return Err(format!(
-                        "`{other}` is unknown, expected a module ({}), --sample N, --seed S, --retry or --page",
+                        "`{other}` is unknown, expected a module ({}), --sample N, --seed S, --resume, --retry or --page",
                         names.join(", ")
                     ));
                 }
@@ -109,8 +117,14 @@ mod tests {
     #[test]
     fn modules_sample_and_seed_are_read_and_anything_else_is_refused() {
         let parse = |line: &str| Request::parse(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>());
-        let contact =
-            Request { modules: vec!["contact".to_owned()], sample: Some(7), seed: 3, retry: false, page: false };
+        let contact = Request {
+            modules: vec!["contact".to_owned()],
+            sample: Some(7),
+            seed: 3,
+            resume: false,
+            retry: false,
+            page: false,
+        };
         assert_eq!(parse("contact --sample 7 --seed 3"), Ok(contact));
         assert!(parse("").is_ok_and(|all| MODULES.iter().all(|module| all.names(module))));
         for wrong in ["knee", "--sample", "--sample many", "contact --seeds 3"] {

@@ -61,6 +61,8 @@ pub(super) const MODULES: [Module; 7] = [
         sample: None,
         quick: &["identities", "independent::", "conventions"],
         wide: &[
+            "both_feet_together_give_the_total",
+            "the_total_force_is_what",
             "analysis",
             "mujoco_parity",
             "opensim_parity",

@@ -32,9 +32,9 @@ const WORDS: [(Outcome, &str); 5] = [
 ];
 
 /// The outcomes of one module.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Record {
-    /// Commit whose mutants they are.
+    /// Commits whose tests were run, in their order.
     pub(super) commit: String,
     /// Seed of the sample.
     pub(super) seed: u64,
@@ -102,8 +102,16 @@ impl Record {
         fs::write(&path, self.text()).map_err(|e| format!("{}: cannot write: {e}", path.display()))
     }
 
+    /// Notes the commit whose tests are run from here on.
+    pub(super) fn measured_at(&mut self, commit: &str) {
+        if !self.commit.ends_with(commit) {
+            self.commit += if self.commit.is_empty() { "" } else { ", " };
+            self.commit += commit;
+        }
+    }
+
     fn parse(text: &str) -> Result<Record, String> {
-        let mut record = Record { commit: String::new(), seed: 0, mutants: 0, outcomes: BTreeMap::new() };
+        let mut record = Record::default();
         for (index, line) in text.lines().enumerate() {
             let wrong = || format!("line {}: found `{line}`, expected an outcome and a mutant", index + 1);
             let (word, rest) = line.split_once(' ').ok_or_else(wrong)?;
