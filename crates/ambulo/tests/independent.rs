@@ -14,7 +14,7 @@ use crate::common::random::{self, Case, Curves, KINDS, Kind, Random, Recipe};
 use crate::common::{State, distance, largest, load_series, trajectory, turn};
 use ambulo::dynamics::{self, BodyLoad, ReactionReader, Workspace};
 use ambulo::model::{BodyId, Displacement, Joint, JointSpeeds, Model};
-use ambulo::spatial::{Mat3, Vec3};
+use ambulo::spatial::{Mat3, Vec3, Wrench};
 use nalgebra::{Matrix6, Vector6};
 
 /// How far along an axis, how fast, how accelerated.
@@ -302,14 +302,14 @@ fn a_broken_term_is_seen() {
     }
 }
 
-/// A model with 19 frames (no multiple of eight) of its own postures and three loads each.
-fn many_frames(seed: u64) -> (Model, Vec<State>, Vec<Vec<BodyLoad>>) {
+/// A model with some frames of its own postures and three loads each.
+fn many_frames(seed: u64, frames: usize) -> (Model, Vec<State>, Vec<Vec<BodyLoad>>) {
     let mut r = Random::new(seed);
     let model = random::model(&mut r, Recipe::ANY);
     let bodies: Vec<BodyId> = model.body_ids().collect();
-    let states = (0..19).map(|_| random::state(&mut r, &model)).collect();
+    let states = (0..frames).map(|_| random::state(&mut r, &model)).collect();
     let loaded: Vec<BodyId> = (0..3).map(|_| bodies[r.below(bodies.len())]).collect();
-    let loads = (0..19).map(|_| loaded.iter().map(|&body| random::load_on(&mut r, body)).collect()).collect();
+    let loads = (0..frames).map(|_| loaded.iter().map(|&body| random::load_on(&mut r, body)).collect()).collect();
     (model, states, loads)
 }
 
@@ -320,7 +320,8 @@ fn bits(values: &[f64]) -> Vec<u64> {
 #[test]
 fn frames_side_by_side_have_the_bits_of_frames_alone() {
     for seed in 0..40 {
-        let (model, states, loads) = many_frames(seed);
+        // 19 is no multiple of eight.
+        let (model, states, loads) = many_frames(seed, 19);
         let (path, series) = (trajectory(&model, &states), load_series(&loads));
         let mut workspace = Workspace::new(&model);
         let mut streamed = vec![vec![f64::NAN; states.len()]; model.coordinates().len()];
@@ -329,6 +330,9 @@ fn frames_side_by_side_have_the_bits_of_frames_alone() {
             streamed[coordinate][first..first + values.len()].copy_from_slice(values);
         });
         let collected = dynamics::inverse(&mut workspace, &path, &series);
+        let entries = |columns: &[Vec<f64>]| columns.iter().all(|column| column.len() == states.len());
+        assert!(entries(&collected.generalized) && entries(&collected.powers), "seed {seed}: one entry per frame");
+        assert!(collected.reactions.iter().all(|column| column.len() == states.len()), "seed {seed}: reactions");
         for (frame, (state, loads)) in states.iter().zip(&loads).enumerate() {
             let alone = dynamics::inverse_frame(&mut workspace, state.posture(), loads);
             let column = |table: &[Vec<f64>]| table.iter().map(|c| c[frame]).collect::<Vec<f64>>();
@@ -345,7 +349,8 @@ fn frames_side_by_side_have_the_bits_of_frames_alone() {
 #[test]
 fn reactions_that_are_computed_again_have_the_same_bits() {
     for seed in 0..20 {
-        let (model, states, loads) = many_frames(seed);
+        // More than eight blocks of eight frames, and no multiple of eight.
+        let (model, states, loads) = many_frames(seed, 83);
         let (path, series) = (trajectory(&model, &states), load_series(&loads));
         let mut workspace = Workspace::new(&model);
         let all = dynamics::inverse(&mut workspace, &path, &series);
@@ -364,6 +369,36 @@ fn reactions_that_are_computed_again_have_the_same_bits() {
             assert_eq!(less.reactions[body.index()], kept, "seed {seed}, body {}", body.index());
         }
     }
+}
+
+/// The wrench of the parent on each body, moved from the joint to the mass centre as the caller of `project_wrenches` knows it: a force
+/// that acts at J has the moment n + (J - c) × f about c.
+#[test]
+fn wrenches_at_the_mass_centres_have_the_generalised_forces_of_their_joints() {
+    let mut seen = 0;
+    for seed in 0..200 {
+        let Case { model, state, loads } = random::case(seed, Recipe::ANY);
+        let mut workspace = Workspace::new(&model);
+        let forces = dynamics::inverse_frame(&mut workspace, state.posture(), &loads);
+        let moved = |side: f64| -> Vec<Wrench> {
+            let of = |body| {
+                let (reaction, center) = (forces.reaction(body), forces.body_motion(body).center);
+                let Wrench { force, moment } = reaction.wrench;
+                Wrench { force, moment: moment + (reaction.center - center).cross(&force) * side }
+            };
+            model.body_ids().map(of).collect()
+        };
+        let (wrenches, wrong) = (moved(1.0), moved(-1.0));
+        let expected = forces.generalized().to_vec();
+        let projected = dynamics::project_wrenches(&mut workspace, state.posture(), &wrenches).to_vec();
+        let scale = largest(wrenches.iter().flat_map(|w| [w.force.amax(), w.moment.amax()])).max(1.0);
+        // The same operations as in the sweep but for the moment that is moved there and back: a few roundings.
+        assert!(distance(&projected, &expected) < 1e-12 * scale, "seed {seed}");
+        let other = dynamics::project_wrenches(&mut workspace, state.posture(), &wrong).to_vec();
+        seen += usize::from(distance(&other, &expected) > 1e-6 * scale);
+    }
+    // Joints that only translate have no moments.
+    assert!(seen > 150, "moments that were moved the wrong way were seen in {seen} of 200 cases");
 }
 
 #[test]
