@@ -13,13 +13,13 @@ use ambulo::study::{self, Settings, Source};
 use std::f64::consts::TAU;
 
 const STEP_S: f64 = 0.01;
-const GRAVITY: f64 = 9.80665;
+pub(crate) const GRAVITY: f64 = 9.80665;
 
 /// Pelvis and both ankles in the sagittal plane [m], as a function of time: forward and up; heights of the ankles are above those of
 /// standing.
-type Places = fn(f64) -> [[f64; 2]; 3];
+pub(crate) type Places = fn(f64) -> [[f64; 2]; 3];
 
-fn man() -> Human {
+pub(crate) fn man() -> Human {
     Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false }.human().unwrap()
 }
 
@@ -46,7 +46,7 @@ fn angle(a: f64, b: f64, opposite: f64) -> f64 {
 }
 
 /// A motion of some seconds.
-fn moving(human: &Human, places: Places, seconds: f64) -> Trajectory {
+pub(crate) fn moving(human: &Human, places: Places, seconds: f64) -> Trajectory {
     let model = &human.model;
     let frames = (seconds / STEP_S) as usize;
     let value = |t: f64| -> Vec<f64> {
@@ -86,7 +86,7 @@ fn assert_kind(places: Places, seconds: f64, expected: ActivityKind) {
 }
 
 /// From 0 to 1 with rest at both ends.
-fn smooth(u: f64) -> f64 {
+pub(crate) fn smooth(u: f64) -> f64 {
     let u = u.clamp(0.0, 1.0);
     u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u)
 }

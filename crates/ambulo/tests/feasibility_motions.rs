@@ -19,6 +19,7 @@ use ambulo::model::{Model, Side, from_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window, coordinates_from_table, force_recordings};
 use ambulo::spatial::Vec3;
+use ambulo::study::{self, LaboratoryFile, MarkerBody, MarkerSource, Settings, Source};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
@@ -67,6 +68,7 @@ fn judged_with(
         ground: &ground,
         device: None,
         predicted: None,
+        partly_measured: &[],
         activity: ActivityKind::Walk,
         cutoff_hz,
         forces_are_predicted: false,
@@ -78,10 +80,20 @@ fn judged_with(
 
 /// Ground forces `force(frame, side)` [N] under both feet, level with the mass centre, so that a person at rest is in balance.
 fn on_both_feet(human: &Human, frames: usize, force: impl Fn(usize, Side) -> Vec3) -> GroundForces {
+    beside_both_feet(human, frames, 0.0, force)
+}
+
+/// The same further out than the middle of each foot [m].
+fn beside_both_feet(
+    human: &Human,
+    frames: usize,
+    outwards_m: f64,
+    force: impl Fn(usize, Side) -> Vec3,
+) -> GroundForces {
     let center = mass_center(human);
     let bodies = Side::BOTH.map(|side| {
         let sign = if side == Side::Right { 1.0 } else { -1.0 };
-        let at = Vec3::new(center.x, 0.0, sign * 0.5 * human.dimensions.hip_width);
+        let at = Vec3::new(center.x, 0.0, sign * (0.5 * human.dimensions.hip_width + outwards_m));
         let forces: Vec<Vec3> = (0..frames).map(|i| force(i, side)).collect();
         let moments: Vec<Vec3> = forces.iter().map(|f| at.cross(f)).collect();
         let body = human.model.body(&format!("calcn_{}", side.letter())).unwrap();
@@ -234,6 +246,7 @@ fn frames_without_measured_forces_are_judged_on_predicted_ones() {
             ground,
             device: None,
             predicted,
+            partly_measured: &[],
             activity: ActivityKind::Stand,
             cutoff_hz: None,
             forces_are_predicted: false,
@@ -308,11 +321,81 @@ fn bobbing(clock: f64) -> Verdict {
         ground: &ground,
         device: None,
         predicted: None,
+        partly_measured: &[],
         activity: ActivityKind::Other,
         cutoff_hz: None,
         forces_are_predicted: false,
     };
     check(&evidence, &Person::of_human(&human), &Thresholds::default(), &mut Findings::default())
+}
+
+/// The verdict on a man who stands with these ground forces, some times of which were measured only in part.
+fn standing(ground: &GroundForces, partly_measured: &[[f64; 2]]) -> Verdict {
+    let human = man();
+    let (model, trajectory) = (&human.model, still(&human, 101, &[]));
+    let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
+    let evidence = MotionAndForces {
+        model,
+        trajectory: &trajectory,
+        forces: &forces,
+        ground,
+        device: None,
+        predicted: None,
+        partly_measured,
+        activity: ActivityKind::Stand,
+        cutoff_hz: None,
+        forces_are_predicted: false,
+    };
+    check(&evidence, &Person::of_human(&human), &Thresholds::default(), &mut Findings::default())
+}
+
+#[test]
+fn a_centre_of_pressure_beside_a_foot_that_may_be_turned_decides_nothing() {
+    let upward = |_: usize, _: Side| Vec3::new(0.0, HALF, 0.0);
+    let beside = |outwards_m: f64| standing(&beside_both_feet(&man(), 101, outwards_m, upward), &[]);
+    assert_eq!(beside(0.0).state, VerdictState::Feasible);
+    // 85 mm beside the line of the foot: a foot that points outwards stands there.
+    let near = beside(0.085);
+    assert_eq!(near.state, VerdictState::NotJudged);
+    assert!(near.reasons.is_empty() && near.undecided[0].contains("direction of a foot"), "{near:?}");
+    // The report of the closest value still shows it.
+    let closest = near.closest.iter().find(|closest| closest.check == Check::CenterOfPressure).unwrap();
+    assert!(closest.share > 1.0, "{closest:?}");
+    // Further out than a foot turned by 30 degrees would stand, but no further from the heel than a foot is long.
+    let far = beside(0.2);
+    assert_eq!(far.state, VerdictState::Infeasible);
+    assert!(checks(&far).contains(&Check::CenterOfPressure), "{far:?}");
+}
+
+#[test]
+fn a_lack_of_support_while_a_plate_measures_a_part_of_a_foot_is_the_plates() {
+    // The left plate shows a tenth of its load from 2.4 to 2.6 s.
+    let force = |i: usize, side: Side| {
+        let share = if side == Side::Left && (40..=60).contains(&i) { 0.1 } else { 1.0 };
+        Vec3::new(0.0, share * HALF, 0.0)
+    };
+    let ground = on_both_feet(&man(), 101, force);
+    let unknown = standing(&ground, &[]);
+    assert!(checks(&unknown).contains(&Check::Support), "{unknown:?}");
+    let told = standing(&ground, &[[2.35, 2.65]]);
+    assert!(told.state != VerdictState::Infeasible && told.frames_unmeasured == 21, "{told:?}");
+    // Another time explains nothing.
+    assert_eq!(standing(&ground, &[[2.7, 2.8]]).state, VerdictState::Infeasible);
+}
+
+#[test]
+fn a_person_with_a_heel_beside_the_plate_and_misplaced_toe_markers_is_not_called_unable() {
+    // The heel is 155 mm beyond the edge of the second plate in single support, and the toe markers show feet that point 45 degrees outwards.
+    let Some(data) = data() else { return };
+    let bytes = std::fs::read(data.join("c3d-format-variants/TYPE-3.c3d")).unwrap();
+    let trial = LaboratoryFile::from_c3d(&bytes, "TYPE-3.c3d", &mut Findings::default()).unwrap();
+    let body = MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg: None, height_m: None, set: None };
+    let source = Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() });
+    let outcome = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap();
+    let verdict = outcome.verdict;
+    assert_eq!(verdict.state, VerdictState::NotJudged, "{:?}", verdict.reasons);
+    assert!(verdict.undecided.iter().any(|why| why.contains("direction of a foot")), "{:?}", verdict.undecided);
+    assert!(verdict.fit.residual_force_bw.unwrap() < 0.2, "{:?}", verdict.fit);
 }
 
 #[test]
@@ -440,6 +523,7 @@ fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
         ground,
         device: None,
         predicted: None,
+        partly_measured: &[],
         activity: ActivityKind::Walk,
         cutoff_hz: Some(six_hz.cutoff_hz),
         forces_are_predicted: false,

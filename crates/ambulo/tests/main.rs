@@ -63,6 +63,7 @@ mod laboratory;
 mod laboratory_files;
 mod laboratory_gaps;
 mod laboratory_robustness;
+mod landing_ground;
 mod lumped;
 mod marker_fit;
 mod marker_fit_invented;

@@ -1,7 +1,7 @@
 //! Verdicts on figures of a scene that follow a recording.
 
 use crate::shared_data::data;
-use ambulo::analysis::feasibility::{Thresholds, VerdictState};
+use ambulo::analysis::feasibility::{Check, Thresholds, VerdictState};
 use ambulo::analysis::{FigureVerdict, scene_verdict};
 use ambulo::dynamics::{Workspace, inverse};
 use ambulo::findings::Findings;
@@ -111,4 +111,69 @@ fn a_walk_that_begins_above_the_floor_is_infeasible() {
     let first = found.verdict.reasons.first();
     println!("{:?}: {first:?}", found.verdict.state);
     assert_eq!(found.verdict.state, VerdictState::Infeasible);
+}
+
+/// A 60 kg bag that hangs at the right foot of a walker.
+const BAG_AT_FOOT: &str = "[[body]]\nname = \"bag\"\nmass = 60.0\ninertia = [0.5, 0.5, 0.5]\nposition = [0, 1.0, 0]\n\
+     [[closure]]\nname = \"strap\"\nkind = \"ball\"\nfirst = \"bag\"\nsecond = \"walker/calcn_r\"\nat = [0, 1.0, 0]\n";
+
+#[test]
+fn a_leg_that_swings_a_heavy_bag_is_infeasible_through_its_strength() {
+    let checks = |bag: &str| -> Option<Vec<Check>> {
+        let settings = format!("step = 0.001\nduration = 0.8\n[material.shoe]\nfriction = 0.8\n{FLOOR}{bag}");
+        let scene = walked(&settings, &format!("root = \"driven\"\n{}", spheres()))?;
+        let found = verdict(&scene);
+        println!(
+            "{:?}: {:?}",
+            found.verdict.state,
+            found.verdict.reasons.iter().map(|r| &r.message).collect::<Vec<_>>()
+        );
+        Some(found.verdict.reasons.iter().map(|reason| reason.check).collect())
+    };
+    let Some(with_bag) = checks(BAG_AT_FOOT) else { return };
+    assert!(with_bag.contains(&Check::Strength), "{with_bag:?}");
+    let without = checks("").unwrap();
+    assert!(!without.contains(&Check::Strength), "{without:?}");
+}
+
+/// Coordinates of a Gait2392 figure without the root.
+const DRIVEN: [&str; 12] = [
+    "hip_flexion",
+    "hip_adduction",
+    "hip_rotation",
+    "knee_angle",
+    "subtalar_angle",
+    "mtp_angle",
+    "hip_flexion",
+    "hip_adduction",
+    "hip_rotation",
+    "knee_angle",
+    "subtalar_angle",
+    "mtp_angle",
+];
+
+#[test]
+fn passive_joints_beside_driven_ones_carry_no_moment_in_a_recorded_figure() {
+    // Ankles turn about oblique axes and the trunk about three; nothing holds them, so their moments are zero in the recorded motion.
+    let sided = DRIVEN.iter().enumerate().map(|(k, name)| format!("\"{name}_{}\"", if k < 6 { "r" } else { "l" }));
+    let figure = format!("root = \"free\"\ndrive = [{}]\n", sided.collect::<Vec<_>>().join(", "));
+    let passive = ["ankle_angle_r", "ankle_angle_l", "lumbar_extension", "lumbar_bending", "lumbar_rotation"];
+    let mut found = Vec::new();
+    for step in [0.0005, 0.00025] {
+        let Some(scene) = walked(&format!("step = {step}\nduration = 0.2\n"), &figure) else { return };
+        let motion = motion(&scene);
+        let forces = inverse(&mut Workspace::new(&motion.model), &motion.trajectory, &motion.loads);
+        let largest = |name: &str| {
+            let id = motion.model.coordinate(name).unwrap();
+            forces.generalized[id.index()][1..].iter().fold(0.0_f64, |most, moment| most.max(moment.abs()))
+        };
+        let [free, driven] = [passive.map(largest).into_iter().fold(0.0, f64::max), largest("hip_flexion_r")];
+        println!("step {step} s: {free:.2e} N.m in passive joints, {driven:.1} N.m in the hip");
+        assert!(largest("knee_angle_r") > 1.0 && driven > 1.0);
+        let state = verdict(&scene).verdict.state;
+        assert_ne!(state, VerdictState::Feasible, "a figure that falls freely");
+        found.push(free / driven);
+    }
+    // First order in the step.
+    assert!(found[0] < 0.02 && found[1] < 0.6 * found[0], "{found:?}");
 }

@@ -14,7 +14,6 @@ mod joint;
 mod knots;
 pub mod marker_set;
 mod posture;
-pub(crate) use posture::ModelPosture;
 mod scaled;
 mod side;
 mod simm_spline;

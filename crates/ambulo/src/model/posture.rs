@@ -21,7 +21,7 @@ impl JointAxis {
 
 impl Joint {
     /// `parent_from_child` at these coordinates of the model.
-    fn parent_from_child(&self, q: &[f64]) -> Pose {
+    pub(crate) fn parent_from_child(&self, q: &[f64]) -> Pose {
         let mut rotation = Mat3::identity();
         for axis in &self.rotations {
             rotation *= turn(axis.direction, axis.at(q, None).0);
@@ -34,7 +34,7 @@ impl Joint {
     }
 
     /// Angular velocity and velocity of the joint frame of the child per unit rate of a coordinate, in the axes of the parent.
-    fn slopes(&self, q: &[f64], id: CoordinateId) -> [Vec3; 2] {
+    pub(crate) fn slopes(&self, q: &[f64], id: CoordinateId) -> [Vec3; 2] {
         let (mut turned, mut angular) = (Mat3::identity(), Vec3::zeros());
         for axis in &self.rotations {
             let (angle, slope) = axis.at(q, Some(id));

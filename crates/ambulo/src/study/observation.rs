@@ -14,7 +14,7 @@ use crate::analysis::{
     AnalysisError, BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, Progress, Stage, fit_body_to_markers,
 };
 use crate::findings::{Code, Findings};
-use crate::ground::plates::PlateContact;
+use crate::ground::plates::{ContactQuality, PlateContact};
 use crate::kinematics::Trajectory;
 use crate::kinematics::calibration::{self, BodyMeasurements};
 use crate::kinematics::retarget::retarget;
@@ -106,6 +106,13 @@ impl Origin {
     pub(super) fn instrumented(&self) -> Option<Window> {
         let [from, to] = *self.followed()?.body.on_plates.windows.first()?;
         Some(Window { from_s: Some(from), to_s: Some(to) })
+    }
+
+    /// Times in which a force plate measured only a part of a foot's load [s].
+    pub(super) fn partly_measured(&self) -> Vec<[f64; 2]> {
+        let contacts = self.followed().map_or(&[][..], |followed| &followed.body.on_plates.contacts);
+        let parts = contacts.iter().filter(|contact| contact.quality == ContactQuality::Partial);
+        parts.map(|contact| [contact.start_s, contact.end_s]).collect()
     }
 
     /// Whether the directions of both feet are known.

@@ -85,6 +85,7 @@ fn road(
     let device = device.map(|device| worn(&device, &analysis, findings));
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
     let activity = recognised(&model, &person, &analysis, &force_origin, findings);
+    let partly_measured = origin.partly_measured();
     let judged = Judged {
         activity: activity.kind,
         cutoff_hz: processing.smoother.cutoff_hz(),
@@ -92,6 +93,7 @@ fn road(
         person: &person,
         analysis: &analysis,
         device: device.as_deref(),
+        partly_measured: &partly_measured,
         checks,
     };
     let verdict = judged.verdict(settings, &force_origin, findings);
@@ -186,6 +188,7 @@ struct Judged<'a> {
     person: &'a Person,
     analysis: &'a Analysis,
     device: Option<&'a [Vec<f64>]>,
+    partly_measured: &'a [[f64; 2]],
     checks: Option<&'a PredictionChecks>,
 }
 
@@ -194,7 +197,7 @@ impl Judged<'_> {
     ///
     /// Frames that force plates do not cover are judged on forces that are predicted from the motion.
     fn verdict(&self, settings: &Settings, force_origin: &ForceOrigin, findings: &mut Findings) -> Verdict {
-        let Judged { activity, cutoff_hz, model, person, analysis, device, checks } = *self;
+        let Judged { activity, cutoff_hz, model, person, analysis, device, partly_measured, checks } = *self;
         let Analysis { trajectory, forces, ground, .. } = analysis;
         let evidence = MotionAndForces {
             model,
@@ -203,6 +206,7 @@ impl Judged<'_> {
             ground,
             device,
             predicted: None,
+            partly_measured,
             activity,
             cutoff_hz,
             forces_are_predicted: matches!(force_origin, ForceOrigin::Predicted { .. }),

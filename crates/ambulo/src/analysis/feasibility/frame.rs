@@ -19,6 +19,9 @@ const NEAR_GROUND_M: f64 = 0.06;
 const NEAR_GROUND_M_S: f64 = 0.8;
 /// The lowest point of a loaded sole may be this far above or below its centre of pressure: thick shoes, errors of feet and floor [m].
 const OFF_GROUND_M: f64 = 0.1;
+/// Largest error of the direction of a foot [rad], 30 degrees. A marker at the side of the forefoot instead of its middle turns a foot by the
+/// angle of half the breadth to the length, about 15 degrees; the markers of heel and ankle add to it.
+const TURNED_RAD: f64 = 0.524;
 /// In flight both feet together carry less than this share of body weight.
 const FLIGHT_LOAD_BW: f64 = 0.05;
 
@@ -154,6 +157,23 @@ impl FeasibilityLimits {
         frame.feet.values().all(Option::is_none)
             || !self.lacks_support(frame)
             || !Side::BOTH.into_iter().any(|side| self.may_be_on_unmeasured_ground(frame, side))
+    }
+
+    /// Whether the centre of pressure of a foot would be on its sole, with the usual margin, if the foot were turned about the heel by at most
+    /// [`TURNED_RAD`]. A foot whose direction is wrong by a marker at its side has its centre of pressure there.
+    pub(super) fn foot_reaches(&self, frame: &Frame<'_>, side: Side) -> bool {
+        let (Some(sole), Some(foot)) = (&self.person.soles[side], &frame.feet[side]) else { return false };
+        let points = sole.points.map(|p| frame.bodies[p.body.index()].pose.place(p.place));
+        let level = |v: Vec3| v - self.up * v.dot(&self.up);
+        let (length, place) = (level(points[2] - points[0]), foot.center_of_pressure);
+        let from_heel = level(place - points[0]);
+        let margin = sole.half_width + self.thresholds.sole_margin_m;
+        let forward = from_heel.dot(&length) / length.norm().max(f64::MIN_POSITIVE);
+        let sideways = (from_heel.norm_squared() - forward * forward).max(0.0).sqrt();
+        let is_in_reach = from_heel.norm() <= length.norm() + margin;
+        is_in_reach
+            && sideways <= forward.max(0.0) * TURNED_RAD.tan() + margin
+            && height_beyond(points, place, self.up) == 0.0
     }
 
     /// Whether a foot is unloaded, near the ground and slow: it may be in contact outside the force plates. A force that pulls down is measured.
@@ -328,8 +348,13 @@ fn distance_to_sole(limits: &FeasibilityLimits, frame: &Frame<'_>, sole: &Sole, 
     let [rear, ball, tip] = points;
     let to_part = |part: [Vec3; 2]| level_distance(place, part, limits.up);
     let outside = to_part([rear, ball]).min(to_part([ball, tip])) - sole.half_width;
-    let lowest = points.iter().map(|point| (point - place).dot(&limits.up)).fold(f64::INFINITY, f64::min);
-    outside.max(0.0).hypot((lowest.abs() - OFF_GROUND_M).max(0.0))
+    outside.max(0.0).hypot(height_beyond(points, place, limits.up))
+}
+
+/// Distance in height of the lowest point of a sole from a place, beyond [`OFF_GROUND_M`] [m].
+fn height_beyond(points: [Vec3; 3], place: Vec3, up: Vec3) -> f64 {
+    let lowest = points.iter().map(|point| (point - place).dot(&up)).fold(f64::INFINITY, f64::min);
+    (lowest.abs() - OFF_GROUND_M).max(0.0)
 }
 
 /// Horizontal speed of the foot's material at a point relative to the ground [m/s]: of the toes if the tip is nearest, else of the foot.

@@ -1,8 +1,9 @@
 //! Checks of a whole motion.
 
 use super::acceleration_ratio::AccelerationRatio;
-use super::frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_known};
-use super::ground_speed::over_ground;
+use super::frame::{CheckedPart, CheckedValue, FeasibilityLimits, Frame, check_known};
+use super::frame_reader::FrameReader;
+use super::motion_and_forces::MotionAndForces;
 use super::person::Person;
 use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
@@ -10,14 +11,10 @@ use super::verdict::{
     Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState, Weighed,
     undecided_by_other_support,
 };
-use crate::analysis::activity::ActivityKind;
-use crate::dynamics::{Forces, Roots};
 use crate::findings::{Code, Findings};
-use crate::ground::{BodyForces, GroundForces, feet, upward};
-use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
-use crate::model::{BySide, CoordinateId, Model, Side};
+use crate::kinematics::each_body_motion;
+use crate::model::{CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
-use crate::spatial::Vec3;
 
 /// A feasible motion was judged in at least this share of its frames.
 const LEAST_JUDGED_SHARE: f64 = 0.9;
@@ -31,39 +28,6 @@ const VELOCITY_ERROR_M_S: f64 = 0.25;
 /// A foot leaves the edge of a force plate within this time [s].
 const STEP_OFF_S: f64 = 0.15;
 
-/// A recorded or synthetic motion with its forces.
-#[derive(Debug, Clone, Copy)]
-pub struct MotionAndForces<'a> {
-    /// The body.
-    pub model: &'a Model,
-    /// Its motion.
-    pub trajectory: &'a Trajectory,
-    /// The forces of inverse dynamics or of a simulation.
-    pub forces: &'a Forces,
-    /// The ground forces; without bodies if unknown.
-    pub ground: &'a GroundForces,
-    /// Generalised forces of a worn device: one column per coordinate [N.m or N].
-    pub device: Option<&'a [Vec<f64>]>,
-    /// Forces predicted from the motion, for frames in which measured ground forces are incomplete.
-    pub predicted: Option<PredictedForces<'a>>,
-    /// The activity: walking and standing keep a foot on the ground, running and jumping do not.
-    pub activity: ActivityKind,
-    /// Cut-off of the low-pass filter of the motion [Hz]; `None` without a filter.
-    pub cutoff_hz: Option<f64>,
-    /// Whether the ground forces were computed from the motion. A lack of support may then be support that no foot gives, such as hands or
-    /// a chair, so it leaves the verdict undecided.
-    pub forces_are_predicted: bool,
-}
-
-/// Forces predicted from the motion, on its frames.
-#[derive(Debug, Clone, Copy)]
-pub struct PredictedForces<'a> {
-    /// The ground forces.
-    pub ground: &'a GroundForces,
-    /// Inverse dynamics with them.
-    pub forces: &'a Forces,
-}
-
 /// Decides whether a person could make a motion.
 #[must_use]
 pub fn check(
@@ -76,14 +40,15 @@ pub fn check(
     let limits = FeasibilityLimits::new(model, person, thresholds);
     let (tracks, coverage) = measure(motion, &limits, findings);
     let grid = trajectory.grid();
-    let mut reasons = Vec::new();
+    let (mut reasons, mut beside) = (Vec::new(), Vec::new());
     for (slot, track) in tracks.iter().enumerate() {
         let shortest = match check_of(model, slot) {
             Check::Flight => thresholds.flight_s,
             _ => shortest_s(thresholds, motion.cutoff_hz),
         };
         let spans = track.settled(grid.step_s, shortest);
-        reasons.extend(spans.iter().map(|span| reason(model, grid, span, coverage.is_predicted(span.worst_at))));
+        let list = if is_beside(model, slot) { &mut beside } else { &mut reasons };
+        list.extend(spans.iter().map(|span| reason(model, grid, span, coverage.is_predicted(span.worst_at))));
     }
     let acceleration = coverage.acceleration.span(grid.step_s, &limits).filter(|_| !motion.forces_are_predicted);
     let too_fast = acceleration.filter(|span| span.worst.share > 1.0);
@@ -92,6 +57,7 @@ pub fn check(
     let mut closest = closest(model, &tracks, grid);
     closest.extend(acceleration.map(|span| nearest(model, grid, span.worst_at, &span.worst)));
     let mut undecided = coverage.undecided(motion, &limits);
+    undecided.extend(beside.first().map(undecided_by_direction));
     if motion.forces_are_predicted || motion.predicted.is_some() {
         let is_predicted = |at_s: f64| {
             motion.forces_are_predicted || coverage.is_predicted(((at_s - grid.start_s) / grid.step_s).round() as usize)
@@ -155,7 +121,16 @@ fn other_support(reasons: &mut Vec<Reason>, is_predicted: impl Fn(f64) -> bool) 
     Some(undecided_by_other_support(&first))
 }
 
-// One track per check of each coordinate, then of each foot, then of the whole body.
+/// Why a verdict is undecided where the centre of pressure is beside the sole, but no further from the heel than a foot reaches.
+fn undecided_by_direction(reason: &Reason) -> String {
+    format!(
+        "the coordinates may show the direction of a foot wrongly, or force plates and motion are not aligned: {}",
+        reason.message
+    )
+}
+
+// One track per check of each coordinate, then of each foot, then of the whole body; then the centre of pressure of each foot while it is
+// beside the sole, within the reach of a foot in another direction.
 const OF_COORDINATES: [Check; 3] = [Check::Strength, Check::Range, Check::Power];
 const OF_FEET: [Check; 3] = [Check::Friction, Check::CenterOfPressure, Check::Sliding];
 const OF_BODY: [Check; 4] = [Check::Flight, Check::Support, Check::Balance, Check::Pull];
@@ -172,10 +147,31 @@ fn slot(model: &Model, measurement: &CheckedValue) -> Option<usize> {
     }
 }
 
+/// Number of tracks before those of centres of pressure beside the sole.
+fn regular_slots(model: &Model) -> usize {
+    OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len()
+}
+
+fn is_beside(model: &Model, slot: usize) -> bool {
+    slot >= regular_slots(model)
+}
+
+/// The track of a value; a centre of pressure that a foot in another direction would reach has its own.
+fn slot_in_frame(model: &Model, limits: &FeasibilityLimits, frame: &Frame<'_>, m: &CheckedValue) -> Option<usize> {
+    match (m.check, m.of) {
+        (Check::CenterOfPressure, CheckedPart::Foot(side)) if m.share > 1.0 && limits.foot_reaches(frame, side) => {
+            Some(regular_slots(model) + usize::from(side == Side::Left))
+        }
+        _ => slot(model, m),
+    }
+}
+
 fn check_of(model: &Model, slot: usize) -> Check {
     let coordinates = OF_COORDINATES.len() * model.coordinates().len();
     let feet = coordinates + 2 * OF_FEET.len();
-    if slot < coordinates {
+    if is_beside(model, slot) {
+        Check::CenterOfPressure
+    } else if slot < coordinates {
         OF_COORDINATES[slot % OF_COORDINATES.len()]
     } else if slot < feet {
         OF_FEET[(slot - coordinates) % OF_FEET.len()]
@@ -320,8 +316,7 @@ fn measure(
     findings: &mut Findings,
 ) -> (Vec<Track>, Coverage) {
     let MotionAndForces { model, trajectory, .. } = *motion;
-    let count = OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len();
-    let mut tracks = vec![Track::default(); count];
+    let mut tracks = vec![Track::default(); regular_slots(model) + Side::BOTH.len()];
     let mut given = FrameReader::new(motion, motion.forces, motion.ground);
     let mut coverage = Coverage { covered: covered(motion, &mut given, limits), ..Coverage::default() };
     let mut predicted = motion.predicted.map(|predicted| FrameReader::new(motion, predicted.forces, predicted.ground));
@@ -341,7 +336,7 @@ fn measure(
             if m.check == Check::Sliding && covered && inner.contains(&i) {
                 coverage.slips.push(m.value);
             }
-            if let Some(slot) = slot(model, &m).filter(|_| inner.contains(&i)) {
+            if let Some(slot) = slot_in_frame(model, limits, &frame, &m).filter(|_| inner.contains(&i)) {
                 tracks[slot].add(i, m, lasting);
             }
         });
@@ -363,14 +358,19 @@ fn measure(
     (tracks, coverage)
 }
 
-/// Frames in which no ground force is missing. A foot that steps off a force plate leaves a part of its load there: a lack of support that
+/// Frames in which no ground force is missing. A lack of support while a plate measures only a part of a foot's load is that part. A foot that steps off a force plate leaves a part of its load there: a lack of support that
 /// begins or ends with missing forces has the same cause.
 fn covered(motion: &MotionAndForces<'_>, given: &mut FrameReader<'_>, limits: &FeasibilityLimits) -> Vec<bool> {
     let (mut covered, mut lacking): (Vec<bool>, Vec<bool>) = (Vec::new(), Vec::new());
+    let is_partly_measured = |i: usize| {
+        let time_s = motion.trajectory.grid().time(i);
+        motion.partly_measured.iter().any(|[from, to]| (*from..=*to).contains(&time_s))
+    };
     each_body_motion(motion.model, motion.trajectory, |i, bodies| {
         let frame = given.frame(i, bodies);
-        covered.push(limits.support_is_known(&frame));
-        lacking.push(limits.lacks_support(&frame));
+        let lacks = limits.lacks_support(&frame);
+        covered.push(limits.support_is_known(&frame) && !(lacks && is_partly_measured(i)));
+        lacking.push(lacks);
     });
     let most = (STEP_OFF_S / motion.trajectory.grid().step_s) as usize;
     let known = covered.clone();
@@ -381,83 +381,9 @@ fn covered(motion: &MotionAndForces<'_>, given: &mut FrameReader<'_>, limits: &F
     (0..known.len()).map(|i| known[i] && !(lacking[i] && gap_near(i))).collect()
 }
 
-/// Gives the frames of a motion with forces.
-struct FrameReader<'a> {
-    motion: MotionAndForces<'a>,
-    forces: &'a Forces,
-    feet: BySide<Option<BodyForces>>,
-    roots: Roots,
-    ground_velocity: Vec3,
-    ground_height: f64,
-    walking: bool,
-    q: Vec<f64>,
-    qd: Vec<f64>,
-    tau: Vec<f64>,
-    power: Vec<f64>,
-}
-
-impl<'a> FrameReader<'a> {
-    fn new(motion: &MotionAndForces<'a>, forces: &'a Forces, ground: &'a GroundForces) -> FrameReader<'a> {
-        let model = motion.model;
-        let up = upward(model);
-        let over = over_ground(model, motion.trajectory, ground, up);
-        let by_side = feet(model, ground);
-        let feet = BySide::from_fn(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces.clone()));
-        let [q, qd, tau, power] = [0; 4].map(|_| vec![0.0; model.coordinates().len()]);
-        FrameReader {
-            motion: *motion,
-            forces,
-            roots: Roots::of(model),
-            ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
-            ground_height: ground_height(&feet.as_ref().map(Option::as_ref), up),
-            walking: motion.activity.keeps_a_foot_down(),
-            feet,
-            q,
-            qd,
-            tau,
-            power,
-        }
-    }
-
-    fn frame<'b>(&'b mut self, i: usize, bodies: &'b [BodyMotion]) -> Frame<'b> {
-        let MotionAndForces { model, trajectory, device, .. } = self.motion;
-        for (c, id) in model.coordinate_ids().enumerate() {
-            (self.q[c], self.qd[c]) = (trajectory.values(id)[i], trajectory.rates(id)[i]);
-            (self.tau[c], self.power[c]) = (self.forces.generalized[c][i], self.forces.powers[c][i]);
-            if let Some(device) = device {
-                self.tau[c] -= device[c][i];
-            }
-        }
-        Frame {
-            q: &self.q,
-            qd: &self.qd,
-            generalized: &self.tau,
-            powers: &self.power,
-            bodies,
-            feet: self.feet.as_ref().map(|foot| foot.as_ref().map(|f| foot_frame(f, i))),
-            residual: self.roots.residual(|body| self.forces.reactions[body.index()][i]),
-            ground_velocity: self.ground_velocity,
-            ground_height: self.ground_height,
-            walking: self.walking,
-        }
-    }
-}
-
 /// Number of consecutive frames that is not noise.
 fn frames_that_last(shortest_s: f64, grid: TimeGrid) -> usize {
     ((shortest_s / grid.step_s - 1e-9).ceil().max(1.0) as usize).min(grid.frames.max(1))
-}
-
-fn foot_frame(foot: &BodyForces, frame: usize) -> FootFrame {
-    FootFrame { force: foot.force[frame], center_of_pressure: foot.center_of_pressure[frame] }
-}
-
-/// Median height of the centres of pressure [m].
-fn ground_height(feet: &BySide<Option<&BodyForces>>, up: Vec3) -> f64 {
-    let centers = feet.values().flatten().flat_map(|foot| &foot.center_of_pressure);
-    let mut heights: Vec<f64> = centers.map(|p| p.dot(&up)).filter(|h| h.is_finite()).collect();
-    heights.sort_by(f64::total_cmp);
-    heights.get(heights.len() / 2).copied().unwrap_or(0.0)
 }
 
 fn not_judged(motion: &MotionAndForces<'_>, limits: &FeasibilityLimits) -> Vec<NotJudged> {

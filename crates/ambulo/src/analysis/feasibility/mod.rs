@@ -6,8 +6,10 @@
 
 mod acceleration_ratio;
 mod frame;
+mod frame_reader;
 mod ground_speed;
 mod judgement;
+mod motion_and_forces;
 mod person;
 mod spans;
 mod strength;
@@ -15,7 +17,8 @@ mod thresholds;
 mod verdict;
 
 pub use frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_frame, least_load_n};
-pub use judgement::{MotionAndForces, PredictedForces, check};
+pub use judgement::check;
+pub use motion_and_forces::{MotionAndForces, PredictedForces};
 pub use person::Person;
 pub use strength::{Hill, StrengthCurve};
 pub use thresholds::Thresholds;

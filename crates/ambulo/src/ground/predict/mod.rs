@@ -11,6 +11,7 @@ mod deviation_calibration;
 mod estimate;
 mod expected;
 mod fitted_parameters;
+mod forefoot;
 mod gaussian_filter;
 mod geometry;
 mod loads;

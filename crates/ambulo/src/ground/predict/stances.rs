@@ -1,5 +1,6 @@
 //! Stances for the estimate: complete, with axes, speed, type of gait and phase.
 
+use super::forefoot::heel_down;
 use super::geometry::Geometry;
 use super::stance_curves::{AtSpeed, StanceCurves};
 use crate::ground::footfalls::{Footfall, Footfalls};
@@ -41,6 +42,8 @@ pub(super) struct Stance {
     /// Dimensionless speed V / √(g L).
     pub(super) speed: f64,
     pub(super) gait: GaitType,
+    /// Until when the foot stands on its forefoot alone after a strike with the forefoot; `None` after a strike with the heel [s].
+    pub(super) heel_down_s: Option<f64>,
     /// Time [s] and phase of strike, other foot's off, other foot's strike, and off.
     knots: Vec<[f64; 2]>,
 }
@@ -187,6 +190,10 @@ fn stance(
         right: forward.cross(&body_scale.up),
         speed: pace,
         gait,
+        heel_down_s: fall
+            .strike_s
+            .and_then(|_| heel_down(&geometry.feet[fall.side][first..=last], body_scale.up))
+            .map(|frames| grid.time(first + frames)),
         knots,
     }
 }
@@ -195,5 +202,24 @@ impl Stance {
     /// The normative curves at the speed of this stance.
     pub(super) fn curves<'c>(&self, curves: &'c StanceCurves) -> AtSpeed<'c> {
         curves.at_speed(self.speed)
+    }
+}
+
+#[cfg(test)]
+impl Stance {
+    /// A walking stance along x on level ground.
+    pub(super) fn level(side: Side, [start_s, end_s]: [f64; 2], heel_down_s: Option<f64>) -> Stance {
+        Stance {
+            side,
+            start_s,
+            end_s,
+            height_m: 0.0,
+            forward: Vec3::x(),
+            right: Vec3::z(),
+            speed: 0.4,
+            gait: GaitType::Walk,
+            heel_down_s,
+            knots: vec![[start_s, 0.0], [end_s, 1.0]],
+        }
     }
 }

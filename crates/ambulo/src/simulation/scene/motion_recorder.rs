@@ -1,14 +1,14 @@
 //! Records a figure of a scene that follows a recording, step by step, for its verdict.
 //!
 //! Coordinates that follow the recording are those of their signals. The others, of passive joints and of a free root, are found from
-//! the poses T of the bodies: Newton steps on J Δq = the rotation and translation that T(q) lacks, where J is the motion of a joint per
-//! unit rate of its coordinates, and J q̇ = relative velocity of the bodies for the rates.
+//! the pose T of a body on its parent: Newton steps on J Δq = the rotation and translation that T(q) lacks, where J is the motion of the
+//! joint per unit rate of its coordinates, and J q̇ = relative velocity of the bodies for the rates.
 //!
 //! Pinned by: tests/scene_verdict.rs
 
 use crate::dynamics::LoadSeries;
 use crate::kinematics::{Trajectory, TrajectoryError};
-use crate::model::{BodyId, CoordinateId, Drive, Model, ModelPosture};
+use crate::model::{BodyId, CoordinateId, Drive, Joint, Model};
 use crate::motion::TimeGrid;
 use crate::simulation::forces::StepForces;
 use crate::simulation::signal::Signal;
@@ -20,8 +20,10 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Largest number of recorded steps.
 const MOST_ROWS: usize = 1_000_000;
-/// Newton steps for the coordinates of a joint: they start at the last posture, a step of the scene before.
+/// Most Newton steps for the coordinates of a joint: they start at the last posture, a step of the scene before.
 const NEWTON_STEPS: usize = 4;
+/// The coordinates have settled when a Newton step changes them by less [rad or m].
+const SETTLED: f64 = 1e-12;
 /// Added to the diagonal of JᵀJ, as a share of its largest entry: two axes that coincide (gimbal lock) move alike.
 const SINGULAR: f64 = 1e-12;
 
@@ -63,14 +65,34 @@ pub(super) struct MotionRecorder {
     follows: Vec<bool>,
     first_body: usize,
     start_s: f64,
-    /// Coordinates and rates before the step.
-    before: [Vec<f64>; 2],
+    /// Joints with coordinates that follow no signal.
+    passive: Vec<PassiveJoint>,
+    /// Coordinates and rates at the end of the last recorded step, which is the start of the next: events between steps move no body.
+    now: [Vec<f64>; 2],
     columns: Vec<[Vec<f64>; 3]>,
     /// Force and moment about the world's origin on each body, from obstacles and from everything else.
     of_ground: Vec<Vec<Wrench>>,
     of_others: Vec<Vec<Wrench>>,
     /// Height of the obstacle under each body, the last one known [m].
     heights: Vec<Vec<f64>>,
+}
+
+/// A joint whose coordinates are found from the poses of its bodies.
+#[derive(Debug, Clone)]
+struct PassiveJoint {
+    body: BodyId,
+    coordinates: Vec<CoordinateId>,
+}
+
+/// The joints of a model with free coordinates that follow no signal.
+fn passive_joints(model: &Model, follows: &[bool]) -> Vec<PassiveJoint> {
+    let is_free =
+        |id: &CoordinateId| !follows[id.index()] && matches!(model.coordinates()[id.index()].drive, Drive::Free);
+    let of = |body: BodyId| {
+        let coordinates = model.bodies()[body.index()].joint.coordinates().into_iter().filter(is_free).collect();
+        PassiveJoint { body, coordinates }
+    };
+    model.body_ids().map(of).filter(|joint| !joint.coordinates.is_empty()).collect()
 }
 
 impl MotionRecorder {
@@ -87,10 +109,11 @@ impl MotionRecorder {
             name: name.to_owned(),
             model: model.clone(),
             signals,
+            passive: passive_joints(model, &follows),
             follows,
             first_body,
             start_s: 0.0,
-            before: [start, vec![0.0; coordinates]],
+            now: [start, vec![0.0; coordinates]],
             columns: vec![Default::default(); coordinates],
             of_ground: vec![Vec::new(); bodies],
             of_others: vec![Vec::new(); bodies],
@@ -104,34 +127,26 @@ impl MotionRecorder {
 
     /// Coordinates and rates now; those that follow no signal start at the last ones.
     fn read(&self, state: &WorldState) -> [Vec<f64>; 2] {
-        let mut q = self.before[0].clone();
+        let mut q = self.now[0].clone();
         let mut rates = vec![0.0; q.len()];
         for (id, signal) in self.signals.iter().enumerate().filter(|(id, _)| self.follows[*id]) {
             [q[id], rates[id], _] = signal.at(state.time_s);
         }
-        for body in self.model.body_ids() {
-            let free: Vec<CoordinateId> = self.free_coordinates(body);
-            if free.is_empty() {
-                continue;
-            }
+        for passive in &self.passive {
+            let joint = &self.model.bodies()[passive.body.index()].joint;
+            let wanted = self.parent_from_child(passive.body, state);
             for _ in 0..NEWTON_STEPS {
-                let posture = ModelPosture::new(&self.model, q.clone());
-                let missing = self.missing(&posture, body, state);
-                let change = least_squares(&posture, body, &free, missing);
-                free.iter().zip(&change).for_each(|(id, d)| q[id.index()] += d);
+                let change = least_squares(joint, &q, &passive.coordinates, missing(joint, &q, &wanted));
+                passive.coordinates.iter().zip(&change).for_each(|(id, d)| q[id.index()] += d);
+                if change.iter().all(|d| d.abs() < SETTLED) {
+                    break;
+                }
             }
-            let posture = ModelPosture::new(&self.model, q.clone());
-            let found = least_squares(&posture, body, &free, self.relative_velocity(&posture, body, state));
-            free.iter().zip(&found).for_each(|(id, rate)| rates[id.index()] = *rate);
+            let velocity = self.relative_velocity(passive.body, state);
+            let found = least_squares(joint, &q, &passive.coordinates, velocity);
+            passive.coordinates.iter().zip(&found).for_each(|(id, rate)| rates[id.index()] = *rate);
         }
         [q, rates]
-    }
-
-    fn free_coordinates(&self, body: BodyId) -> Vec<CoordinateId> {
-        let free = |id: &CoordinateId| {
-            !self.follows[id.index()] && matches!(self.model.coordinates()[id.index()].drive, Drive::Free)
-        };
-        self.model.bodies()[body.index()].joint.coordinates().into_iter().filter(free).collect()
     }
 
     /// Pose of a body's frame in the world.
@@ -140,42 +155,34 @@ impl MotionRecorder {
         state.poses[self.first_body + body.index()] * Pose::at(-center)
     }
 
-    /// Rotation and translation of the joint frame of a body that the posture lacks, world axes. The parent is that of the posture.
-    fn missing(&self, posture: &ModelPosture<'_>, body: BodyId, state: &WorldState) -> [Vec3; 2] {
-        let joint = &self.model.bodies()[body.index()].joint;
-        let on_world = |parent: BodyId| self.pose(parent, state).inverse() * self.pose(body, state);
-        let wanted = match joint.parent {
-            Some(parent) => posture.poses[parent.index()] * on_world(parent),
-            None => self.pose(body, state),
-        } * joint.child_from_joint;
-        let found = posture.poses[body.index()] * joint.child_from_joint;
-        // sin(angle) times the axis: nearly the angle, where steps are small.
-        let r: Mat3 = wanted.rotation * found.rotation.transpose();
-        let turn = Vec3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]) * 0.5;
-        [turn, wanted.translation - found.translation]
+    /// Pose of a body's frame on its parent, or in the world.
+    fn parent_from_child(&self, body: BodyId, state: &WorldState) -> Pose {
+        let own = self.pose(body, state);
+        let parent = self.model.bodies()[body.index()].joint.parent;
+        parent.map_or(own, |parent| self.pose(parent, state).inverse() * own)
     }
 
-    /// Angular velocity and velocity of the joint frame of a body relative to the parent, in the axes of the posture's world.
-    fn relative_velocity(&self, posture: &ModelPosture<'_>, body: BodyId, state: &WorldState) -> [Vec3; 2] {
+    /// Angular velocity and velocity of the joint frame of a body relative to the parent, in the axes of the parent.
+    fn relative_velocity(&self, body: BodyId, state: &WorldState) -> [Vec3; 2] {
         let joint = &self.model.bodies()[body.index()].joint;
         let frame = self.pose(body, state) * joint.child_from_joint;
-        let number = |body: BodyId| self.first_body + body.index();
-        let velocity = |n: usize| -> [Vec3; 2] {
+        let velocity = |body: BodyId| -> [Vec3; 2] {
+            let n = self.first_body + body.index();
             let twist: &Twist = &state.twists[n];
             [twist.angular, twist.velocity_at(frame.translation - state.poses[n].translation)]
         };
-        let own = velocity(number(body));
+        let own = velocity(body);
         let Some(parent) = joint.parent else { return own };
-        let of_parent = velocity(number(parent));
-        let turn = posture.poses[parent.index()].rotation * self.pose(parent, state).rotation.transpose();
+        let of_parent = velocity(parent);
+        let turn = self.pose(parent, state).rotation.transpose();
         [0, 1].map(|k| turn * (own[k] - of_parent[k]))
     }
 
     pub(super) fn before_step(&mut self, state: &WorldState) {
         if self.rows() == 0 {
             self.start_s = state.time_s;
+            self.now = self.read(state);
         }
-        self.before = self.read(state);
     }
 
     /// Records a step. The posture is that of its start; velocities of free coordinates belong to the middle of steps.
@@ -190,16 +197,17 @@ impl MotionRecorder {
         if self.rows() >= MOST_ROWS {
             return;
         }
-        let [_, after] = self.read(state);
+        let after = self.read(state);
         for (id, columns) in self.columns.iter_mut().enumerate() {
             let values = if self.follows[id] {
                 self.signals[id].at(state.time_s - step_s)
             } else {
-                let (old, new) = (self.before[1][id], after[id]);
-                [self.before[0][id], 0.5 * (old + new), (new - old) / step_s]
+                let (old, new) = (self.now[1][id], after[1][id]);
+                [self.now[0][id], 0.5 * (old + new), (new - old) / step_s]
             };
             columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
         }
+        self.now = after;
         self.keep_forces(world, poses, &w.forces(world));
     }
 
@@ -297,16 +305,21 @@ fn add(rows: &mut [Wrench], wrench: Wrench) {
     }
 }
 
+/// Rotation and translation of the joint frame of the child that the coordinates lack, in the axes of the parent.
+fn missing(joint: &Joint, q: &[f64], wanted: &Pose) -> [Vec3; 2] {
+    let wanted = *wanted * joint.child_from_joint;
+    let found = joint.parent_from_child(q) * joint.child_from_joint;
+    // sin(angle) times the axis: nearly the angle, where steps are small.
+    let r: Mat3 = wanted.rotation * found.rotation.transpose();
+    let turn = Vec3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]) * 0.5;
+    [turn, wanted.translation - found.translation]
+}
+
 /// The changes of coordinates that move a joint by this rotation and translation, in the sense of least squares.
-fn least_squares(
-    posture: &ModelPosture<'_>,
-    body: BodyId,
-    coordinates: &[CoordinateId],
-    [turn, shift]: [Vec3; 2],
-) -> Vec<f64> {
+fn least_squares(joint: &Joint, q: &[f64], coordinates: &[CoordinateId], [turn, shift]: [Vec3; 2]) -> Vec<f64> {
     let mut jacobian = DMatrix::zeros(6, coordinates.len());
     for (column, id) in coordinates.iter().enumerate() {
-        let [angular, linear] = posture.slopes(body, *id);
+        let [angular, linear] = joint.slopes(q, *id);
         jacobian.fixed_view_mut::<3, 1>(0, column).copy_from(&angular);
         jacobian.fixed_view_mut::<3, 1>(3, column).copy_from(&linear);
     }

@@ -1,0 +1,84 @@
+//! The frames of a motion with its forces, one after the other.
+
+use super::frame::{FootFrame, Frame};
+use super::ground_speed::over_ground;
+use super::motion_and_forces::MotionAndForces;
+use crate::dynamics::{Forces, Roots};
+use crate::ground::{BodyForces, GroundForces, feet, upward};
+use crate::kinematics::BodyMotion;
+use crate::model::BySide;
+use crate::spatial::Vec3;
+
+/// Gives the frames of a motion with forces.
+pub(super) struct FrameReader<'a> {
+    motion: MotionAndForces<'a>,
+    forces: &'a Forces,
+    feet: BySide<Option<BodyForces>>,
+    roots: Roots,
+    ground_velocity: Vec3,
+    ground_height: f64,
+    walking: bool,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    tau: Vec<f64>,
+    power: Vec<f64>,
+}
+
+impl<'a> FrameReader<'a> {
+    pub(super) fn new(motion: &MotionAndForces<'a>, forces: &'a Forces, ground: &'a GroundForces) -> FrameReader<'a> {
+        let model = motion.model;
+        let up = upward(model);
+        let over = over_ground(model, motion.trajectory, ground, up);
+        let by_side = feet(model, ground);
+        let feet = BySide::from_fn(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces.clone()));
+        let [q, qd, tau, power] = [0; 4].map(|_| vec![0.0; model.coordinates().len()]);
+        FrameReader {
+            motion: *motion,
+            forces,
+            roots: Roots::of(model),
+            ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
+            ground_height: ground_height(&feet.as_ref().map(Option::as_ref), up),
+            walking: motion.activity.keeps_a_foot_down(),
+            feet,
+            q,
+            qd,
+            tau,
+            power,
+        }
+    }
+
+    pub(super) fn frame<'b>(&'b mut self, i: usize, bodies: &'b [BodyMotion]) -> Frame<'b> {
+        let MotionAndForces { model, trajectory, device, .. } = self.motion;
+        for (c, id) in model.coordinate_ids().enumerate() {
+            (self.q[c], self.qd[c]) = (trajectory.values(id)[i], trajectory.rates(id)[i]);
+            (self.tau[c], self.power[c]) = (self.forces.generalized[c][i], self.forces.powers[c][i]);
+            if let Some(device) = device {
+                self.tau[c] -= device[c][i];
+            }
+        }
+        Frame {
+            q: &self.q,
+            qd: &self.qd,
+            generalized: &self.tau,
+            powers: &self.power,
+            bodies,
+            feet: self.feet.as_ref().map(|foot| foot.as_ref().map(|f| foot_frame(f, i))),
+            residual: self.roots.residual(|body| self.forces.reactions[body.index()][i]),
+            ground_velocity: self.ground_velocity,
+            ground_height: self.ground_height,
+            walking: self.walking,
+        }
+    }
+}
+
+fn foot_frame(foot: &BodyForces, frame: usize) -> FootFrame {
+    FootFrame { force: foot.force[frame], center_of_pressure: foot.center_of_pressure[frame] }
+}
+
+/// Median height of the centres of pressure [m].
+fn ground_height(feet: &BySide<Option<&BodyForces>>, up: Vec3) -> f64 {
+    let centers = feet.values().flatten().flat_map(|foot| &foot.center_of_pressure);
+    let mut heights: Vec<f64> = centers.map(|p| p.dot(&up)).filter(|h| h.is_finite()).collect();
+    heights.sort_by(f64::total_cmp);
+    heights.get(heights.len() / 2).copied().unwrap_or(0.0)
+}
