@@ -43,16 +43,14 @@ use super::block::Six;
 use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
 use super::departure::{Departures, stiffness};
 use super::elimination::Offsets;
+use super::friction_state::{Friction, friction_state};
 use super::problem::Problem;
+use super::within_law::{compliance, confine, fill_friction};
 
 /// pᵀ W p below this share of pᵀ p times the largest mobility counts as zero: sums over a tree round to about 1e-15.
 const NO_CURVATURE: f64 = 1e-13;
 /// One active set is solved only until the departure has fallen to this share, because the set is likely to change.
 const SHARE: f64 = 1e-2;
-/// Relative distance from the surface of the cone within which friction counts as being on it.
-const EDGE: f64 = 1e-10;
-/// Slip speed, in units of friction times mobility, above which the direction of friction is fixed.
-const RIGID: f64 = 1e12;
 /// Slope of f at the end of a step, as a share of that at its start, above which the step was too long.
 const OVERSHOOT: f64 = 0.1;
 /// A shorter step is compared with the alternative step.
@@ -91,16 +89,6 @@ enum Sought {
     Rows([bool; 6]),
     /// Whether the normal force is active, and the state of friction.
     Contact { pushes: bool, friction: Friction },
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Friction {
-    /// Fixed at its current value.
-    Given,
-    /// Both components are unknown.
-    Sticks,
-    /// On the cone along `along`, with a compliant component perpendicular to it.
-    Slips { along: [f64; 2], compliance: f64 },
 }
 
 /// See [`super::solve_graph`].
@@ -581,69 +569,6 @@ impl Field {
             Field::Forces => &mut w.forces,
         }
     }
-}
-
-/// R of a row; friction has none.
-pub(super) fn compliance(graph: &ConstraintGraph, group: &ConstraintGroup, row: usize) -> f64 {
-    match group.law {
-        Law::Contact { .. } if row > group.rows.start => 0.0,
-        _ => graph.rows[row].compliance,
-    }
-}
-
-/// State of friction: sticking inside the cone, and on it if friction would support the slip. Without friction so far, it slips if
-/// the friction that this point alone would need exceeds the limit.
-fn friction_state(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobility: f64) -> Friction {
-    let length = force[0].hypot(force[1]);
-    if radius <= 0.0 {
-        return Friction::Given;
-    }
-    let speed = u[0].hypot(u[1]);
-    if speed > RIGID * radius * mobility {
-        return Friction::Given;
-    }
-    if length <= EDGE * radius {
-        if speed <= radius * mobility {
-            return Friction::Sticks;
-        }
-        return Friction::Slips { along: [-u[0] / speed, -u[1] / speed], compliance: speed / radius };
-    }
-    let power = force[0] * u[0] + force[1] * u[1];
-    if power >= 0.0 || !(slipped || length >= radius * (1.0 - EDGE)) {
-        return Friction::Sticks;
-    }
-    Friction::Slips { along: [force[0] / length, force[1] / length], compliance: -power / (length * radius) }
-}
-
-/// Confines the forces of one group to its law, the normal force first.
-pub(super) fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
-    let start = group.rows.start;
-    match group.law {
-        Law::Bounded { least, most } => {
-            lambda[group.rows.clone()].iter_mut().for_each(|l| *l = l.clamp(least, most));
-        }
-        Law::Contact { friction, bound } => {
-            lambda[start] = lambda[start].clamp(0.0, bound);
-            let radius = friction * lambda[start];
-            let length = lambda[start + 1].hypot(lambda[start + 2]);
-            if length > radius {
-                lambda[start + 1] *= radius / length;
-                lambda[start + 2] *= radius / length;
-            }
-        }
-    }
-}
-
-/// Sets the friction of a slipping contact to its limit, along r d + s e.
-fn fill_friction(group: &ConstraintGroup, before: &[f64], along: [f64; 2], turn: [f64; 2], lambda: &mut [f64]) {
-    let Law::Contact { friction, .. } = group.law else { return };
-    let start = group.rows.start;
-    let radius = friction * before[start];
-    let toward = [radius * along[0] + turn[0], radius * along[1] + turn[1]];
-    let length = toward[0].hypot(toward[1]);
-    let longer = if length > 0.0 { friction * lambda[start] / length } else { 0.0 };
-    lambda[start + 1] = longer * toward[0];
-    lambda[start + 2] = longer * toward[1];
 }
 
 fn dot(x: &[f64], y: &[f64]) -> f64 {

@@ -10,10 +10,10 @@
 //! Cost: one factorisation of the trees, one solve per row.
 
 use super::block::Six;
-use super::conjugate_gradient::compliance;
 use super::constraint::ConstraintGraph;
 use super::elimination::Offsets;
 use super::problem::Problem;
+use super::within_law::compliance;
 
 /// W and q of a graph, with the scratch of tree solves.
 #[derive(Debug, Clone, Default)]

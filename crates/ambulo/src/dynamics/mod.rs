@@ -16,14 +16,17 @@ mod departure;
 mod lumped;
 mod problem;
 
+mod active_set;
 mod conjugate_gradient;
 mod curvature;
 mod delassus;
+mod friction_state;
 mod mixing;
 mod nonsmooth_newton;
 mod proximal;
 mod relaxed;
 mod solve;
+mod within_law;
 
 pub mod residual_reduction;
 

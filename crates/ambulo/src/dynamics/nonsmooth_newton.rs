@@ -20,11 +20,11 @@
 //! Pinned by: tests/contact_convergence.rs
 
 use super::block::Six;
-use super::conjugate_gradient::confine;
 use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, Law};
 use super::delassus::{Delassus, motion_under};
 use super::departure::BestIterate;
 use super::problem::Problem;
+use super::within_law::confine;
 use crate::numerics::DenseLu;
 
 /// More rows are not attempted: the factors of 400 rows cost some 20 million products.

@@ -41,9 +41,10 @@
 //! Long because it is one algorithm: its steps share the notation above.
 //! Pinned by: tests/constraint_graph.rs
 
+use super::active_set::{self, WITHIN, has_past};
 use super::block::Six;
 use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
-use super::curvature::{Curvature, Proximal, add_group, diagonal};
+use super::curvature::{Curvature, Proximal, add_group};
 use super::departure::{BestIterate, stiffness};
 use super::elimination::Offsets;
 use super::mixing::AndersonMixing;
@@ -61,10 +62,6 @@ const SLOW: f64 = 0.5;
 const STEADY: f64 = 0.3;
 /// A round that leaves more than this share of the departure has failed.
 const STUCK: f64 = 0.999;
-/// If forces are not unique, sticking contacts are kept within this share of their cone.
-const WITHIN: f64 = 0.95;
-/// Number of halvings in the search for this limit.
-const SHARE_HALVINGS: usize = 20;
 /// Number of steps after which the best iterate is kept.
 const PATIENCE: usize = 12;
 /// Number of steps after which contacts are solved by [`super::nonsmooth_newton`].
@@ -102,11 +99,6 @@ pub(super) struct NewtonWorkspace {
     best: BestIterate,
     nonsmooth: NonsmoothWorkspace,
     relaxed: RelaxedWorkspace,
-}
-
-/// Whether a contact existed before: its force is larger than the marker value of a new one.
-fn has_past(group: &ConstraintGroup, before: &[f64]) -> bool {
-    before[group.rows.start] > f64::MIN_POSITIVE
 }
 
 impl NewtonWorkspace {
@@ -266,7 +258,7 @@ impl Newton<'_, '_> {
                 self.w.met.extend_from_slice(lambda);
             }
             self.evaluate(lambda);
-            let alike = self.alike(lambda);
+            let alike = active_set::alike(self.graph, [&self.w.curvature, &self.w.factored], &self.w.trial, lambda);
             if last_round {
                 return false;
             }
@@ -383,7 +375,7 @@ impl Newton<'_, '_> {
     /// If forces are not unique, the first solve gives the least-squares forces, which may lie outside their cones although others do
     /// not. λ° is therefore moved from the guess towards them only as far as all cones allow.
     fn approach(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
-        let share = self.share_of_least_squares(lambda);
+        let share = active_set::share_of_least_squares(self.graph, &self.w.factored, &self.w.before, lambda);
         self.problem.departures.read(self.graph, motions, coordinates);
         let NewtonWorkspace { before, center, factored, .. } = &mut *self.w;
         for group in &self.graph.groups {
@@ -407,62 +399,9 @@ impl Newton<'_, '_> {
         self.newton_step(motions, coordinates, lambda, true);
     }
 
-    /// The largest share (at most 1) of the way from the guess to `lambda` on which no sticking contact leaves its cone.
-    fn share_of_least_squares(&self, lambda: &[f64]) -> f64 {
-        let mut share = 1.0_f64;
-        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
-            let (Law::Contact { friction, .. }, Curvature::Contact { normal, sticks: true, .. }) =
-                (group.law, curvature)
-            else {
-                continue;
-            };
-            if *normal <= 0.0 || !has_past(group, &self.w.before) {
-                continue;
-            }
-            let start = group.rows.start;
-            let inside = |s: f64| {
-                let [n, x, y] = [0, 1, 2].map(|k| {
-                    let past = self.w.before[start + k];
-                    past + s * (lambda[start + k] - past)
-                });
-                x.hypot(y) <= WITHIN * friction * n
-            };
-            if inside(share) {
-                continue;
-            }
-            // The cone is convex, so bisection works.
-            let (mut low, mut high) = (0.0, share);
-            for _ in 0..SHARE_HALVINGS {
-                let middle = 0.5 * (low + high);
-                if inside(middle) { low = middle } else { high = middle }
-            }
-            share = low;
-        }
-        share
-    }
-
-    /// Initial H from the guess: loaded contacts stick, or slip if their friction is at the limit.
+    /// Initial H from the guess.
     fn guess(&mut self, lambda: &[f64]) {
-        for (number, group) in self.graph.groups.iter().enumerate() {
-            let first = group.rows.start;
-            let h = |row: usize| self.rho / (1.0 + self.rho * self.graph.rows[row].compliance);
-            self.w.curvature[number] = match group.law {
-                Law::EQUALITY => diagonal(group, h),
-                Law::Bounded { least, most } => {
-                    diagonal(group, |row| if lambda[row] > least && lambda[row] < most { h(row) } else { 0.0 })
-                }
-                Law::Contact { friction, .. } => {
-                    let tangential = lambda[first + 1].hypot(lambda[first + 2]);
-                    let pushing = lambda[first] > 0.0;
-                    let slips = tangential >= friction * lambda[first] * (1.0 - 1e-9);
-                    let sticks = pushing && !slips;
-                    let normal = if pushing { h(first) } else { 0.0 };
-                    let rho = if sticks { self.rho } else { 0.0 };
-                    self.w.radius[number] = if slips || !pushing { tangential } else { f64::INFINITY };
-                    Curvature::Contact { normal, tangential: [rho, 0.0, rho], sticks }
-                }
-            };
-        }
+        active_set::guess(self.graph, self.rho, lambda, &mut self.w.curvature, &mut self.w.radius);
     }
 
     /// Factors A + Jᵀ H J.
@@ -488,7 +427,7 @@ impl Newton<'_, '_> {
                 let target = self.graph.rows[row].target;
                 lambda[row] = match self.w.curvature[number] {
                     Curvature::Diagonal(h) if h[row - start] > 0.0 => h[row - start] * target,
-                    Curvature::Diagonal(_) => clamp_to(group.law, lambda[row]),
+                    Curvature::Diagonal(_) => active_set::clamp_to(group.law, lambda[row]),
                     Curvature::Contact { normal, .. } if row == start => normal * target,
                     Curvature::Contact { sticks: true, tangential: h, .. } => h[0] * target,
                     Curvature::Contact { normal, .. } if normal > 0.0 => lambda[row],
@@ -500,7 +439,7 @@ impl Newton<'_, '_> {
         let Problem { elimination, factors, .. } = &*self.problem;
         elimination.solve(&self.graph.terms, Offsets::Prescribed, motions, coordinates, factors);
         self.read_change(motions, coordinates);
-        self.follow(lambda);
+        active_set::follow(self.graph, &self.w.factored, &self.w.change, lambda);
     }
 
     /// Computes J Δ, and the rounding of λ - H J Δ in units of motion: W H times the rounding of J Δ.
@@ -515,38 +454,6 @@ impl Newton<'_, '_> {
                 self.rounding = self.rounding.max(shown);
             }
         }
-    }
-
-    /// λ := λ - H J Δ with the factored H.
-    fn follow(&self, lambda: &mut [f64]) {
-        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
-            let start = group.rows.start;
-            let change = &self.w.change[group.rows.clone()];
-            match curvature {
-                Curvature::Diagonal(h) => {
-                    (0..change.len()).for_each(|k| lambda[start + k] -= h[k] * change[k]);
-                }
-                Curvature::Contact { normal, tangential: [xx, xy, yy], .. } => {
-                    lambda[start] -= normal * change[0];
-                    lambda[start + 1] -= xx * change[1] + xy * change[2];
-                    lambda[start + 2] -= xy * change[1] + yy * change[2];
-                }
-            }
-        }
-    }
-
-    /// Whether the active set is that of the factored system: the same rows active, the others at the same bounds, and the same
-    /// contacts sticking.
-    fn alike(&self, lambda: &[f64]) -> bool {
-        let same_bound = |group: &ConstraintGroup, curvature: &Curvature| match curvature {
-            Curvature::Contact { .. } => true,
-            Curvature::Diagonal(h) => {
-                let start = group.rows.start;
-                group.rows.clone().all(|row| h[row - start] > 0.0 || (lambda[row] - self.w.trial[row]).abs() <= 0.0)
-            }
-        };
-        let groups = self.graph.groups.iter().zip(self.w.curvature.iter().zip(&self.w.factored));
-        groups.into_iter().all(|(group, (now, then))| now.holds_alike(then) && same_bound(group, now))
     }
 
     /// Whether the residual is the same as a round before with the largest ρ: the rows contradict each other. If it falls only
@@ -654,7 +561,7 @@ impl Newton<'_, '_> {
         }
         let whole = length >= 1.0;
         if whole {
-            self.follow(lambda);
+            active_set::follow(self.graph, &self.w.factored, &self.w.change, lambda);
         }
         whole
     }
@@ -679,12 +586,5 @@ impl Newton<'_, '_> {
             inertial[0] + s * inertial[1] - work(trial)
         };
         lowest(start, 0.5, slope)
-    }
-}
-
-fn clamp_to(law: Law, lambda: f64) -> f64 {
-    match law {
-        Law::Bounded { least, most } => lambda.clamp(least, most),
-        Law::Contact { .. } => lambda,
     }
 }

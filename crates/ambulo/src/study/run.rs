@@ -85,7 +85,6 @@ fn road(
     let device = device.map(|device| worn(&device, &analysis, findings));
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
     let activity = recognised(&model, &person, &analysis, &force_origin, findings);
-    let partly_measured = origin.partly_measured();
     let judged = Judged {
         activity: activity.kind,
         cutoff_hz: processing.smoother.cutoff_hz(),
@@ -93,10 +92,9 @@ fn road(
         person: &person,
         analysis: &analysis,
         device: device.as_deref(),
-        partly_measured: &partly_measured,
         checks,
     };
-    let verdict = judged.verdict(settings, &force_origin, findings);
+    let verdict = judged.verdict(settings, &force_origin, &origin.partly_measured(), findings);
     progress.end(Stage::Feasibility)?;
     let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
     let tracking = tracking(origin, measured_events);
@@ -173,8 +171,14 @@ fn recognised(
 /// Reports ground forces that are predicted for an activity without validation.
 fn report_untested_prediction(activity: ActivityKind, force_origin: &ForceOrigin, findings: &mut Findings) {
     if matches!(force_origin, ForceOrigin::Predicted { .. }) && !activity.has_validated_prediction() {
+        let tested = match activity {
+            ActivityKind::Squat | ActivityKind::Jump | ActivityKind::StairsUp | ActivityKind::StairsDown => {
+                "; this activity was tested on synthetic motions only, and its forces on each foot may be wrong"
+            }
+            _ => "",
+        };
         let message = format!(
-            "activity: {activity}; predicted ground forces were compared with force plates only for walking, turning, standing and running"
+            "activity: {activity}; predicted ground forces were compared with force plates only for walking, turning, standing and running{tested}"
         );
         findings.report(Code::PredictionUntested, message);
     }
@@ -188,7 +192,6 @@ struct Judged<'a> {
     person: &'a Person,
     analysis: &'a Analysis,
     device: Option<&'a [Vec<f64>]>,
-    partly_measured: &'a [[f64; 2]],
     checks: Option<&'a PredictionChecks>,
 }
 
@@ -196,8 +199,14 @@ impl Judged<'_> {
     /// Whether a person could do this, and whether predicted forces can be right.
     ///
     /// Frames that force plates do not cover are judged on forces that are predicted from the motion.
-    fn verdict(&self, settings: &Settings, force_origin: &ForceOrigin, findings: &mut Findings) -> Verdict {
-        let Judged { activity, cutoff_hz, model, person, analysis, device, partly_measured, checks } = *self;
+    fn verdict(
+        &self,
+        settings: &Settings,
+        force_origin: &ForceOrigin,
+        partly_measured: &[[f64; 2]],
+        findings: &mut Findings,
+    ) -> Verdict {
+        let Judged { activity, cutoff_hz, model, person, analysis, device, checks } = *self;
         let Analysis { trajectory, forces, ground, .. } = analysis;
         let evidence = MotionAndForces {
             model,
