@@ -4,6 +4,7 @@
 #![expect(unsafe_code, reason = "an allocator is unsafe by its trait; this one counts and forwards")]
 
 mod common;
+mod shared_data;
 
 use ambulo::analysis::feasibility::{FeasibilityLimits, FootFrame, Frame, Person, Thresholds, check_frame};
 use ambulo::dynamics::{self, BodyLoad, Workspace};
@@ -16,9 +17,10 @@ use ambulo::kinematics::body_motion;
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{BySide, Marker, Model};
-use ambulo::motion::{MarkerPath, MarkerRecording};
+use ambulo::motion::{MarkerPath, MarkerRecording, Motion};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Vec3, Wrench};
+use ambulo::study::{self, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, Settings, Source};
 use common::random::{self, Curves, KINDS, Random};
 use common::{State, load_series, trajectory};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -269,4 +271,60 @@ fn a_stream_holds_no_more_the_longer_it_runs() {
     // Findings of the last window may differ by a message.
     assert!(few[0] > 50_000 && many[0] < few[0] + 2000, "{many:?} after {few:?}");
     assert!((many[1] as f64) < 1.2 * few[1] as f64, "{many:?} after {few:?}");
+}
+
+/// A recorded walk of Gait2392's subject, as markers; it runs forwards and backwards until it has this number of frames.
+fn walked_to_and_fro(frames: usize) -> Option<MarkerSource> {
+    let folder = shared_data::data()?.join("opensim-gait2392-subject01");
+    let bytes = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let mut findings = Findings::default();
+    let model = Model::from_osim(&bytes("subject01_simbody.osim"), &mut findings).unwrap();
+    let mut trial =
+        LaboratoryFile::from_trc(&bytes("subject01_walk1.trc"), "subject01_walk1.trc", &mut findings).unwrap();
+    let markers = &mut trial.recording.markers;
+    let last = markers.times.len() - 1;
+    let frame = |i: usize| if (i / last).is_multiple_of(2) { i % last } else { last - i % last };
+    for marker in &mut markers.markers {
+        marker.positions = (0..frames).map(|i| marker.positions[frame(i)]).collect();
+    }
+    markers.times = (0..frames).map(|i| i as f64 / markers.rate_hz).collect();
+    Some(MarkerSource { trial, standing: None, body: MarkerBody::Model { model, mass_kg: None }, plates: Vec::new() })
+}
+
+/// Bytes a frame that a study of two lengths holds at the end and at most, and allocations a frame.
+fn study_per_frame(source: impl Fn(usize) -> Option<Source>) -> Option<[f64; 3]> {
+    let settings = Settings { ground: GroundSettings::Predicted, ..Settings::default() };
+    let mut found = Vec::new();
+    for frames in [600, 600, 2400] {
+        let source = source(frames)?;
+        let mut held = [0; 2];
+        let run = || study::run(&source, &settings, &mut Findings::default()).unwrap();
+        let count = allocations(|| held = bytes_held(run));
+        found.push([held[0], held[1], count].map(|number| number as f64));
+    }
+    // The first one reads what the crate keeps.
+    Some(std::array::from_fn(|k| (found[2][k] - found[1][k]) / 1800.0))
+}
+
+#[test]
+fn a_study_holds_a_bounded_number_of_bytes_a_frame() {
+    let Some([result, most, count]) = study_per_frame(|frames| Some(Source::markers(walked_to_and_fro(frames)?)))
+    else {
+        return;
+    };
+    println!("markers: {result:.0} bytes a frame, {most:.0} while they are studied, {count:.1} allocations a frame");
+    assert!(most < 6000.0 && result < 5000.0 && count < 20.0, "{result} {most} {count}");
+    let coordinates = |frames: usize| {
+        let source = Source::markers(walked_to_and_fro(frames)?);
+        let outcome = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap();
+        let (model, trajectory) = (outcome.body, &outcome.analysis.trajectory);
+        let columns = model.coordinate_ids().map(|id| Some(trajectory.values(id).to_vec())).collect();
+        let motion = Motion { origin: "walk".to_owned(), times: trajectory.grid().times(), columns };
+        Some(Source::coordinates(model, motion))
+    };
+    let [result, most, count] = study_per_frame(coordinates).unwrap();
+    println!(
+        "coordinates: {result:.0} bytes a frame, {most:.0} while they are studied, {count:.1} allocations a frame"
+    );
+    assert!(most < 4000.0 && result < 3000.0 && count < 20.0, "{result} {most} {count}");
 }

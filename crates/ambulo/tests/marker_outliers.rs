@@ -250,7 +250,14 @@ fn frames_whose_fit_takes_too_many_steps_are_reported() {
     for seed in 0..3 {
         let (fit, findings) = fitted(&subject, &damaged(&subject, 150, seed), OutlierDetection::On);
         let empty = empty_frames(&fit);
-        println!("seed {seed}: {} solves for {frames} frames, {empty} without values", fit.solves);
+        println!(
+            "seed {seed}: {} solves for {frames} frames, {empty} without values, {:.0} mm rms in the others",
+            fit.solves,
+            1e3 * rms(&fit)
+        );
+        // A frame whose fit was stopped has no coordinates, and no distance that would pass for a result.
+        let stopped = (0..frames).filter(|&frame| fit.rms_m[frame].is_nan()).count();
+        assert_eq!(stopped, empty, "seed {seed}: frames without values are those without a distance");
         assert!(fit.solves <= most_solves(frames), "seed {seed}: {} solves", fit.solves);
         assert!(empty < frames / 2, "seed {seed}: {empty} of {frames} frames without values");
         assert!(findings.has(Code::MarkersUnfitted), "seed {seed}: {:?}", findings.as_slice());
