@@ -1,6 +1,10 @@
 //! Nothing is allocated per frame after the first, and what a prediction and a stream hold is bounded: counted by an allocator of this
 //! process.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, in its helpers too, and says why it skips"
+)]
 #![expect(unsafe_code, reason = "an allocator is unsafe by its trait; this one counts and forwards")]
 
 mod common;
