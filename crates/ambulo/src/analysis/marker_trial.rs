@@ -155,7 +155,7 @@ pub(crate) fn fit_body_to_markers(
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let MarkerTrial { trial, standing, body, plate_feet } = trial;
     let (axes, LaboratoryRecording { markers, plates, .. }) = trial.in_world(findings);
-    let markers = trimmed_to_visible(&markers, findings);
+    let markers = trimmed_to_visible(markers, findings);
     progress.end(Stage::Axes)?;
     let standing = standing.map(|standing| standing.in_world(findings).1.markers);
     let subject = match body {
@@ -172,6 +172,8 @@ pub(crate) fn fit_body_to_markers(
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
+    // The fit has its own copy of what it followed.
+    drop(markers);
     progress.end(Stage::Markers)?;
     let feet = foot_motion(&fit.followed, findings);
     let on_plates = feet_on_plates(&fit.followed, &plates, &feet, plate_feet, findings);
@@ -315,7 +317,7 @@ impl Subject {
 }
 
 /// The recording without beginning and end where less than half of the markers are visible.
-fn trimmed_to_visible(markers: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
+fn trimmed_to_visible(markers: MarkerRecording, findings: &mut Findings) -> MarkerRecording {
     let visible = markers.trimmed_to_visible();
     if let (true, [first, .., last]) = (visible.frames() < markers.frames(), &visible.times[..]) {
         let message = format!(
