@@ -8,6 +8,7 @@ use crate::common::assembly::{Assembly, Axes, Frames, inertia};
 use crate::common::random::{self, Case, Random, Recipe, Waves};
 use crate::common::{State, assert_near, derivatives, distance, largest, load_series, rebuilt, trajectory};
 use ambulo::dynamics::{self, BodyLoad, Forces, Workspace};
+use ambulo::ground::predict::total_wrench;
 use ambulo::kinematics::{BodyMotion, body_motion};
 use ambulo::model::{Body, BodyId, Joint, JointAxis, JointSpeeds, Model};
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3, Wrench};
@@ -241,6 +242,24 @@ fn ground_carries_mass_times_acceleration_less_gravity_and_loads() {
         let tolerance = RELATIVE * largest_reaction(&forces).max(1.0);
         assert!((needed.force - carried.force).amax() <= tolerance, "force, seed {seed}");
         assert!((needed.moment - carried.moment).amax() <= tolerance, "moment, seed {seed}");
+    }
+}
+
+#[test]
+fn the_total_wrench_of_a_motion_is_that_of_newton_and_euler_in_each_of_its_frames() {
+    for seed in 0..60 {
+        let mut r = Random::new(seed);
+        let model = random::model(&mut r, if seed % 2 == 0 { Recipe::ANY } else { Recipe::FREE });
+        // No multiple of the eight frames that are computed together.
+        let states: Vec<State> = (0..11).map(|_| random::state(&mut r, &model)).collect();
+        let total = total_wrench(&model, &trajectory(&model, &states));
+        assert_eq!(total.len(), states.len(), "seed {seed}");
+        for (frame, (state, found)) in states.iter().zip(&total).enumerate() {
+            let needed = needed_from_ground(&model, state, &[]);
+            let tolerance = RELATIVE * largest_reaction(&solve_all(&model, state, &[])).max(1.0);
+            assert!((needed.force - found.force).amax() <= tolerance, "force, seed {seed}, frame {frame}");
+            assert!((needed.moment - found.moment).amax() <= tolerance, "moment, seed {seed}, frame {frame}");
+        }
     }
 }
 

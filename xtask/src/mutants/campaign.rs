@@ -154,7 +154,7 @@ pub(super) fn sample(
     let (mut quick, mut wide) = (Tests::quick(module), Tests::wide(module));
     for batch in drawn.chunks(BATCH) {
         let mut outcomes = place.run(module, batch, &mut quick)?;
-        let missed: Vec<String> = outcomes.keys().filter(|name| outcomes[*name] == Outcome::Missed).cloned().collect();
+        let missed = with(&outcomes, Outcome::Missed);
         if !missed.is_empty() {
             outcomes.extend(place.run(module, &missed, &mut wide)?);
         }
@@ -175,11 +175,21 @@ pub(super) fn retry(place: &Place, module: &Module, mut record: Record) -> Resul
         return Ok(record);
     }
     record.measured_at(&place.commit);
-    for (name, outcome) in place.run(module, &missed, &mut Tests::wide(module))? {
+    let mut outcomes = place.run(module, &missed, &mut Tests::quick(module))?;
+    let missed = with(&outcomes, Outcome::Missed);
+    if !missed.is_empty() {
+        outcomes.extend(place.run(module, &missed, &mut Tests::wide(module))?);
+    }
+    for (name, outcome) in outcomes {
         let outcome = if outcome == Outcome::Missed { Outcome::Missed } else { Outcome::Mended };
         record.outcomes.insert(name, outcome);
     }
     Ok(record)
+}
+
+/// Names of the mutants with one outcome.
+fn with(outcomes: &Outcomes, wanted: Outcome) -> Vec<String> {
+    outcomes.iter().filter(|(_, outcome)| **outcome == wanted).map(|(name, _)| name.clone()).collect()
 }
 
 /// A random sample: the first `count` of a shuffle (Fisher, Yates) with the generator SplitMix64 (Steele, Lea, Flood 2014; unverified).

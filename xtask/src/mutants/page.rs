@@ -1,6 +1,6 @@
 //! The page `docs/measured/MUTANTS.md`, from recorded outcomes and reasons.
 
-use super::modules::{MODULES, SLOW};
+use super::modules::MODULES;
 use super::record::{Counts, Outcome, Record, reasons};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -34,6 +34,14 @@ pub(super) fn render(folder: &Path) -> Result<String, String> {
         "Commits and seeds: {}.\n",
         origins(records.iter().map(|(module, record)| (module.name, record)))
     );
+    let absent: Vec<String> = MODULES
+        .iter()
+        .filter(|module| !records.iter().any(|(known, _)| known.name == module.name))
+        .map(|module| format!("`{}`", module.name))
+        .collect();
+    if !absent.is_empty() {
+        let _ = writeln!(page, "Not yet run: {}.\n", absent.join(", "));
+    }
     let list = |page: &mut String, title: &str, wanted: Outcome| {
         let _ = writeln!(page, "## {title}\n");
         let names = records.iter().flat_map(|(_, record)| record.with(wanted)).collect::<Vec<_>>();
@@ -45,14 +53,13 @@ pub(super) fn render(folder: &Path) -> Result<String, String> {
 }
 
 fn introduction() -> String {
-    let skipped: Vec<String> = SLOW.iter().map(|name| format!("`{}`", name.trim_end_matches(':'))).collect();
     format!(
         "# What the tests would notice
 
 `cargo mutants` changes one function of the library at a time: another operator, another return value, a lost branch. A mutant that no
 test notices survives. `cargo xtask mutants` runs all mutants of two files and random samples of larger modules, first with the quick
-tests of the subject, then the survivors with wider tests. Tests that take more than five seconds are left out ({}), so a survivor here may still fail
-in a complete run.
+tests of the subject, then the survivors with wider tests. Tests that take more than five seconds are left out
+(`xtask/src/mutants/modules.rs` lists them), so a survivor here may still fail in a complete run.
 
 A mutant is *viable* if it compiles. *At first* is the share of viable mutants that the tests caught when the sample was drawn, with
 Wilson's 95 % interval: an estimate for the whole module where it is a sample. *Now* includes tests written for the survivors, and so is
@@ -64,7 +71,6 @@ line and column, so any edit would make the page old. The commits below were mea
 | module | mutants | run | viable | caught | timeouts | caught since | survivors | at first | Wilson 95 % | now |
 |:---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|
 ",
-        skipped.join(", "),
         100.0 * REQUIRED
     )
 }
@@ -101,9 +107,12 @@ fn wilson(hits: usize, trials: usize) -> (f64, f64) {
 /// Where the outcomes come from.
 fn origins<'a>(records: impl Iterator<Item = (&'a str, &'a Record)>) -> String {
     let one = |(name, record): (&str, &Record)| {
-        let drawn =
-            if record.outcomes.len() < record.mutants { format!(", seed {}", record.seed) } else { String::new() };
-        format!("{name} {}{drawn}", record.commit)
+        let drawn = match (record.outcomes.len() < record.mutants, record.note.as_str()) {
+            (false, _) => "all mutants".to_owned(),
+            (true, "") => format!("seed {}", record.seed),
+            (true, note) => note.to_owned(),
+        };
+        format!("{name} {} ({drawn})", record.commit)
     };
     records.map(one).collect::<Vec<_>>().join("; ")
 }

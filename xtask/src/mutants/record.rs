@@ -1,6 +1,6 @@
 //! Outcomes of mutants, one file per module, and the reasons for survivors.
 //!
-//! A file begins with `commit`, `seed` and `mutants` (how many the module has); then one line per mutant that was run: outcome, blank,
+//! A file begins with `commit`, `seed`, `mutants` (how many the module has) and perhaps `note` (why it is no random sample); then one line per mutant that was run: outcome, blank,
 //! name as `cargo mutants --list` shows it. A line of `reasons.txt` is a name, ` => ` and the reason.
 
 use std::collections::BTreeMap;
@@ -40,6 +40,8 @@ pub(super) struct Record {
     pub(super) seed: u64,
     /// Mutants of the module, run or not.
     pub(super) mutants: usize,
+    /// Why the mutants that were run are no random sample; empty if they are one, or all.
+    pub(super) note: String,
     /// Outcome of each mutant that was run, by name.
     pub(super) outcomes: BTreeMap<String, Outcome>,
 }
@@ -117,6 +119,7 @@ impl Record {
             let (word, rest) = line.split_once(' ').ok_or_else(wrong)?;
             match word {
                 "commit" => record.commit = rest.to_owned(),
+                "note" => record.note = rest.to_owned(),
                 "seed" => record.seed = rest.parse().map_err(|_| wrong())?,
                 "mutants" => record.mutants = rest.parse().map_err(|_| wrong())?,
                 _ => {
@@ -130,6 +133,9 @@ impl Record {
 
     fn text(&self) -> String {
         let mut text = format!("commit {}\nseed {}\nmutants {}\n", self.commit, self.seed, self.mutants);
+        if !self.note.is_empty() {
+            let _ = writeln!(text, "note {}", self.note);
+        }
         for (name, outcome) in &self.outcomes {
             let word = WORDS.iter().find(|(known, _)| known == outcome).map_or("", |(_, word)| word);
             let _ = writeln!(text, "{word} {name}");
@@ -175,7 +181,7 @@ mod tests {
         let outcomes =
             [("a.rs:1:2: replace + with -", Outcome::Caught), ("a.rs:9:1: replace f with ()", Outcome::Mended)];
         let outcomes = outcomes.into_iter().map(|(name, outcome)| (name.to_owned(), outcome)).collect();
-        let record = Record { commit: "abc".to_owned(), seed: 3, mutants: 12, outcomes };
+        let record = Record { commit: "abc".to_owned(), seed: 3, mutants: 12, note: "in order".to_owned(), outcomes };
         assert_eq!(Record::parse(&record.text()), Ok(record.clone()));
         assert_eq!(record.with(Outcome::Mended), ["a.rs:9:1: replace f with ()"]);
         assert_eq!((record.counts().run(), record.counts().noticed_at_first()), (2, 1));
