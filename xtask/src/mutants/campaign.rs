@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 const QUICK_LIMIT_S: u32 = 30;
 const WIDE_LIMIT_S: u32 = 300;
 /// Mutants between two savings of the record.
-const BATCH: usize = 20;
+const BATCH: usize = 10;
 /// Exit codes of `cargo mutants` when it has run: nothing missed, some missed, some timed out.
 const RAN: [i32; 3] = [0, 2, 3];
 /// Its files of outcomes.
