@@ -54,7 +54,7 @@ fn the_paper_is_recomputed_into_the_documented_files() {
             .text("paper/assumptions.csv")
             .starts_with("what,value,why,other,claim,headline,with_value,with_other,turns\n")
     );
-    assert_eq!(bench.text("paper/assumptions.csv").lines().count(), 1 + 13);
+    assert_eq!(bench.text("paper/assumptions.csv").lines().count(), 1 + 15);
     the_page_says_what_the_files_say(&bench.text("paper/report.html"), rows);
 }
 

@@ -130,8 +130,12 @@ fn the_walk_of_the_papers_mode_is_infeasible() {
 
 #[test]
 fn a_gait_that_cannot_be_made_consistent_gives_a_warning_and_a_verdict() {
-    let bench = Workbench::empty("walk_goose");
-    let run = bench.run(&["walk", "--gait", "goose", "--cycles", "1", "-o", "out"]).infeasible();
+    let bench = Workbench::empty("walk_parade");
+    bench.write(
+        "fast.toml",
+        "name = \"fast parade\"\nbase = \"parade\"\ncadence_scale = 1.0\nstep_length_scale = 1.0\n",
+    );
+    let run = bench.run(&["walk", "--gait", "fast.toml", "--cycles", "1", "-o", "out"]).infeasible();
     run.reports(&["warning: no small change makes this gait dynamically consistent", "hint: "]);
     let findings = bench.json("out/summary.json")["findings"].clone();
     assert!(findings.as_array().unwrap().iter().any(|f| f["code"] == "walk.not_consistent"), "{findings}");
@@ -239,7 +243,10 @@ fn impossible_walks_are_rejected() {
         refused(&["--height", height], &["the height is", "expected 0.4 to 2.5 m"]);
     }
     refused(&["--mass", "20"], &["20 kg at 1.75 m; expected"]);
-    refused(&["--gait", "moonwalk"], &["--gait", "found `moonwalk`", "standard, long, short, goose, slow, free, fast"]);
+    refused(
+        &["--gait", "moonwalk"],
+        &["--gait", "found `moonwalk`", "standard, long, short, goose, parade, slow, free, fast"],
+    );
     refused(&["--gait", "gose"], &["hint: did you mean `goose`?"]);
     refused(&["--style", "2024"], &["--style: found `2024`; expected one of knots, 1997"]);
     refused(&["--figure", "barbie"], &["--figure", "no figure is named `barbie`", "de-leva-male"]);

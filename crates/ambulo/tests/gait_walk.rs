@@ -35,7 +35,7 @@ fn the_left_leg_is_half_a_cycle_behind() {
 
 #[test]
 fn the_paper_s_gaits_have_its_periods() {
-    for (name, period) in [("standard", 1.0), ("long", 1.0), ("short", 0.62), ("goose", 0.82)] {
+    for (name, period) in [("standard", 1.0), ("long", 1.0), ("short", 0.62), ("goose", 0.82), ("parade", 5.0 / 3.0)] {
         let walk = walk(name);
         assert!((walk.cycle_s() - period).abs() < 1e-12, "{name}: {}", walk.cycle_s());
     }
@@ -58,7 +58,7 @@ fn numbers_that_no_gait_can_have_are_refused() {
     let error = Gait::named("freee").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "gait: found `freee`; expected one of standard, long, short, goose, slow, free, fast. hint: did you mean `free`?"
+        "gait: found `freee`; expected one of standard, long, short, goose, parade, slow, free, fast. hint: did you mean `free`?"
     );
 }
 

@@ -36,7 +36,8 @@ pub(crate) struct DemoArgs {
 
 Modes: `corrected` changes the gait by a few degrees until it has no residual forces, and simulates it on soft shoes; `paper` drives the
 joints with the unchanged curves, holds the trunk upright and has rigid soles, as Faure, Debunne, Cani and Multon did in 1997. Both modes
-take every gait and style. The gaits standard, long, short and goose are from the paper; without --style they use style 1997 in the mode
+take every gait and style. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
+step with straight knees; without --style they use style 1997 in the mode
 `paper` and style knots in the mode `corrected`. If no small change makes a gait dynamically consistent, a warning says so.
 
 Two of --speed, --step-length and --cadence determine the third. With one of them, the others follow from the usual relation of step length
@@ -89,7 +90,7 @@ pub(crate) struct WalkArgs {
 /// The gait to synthesise.
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct GaitArgs {
-    /// Name of a gait (standard, long, short, goose, slow, free, fast) or a gait file (docs/GAITS.md).
+    /// Name of a gait (standard, long, short, goose, parade, slow, free, fast) or a gait file (docs/GAITS.md).
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "free")]
     pub(crate) gait: String,
     /// Walking speed, 0.05 to 5 m/s [default: the gait's].

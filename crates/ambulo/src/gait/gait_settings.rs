@@ -147,15 +147,22 @@ const GOOSE_PERIOD_S: f64 = 0.82;
 /// Long steps: the paper gives no length. A fifth longer than standard, 0.90 m: near the longest step for which the linear laws keep
 /// every joint within the measured range of fast walking (hip 45°, knee 62°).
 const LONG_STEP: f64 = 1.2;
-/// Goose step: the paper gives no angles. Nearly stiff knees (a fifth of their flexion) and 1.6 times the largest hip flexion, which
-/// comes 8 % of the cycle earlier, so that the leg is not lowered faster than raised (100 and 80 rad/s² at the hip).
-const GOOSE_KNEE: f64 = 0.2;
-const GOOSE_HIP: f64 = 1.6;
-const GOOSE_EARLIER: f64 = 0.08;
+/// Goose step: section 2.2 makes gaits from step length, frequency and height. The paper gives the period alone; a goose step is a high
+/// step, here half as high again as the standard one, of the standard length.
+const GOOSE_HEIGHT: f64 = 1.5;
+/// Parade step, which is not in the paper: nearly straight knees (a fifth of their flexion) and twice the largest hip flexion, which comes
+/// 10 % of the cycle earlier, so that the leg is not lowered faster than raised. It is a slow march, 72 steps a minute of 0.7 times the
+/// standard length: from about 96 steps a minute on, straight legs cannot be swung and set down without flight (`ambulo walk`, mode
+/// `corrected`).
+const PARADE_KNEE: f64 = 0.2;
+const PARADE_HIP: f64 = 2.0;
+const PARADE_EARLIER: f64 = 0.10;
+const PARADE_STEP: f64 = 0.7;
+const PARADE_PERIOD_S: f64 = 5.0 / 3.0;
 
 impl Gait {
     /// Names of the built-in gaits.
-    pub const NAMES: [&'static str; 7] = ["standard", "long", "short", "goose", "slow", "free", "fast"];
+    pub const NAMES: [&'static str; 8] = ["standard", "long", "short", "goose", "parade", "slow", "free", "fast"];
 
     /// A built-in gait.
     ///
@@ -187,7 +194,8 @@ impl Gait {
             "long" => Ok(paced(LONG_STEP, STANDARD_PERIOD_S)),
             // The paper gives no length. At the mean speed of `standard`, the step length is proportional to the period.
             "short" => Ok(paced(SHORT_PERIOD_S / STANDARD_PERIOD_S, SHORT_PERIOD_S)),
-            "goose" => Ok(Gait { changes: goose_changes(), ..paced(1.0, GOOSE_PERIOD_S) }),
+            "goose" => Ok(Gait { step_height: GOOSE_HEIGHT, ..paced(1.0, GOOSE_PERIOD_S) }),
+            "parade" => Ok(Gait { changes: parade_changes(), ..paced(PARADE_STEP, PARADE_PERIOD_S) }),
             _ => Err(unknown_gait(name)),
         }
     }
@@ -225,11 +233,11 @@ impl Gait {
     pub(super) const DEFAULT_SPEED: f64 = FREE_SPEED;
 }
 
-fn goose_changes() -> Vec<KnotChange> {
+fn parade_changes() -> Vec<KnotChange> {
     let scaled = |joint: LegJoint, knot: &str, scale: f64| KnotChange { scale, ..KnotChange::of(joint, knot) };
     let knees = ["stance peak", "stance minimum", "swing peak", "terminal minimum"];
-    let mut changes: Vec<KnotChange> = knees.iter().map(|knot| scaled(LegJoint::Knee, knot, GOOSE_KNEE)).collect();
-    changes.push(KnotChange { phase: -GOOSE_EARLIER, ..scaled(LegJoint::Hip, "largest flexion", GOOSE_HIP) });
+    let mut changes: Vec<KnotChange> = knees.iter().map(|knot| scaled(LegJoint::Knee, knot, PARADE_KNEE)).collect();
+    changes.push(KnotChange { phase: -PARADE_EARLIER, ..scaled(LegJoint::Hip, "largest flexion", PARADE_HIP) });
     changes
 }
 

@@ -93,8 +93,14 @@ fn about_the_figure() -> Vec<Assumption> {
         with(
             "positions of the spheres under the feet",
             "heel, ball and tip of the toes",
-            "foot length of Drillis and Contini; the 8.9 % of stature in Table 1 are not a foot length",
+            "the foot of a person stands on these",
             vec![("heel and ball only", PaperSettings { toe_spheres: false, ..taken })],
+        ),
+        with(
+            "foot of 8.9 % of stature in Table 1",
+            "the length of its cylinder; the foot has the 15.2 % of Drillis and Contini",
+            "16 cm are too short for a foot",
+            vec![("from the ankle to the tip of the toes", PaperSettings { toe_reach: Some(0.089), ..taken })],
         ),
         with(
             "laws of the arms",
@@ -156,8 +162,19 @@ fn about_the_gait() -> Vec<Assumption> {
             vec![("1.1 of the standard length", PaperSettings { own_length: Some(("long", 1.1)), ..taken })],
         ),
         with(
+            "goose steps",
+            "1.5 times the standard height, of the standard length",
+            "section 2.2 makes gaits from step length, frequency and height; the paper gives the period alone",
+            vec![
+                ("1.25 times the standard height", PaperSettings { own_height: Some(("goose", 1.25)), ..taken }),
+                ("2.0 times the standard height", PaperSettings { own_height: Some(("goose", 2.0)), ..taken }),
+                ("1.2 times the standard length", PaperSettings { own_length: Some(("goose", 1.2)), ..taken }),
+                ("straight knees, as in `parade`", PaperSettings { straight_goose: true, ..taken }),
+            ],
+        ),
+        with(
             "step height of the gaits",
-            "as in the curves",
+            "as in the curves; goose steps as above",
             "the paper scales it but gives no number",
             vec![
                 ("1.5 times all heights", PaperSettings { step_height: 1.5, ..taken }),

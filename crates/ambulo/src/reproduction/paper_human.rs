@@ -57,6 +57,29 @@ pub(super) fn with_soles(mut human: Human, factor: f64) -> Human {
     human
 }
 
+/// The foot as a cylinder from the ankle to the tip of the toes, `reach` times the stature long: its spheres in front of the ankle move in
+/// proportion, and its mass centre to half the reach. The heel stays.
+pub(super) fn with_toe_reach(mut human: Human, reach: f64) -> Result<Human, ReproductionError> {
+    let tip = human.soles.iter().map(|sole| sole.center.x + sole.radius).fold(0.0, f64::max);
+    let length = reach * human.build.height;
+    let feet: Vec<_> = human.soles.iter().map(|sole| sole.body).collect();
+    for sole in human.soles.iter_mut().filter(|sole| sole.center.x > 0.0) {
+        sole.center.x = (sole.center.x + sole.radius) * length / tip - sole.radius;
+    }
+    let mut bodies = human.model.bodies().to_vec();
+    for foot in [feet.first(), feet.last()].into_iter().flatten() {
+        let body = &mut bodies[foot.index()];
+        let mut center = body.inertia.center();
+        center.x = 0.5 * length;
+        body.inertia =
+            Inertia::new(body.inertia.mass(), center, body.inertia.about_center()).map_err(BuildError::from)?;
+    }
+    let (name, gravity) = (human.model.name().to_owned(), human.model.gravity());
+    let (coordinates, markers) = (human.model.coordinates().to_vec(), human.model.markers().to_vec());
+    human.model = Model::new(name, gravity, bodies, coordinates, markers).map_err(BuildError::from)?;
+    Ok(human)
+}
+
 /// The axis with the smallest moment of inertia is the axis of the cylinder, with I = m r²/2.
 fn thicker(body: &Body, ratio: f64) -> Result<Body, ReproductionError> {
     let (mass, own) = (body.inertia.mass(), body.inertia.about_center());

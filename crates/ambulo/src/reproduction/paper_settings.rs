@@ -1,7 +1,7 @@
 //! Values that the paper does not give, and their effect on figure, gait and signals.
 
 use super::error::ReproductionError;
-use super::paper_human::{rebuilt, with_soles, with_thickness};
+use super::paper_human::{rebuilt, with_soles, with_thickness, with_toe_reach};
 use crate::contact::HuntCrossley;
 use crate::gait::{Gait, Pelvis, Style, Walk};
 use crate::model::anthropometry::Human;
@@ -20,6 +20,8 @@ pub struct PaperSettings {
     pub sole_radii: f64,
     /// Whether there is a sphere under the tip of the toes.
     pub toe_spheres: bool,
+    /// Distance from the ankle to the tip of the toes, share of the stature; `None` for that of the figure.
+    pub toe_reach: Option<f64>,
     /// Factor on the swing of shoulders and elbows.
     pub arm_swing: f64,
     /// Angle that is added to the flexion of both hips [rad].
@@ -32,6 +34,10 @@ pub struct PaperSettings {
     pub step_height: f64,
     /// Step length of one gait relative to the standard gait, instead of its own.
     pub own_length: Option<(&'static str, f64)>,
+    /// Step height of one gait relative to the standard gait, instead of its own.
+    pub own_height: Option<(&'static str, f64)>,
+    /// Whether the goose step has the straight knees of the built-in gait `parade`, at its own period.
+    pub straight_goose: bool,
     /// Impact law of the soles.
     pub impact: ImpactLaw,
     /// Soft shoes.
@@ -45,12 +51,15 @@ impl Default for PaperSettings {
             thickness: 1.0,
             sole_radii: 1.0,
             toe_spheres: true,
+            toe_reach: None,
             arm_swing: 1.0,
             hip_offset: 0.0,
             style: None,
             step_length: 1.0,
             step_height: 1.0,
             own_length: None,
+            own_height: None,
+            straight_goose: false,
             impact: ImpactLaw::Sticking,
             soft_shoes: HuntCrossley::FALISSE_2022,
         }
@@ -67,13 +76,23 @@ impl PaperSettings {
         if !self.toe_spheres {
             figure.soles.retain(|sole| !sole.name.starts_with("toe"));
         }
-        Ok(figure)
+        match self.toe_reach {
+            Some(reach) => with_toe_reach(figure, reach),
+            None => Ok(figure),
+        }
     }
 
     /// The gait with these settings; the trunk is always held at a constant angle.
     pub(super) fn gait(&self, gait: &Gait) -> Gait {
         let mut gait = Gait { pelvis: Pelvis::Vertical, ..gait.clone() };
+        if self.straight_goose && gait.name == "goose" {
+            gait.changes = Gait::named("parade").map(|parade| parade.changes).unwrap_or_default();
+            gait.step_height = 1.0;
+        }
         gait.pace.length_scale *= self.step_length;
+        if let Some((_, height)) = self.own_height.filter(|(name, _)| *name == gait.name) {
+            gait.step_height = height;
+        }
         gait.step_height *= self.step_height;
         if let Some((_, scale)) = self.own_length.filter(|(name, _)| *name == gait.name) {
             gait.pace.length_scale = scale;
