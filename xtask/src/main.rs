@@ -32,6 +32,9 @@ usage: cargo xtask <command>
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
+  claim-shares      sample the values that the 1997 paper does not give, and count how often its claims hold
+                    [--settings N] [--seed S] [--write: crates/ambulo/data/reproduction/shares.csv]
+  reproduction      recompute the 1997 paper and print its claims  [--write: docs/measured/REPRODUCTION.md]
   figures           draw docs/images/ again with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors
   fit-ground        fit the parameters of the ground-force estimator, leave one subject out  [--write: docs/measured/GROUND_FIT.md]
@@ -52,13 +55,15 @@ environment:
 const OWN: [&str; 6] = ["check", "house", "build-time", "measured", "mutants", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 13] = [
+const MEASUREMENTS: [&str; 15] = [
     "bench",
     "bench-markers",
     "bench-simulation",
     "peers",
     "simulators",
     "oracle-c3d",
+    "claim-shares",
+    "reproduction",
     "figures",
     "fit-gait",
     "fit-ground",

@@ -64,6 +64,23 @@ const PAGES: [Page; 6] = [
         ],
     },
     Page {
+        name: "REPRODUCTION",
+        command: "reproduction",
+        inputs: &[
+            "crates/ambulo/data/gait",
+            "crates/ambulo/data/reproduction",
+            "crates/ambulo/src/contact",
+            "crates/ambulo/src/dynamics",
+            "crates/ambulo/src/gait",
+            "crates/ambulo/src/kinematics",
+            "crates/ambulo/src/model",
+            "crates/ambulo/src/numerics",
+            "crates/ambulo/src/reproduction",
+            "crates/ambulo/src/simulation",
+            "crates/ambulo/src/spatial",
+        ],
+    },
+    Page {
         name: "BENCHMARKS",
         command: "bench-simulation",
         inputs: &["crates/ambulo/src/contact", "crates/ambulo/src/dynamics", "crates/ambulo/src/simulation"],

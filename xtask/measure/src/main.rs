@@ -1,6 +1,7 @@
 //! Commands of `cargo xtask` that need the library: benchmarks, validations and fits. Each command is a file of this folder.
 
 mod bench;
+mod claim_shares;
 mod figures;
 mod fit_gait;
 mod fit_ground;
@@ -10,6 +11,7 @@ mod normative_bands;
 mod npz;
 mod oracle_c3d;
 mod peers;
+mod reproduction;
 mod simulators;
 mod table;
 mod twins;
@@ -33,6 +35,8 @@ fn main() -> ExitCode {
         ("bench", []) => bench::run(),
         ("bench-markers", _) => bench::markers::run(rest),
         ("bench-simulation", _) => bench::simulation::run(rest),
+        ("claim-shares", _) => claim_shares::run(rest),
+        ("reproduction", _) => reproduction::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
         ("normative-bands", []) => normative_bands::run(),

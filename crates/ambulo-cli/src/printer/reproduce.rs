@@ -2,7 +2,7 @@
 
 use super::print_line;
 use crate::args::PrintArgs;
-use ambulo::reproduction::{Claim, Sensitivity};
+use ambulo::reproduction::{Claim, Sensitivity, tally};
 use anyhow::Result;
 use std::path::Path;
 
@@ -15,7 +15,7 @@ pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path,
     }
     for claim in claims {
         let holds = if claim.pass { "holds" } else { "fails" };
-        print_line(&format!("{:3} {holds}  {}", claim.id, claim.paper))?;
+        print_line(&format!("{:3} {holds}  {} ({})", claim.id, claim.paper, claim.kind.words()))?;
         print_line(&format!("           {} = {:.4}", claim.headline, claim.value()))?;
         let reversed = others.iter().filter(|other| other.reversed(claims).contains(&claim.id)).count();
         if reversed > 0 {
@@ -25,7 +25,7 @@ pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path,
             ))?;
         }
     }
-    let held = claims.iter().filter(|claim| claim.pass).count();
-    print_line(&format!("  {held} of {} hold; reasons: claims.json", claims.len()))?;
+    let [held, all] = tally(claims);
+    print_line(&format!("  {held} of {all} claims of the paper hold that could fail; reasons: claims.json"))?;
     print_line(&format!("  written   {}", output.display()))
 }

@@ -4,6 +4,7 @@ use super::claim::{Claim, Judgement};
 use super::error::ReproductionError;
 use super::evidence::{Evidence, Scope};
 use super::mode::{TrialSettings, paper_walk_with};
+use super::paper_human::TABLE_FOOT;
 use super::paper_settings::PaperSettings;
 use super::statements::judgements;
 use crate::contact::HuntCrossley;
@@ -100,7 +101,7 @@ fn about_the_figure() -> Vec<Assumption> {
             "foot of 8.9 % of stature in Table 1",
             "the length of its cylinder; the foot has the 15.2 % of Drillis and Contini",
             "16 cm are too short for a foot",
-            vec![("from the ankle to the tip of the toes", PaperSettings { toe_reach: Some(0.089), ..taken })],
+            vec![("from the ankle to the tip of the toes", PaperSettings { toe_reach: Some(TABLE_FOOT), ..taken })],
         ),
         with(
             "laws of the arms",

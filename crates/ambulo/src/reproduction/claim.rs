@@ -7,11 +7,44 @@ use serde::{Serialize, Serializer};
 /// Named numbers in order; the names contain the units.
 pub type Numbers = Vec<(String, f64)>;
 
+/// What a claim says about the paper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ClaimKind {
+    /// A statement of the paper that could fail.
+    Paper,
+    /// True of every program that is written as the paper says, or by the progress of computers.
+    ByConstruction,
+    /// Not in the paper.
+    Ours,
+}
+
+impl ClaimKind {
+    /// In a table.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            ClaimKind::Paper => "the paper's",
+            ClaimKind::ByConstruction => "true by construction",
+            ClaimKind::Ours => "ours",
+        }
+    }
+}
+
+/// Number of claims of the kind [`ClaimKind::Paper`] that hold, and of all of this kind.
+#[must_use]
+pub fn tally(claims: &[Claim]) -> [usize; 2] {
+    let own = || claims.iter().filter(|claim| claim.kind == ClaimKind::Paper);
+    [own().filter(|claim| claim.pass).count(), own().count()]
+}
+
 /// A claim with its judgement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Claim {
     /// Letter in the list of claims, with a number if the claim has several parts.
     pub id: &'static str,
+    /// Whether the claim counts.
+    pub kind: ClaimKind,
     /// The statement of the paper in short.
     pub paper: &'static str,
     /// Name of the most important number.
@@ -29,6 +62,37 @@ pub struct Claim {
 }
 
 impl Claim {
+    /// Why the claim cannot hold in the paper's model, if that is known.
+    #[must_use]
+    pub fn mechanics(&self) -> &'static str {
+        match self.id {
+            "c1" => {
+                "the forward speed is that of the stance hip, which the driven angles move on over the foot: it stops only where they stop, and \
+                 the joint curves of walking do not"
+            }
+            "c2" => {
+                "the torque holds the trunk upright against forces at the friction limit, and is not only what the changes of speed need"
+            }
+            "c3" => {
+                "the period is one second by definition, which is 120 steps a minute, faster than people's normal walking"
+            }
+            "e1" => {
+                "with a held trunk and driven joints the height of the hips is given, so the vertical force follows the acceleration of the \
+                 curves; a rigid sole takes up the descent in an instant and not in a first peak of the force"
+            }
+            "e3" => {
+                "the impact cancels the whole velocity of the point, so nothing rebounds; a foot leaves the ground when the driven leg lifts it"
+            }
+            "g1" | "g2" | "g3" | "j" => {
+                "accelerations are proportional to step length over period squared, and a low swing touches the rigid ground, which stops the leg"
+            }
+            "i" => {
+                "soft soles store and give back energy that a rigid impact takes away, so the foot lands and lifts more often"
+            }
+            _ => "not known",
+        }
+    }
+
     /// The most important number in the paper's mode.
     #[must_use]
     pub fn value(&self) -> f64 {
@@ -41,6 +105,8 @@ impl Claim {
 pub struct Judgement {
     /// Letter and number of the claim.
     pub id: &'static str,
+    /// Whether the claim counts.
+    pub kind: ClaimKind,
     /// Whether the claim holds.
     pub pass: bool,
     /// Name of the most important number.
@@ -52,6 +118,7 @@ pub struct Judgement {
 /// A claim with the functions that measure and judge it.
 pub(super) struct Statement {
     pub(super) id: &'static str,
+    pub(super) kind: ClaimKind,
     pub(super) paper: &'static str,
     /// Name of the most important number.
     pub(super) headline: &'static str,
@@ -68,14 +135,20 @@ impl Statement {
         let corrected = corrected.map(self.measure);
         let (pass, note) = (self.judge)(&paper_mode, corrected.as_ref());
         let headline = self.headline;
-        Claim { id: self.id, paper: self.paper, headline, paper_mode, corrected, pass, note }
+        Claim { id: self.id, kind: self.kind, paper: self.paper, headline, paper_mode, corrected, pass, note }
     }
 
     /// The judgement in the paper's mode alone.
     pub(super) fn judgement(&self, paper: &Evidence) -> Judgement {
         let numbers = (self.measure)(paper);
         let (pass, _) = (self.judge)(&numbers, None);
-        Judgement { id: self.id, pass, headline: self.headline, value: number(&numbers, self.headline) }
+        Judgement {
+            id: self.id,
+            kind: self.kind,
+            pass,
+            headline: self.headline,
+            value: number(&numbers, self.headline),
+        }
     }
 }
 

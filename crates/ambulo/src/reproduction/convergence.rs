@@ -5,7 +5,7 @@
 //! for 20 ms around the impacts of both walks; and the integral of the torque since the start of that cycle, impacts included. Both are root
 //! mean squares in percent of the range over the cycle.
 
-use super::claim::{Numbers, Statement, number, numbers};
+use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, RATES_HZ, Scope};
 use super::mode::Run;
 use super::steady::{POINTS, Steady, mean, range_of, rms};
@@ -15,6 +15,7 @@ pub(super) const JOINTS: [(&str, &str); 3] =
 
 pub(super) const TORQUE: Statement = Statement {
     id: "a1",
+    kind: ClaimKind::Paper,
     paper: "the torque curves converge to a solution as the sampling rate grows (shown at 30 Hz)",
     headline: "order",
     scope: Scope::Full,
@@ -24,6 +25,7 @@ pub(super) const TORQUE: Statement = Statement {
 
 pub(super) const IMPULSE: Statement = Statement {
     id: "a2",
+    kind: ClaimKind::Ours,
     paper: "the same for the integral of torques and impacts over time",
     headline: "order",
     scope: Scope::Full,
@@ -122,6 +124,7 @@ const SLIGHT_PERCENT: f64 = 5.0;
 
 pub(super) const PERIOD: Statement = Statement {
     id: "b",
+    kind: ClaimKind::ByConstruction,
     paper: "all torques have a one second period; only slight differences between two periods",
     headline: "hip_cycle_to_cycle_percent",
     scope: Scope::Brief,

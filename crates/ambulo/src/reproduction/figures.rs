@@ -128,7 +128,7 @@ fn quintics() -> PaperFigure {
 }
 
 /// Leg length of the paper's figure [m].
-const REFERENCE_LEG: f64 = 0.954;
+pub(super) const REFERENCE_LEG: f64 = 0.954;
 
 fn leg_curve(walk: &Walk, angle: fn(&LegAngles) -> Jet) -> Vec<[f64; 2]> {
     let law_speed = walk.clock(0.0).law_speed;

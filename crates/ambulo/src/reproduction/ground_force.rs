@@ -1,6 +1,6 @@
 //! Claim (e), figure 5: the vertical force under a foot has two peaks as in measurements; the figure bounces and has flight phases.
 
-use super::claim::{Numbers, Statement, number, numbers};
+use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, Scope};
 use super::mode::Run;
 use super::steady::{POINTS, STEADY_CYCLES, Steady, correlation, mean_of};
@@ -10,9 +10,12 @@ use crate::model::Side;
 const PROMINENCE: f64 = 0.1;
 /// Correlation of curves that count as "quite similar".
 const SIMILAR: f64 = 0.7;
+/// Landings per step above which a foot bounces: one landing in ten steps more than a walk needs.
+const BOUNCES: f64 = 1.1;
 
 pub(super) const HUMPS: Statement = Statement {
     id: "e1",
+    kind: ClaimKind::Paper,
     paper: "the vertical force during support is quite similar to measured ones: two peaks",
     headline: "correlation_with_measured",
     scope: Scope::Brief,
@@ -33,7 +36,8 @@ pub(super) const HUMPS: Statement = Statement {
 
 pub(super) const FLIGHT: Statement = Statement {
     id: "e2",
-    paper: "bouncing when the foot hits the ground, and an unwanted flying phase",
+    kind: ClaimKind::Paper,
+    paper: "an unwanted flying phase",
     headline: "flight_percent",
     scope: Scope::Brief,
     measure: |evidence| bounce(evidence.standard()),
@@ -51,6 +55,23 @@ pub(super) const FLIGHT: Statement = Statement {
              step{better}"
         );
         (flight > 1.0, note)
+    },
+};
+
+pub(super) const BOUNCING: Statement = Statement {
+    id: "e3",
+    kind: ClaimKind::Paper,
+    paper: "bouncing occurs when the foot hits the ground",
+    headline: "landings_a_step",
+    scope: Scope::Brief,
+    measure: |evidence| bounce(evidence.standard()),
+    judge: |paper, _| {
+        let landings = number(paper, "landings_a_step");
+        let note = format!(
+            "passes if a foot lands more than {BOUNCES} times per step; it lands {landings:.1} times. A point that loses all of its velocity in \
+             an impact cannot bounce; the foot leaves the ground because the driven legs lift it"
+        );
+        (landings > BOUNCES, note)
     },
 };
 

@@ -1,6 +1,6 @@
 //! Claim (h), figure 4: hip, knee and ankle torques of the standard gait.
 
-use super::claim::{Numbers, Statement, number, numbers};
+use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::convergence::JOINTS;
 use super::evidence::Scope;
 use super::steady::{Steady, correlation, mean, range_of, rms};
@@ -13,6 +13,7 @@ const FEW: f64 = 4.0;
 
 pub(super) const ORDER: Statement = Statement {
     id: "h1",
+    kind: ClaimKind::Paper,
     paper: "torques at the hip are greater than at the knee, those at the ankle are lower",
     headline: "hip_largest_nm",
     scope: Scope::Brief,
@@ -47,6 +48,7 @@ pub(super) const ORDER: Statement = Statement {
 
 pub(super) const ALIKE: Statement = Statement {
     id: "h2",
+    kind: ClaimKind::Paper,
     paper: "the shapes of hip and knee torques look alike",
     headline: "r_hip_knee",
     scope: Scope::Brief,
@@ -67,6 +69,7 @@ pub(super) const ALIKE: Statement = Statement {
 
 pub(super) const CONTINUOUS: Statement = Statement {
     id: "h3",
+    kind: ClaimKind::Paper,
     paper: "all torques are rather continuous",
     headline: "hip_jumps_a_cycle",
     scope: Scope::Brief,
@@ -104,6 +107,7 @@ pub(super) const CONTINUOUS: Statement = Statement {
 
 pub(super) const SIGNS: Statement = Statement {
     id: "h4",
+    kind: ClaimKind::Paper,
     paper: "support: a negative propulsive torque, then a positive one; swing: a lower positive torque brings the leg back",
     headline: "hip_mean_late_support_nm",
     scope: Scope::Brief,

@@ -1,6 +1,6 @@
 //! Claim (f), figure 6: the effect of the mass of the figure on the hip torque.
 
-use super::claim::{Numbers, Statement, number, numbers};
+use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{MASSES, Scope};
 use super::mode::Run;
 use super::paper_human::MASS;
@@ -12,6 +12,7 @@ const EXACT: f64 = 1e-6;
 
 pub(super) const EXACTLY: Statement = Statement {
     id: "f1",
+    kind: ClaimKind::ByConstruction,
     paper: "the amplitude of the torques changes in a scale close to that of the weight, the shape stays",
     headline: "departure_60_kg",
     scope: Scope::Full,
@@ -38,6 +39,7 @@ pub(super) const EXACTLY: Statement = Statement {
 
 pub(super) const NEARLY: Statement = Statement {
     id: "f2",
+    kind: ClaimKind::Paper,
     paper: "the change of mass slightly changes the torques during the swing phase too",
     headline: "dense_100_kg_swing_difference_percent",
     scope: Scope::Full,

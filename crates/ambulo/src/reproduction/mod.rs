@@ -12,6 +12,7 @@ mod paper_human;
 mod paper_settings;
 mod steady;
 
+mod action;
 mod assumptions;
 mod bounce;
 mod claim;
@@ -20,7 +21,9 @@ mod forward;
 mod gaits;
 mod ground_force;
 mod joints;
+mod laws;
 mod mass;
+mod shares;
 mod sliding;
 mod statements;
 
@@ -29,7 +32,7 @@ mod harmonics;
 mod muscles;
 
 pub use assumptions::{Assumption, Sensitivity, assumptions, sensitivities};
-pub use claim::{Claim, Judgement, Numbers, number};
+pub use claim::{Claim, ClaimKind, Judgement, Numbers, number, tally};
 pub use corrected::CorrectedMode;
 pub use error::ReproductionError;
 pub use evidence::{CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope};
@@ -40,5 +43,6 @@ pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk, paper_walk_with};
 pub use muscles::{MuscleRow, PHASES, muscle_table};
 pub use paper_human::{HEIGHT, MASS, paper_human};
 pub use paper_settings::PaperSettings;
+pub use shares::{OpenValues, StoredShares, judged_of_the_paper, shares_csv, stored_shares};
 pub use statements::{claims, judgements};
 pub use steady::{IMPACT_MARGIN_S, POINTS, STEADY_CYCLES, Steady, correlation, extremes, mean, mean_of, range_of, rms};

@@ -17,7 +17,7 @@ pub const PHASES: [(&str, f64, f64); 7] = [
     ("terminal swing", 0.87, 1.0),
 ];
 /// Joint, coordinate, and the groups with positive and negative moment.
-const GROUPS: [(&str, &str, [&str; 2]); 3] = [
+pub(super) const GROUPS: [(&str, &str, [&str; 2]); 3] = [
     ("hip", "hip_flexion_r", ["flexors", "extensors"]),
     ("knee", "knee_angle_r", ["extensors", "flexors"]),
     ("ankle", "ankle_angle_r", ["dorsiflexors", "plantarflexors"]),

@@ -9,6 +9,8 @@ use crate::spatial::{Inertia, Mat3};
 pub const MASS: f64 = 80.0;
 /// Its stature, which the paper does not give [m].
 pub const HEIGHT: f64 = 1.80;
+/// Length of the foot in Table 1, share of the stature.
+pub(super) const TABLE_FOOT: f64 = 0.089;
 
 /// The figure of the paper: Table 1, 80 kg.
 ///

@@ -34,6 +34,10 @@ pub struct PaperSettings {
     pub step_height: f64,
     /// Step length of one gait relative to the standard gait, instead of its own.
     pub own_length: Option<(&'static str, f64)>,
+    /// Step length of the short steps relative to the standard gait, instead of their own.
+    pub short_length: Option<f64>,
+    /// The same for the long steps.
+    pub long_length: Option<f64>,
     /// Step height of one gait relative to the standard gait, instead of its own.
     pub own_height: Option<(&'static str, f64)>,
     /// Whether the goose step has the straight knees of the built-in gait `parade`, at its own period.
@@ -58,6 +62,8 @@ impl Default for PaperSettings {
             step_length: 1.0,
             step_height: 1.0,
             own_length: None,
+            short_length: None,
+            long_length: None,
             own_height: None,
             straight_goose: false,
             impact: ImpactLaw::Sticking,
@@ -94,6 +100,11 @@ impl PaperSettings {
             gait.step_height = height;
         }
         gait.step_height *= self.step_height;
+        for (name, length) in [("short", self.short_length), ("long", self.long_length)] {
+            if let Some(length) = length.filter(|_| gait.name == name) {
+                gait.pace.length_scale = length * self.step_length;
+            }
+        }
         if let Some((_, scale)) = self.own_length.filter(|(name, _)| *name == gait.name) {
             gait.pace.length_scale = scale;
         }

@@ -4,7 +4,7 @@
 //! In double support the figure, with prescribed joints and a held trunk, has two degrees of freedom for the four that two resting soles
 //! would fix: where the joint curves give the feet different speeds, one foot must slip with any friction.
 
-use super::claim::{Numbers, Statement, number, numbers};
+use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, FRICTION, FRICTIONS, Scope};
 use super::mode::Run;
 use super::steady::{STEADY_CYCLES, Steady, rms};
@@ -17,6 +17,7 @@ const NO_SLIP_M: f64 = 1e-3;
 
 pub(super) const SINGLE: Statement = Statement {
     id: "d1",
+    kind: ClaimKind::Paper,
     paper: "the character slides even with a friction coefficient as high as 1",
     headline: "slip_on_one_foot_mm_a_step",
     scope: Scope::Brief,
@@ -42,6 +43,7 @@ pub(super) const SINGLE: Statement = Statement {
 
 pub(super) const FORCED: Statement = Statement {
     id: "d2",
+    kind: ClaimKind::Ours,
     paper: "(not in the paper) sliding that no friction can prevent: in double support the feet have different speeds",
     headline: "forced_slip_mm_a_step",
     scope: Scope::Brief,

@@ -2,20 +2,26 @@
 
 use super::claim::{Claim, Judgement, Statement};
 use super::evidence::{Evidence, Scope};
-use super::{bounce, convergence, forward, gaits, ground_force, joints, mass, sliding};
+use super::{action, bounce, convergence, forward, gaits, ground_force, joints, laws, mass, sliding};
 
 /// All statements, in the order of the figures in the paper.
-const STATEMENTS: [Statement; 22] = [
+const STATEMENTS: [Statement; 30] = [
+    laws::SMOOTH,
+    laws::SPEED_LAW,
+    laws::CHANGE,
     convergence::TORQUE,
     convergence::IMPULSE,
     convergence::PERIOD,
     forward::STOPS,
     forward::AMPLITUDE,
     forward::SLOW,
+    action::FORWARD,
     sliding::SINGLE,
     sliding::FORCED,
     ground_force::HUMPS,
     ground_force::FLIGHT,
+    ground_force::BOUNCING,
+    action::NO_PULL,
     mass::EXACTLY,
     mass::NEARLY,
     gaits::SHAPE,
@@ -27,6 +33,8 @@ const STATEMENTS: [Statement; 22] = [
     joints::SIGNS,
     bounce::SHOES,
     gaits::PLAUSIBLE,
+    action::MUSCLES,
+    action::WARNING,
     bounce::SPEED,
 ];
 
