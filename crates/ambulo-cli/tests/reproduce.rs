@@ -60,7 +60,9 @@ fn the_paper_is_recomputed_into_the_documented_files() {
 
 fn the_page_says_what_the_files_say(html: &str, claims: &[serde_json::Value]) {
     assert!(!html.contains("src=\"http") && !html.contains("href=\"http") && !html.contains("<script"));
-    assert_eq!(html.matches("<svg ").count(), 7);
+    // Seven figures, and four gaits in two modes.
+    assert_eq!(html.matches("<svg ").count(), 7 + 8);
+    assert!(html.matches("<animate attributeName=\"d\"").count() == 8 * 5);
     let counted = || claims.iter().filter(|claim| claim["kind"] == "paper");
     let held = counted().filter(|claim| claim["pass"] == true).count();
     assert!(html.contains(&format!("{held} of {} claims of the paper hold", counted().count())));

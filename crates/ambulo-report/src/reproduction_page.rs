@@ -2,8 +2,11 @@
 //!
 //! The drawings of the paper are not included; its captions and a summary of its text are next to our figures.
 
+use super::figures::moving_picture;
 use super::html::{Document, escaped};
-use ambulo::reproduction::{Claim, Numbers, Sensitivity, assumptions, number, tally};
+use ambulo::reproduction::{
+    Claim, Evidence, Numbers, Sensitivity, assumptions, moving_figure, number, stored_shares, tally,
+};
 use ambulo_results::OutputFile;
 use std::fmt::Write;
 
@@ -77,10 +80,11 @@ const FIGURES: [Figure; 7] = [
     },
 ];
 
-/// `report.html` of a reproduction; `files` are those of [`super::reproduction_files`].
+/// `report.html` of a reproduction: claims, walks of each mode, and `files`, those of [`super::reproduction_files`].
 #[must_use]
 pub fn reproduction_page(
     claims: &[Claim],
+    modes: &[(&str, &Evidence)],
     sensitivities: &[Sensitivity],
     files: &[OutputFile<'_>],
 ) -> OutputFile<'static> {
@@ -95,6 +99,10 @@ residual forces). Claims are judged in the paper's mode; the number of the corre
 <p><b>{held} of {total} claims of the paper hold</b>, apart from those that are true by construction and those that are ours. <span class="soft">Ambulo {version}</span></p>
 </header>
 <main>
+<h2>Moving pictures</h2>
+<p class="soft">One cycle of the steady walk, seen from the right; left limbs are grey. The figure stays in the picture, and the marks on the ground
+move at its speed.</p>
+{moving}
 <h2>Figures</h2>
 <p class="soft">The drawings of the paper are not included. The captions and a summary of the text of the paper are next to our figures.</p>
 {figures}
@@ -103,6 +111,7 @@ residual forces). Claims are judged in the paper's mode; the number of the corre
 <h2>What the paper does not give</h2>
 {assumptions}
 </main>"#,
+        moving = moving_pictures(modes),
         version = env!("CARGO_PKG_VERSION"),
         claims = claim_table(claims),
         assumptions = assumption_table(claims, sensitivities),
@@ -114,6 +123,21 @@ residual forces). Claims are judged in the paper's mode; the number of the corre
         body: &body,
     };
     OutputFile::new("report.html", page.html().into_bytes())
+}
+
+/// The four gaits in each mode.
+fn moving_pictures(modes: &[(&str, &Evidence)]) -> String {
+    let mut html = String::new();
+    for (mode, evidence) in modes {
+        let _ = write!(html, "<h3>{}</h3>\n<div class=\"walks\">", escaped(mode));
+        for figure in evidence.gaits.iter().filter_map(moving_figure) {
+            let label = format!("{}, {:.2} s", figure.gait, figure.cycle_s);
+            let picture = moving_picture(&figure, &escaped(&format!("{label}, {mode}")));
+            let _ = write!(html, "<figure>{picture}<figcaption>{}</figcaption></figure>\n", escaped(&label));
+        }
+        html += "</div>\n";
+    }
+    html
 }
 
 impl Figure {
@@ -153,17 +177,18 @@ fn mark(claim: &Claim) -> &'static str {
 fn claim_table(claims: &[Claim]) -> String {
     let mut html = String::from(
         "<div class=\"scroll\"><table>\n<caption>The names of the numbers include the units. All numbers are in claims.json.</caption>\n\
-         <thead><tr><th scope=\"col\">Claim</th><th scope=\"col\">Verdict</th><th scope=\"col\">Kind</th><th scope=\"col\">Statement of the paper</th><th scope=\"col\">Number</th>\
+         <thead><tr><th scope=\"col\">Claim</th><th scope=\"col\">Verdict</th><th scope=\"col\">Kind</th><th scope=\"col\">Share of settings</th><th scope=\"col\">Statement of the paper</th><th scope=\"col\">Number</th>\
          <th scope=\"col\" class=\"number\">Paper's mode</th><th scope=\"col\" class=\"number\">Corrected</th></tr></thead>\n<tbody>\n",
     );
     for claim in claims {
         let corrected = claim.corrected.as_ref().map_or(f64::NAN, |numbers| number(numbers, claim.headline));
         let _ = writeln!(
             html,
-            "<tr id=\"{id}\"><th scope=\"row\">{id}</th><td>{}</td><td>{}</td><td>{}<details><summary>reason and all numbers</summary><p>{}</p>{}</details></td>\
+            "<tr id=\"{id}\"><th scope=\"row\">{id}</th><td>{}</td><td>{}</td><td>{}</td><td>{}<details><summary>reason and all numbers</summary><p>{}</p>{}</details></td>\
              <td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
             mark(claim),
             claim.kind.words(),
+            escaped(&stored_shares().words(claim)),
             escaped(claim.paper),
             escaped(&claim.note),
             all_numbers(&claim.paper_mode, claim.corrected.as_ref()),

@@ -6,13 +6,15 @@
 use crate::workspace;
 use ambulo::reproduction::{
     Claim, CorrectedMode, Evidence, GAITS, Scope, Sensitivity, StoredShares, TrialSettings, assumptions, claims,
-    number, paper_walk, sensitivities, stored_shares, tally,
+    number, paper_walk, read_shares, sensitivities, tally,
 };
 use std::fmt::Write;
 use std::fs;
 use std::time::Instant;
 
 const PAGE: &str = "docs/measured/REPRODUCTION.md";
+/// The stored shares of `cargo xtask claim-shares`.
+const SHARES: &str = "crates/ambulo/data/reproduction/shares.csv";
 
 /// Runs the command.
 #[expect(clippy::print_stdout, reason = "the page is the command's result")]
@@ -30,7 +32,10 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let mut mode = |trial: &TrialSettings<'_>| corrected.walk(trial);
     let corrected = Evidence::gather(&mut mode, Scope::Full, Some(&clock)).map_err(|e| e.to_string())?;
     let claims = claims(&paper, Some(&corrected));
-    let page = text(&claims, &sensitivities().map_err(|e| e.to_string())?, stored_shares());
+    // Of the file, not of this program, which may be older.
+    let stored =
+        fs::read_to_string(workspace::root().join(SHARES)).map_err(|e| format!("{SHARES}: cannot read: {e}"))?;
+    let page = text(&claims, &sensitivities().map_err(|e| e.to_string())?, &read_shares(&stored));
     println!("{page}");
     if write {
         fs::write(workspace::root().join(PAGE), page).map_err(|e| format!("{PAGE}: cannot write: {e}"))?;

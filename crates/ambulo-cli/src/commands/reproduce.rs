@@ -28,8 +28,9 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
         printer::progress("sensitivity to values that the paper does not give", args.print);
         sensitivities()?
     };
+    let modes = [("The paper's mode", &paper), ("The corrected mode", &corrected)];
     let mut written = reproduction_files(&claims, &paper, Some(&corrected), &others)?;
-    written.push(reproduction_page(&claims, &others, &written));
+    written.push(reproduction_page(&claims, &modes, &others, &written));
     let mut json = serde_json::to_vec_pretty(&claims)?;
     json.push(b'\n');
     written.push(OutputFile::new("claims.json", json));

@@ -2,7 +2,7 @@
 
 use super::print_line;
 use crate::args::PrintArgs;
-use ambulo::reproduction::{Claim, Sensitivity, tally};
+use ambulo::reproduction::{Claim, Sensitivity, stored_shares, tally};
 use anyhow::Result;
 use std::path::Path;
 
@@ -13,10 +13,14 @@ pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path,
     if print.json {
         return print_line(&serde_json::to_string_pretty(claims)?);
     }
+    let shares = stored_shares();
     for claim in claims {
         let holds = if claim.pass { "holds" } else { "fails" };
         print_line(&format!("{:3} {holds}  {} ({})", claim.id, claim.paper, claim.kind.words()))?;
         print_line(&format!("           {} = {:.4}", claim.headline, claim.value()))?;
+        if shares.of(claim.id).is_some() {
+            print_line(&format!("           holds in {} of {} settings", shares.words(claim), shares.settings))?;
+        }
         let reversed = others.iter().filter(|other| other.reversed(claims).contains(&claim.id)).count();
         if reversed > 0 {
             print_line(&format!(

@@ -164,7 +164,7 @@ fn snapshots_figure(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigu
 /// Instants of a step, from foot strike of the right foot to that of the left foot.
 const INSTANTS: usize = 7;
 /// Lines between markers of the figure: trunk and head, legs with feet, arms; the left side is drawn thin.
-const STICKS: [(&[&str], SeriesKind); 5] = [
+pub(super) const STICKS: [(&[&str], SeriesKind); 5] = [
     (&["sacrum", "neck", "vertex"], SeriesKind::Line),
     (&["hip_l", "knee_l", "ankle_l", "heel_l", "toe_l", "ankle_l"], SeriesKind::Faint),
     (&["shoulder_l", "elbow_l", "wrist_l"], SeriesKind::Faint),
@@ -199,14 +199,14 @@ pub(super) fn snapshots(run: &Run) -> Vec<PaperSeries> {
     series
 }
 
-fn at_row(run: &Run, row: usize) -> Vec<BodyMotion> {
+pub(super) fn at_row(run: &Run, row: usize) -> Vec<BodyMotion> {
     let (model, trajectory) = (&run.recording.model, &run.recording.trajectory);
     let q: Vec<f64> = model.coordinate_ids().map(|id| trajectory.values(id)[row]).collect();
     let still = vec![0.0; q.len()];
     body_motion(model, Posture { q: &q, qd: &still, qdd: &still })
 }
 
-fn place(model: &Model, motions: &[BodyMotion], name: &str) -> Option<[f64; 2]> {
+pub(super) fn place(model: &Model, motions: &[BodyMotion], name: &str) -> Option<[f64; 2]> {
     let marker = model.markers().iter().find(|marker| marker.name == name)?;
     let at = motions[marker.body?.index()].pose.place(marker.location);
     Some([at.x, at.y])

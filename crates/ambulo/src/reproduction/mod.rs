@@ -29,6 +29,7 @@ mod statements;
 
 mod figures;
 mod harmonics;
+mod moving;
 mod muscles;
 
 pub use assumptions::{Assumption, Sensitivity, assumptions, sensitivities};
@@ -40,9 +41,10 @@ pub use figures::{PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws
 pub use ground_force::{MEASURED_FOOT_OFF, VERTICAL_EVERY_4_PERCENT, measured_vertical};
 pub use harmonics::{HARMONICS, TorqueSeries, torque_series};
 pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk, paper_walk_with};
+pub use moving::{MovingFigure, MovingStick, moving_figure};
 pub use muscles::{MuscleRow, PHASES, muscle_table};
 pub use paper_human::{HEIGHT, MASS, paper_human};
 pub use paper_settings::PaperSettings;
-pub use shares::{OpenValues, StoredShares, judged_of_the_paper, shares_csv, stored_shares};
+pub use shares::{OpenValues, StoredShares, judged_of_the_paper, read_shares, shares_csv, stored_shares};
 pub use statements::{claims, judgements};
 pub use steady::{IMPACT_MARGIN_S, POINTS, STEADY_CYCLES, Steady, correlation, extremes, mean, mean_of, range_of, rms};

@@ -175,11 +175,13 @@ impl StoredShares {
 /// The shares that are stored with the program.
 #[must_use]
 pub fn stored_shares() -> &'static StoredShares {
-    static SHARES: LazyLock<StoredShares> = LazyLock::new(|| parsed(STORED));
+    static SHARES: LazyLock<StoredShares> = LazyLock::new(|| read_shares(STORED));
     &SHARES
 }
 
-fn parsed(text: &str) -> StoredShares {
+/// Results from the text of [`shares_csv`]; what is missing is zero, or not a number.
+#[must_use]
+pub fn read_shares(text: &str) -> StoredShares {
     let rows: Vec<(&str, &str)> = text.lines().skip(1).filter_map(|line| line.split_once(',')).collect();
     let text_of = |name: &str| rows.iter().find(|(own, _)| *own == name).map_or("", |(_, value)| *value);
     let count = |name: &str| text_of(name).parse().unwrap_or(0);

@@ -1,0 +1,86 @@
+//! A moving stick figure as SVG that animates itself, without a script.
+
+use ambulo::reproduction::{MovingFigure, SeriesKind};
+use std::fmt::Write;
+
+/// Width and height of the picture [px], and pixels per metre.
+const SIZE: [f64; 2] = [170.0, 240.0];
+const SCALE: f64 = 112.0;
+/// Height of the ground line above the lower edge [px].
+const GROUND: f64 = 14.0;
+/// Marks on the ground are about this far apart [m].
+const MARKS_M: f64 = 0.5;
+
+/// The figure walks on the spot; marks on the ground move at its speed.
+pub(crate) fn moving_picture(figure: &MovingFigure, label: &str) -> String {
+    let [width, height] = SIZE;
+    let ground = height - GROUND;
+    let mut svg = format!(
+        "<svg role=\"img\" aria-label=\"{label}\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" fill=\"none\" \
+         stroke-linecap=\"round\" stroke-linejoin=\"round\"><path d=\"M0 {ground}H{width}\" stroke=\"#888\"/>"
+    );
+    svg += &marks(figure, ground);
+    for stick in &figure.sticks {
+        let paths: Vec<String> = stick.points.iter().map(|points| path(points, ground)).collect();
+        let (colour, thickness) = match stick.kind {
+            SeriesKind::Faint => ("#999", 1.5),
+            SeriesKind::Line | SeriesKind::Dots => ("#1d4ed8", 2.5),
+        };
+        let _ = write!(
+            svg,
+            "<path stroke=\"{colour}\" stroke-width=\"{thickness}\" d=\"{}\"><animate attributeName=\"d\" dur=\"{:.3}s\" \
+             repeatCount=\"indefinite\" values=\"{}\"/></path>",
+            paths.first().map_or("", String::as_str),
+            figure.cycle_s,
+            paths.join(";")
+        );
+    }
+    svg + "</svg>"
+}
+
+fn path(points: &[[f64; 2]], ground: f64) -> String {
+    let mut path = String::new();
+    for (number, [x, y]) in points.iter().enumerate() {
+        let letter = if number == 0 { 'M' } else { 'L' };
+        let _ = write!(path, "{letter}{:.1} {:.1}", 0.5 * SIZE[0] + SCALE * x, ground - SCALE * y);
+    }
+    path
+}
+
+/// Marks on the ground: a whole number of them passes in a cycle, so that the picture repeats without a jump.
+fn marks(figure: &MovingFigure, ground: f64) -> String {
+    let all = figure.advance.last().copied().unwrap_or(0.0);
+    let count = (all.abs() / MARKS_M).round().max(1.0);
+    let apart = SCALE * (all.abs() / count).max(0.1);
+    let many = (SIZE[0] / apart) as usize + 2 * count as usize + 2;
+    let mut line = String::new();
+    for mark in 0..many {
+        let _ = write!(line, "M{:.1} {ground}v5", (mark as f64 - count) * apart);
+    }
+    let moves: Vec<String> = figure.advance.iter().map(|x| format!("{:.1} 0", -SCALE * x)).collect();
+    format!(
+        "<g><path d=\"{line}\" stroke=\"#888\"/><animateTransform attributeName=\"transform\" type=\"translate\" dur=\"{:.3}s\" \
+         repeatCount=\"indefinite\" values=\"{}\"/></g>",
+        figure.cycle_s,
+        moves.join(";")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ambulo::reproduction::MovingStick;
+
+    #[test]
+    fn every_stick_has_all_instants_and_marks_pass_by() {
+        let points = vec![vec![[0.0, 0.0], [0.0, 1.0]], vec![[0.1, 0.0], [0.0, 1.0]]];
+        let sticks = vec![MovingStick { kind: SeriesKind::Line, points }];
+        let figure = MovingFigure { gait: "short".into(), cycle_s: 0.62, sticks, advance: vec![0.0, 1.0] };
+        let svg = moving_picture(&figure, "short");
+        assert!(
+            svg.contains("dur=\"0.620s\"") && svg.contains("M85.0 226.0L85.0 114.0;M96.2 226.0L85.0 114.0"),
+            "{svg}"
+        );
+        assert!(svg.contains("0.0 0;-112.0 0") || svg.contains("-0.0 0;-112.0 0"), "{svg}");
+    }
+}
