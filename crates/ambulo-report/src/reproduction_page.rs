@@ -133,7 +133,7 @@ fn moving_pictures(modes: &[(&str, &Evidence)]) -> String {
         for figure in evidence.gaits.iter().filter_map(moving_figure) {
             let label = format!("{}, {:.2} s", figure.gait, figure.cycle_s);
             let picture = moving_picture(&figure, &escaped(&format!("{label}, {mode}")));
-            let _ = write!(html, "<figure>{picture}<figcaption>{}</figcaption></figure>\n", escaped(&label));
+            let _ = writeln!(html, "<figure>{picture}<figcaption>{}</figcaption></figure>", escaped(&label));
         }
         html += "</div>\n";
     }
