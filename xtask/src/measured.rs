@@ -45,7 +45,7 @@ const FORCES: &[&str] = &[
     "xtask/measure/src/validate/recording.rs",
 ];
 
-const PAGES: [Page; 6] = [
+const PAGES: [Page; 7] = [
     Page { name: "VALIDATION", command: "validate", inputs: FORCES },
     Page { name: "GROUND_FIT", command: "fit-ground", inputs: FORCES },
     Page {
