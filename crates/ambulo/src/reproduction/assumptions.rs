@@ -48,7 +48,7 @@ impl Sensitivity {
 /// All values that the paper does not give, with other values to try.
 #[must_use]
 pub fn assumptions() -> Vec<Assumption> {
-    [about_the_figure(), about_the_gait(), about_the_ground()].concat()
+    [about_the_figure(), about_the_gait(), about_step_heights(), about_the_ground()].concat()
 }
 
 fn assumption(
@@ -115,7 +115,7 @@ fn about_the_figure() -> Vec<Assumption> {
     ]
 }
 
-/// Joint curves, step lengths and step heights.
+/// Joint curves and step lengths.
 fn about_the_gait() -> Vec<Assumption> {
     let (taken, with) = (PaperSettings::default(), assumption);
     vec![
@@ -162,6 +162,13 @@ fn about_the_gait() -> Vec<Assumption> {
             "about the longest for which joint angles stay in the measured range",
             vec![("1.1 of the standard length", PaperSettings { own_length: Some(("long", 1.1)), ..taken })],
         ),
+    ]
+}
+
+/// Step heights.
+fn about_step_heights() -> Vec<Assumption> {
+    let (taken, with) = (PaperSettings::default(), assumption);
+    vec![
         with(
             "goose steps",
             "1.5 times the standard height, of the standard length",
