@@ -60,6 +60,8 @@ const SAMPLE: u64 = 3;
 fn forms(value_name: &str) -> &'static [&'static str] {
     match value_name {
         "BODY:KG[:X,Y,Z]" => &["torso:#", "torso:1:#,0,0", "torso:1:0,0,#"],
+        "TIME:SPEED[:DURATION]" | "TIME:LENGTH[:DURATION]" => &["#:1", "1:#", "1:1:#"],
+        "TIME:CADENCE[:DURATION]" => &["#:100", "1:#", "1:100:#"],
         "N=r|l|off" => &["#=r", "#=off"],
         "BODY:PREFIX" => &["calcn_r:#"],
         _ => &["#"],

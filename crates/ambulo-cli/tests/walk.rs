@@ -289,3 +289,40 @@ fn a_gait_file_is_never_overwritten() {
     assert_eq!(walk(".").code, Some(2), "a path through a file is none");
     assert_eq!(bench.text("mine.toml"), "base = \"free\"\n");
 }
+
+#[test]
+fn a_walk_changes_its_pace_on_the_way() {
+    let bench = Workbench::empty("walk_changes");
+    let words =
+        ["walk", "--mode", "paper", "--speed", "0", "--speed-change", "0.5:1.2:1.5", "--step-length-change", "3:0.6"];
+    bench.run(&[&words[..], &["--cadence-change", "3:120", "--speed-change=6:0", "-o", "out"]].concat()).done();
+    let summary = bench.json("out/summary.json");
+    let changes = summary["walk"]["pace_changes"].as_array().unwrap();
+    let number = |k: usize, key: &str| changes[k][key].as_f64().unwrap();
+    assert_eq!(changes.len(), 3, "{changes:?}");
+    assert!((number(0, "start_s") - 0.5).abs() < 1e-9 && (number(0, "duration_s") - 1.5).abs() < 1e-9);
+    assert!((number(0, "speed_m_s") - 1.2).abs() < 1e-9);
+    assert!((number(1, "step_length_m") - 0.6).abs() < 1e-9 && (number(1, "cadence_steps_min") - 120.0).abs() < 1e-9);
+    assert!(number(2, "speed_m_s").abs() < 1e-12);
+    assert!(bench.text("out/report.html").contains("Walking speed"));
+    let last = *bench.table("out/kinematics.mot").times().unwrap().last().unwrap();
+    assert!(last > 7.0, "the results end at {last} s");
+}
+
+#[test]
+fn changes_of_pace_that_cannot_be_made_are_refused() {
+    let bench = Workbench::empty("walk_changes_refused");
+    for (words, expected) in [
+        (&["--speed-change", "3"][..], "expected TIME:VALUE or TIME:VALUE:DURATION"),
+        (&["--speed-change", "3:fast"], "expected TIME:VALUE"),
+        (&["--speed", "0"], "no change to a walking speed"),
+        (&["--speed-change", "3:9"], "expected 0.05 to 5 m/s"),
+        (&["--speed-change", "3:1.6:0.001"], "expected 0.1 to 300 s"),
+        (&["--speed-change=-1:1.6"], "expected 0 to 300 s"),
+        (&["--speed-change", "3:1.6", "--speed-change", "3:1.2"], "found two changes at 3 s"),
+        (&["--speed-change", "3:1.6:2", "--speed-change", "4:1.2"], "after the end of the previous change"),
+    ] {
+        let run = bench.run(&[&["walk", "-o", "out"], words].concat());
+        assert!(run.code == Some(2) && run.stderr.contains(expected), "{words:?}: {}", run.stderr);
+    }
+}

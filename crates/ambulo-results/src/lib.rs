@@ -43,7 +43,7 @@ pub use summary::{
     ResidualSummary, Summary, summary,
 };
 pub use tables::ground_columns;
-pub use walk_summary::{PelvisPath, Size, SolverStage, WalkSummary};
+pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkSummary};
 pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
 
 /// Name of the table of foot strikes and foot offs in a result folder.

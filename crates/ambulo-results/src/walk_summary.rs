@@ -2,7 +2,7 @@
 
 use ambulo::model::Model;
 use ambulo::simulation::consistent_walk::Magnitude;
-use ambulo::simulation::synthetic::{CorrectionReport, Progress, WalkReport};
+use ambulo::simulation::synthetic::{CorrectionReport, PaceReached, Progress, WalkReport};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -30,7 +30,10 @@ pub struct WalkSummary {
     pub cycle_s: f64,
     /// Leg length, hip to floor in standing [m].
     pub leg_length_m: f64,
-    /// Number of adjusted parameters; `null` in paper mode.
+    /// Changes of pace on the way; empty for a walk at constant pace.
+    #[serde(default)]
+    pub pace_changes: Vec<PaceChangeSummary>,
+    /// Number of adjusted parameters; `null` in paper mode. This and the following lines on the correction are of the first pace.
     pub parameters_adjusted: Option<usize>,
     /// Change of the angle of each coordinate [deg]; `null` in paper mode.
     pub adjustment_deg: Option<BTreeMap<String, Size>>,
@@ -62,6 +65,22 @@ pub struct WalkSummary {
     pub simulator_hz: f64,
     /// Time steps whose contacts were not solved to the tolerance.
     pub unsolved_steps: usize,
+}
+
+/// A change of pace.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PaceChangeSummary {
+    /// Start [s].
+    pub start_s: f64,
+    /// Duration [s].
+    pub duration_s: f64,
+    /// Speed after the change [m/s]; 0 if the figure then stands.
+    pub speed_m_s: f64,
+    /// Step length after the change [m].
+    pub step_length_m: f64,
+    /// Cadence after the change [steps/min].
+    pub cadence_steps_min: f64,
 }
 
 /// Root mean square and maximum of the magnitude.
@@ -96,6 +115,18 @@ pub struct SolverStage {
     pub to: f64,
 }
 
+impl PaceChangeSummary {
+    fn of(change: &PaceReached) -> PaceChangeSummary {
+        PaceChangeSummary {
+            start_s: change.start_s,
+            duration_s: change.duration_s,
+            speed_m_s: change.speed,
+            step_length_m: change.step_length,
+            cadence_steps_min: 60.0 * change.step_frequency,
+        }
+    }
+}
+
 impl Size {
     fn new(change: Magnitude, factor: f64) -> Size {
         Size { rms: factor * change.rms, largest: factor * change.largest }
@@ -127,6 +158,7 @@ impl WalkSummary {
             cadence_steps_min: 120.0 / report.cycle_s,
             cycle_s: report.cycle_s,
             leg_length_m: report.leg_length,
+            pace_changes: report.changes.iter().map(PaceChangeSummary::of).collect(),
             parameters_adjusted: correction.map(|c| c.parameters),
             adjustment_deg: correction.map(adjusted),
             pelvis_path_mm: correction.map(path),

@@ -213,6 +213,25 @@ fn numbers_that_no_gait_can_have_are_refused() {
 }
 
 #[test]
+fn changes_of_pace_are_read_in_the_units_of_the_keys() {
+    let text = "speed = 0\n[[pace_change]]\nat = 1\nspeed = 1.2\n\
+                [[pace_change]]\nat = 4\nwithin = 0.5\nstep_length = 0.6\ncadence = 120\n";
+    let gait = Gait::from_toml(text).unwrap();
+    let [first, second] = gait.pace_changes[..] else { panic!("{:?}", gait.pace_changes) };
+    assert_eq!((first.start_s, first.duration_s, first.speed), (1.0, None, Some(1.2)));
+    assert_eq!((second.duration_s, second.step_length, second.step_frequency), (Some(0.5), Some(0.6), Some(2.0)));
+    assert!((walk(&gait).speed_at(5.0) - 1.2).abs() < 1e-12 && walk(&gait).speed().abs() < 1e-12);
+    assert_eq!(
+        refused("[[pace_change]]\nat = 1"),
+        "line 1, `pace_change[1]`: found no speed, step_length or cadence; expected at least one of them"
+    );
+    assert!(refused("[[pace_change]]\nspeed = 1").contains("the time at which the change begins [s]"));
+    assert!(refused("[[pace_change]]\nat = -1\nspeed = 1").starts_with("line 2, `pace_change[1].at`: found -1"));
+    assert!(refused("[[pace_change]]\nat = 1\nspeed = 1\nwithin = 0").starts_with("line 4, `pace_change[1].within`"));
+    assert!(refused("speed = 0").contains("expected a number above zero"));
+}
+
+#[test]
 fn contradictions_are_refused() {
     assert_eq!(
         refused("speed = 1\nstep_length = 0.7\ncadence = 120"),
@@ -335,7 +354,7 @@ const DOCUMENT: &str = include_str!("../../../docs/GAITS.md");
 #[test]
 fn the_gaits_of_the_document_are_walked() {
     let blocks: Vec<&str> = DOCUMENT.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
-    assert_eq!(blocks.len(), 3);
+    assert_eq!(blocks.len(), 4);
     for block in blocks {
         let gait = Gait::from_toml(block).unwrap_or_else(|e| panic!("{e} in\n{block}"));
         walk(&gait);
@@ -361,7 +380,13 @@ fn the_document_has_every_knot_and_gait() {
 /// Every key that a refusal lists stands in the document.
 #[test]
 fn the_document_has_every_key() {
-    let files = ["x = 1", "[[change]]\nx = 1", "[[hip.knot]]\nx = 1", "style = \"1997\"\n[[hip.sub_cycle]]\nx = 1"];
+    let files = [
+        "x = 1",
+        "[[change]]\nx = 1",
+        "[[pace_change]]\nx = 1",
+        "[[hip.knot]]\nx = 1",
+        "style = \"1997\"\n[[hip.sub_cycle]]\nx = 1",
+    ];
     for file in files {
         let message = refused(file);
         let keys = message.split("expected ").nth(1).unwrap().split('`').skip(1).step_by(2);

@@ -5,14 +5,30 @@ use ambulo::findings::Findings;
 use ambulo::gait::machine::{
     ChildOutputs, Machine, MachineInputs, RunningMachine, State, Transition, WalkMachine, state_table,
 };
-use ambulo::gait::{Clock, Gait, Jet, SpeedChange, Walk};
+use ambulo::gait::{Clock, Gait, Jet, PaceChange, Speed, Walk};
 
 const LEG: f64 = 0.92;
 
 fn walk(name: &str) -> Walk {
-    let walk = Walk::new(&Gait::named(name).unwrap(), LEG, &mut Findings::default()).unwrap();
-    let change = SpeedChange { start_s: 2.0, duration_s: 1.5, speed: 0.8 };
-    walk.with_speed_change(change, &mut Findings::default()).unwrap()
+    let mut gait = Gait::named(name).unwrap();
+    gait.pace_changes =
+        vec![PaceChange { start_s: 2.0, duration_s: Some(1.5), speed: Some(0.8), ..PaceChange::default() }];
+    Walk::new(&gait, LEG, &mut Findings::default()).unwrap()
+}
+
+/// Stands for 0.4 s, walks, stands from 3 s to 3.5 s, and walks on.
+fn stop_and_go(name: &str) -> Walk {
+    let mut gait = Gait::named(name).unwrap();
+    gait.pace.speed = Some(Speed::MetersPerSecond(0.0));
+    (gait.pace.step_length, gait.pace.step_frequency) = (None, None);
+    let change = |start_s: f64, speed: f64| PaceChange {
+        start_s,
+        duration_s: Some(0.8),
+        speed: Some(speed),
+        ..PaceChange::default()
+    };
+    gait.pace_changes = vec![change(0.4, 1.3), change(2.2, 0.0), change(3.5, 1.0)];
+    Walk::new(&gait, LEG, &mut Findings::default()).unwrap()
 }
 
 /// A key that puts names into another order for every seed.
@@ -24,8 +40,7 @@ fn shuffled(seed: u64) -> impl Fn(&str) -> u64 {
 
 #[test]
 fn stepped_at_any_rate_the_machine_gives_what_the_walk_gives() {
-    for name in Gait::NAMES {
-        let walk = walk(name);
+    for (name, walk) in Gait::NAMES.into_iter().flat_map(|name| [(name, walk(name)), (name, stop_and_go(name))]) {
         for step_s in [0.0007, 0.01, 1.0 / 30.0, 0.13, 0.41, 0.9, 2.7] {
             let mut machine = WalkMachine::new(&walk);
             for i in 0..(6.0 / step_s) as u32 {
@@ -143,6 +158,23 @@ fn the_global_cycle_agrees_with_the_legs() {
         seen.insert(state);
     }
     assert_eq!(seen.len(), 4, "{seen:?}");
+}
+
+#[test]
+fn the_global_cycle_stands_between_walks() {
+    let mut machine = WalkMachine::new(&stop_and_go("free"));
+    let mut order: Vec<String> = Vec::new();
+    for i in 0..500 {
+        machine.step(0.01 * f64::from(i));
+        let running = machine.running();
+        let state = running.state_name(running.number("walk").unwrap());
+        if order.last().is_none_or(|last| last != state) {
+            order.push(state.to_owned());
+        }
+    }
+    assert_eq!(order.iter().filter(|state| *state == "standing").count(), 2, "{order:?}");
+    // The right leg swings first.
+    assert_eq!(order[0..2], ["standing", "single support on the left, right swing"]);
 }
 
 #[test]

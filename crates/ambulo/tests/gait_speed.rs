@@ -1,24 +1,48 @@
-//! Changes of speed while walking: nothing breaks up to the second derivative, and phase is the integral of the cycle rate.
+//! Changes of pace while walking: nothing breaks up to the second derivative, and phase is the integral of the cycle rate.
 
 use crate::common::{assert_near, derivatives};
 use ambulo::findings::{Code, Findings};
-use ambulo::gait::{Gait, GaitError, Jet, LegAngles, Pelvis, SpeedChange, Walk, WalkPosture};
+use ambulo::gait::{Gait, GaitError, Jet, LegAngles, PaceChange, Pelvis, Speed, Walk, WalkPosture};
 
 const LEG: f64 = 0.92;
-const CHANGES: [SpeedChange; 2] = [
-    SpeedChange { start_s: 1.3, duration_s: 2.0, speed: 2.0 },
-    SpeedChange { start_s: 3.3, duration_s: 0.8, speed: 0.5 },
+const NO_CHANGE: PaceChange =
+    PaceChange { start_s: 0.0, duration_s: None, speed: None, step_length: None, step_frequency: None };
+const CHANGES: [PaceChange; 2] = [
+    PaceChange { start_s: 1.3, duration_s: Some(2.0), speed: Some(2.0), ..NO_CHANGE },
+    PaceChange { start_s: 3.3, duration_s: Some(0.8), speed: Some(0.5), ..NO_CHANGE },
+];
+/// Shorter and quicker steps, a halt, and a walk again after a pause; the speed of the start is zero.
+const STOPS: [PaceChange; 4] = [
+    PaceChange { start_s: 0.2, duration_s: Some(1.0), speed: Some(1.2), ..NO_CHANGE },
+    PaceChange { start_s: 1.3, duration_s: Some(0.9), step_length: Some(0.5), step_frequency: Some(2.2), ..NO_CHANGE },
+    PaceChange { start_s: 2.4, duration_s: Some(0.7), speed: Some(0.0), ..NO_CHANGE },
+    PaceChange { start_s: 3.5, duration_s: None, speed: Some(0.9), ..NO_CHANGE },
 ];
 
+fn gait(name: &str, changes: &[PaceChange]) -> Gait {
+    Gait { pace_changes: changes.to_vec(), ..Gait::named(name).unwrap() }
+}
+
+fn made(gait: &Gait) -> Walk {
+    Walk::new(gait, LEG, &mut Findings::default()).unwrap()
+}
+
 fn steady(name: &str) -> Walk {
-    Walk::new(&Gait::named(name).unwrap(), LEG, &mut Findings::default()).unwrap()
+    made(&gait(name, &[]))
 }
 
 /// A walk that hurries, and is slowed as soon as it has: both changes meet at 3.3 s.
 fn changing(name: &str) -> Walk {
-    CHANGES
-        .into_iter()
-        .fold(steady(name), |walk, change| walk.with_speed_change(change, &mut Findings::default()).unwrap())
+    made(&gait(name, &CHANGES))
+}
+
+/// A figure that stands, walks, changes its steps, stands and walks again.
+fn stopping(name: &str) -> Walk {
+    let mut gait = gait(name, &STOPS);
+    gait.pace.speed = Some(Speed::MetersPerSecond(0.0));
+    gait.pace.step_length = None;
+    gait.pace.step_frequency = None;
+    made(&gait)
 }
 
 fn angles(posture: &WalkPosture) -> Vec<Jet> {
@@ -57,11 +81,12 @@ fn knot_times(walk: &Walk) -> Vec<f64> {
 /// what a quintic with a wrong curvature makes is 10 rad/s² and more.
 #[test]
 fn accelerations_have_no_breaks_at_knots_nor_at_changes_of_speed() {
-    for name in ["free", "standard"] {
-        let walk = changing(name);
-        let ends = CHANGES.iter().flat_map(|change| [change.start_s, change.start_s + change.duration_s]);
+    for (name, walk) in
+        ["free", "standard"].into_iter().flat_map(|name| [(name, changing(name)), (name, stopping(name))])
+    {
+        let ends = walk.pace_ramps().into_iter().flat_map(|ramp| [ramp.start_s, ramp.start_s + ramp.duration_s]);
         let times: Vec<f64> = knot_times(&walk).into_iter().chain(ends).collect();
-        assert!(times.len() > 100, "{} knots", times.len());
+        assert!(times.len() > 60, "{} knots", times.len());
         for t in times {
             let (before, after) = (angles(&walk.at(t - 1e-9)), angles(&walk.at(t + 1e-9)));
             for (a, b) in before.iter().zip(&after) {
@@ -78,8 +103,7 @@ fn accelerations_have_no_breaks_at_knots_nor_at_changes_of_speed() {
 #[test]
 fn rates_and_accelerations_are_derivatives_while_speed_changes() {
     let (h, jump) = (1e-5, 1e4);
-    for name in Gait::NAMES {
-        let walk = changing(name);
+    for (name, walk) in Gait::NAMES.into_iter().flat_map(|name| [(name, changing(name)), (name, stopping(name))]) {
         for i in 0..211 {
             let t = 0.01 + 0.0237 * f64::from(i);
             let on = angles(&walk.at(t));
@@ -99,8 +123,10 @@ fn rates_and_accelerations_are_derivatives_while_speed_changes() {
 /// roundings of its sums.
 #[test]
 fn phase_is_the_integral_of_the_cycle_rate() {
-    for name in ["free", "standard"] {
-        let walk = changing(name);
+    for (name, walk) in
+        ["free", "standard"].into_iter().flat_map(|name| [(name, changing(name)), (name, stopping(name))])
+    {
+        let first = walk.clock(0.0).phase.value;
         for end in [1.3, 1.9, 2.4, 3.3, 3.7, 4.1, 6.0] {
             let panels = 20_000;
             let h = end / f64::from(2 * panels);
@@ -111,20 +137,20 @@ fn phase_is_the_integral_of_the_cycle_rate() {
                 |first: i32| (first..first + 200).filter(|i| (1..2 * panels).contains(i)).map(weighted).sum::<f64>();
             let inner: f64 = (0..2 * panels).step_by(200).map(block).sum();
             let integral = h / 3.0 * (rate(0) + inner + rate(2 * panels));
-            assert_near(walk.clock(end).phase.value, integral, 1e-12, &format!("{name} until {end} s"));
+            assert_near(walk.clock(end).phase.value - first, integral, 1e-12, &format!("{name} until {end} s"));
         }
     }
 }
 
 #[test]
 fn speed_is_step_length_times_frequency_all_the_time() {
-    let walk = changing("free");
-    for i in 0..60 {
-        let t = 0.1 * f64::from(i);
-        let clock = walk.clock(t);
-        let step = walk.stride().step_length(clock.law_speed.value);
-        assert_near(step * 2.0 * clock.phase.rate, walk.speed_at(t), 1e-12, "speed");
+    for walk in [changing("free"), stopping("free")] {
+        for i in 0..60 {
+            let t = 0.1 * f64::from(i);
+            assert_near(walk.step_length_at(t) * 2.0 * walk.clock(t).phase.rate, walk.speed_at(t), 1e-12, "speed");
+        }
     }
+    let walk = changing("free");
     assert_near(walk.speed_at(3.3), 2.0, 1e-12, "speed after the first change");
     assert_near(walk.speed_at(9.0), 0.5, 1e-12, "speed after the second change");
 }
@@ -134,7 +160,7 @@ fn before_and_after_a_change_the_walk_is_that_of_the_speed() {
     let (walk, before) = (changing("free"), steady("free"));
     assert_eq!(walk.at(1.0), before.at(1.0));
     let mut gait = Gait::named("free").unwrap();
-    gait.pace.speed = Some(ambulo::gait::Speed::MetersPerSecond(0.5));
+    gait.pace.speed = Some(Speed::MetersPerSecond(0.5));
     let after = Walk::new(&gait, LEG, &mut Findings::default()).unwrap();
     let clock = walk.clock(5.0);
     let shifted = after.at((clock.phase.value - clock.phase.value.floor()) * after.cycle_s());
@@ -145,25 +171,87 @@ fn before_and_after_a_change_the_walk_is_that_of_the_speed() {
 }
 
 #[test]
+fn a_given_step_length_and_frequency_are_reached() {
+    let walk = stopping("free");
+    assert_near(walk.step_length_at(2.3), 0.5, 1e-12, "step length");
+    assert_near(2.0 * walk.clock(2.3).phase.rate, 2.2, 1e-12, "step frequency");
+    let mut alone = gait("free", &[]);
+    alone.pace = alone.pace.with(None, Some(0.5), Some(2.2));
+    let alone = made(&alone);
+    let clock = walk.clock(2.3);
+    let shifted = alone.at((clock.phase.value - clock.phase.value.floor()) * alone.cycle_s());
+    for (a, b) in angles(&walk.at(2.3)).iter().zip(angles(&shifted)) {
+        assert_near(a.value, b.value, 1e-10, "angle");
+    }
+    assert!((walk.at(2.3).right.hip.value - changing("free").at(1.0).right.hip.value).abs() > 1e-3);
+}
+
+#[test]
+fn a_standing_figure_is_upright_and_does_not_move() {
+    for name in Gait::NAMES {
+        let walk = stopping(name);
+        for t in [0.0, 0.15, 3.1, 3.3, 3.5] {
+            let posture = walk.at(t);
+            assert_near(walk.speed_at(t), 0.0, 0.0, name);
+            assert!(posture.phases.stance.into_array().into_iter().all(|stands| stands), "{name} at {t} s");
+            let (leg, tilt) = (posture.right, posture.pelvis_tilt.value);
+            assert_near(leg.hip.value - tilt, 0.0, 1e-12, &format!("{name}: thigh at {t} s"));
+            for jet in angles(&posture) {
+                assert_near(jet.rate, 0.0, 0.0, name);
+                assert_near(jet.acceleration, 0.0, 0.0, name);
+            }
+            assert_near(leg.knee.value, 0.0, 0.0, name);
+        }
+        assert!(walk.at(2.0).right.knee.value.abs() > 1e-3, "{name} does not walk");
+    }
+}
+
+#[test]
 fn changes_that_cannot_be_made_are_refused() {
     let mut findings = Findings::default();
-    let walk = changing("free");
-    let change = |start_s: f64, duration_s: f64, speed: f64| SpeedChange { start_s, duration_s, speed };
-    let error = walk.clone().with_speed_change(change(4.0, 1.0, 1.0), &mut findings).unwrap_err();
+    let mut with = |changes: &[PaceChange]| {
+        Walk::new(&gait("free", &[&CHANGES[..], changes].concat()), LEG, &mut findings).map(|_| ())
+    };
+    let change = |start_s: f64, duration_s: f64, speed: f64| PaceChange {
+        start_s,
+        duration_s: Some(duration_s),
+        speed: Some(speed),
+        ..NO_CHANGE
+    };
+    let error = with(&[change(4.0, 1.0, 1.0)]).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "change of speed: found a start at 4 s; expected 4.1 s or later, after the end of the previous change"
+        "change of pace: found a start at 4 s; expected 4.1 s or later, after the end of the previous change"
     );
-    let error = walk.clone().with_speed_change(change(5.0, 1.0, 0.0), &mut findings).unwrap_err();
-    assert_eq!(error.to_string(), "speed after a change [m/s]: found 0; expected a number above zero");
-    let error = walk.clone().with_speed_change(change(5.0, 1.0, 1e6), &mut findings).unwrap_err();
+    let error = with(&[change(5.0, 1.0, 1e6)]).unwrap_err();
     assert!(error.to_string().ends_with("expected 0.05 to 5 m/s, because slower is standing and faster is running"));
-    for bad in [change(5.0, 0.0, 1.0), change(f64::NAN, 1.0, 1.0), change(5.0, 1.0, f64::NAN), change(-1.0, 1.0, 1.0)] {
-        assert!(matches!(walk.clone().with_speed_change(bad, &mut findings), Err(GaitError::Number { .. })), "{bad:?}");
+    for bad in [
+        change(5.0, 0.0, 1.0),
+        change(5.0, 1e-300, 1.0),
+        change(1e9, 1.0, 1.0),
+        change(f64::NAN, 1.0, 1.0),
+        change(5.0, 1.0, f64::NAN),
+        change(-1.0, 1.0, 1.0),
+    ] {
+        assert!(matches!(with(&[bad]), Err(GaitError::Number { .. })), "{bad:?}");
     }
+    let both = PaceChange { step_length: Some(0.6), step_frequency: Some(3.0), ..change(5.0, 1.0, 1.0) };
+    assert!(matches!(with(&[both]), Err(GaitError::Contradiction { .. })));
+    with(&[change(5.0, 1.0, 0.0)]).unwrap();
     assert!(findings.as_slice().is_empty());
-    walk.with_speed_change(change(5.0, 1.0, 2.5), &mut findings).unwrap();
+    made(&gait("free", &[change(5.0, 1.0, 1.0)]));
+    Walk::new(&gait("free", &[change(5.0, 1.0, 2.5)]), LEG, &mut findings).unwrap();
     assert!(findings.has(Code::GaitSpeedRange));
+}
+
+#[test]
+fn a_figure_that_never_walks_is_refused() {
+    let halt = PaceChange { start_s: 1.0, speed: Some(0.0), ..NO_CHANGE };
+    for changes in [&[][..], &[halt]] {
+        let mut gait = gait("free", changes);
+        gait.pace.speed = Some(Speed::MetersPerSecond(0.0));
+        assert_eq!(Walk::new(&gait, LEG, &mut Findings::default()), Err(GaitError::StandsForever));
+    }
 }
 
 /// The mean tilt that a vertical pelvis takes from the hips follows speed as well.

@@ -14,7 +14,7 @@ fn standard(edit: impl Fn(&mut Gait)) -> Walk {
 }
 
 fn clock(phase: f64, rate: f64, law_speed: f64) -> Clock {
-    Clock { phase: Jet { value: phase, rate, acceleration: 0.0 }, law_speed: Jet::constant(law_speed) }
+    Clock::steady(Jet::new(phase, rate, 0.0), Jet::constant(law_speed))
 }
 
 #[test]

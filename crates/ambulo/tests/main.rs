@@ -100,6 +100,7 @@ mod splines;
 mod standing_ground;
 mod synthetic_walk;
 mod times_and_distances;
+mod walk_changes;
 mod walking;
 mod weighing;
 mod world_check;

@@ -259,6 +259,25 @@ fn a_figure_without_a_walk_stands_and_its_arms_can_hang_freely() {
 }
 
 #[test]
+fn a_walker_changes_its_speed_on_the_way() {
+    let text = alone(", changes = [{ at = 1.5, speed = 0.8 }]", 5.0);
+    for (mode, allowed) in [("", 0.05), (", phase = 0.3", 0.05)] {
+        let mut scene = scene(&text.replace(", changes", &format!("{mode}, changes")));
+        let mut places = Vec::new();
+        run(&mut scene, |frame| places.push((frame.scene.state().time_s, place(frame.scene, "ann/pelvis").x)));
+        let at = |time_s: f64| places.iter().find(|(t, _)| *t >= time_s - 1e-9).unwrap().1;
+        // Cycles of 1.14 s and 1.4 s.
+        let (before, after) = ((at(1.5) - at(0.36)) / 1.14, (at(5.0) - at(3.6)) / 1.4);
+        println!("{before:.3} m/s before, {after:.3} m/s after");
+        assert!((before - 1.2).abs() < allowed && (after - 0.8).abs() < allowed, "{before} and {after} m/s");
+    }
+    let error = built(&text.replace("at = 1.5, ", "")).unwrap_err().to_string();
+    assert!(error.contains("walk.changes[1]"), "{error}");
+    let error = built(&text.replace("duration = 5", "duration = 5000")).unwrap_err().to_string();
+    assert!(error.contains("expected at most 900 s"), "{error}");
+}
+
+#[test]
 fn a_figure_with_motors_stays_near_its_walk() {
     let text =
         alone("", 0.6) + "[[figure.coordinate]]\nname = \"arm_flex_r\"\nfollow = { stiffness = 100, damping = 5 }\n";

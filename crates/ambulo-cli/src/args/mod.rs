@@ -11,7 +11,7 @@ pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Adjusted, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
-pub(crate) use values::{FootColumns, ForceCutoff, PlateFoot};
+pub(crate) use values::{FootColumns, ForceCutoff, PlateFoot, TimedValue};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, WalkArgs, WalkMode};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};

@@ -173,6 +173,29 @@ impl FromStr for PlateFoot {
     }
 }
 
+/// A value that is reached by a change that begins at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TimedValue {
+    /// Start of the change [s].
+    pub(crate) time_s: f64,
+    /// The value after the change.
+    pub(crate) value: f64,
+    /// Duration of the change [s]; `None` for the default.
+    pub(crate) duration_s: Option<f64>,
+}
+
+/// TIME:VALUE or TIME:VALUE:DURATION; the library checks the ranges.
+pub(super) fn timed_value(text: &str) -> Result<TimedValue, String> {
+    let parts: Result<Vec<f64>, _> = text.split(':').map(|part| part.trim().parse()).collect();
+    match parts.as_deref() {
+        Ok([time_s, value]) => Ok(TimedValue { time_s: *time_s, value: *value, duration_s: None }),
+        Ok([time_s, value, duration_s]) => {
+            Ok(TimedValue { time_s: *time_s, value: *value, duration_s: Some(*duration_s) })
+        }
+        _ => Err("expected TIME:VALUE or TIME:VALUE:DURATION with times in seconds, such as 3:1.6 or 3:1.6:2".into()),
+    }
+}
+
 /// A mass carried by the person.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct AddedMassArg(pub(crate) AddedMass);

@@ -1,6 +1,6 @@
 //! Options of `ambulo walk` and `ambulo demo`.
 
-use super::values::{number, outputs_of_demo, outputs_of_run, whole_number};
+use super::values::{TimedValue, number, outputs_of_demo, outputs_of_run, timed_value, whole_number};
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
@@ -93,7 +93,7 @@ pub(crate) struct GaitArgs {
     /// Name of a gait (standard, long, short, goose, parade, slow, free, fast) or a gait file (docs/GAITS.md).
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "free")]
     pub(crate) gait: String,
-    /// Walking speed, 0.05 to 5 m/s [default: the gait's].
+    /// Walking speed, 0.05 to 5 m/s, or 0 to stand until the first change [default: the gait's].
     #[arg(long, value_name = "M/S", allow_negative_numbers = true, value_parser = number)]
     pub(crate) speed: Option<f64>,
     /// Step length, foot strike to opposite foot strike, 0.02 to 3 m [default: the gait's].
@@ -102,6 +102,15 @@ pub(crate) struct GaitArgs {
     /// Steps per minute, 5 to 1000 [default: the gait's].
     #[arg(long, value_name = "STEPS/MIN", allow_negative_numbers = true, value_parser = number)]
     pub(crate) cadence: Option<f64>,
+    /// Change the speed on the way: at TIME [s] to SPEED [m/s], 0 to stand still, within DURATION [s]; repeatable [default: two steps].
+    #[arg(long, value_name = "TIME:SPEED[:DURATION]", allow_negative_numbers = true, value_parser = timed_value)]
+    pub(crate) speed_change: Vec<TimedValue>,
+    /// Change the step length on the way, as with --speed-change [m].
+    #[arg(long, value_name = "TIME:LENGTH[:DURATION]", allow_negative_numbers = true, value_parser = timed_value)]
+    pub(crate) step_length_change: Vec<TimedValue>,
+    /// Change the cadence on the way, as with --speed-change [steps/min].
+    #[arg(long, value_name = "TIME:CADENCE[:DURATION]", allow_negative_numbers = true, value_parser = timed_value)]
+    pub(crate) cadence_change: Vec<TimedValue>,
     /// Foot clearance as a multiple of the natural one, 0.1 to 10 [default: the gait's].
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = number)]
     pub(crate) step_height: Option<f64>,

@@ -2,19 +2,19 @@
 
 use super::run_files::{MoreFiles, RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
-use crate::args::{CheckArgs, FigureArgs, GaitArgs, PrintArgs, WalkArgs, WalkMode};
+use crate::args::{CheckArgs, FigureArgs, GaitArgs, PrintArgs, TimedValue, WalkArgs, WalkMode};
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::state_table;
-use ambulo::gait::{Gait, Pace, Speed, Style, Walk};
+use ambulo::gait::{Gait, PaceChange, Style, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use ambulo_report::gait_figure;
 use ambulo_results::{Convention, GroundSource, Input, Keep, OutputFile, WalkSummary};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -201,7 +201,9 @@ fn gait(args: &GaitArgs) -> Result<(Gait, Vec<PathBuf>)> {
     if let Some(word) = &args.style {
         gait = gait.in_style(style(word)?);
     }
-    gait.pace = with_pace(gait.pace, args);
+    gait.pace = gait.pace.with(args.speed, args.step_length, args.cadence.map(|cadence| cadence / 60.0));
+    gait.pace_changes.extend(pace_changes(args)?);
+    gait.pace_changes.sort_by(|a, b| a.start_s.total_cmp(&b.start_s));
     if let Some(height) = args.step_height {
         gait.step_height = height;
     }
@@ -220,17 +222,29 @@ fn style(word: &str) -> Result<Style> {
     known.map(|(_, style)| style).with_context(|| format!("--style: found `{word}`; expected one of {names}"))
 }
 
-/// Replaces the gait's speed, step length and cadence if one of them is given, as in gait files. The gait's scale factors remain in force,
-/// so the given values are divided by them.
-fn with_pace(own: Pace, args: &GaitArgs) -> Pace {
-    if args.speed.is_none() && args.step_length.is_none() && args.cadence.is_none() {
-        return own;
+/// The changes of pace of the options. Changes of different quantities at the same time are one change.
+fn pace_changes(args: &GaitArgs) -> Result<Vec<PaceChange>> {
+    type Quantity = fn(&mut PaceChange) -> &mut Option<f64>;
+    let options: [(&str, &[TimedValue], f64, Quantity); 3] = [
+        ("--speed-change", &args.speed_change, 1.0, |change| &mut change.speed),
+        ("--step-length-change", &args.step_length_change, 1.0, |change| &mut change.step_length),
+        ("--cadence-change", &args.cadence_change, 1.0 / 60.0, |change| &mut change.step_frequency),
+    ];
+    let mut changes: Vec<PaceChange> = Vec::new();
+    for (option, values, unit, quantity) in options {
+        for TimedValue { time_s, value, duration_s } in values.iter().copied() {
+            let number = match changes.iter().position(|c| (c.start_s, c.duration_s) == (time_s, duration_s)) {
+                Some(number) => number,
+                None => {
+                    changes.push(PaceChange { start_s: time_s, duration_s, ..PaceChange::default() });
+                    changes.len() - 1
+                }
+            };
+            let change = &mut changes[number];
+            if quantity(change).replace(value * unit).is_some() {
+                bail!("{option}: found two changes at {time_s} s; expected one");
+            }
+        }
     }
-    let (long, quick) = (own.length_scale, own.cadence_scale);
-    Pace {
-        speed: args.speed.map(|speed| Speed::MetersPerSecond(speed / (long * quick))),
-        step_length: args.step_length.map(|length| length / long),
-        step_frequency: args.cadence.map(|cadence| cadence / 60.0 / quick),
-        ..own
-    }
+    Ok(changes)
 }

@@ -125,7 +125,7 @@ fn curve(walk: &Walk, joint: &Joint) -> Vec<[f64; 2]> {
     let law_speed = walk.clock(0.0).law_speed;
     let point = |i: usize| {
         let phase = i as f64 / POINTS as f64;
-        let posture = walk.posture(&Clock { phase: Jet::new(phase, 1.0, 0.0), law_speed });
+        let posture = walk.posture(&Clock::steady(Jet::new(phase, 1.0, 0.0), law_speed));
         [100.0 * phase, (joint.angle)(&posture.right).value.to_degrees()]
     };
     (0..=POINTS).map(point).collect()

@@ -63,9 +63,14 @@ pub enum GaitError {
         /// What was found and what was expected.
         message: String,
     },
-    /// A change of speed begins before the previous one has ended.
+    /// A figure that stands at the start and never walks.
     #[error(
-        "change of speed: found a start at {start_s} s; expected {earliest_s} s or later, after the end of the previous change"
+        "speed: found 0 m/s at the start and no change to a walking speed after it; expected such a change, or a speed of 0.05 to 5 m/s, because a figure that only stands has no cycle"
+    )]
+    StandsForever,
+    /// A change of pace begins before the previous one has ended.
+    #[error(
+        "change of pace: found a start at {start_s} s; expected {earliest_s} s or later, after the end of the previous change"
     )]
     OverlappingChange {
         /// Its start [s].

@@ -7,11 +7,12 @@ use super::gait_settings::{Gait, KnotChange, Pace, Pelvis, Speed, Style};
 use super::joint::LegJoint;
 use super::laws::{DOCUMENT, Laws, checked_speeds};
 use super::pace::{AGREEMENT, CADENCE, FACTOR, Range, SPEED, STEP_LENGTH};
+use super::pace_plan::PaceChange;
 use super::walk::changed;
 use crate::toml_reader::{Source, Table, TomlError, Value, nearest};
 
 /// Keys at the top level of the file.
-const KEYS: [&str; 17] = [
+const KEYS: [&str; 18] = [
     "name",
     "base",
     "style",
@@ -26,6 +27,7 @@ const KEYS: [&str; 17] = [
     "step_height",
     "cadence_exponent",
     "change",
+    "pace_change",
     "hip",
     "knee",
     "ankle",
@@ -54,7 +56,28 @@ impl Gait {
             *own = read_curve(&root, joint, gait.style, &speeds)?;
         }
         read_changes(&root, &mut gait, &laws)?;
+        gait.pace_changes = root.tables("pace_change")?.iter().map(PaceChange::read).collect::<Result<_, _>>()?;
         Ok(gait)
+    }
+}
+
+impl PaceChange {
+    /// Reads `at`, `within`, `speed`, `step_length` and `cadence` of a table.
+    pub(crate) fn read(table: &Table<'_>) -> Result<PaceChange, TomlError> {
+        table.only(&[&["at", "within", "speed", "step_length", "cadence"]])?;
+        let speed = table.get("speed").map(|value| value.zero_or_more()).transpose()?;
+        let step_length = table.get("step_length").map(|value| value.above_zero()).transpose()?;
+        let cadence = table.get("cadence").map(|value| value.above_zero()).transpose()?;
+        if (speed, step_length, cadence) == (None, None, None) {
+            return Err(table.wrong("found no speed, step_length or cadence; expected at least one of them"));
+        }
+        Ok(PaceChange {
+            start_s: table.need("at", "the time at which the change begins [s]")?.zero_or_more()?,
+            duration_s: table.get("within").map(|value| value.above_zero()).transpose()?,
+            speed,
+            step_length,
+            step_frequency: cadence.map(|steps_per_minute| steps_per_minute / 60.0),
+        })
     }
 }
 
@@ -107,9 +130,12 @@ fn pace(root: &Table<'_>, base: Pace) -> Result<Pace, TomlError> {
     Ok(pace)
 }
 
-/// The number of a key; times its factor it must be in the range.
+/// The number of a key; times its factor it must be in the range. A figure with a speed of 0 stands until the first change of pace.
 fn within(root: &Table<'_>, key: &str, range: &Range, factor: f64) -> Result<Option<f64>, TomlError> {
     let Some(value) = root.get(key) else { return Ok(None) };
+    if key == "speed" && root.get("pace_change").is_some() && value.number()? == 0.0 {
+        return Ok(Some(0.0));
+    }
     let number = value.above_zero()?;
     if range.contains(number * factor) { Ok(Some(number)) } else { Err(value.wrong(range.expected)) }
 }

@@ -3,6 +3,7 @@
 use super::cyclic_curve::CyclicCurve;
 use super::error::GaitError;
 use super::joint::LegJoint;
+use super::pace_plan::PaceChange;
 use super::stride::{ADULT_EXPONENT, EXPONENT_1997};
 use crate::toml_reader::nearest;
 
@@ -23,6 +24,8 @@ pub struct Gait {
     pub changes: Vec<KnotChange>,
     /// Curves of hip, knee and ankle; `None` for the curve of the style.
     pub curves: [Option<CyclicCurve>; 3],
+    /// Changes of the pace while walking, in the order of their times.
+    pub pace_changes: Vec<PaceChange>,
 }
 
 /// Speed, step length and step frequency, as far as they are given. With V = step length × frequency, two of them determine the third;
@@ -41,6 +44,24 @@ pub struct Pace {
     pub length_scale: f64,
     /// Factor on the resulting step frequency; scales the speed and does not change the angles.
     pub cadence_scale: f64,
+}
+
+impl Pace {
+    /// This pace with other speed [m/s], step length [m] and step frequency [steps/s]. If one of them is given, all three are replaced; the
+    /// factors remain in force, so the results have the given values.
+    #[must_use]
+    pub fn with(self, speed: Option<f64>, step_length: Option<f64>, step_frequency: Option<f64>) -> Pace {
+        if speed.is_none() && step_length.is_none() && step_frequency.is_none() {
+            return self;
+        }
+        let (long, quick) = (self.length_scale, self.cadence_scale);
+        Pace {
+            speed: speed.map(|speed| Speed::MetersPerSecond(speed / (long * quick))),
+            step_length: step_length.map(|length| length / long),
+            step_frequency: step_frequency.map(|frequency| frequency / quick),
+            ..self
+        }
+    }
 }
 
 /// A walking speed.
@@ -211,6 +232,7 @@ impl Gait {
             pelvis: style.pelvis(),
             changes: Vec::new(),
             curves: [None, None, None],
+            pace_changes: Vec::new(),
         }
     }
 
@@ -218,6 +240,16 @@ impl Gait {
     #[must_use]
     pub fn in_style(self, style: Style) -> Gait {
         Gait { style, pelvis: style.pelvis(), ..self }
+    }
+
+    /// The first pace at which the figure walks: that of the first change if it stands before.
+    pub(super) fn pace_at_start(&self) -> Result<Pace, GaitError> {
+        if self.pace.speed != Some(Speed::MetersPerSecond(0.0)) {
+            return Ok(self.pace);
+        }
+        let first = self.pace_changes.first().filter(|change| !change.is_halt());
+        let first = first.ok_or(GaitError::StandsForever)?;
+        Ok(self.pace.with(first.speed, first.step_length, first.step_frequency))
     }
 
     /// Exponent b of step frequency ~ V^b.

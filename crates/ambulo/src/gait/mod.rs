@@ -7,17 +7,18 @@
 //! Clinical signs throughout: hip flexion +, knee flexion +, ankle dorsiflexion +, pelvis tilt anterior +, trunk lean forward +,
 //! shoulder and elbow flexion + [rad].
 //!
-//! Start reading at `cyclic_curve` (how the curve of a joint depends on phase and speed), then `walk`, `speed_plan`, `stride`.
+//! Start reading at `cyclic_curve` (how the curve of a joint depends on phase and speed), then `walk`, `pace_plan`, `stride`.
 //!
 //! ```
 //! use ambulo::findings::Findings;
-//! use ambulo::gait::{Gait, SpeedChange, Walk};
+//! use ambulo::gait::{Gait, PaceChange, Walk};
 //!
 //! let mut findings = Findings::default();
-//! let walk = Walk::new(&Gait::named("free")?, 0.92, &mut findings)?;
+//! let mut gait = Gait::named("free")?;
+//! gait.pace_changes.push(PaceChange { start_s: 2.0, duration_s: Some(1.5), speed: Some(1.8), ..PaceChange::default() });
+//! let walk = Walk::new(&gait, 0.92, &mut findings)?;
 //! assert!((walk.speed() - walk.step_length() * 2.0 / walk.cycle_s()).abs() < 1e-12);
-//! let faster = walk.with_speed_change(SpeedChange { start_s: 2.0, duration_s: 1.5, speed: 1.8 }, &mut findings)?;
-//! let knee = faster.at(2.6).right.knee;
+//! let knee = walk.at(2.6).right.knee;
 //! println!("{:.1} deg, {:.2} rad/s, {:.1} rad/s²", knee.value.to_degrees(), knee.rate, knee.acceleration);
 //! # Ok::<(), ambulo::gait::GaitError>(())
 //! ```
@@ -41,7 +42,7 @@ mod gait_file;
 mod gait_settings;
 pub mod machine;
 mod pace;
-mod speed_plan;
+mod pace_plan;
 mod stride;
 mod walk;
 
@@ -54,12 +55,12 @@ pub use ground_force::GroundForceLaws;
 pub use jet::Jet;
 pub use joint::{LegJoint, STANDING_TILT};
 pub use laws::{Laws, LegCurves, SupportLaw};
+pub use pace_plan::{Clock, PaceChange};
 pub use quintic::{End, quintic};
 pub use speed_law::{GRAVITY, SpeedLaw, SpeedRange};
-pub use speed_plan::{Clock, SpeedChange};
 pub use stride::{
     ADULT_EXPONENT, CHILD_EXPONENT, EXPONENT_1997, REFERENCE_LEG, StrideLaw, WALKING_SPEEDS, walking_speeds,
 };
 pub use sub_cycle::SubCycle;
-pub use walk::{LegAngles, Phases, Walk, WalkPosture};
+pub use walk::{LegAngles, PaceRamp, Phases, Walk, WalkPosture};
 pub use wave::{Harmonic, Wave};

@@ -1,27 +1,38 @@
 //! A gait for a leg length: joint angles with velocity and acceleration at any time.
 //!
-//! All angles are functions of two numbers, the phase of the right foot and the dimensionless speed. Both are C² in time while the speed
-//! changes ([`SpeedChange`]). The left leg is half a cycle behind. Sub-cycles and states remain synchronised because their bounds are
-//! evaluated at the current speed. Pinned by: tests/gait_walk.rs, tests/gait_speed.rs.
+//! All angles are functions of the phase of the right foot and the pace. Both are C² in time while the pace changes ([`PaceChange`]). The
+//! left leg is half a cycle behind. Sub-cycles and states remain synchronised because their bounds are evaluated at the current speed.
+//! Between walking and standing, every angle is
+//!
+//! ```text
+//! angle = standing + w (walking - standing),    leg joints in walking = neutral + l (curve - neutral)
+//! ```
+//!
+//! with the share of walking w and the relative step length l of the [`Clock`]. Pinned by: tests/gait_walk.rs, tests/gait_speed.rs.
 
 use super::arms::ArmCurves;
 use super::curve_check::check;
 use super::cyclic_curve::{CyclicCurve, Knot};
 use super::error::GaitError;
-use super::gait_settings::{Gait, KnotChange, Pelvis, Style};
+use super::gait_settings::{Gait, KnotChange, Pace, Pelvis, Speed, Style};
 use super::jet::Jet;
 use super::joint::{LegJoint, STANDING_TILT};
 use super::laws::{Laws, LegCurves, checked_speeds};
-use super::pace::{above_zero, check_steps, number, resolve};
-use super::speed_plan::{Clock, SpeedChange, SpeedPlan};
+use super::pace::{number, resolve};
+use super::pace_plan::{Clock, PaceChange, PacePlan, SteadyPace};
 use super::stride::{StrideLaw, walking_speeds};
 use crate::findings::{Code, Findings};
 use crate::model::BySide;
 
+/// Latest start and longest duration of a change of pace [s].
+const LATEST_CHANGE_S: f64 = 300.0;
+/// Shortest duration of a change of pace [s].
+const SHORTEST_CHANGE_S: f64 = 0.1;
+
 /// A gait for a leg length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Walk {
-    plan: SpeedPlan,
+    plan: PacePlan,
     laws: Laws,
     arms: ArmCurves,
     pelvis: Pelvis,
@@ -73,12 +84,14 @@ pub struct Phases {
 }
 
 impl Walk {
-    /// A gait for a leg length, hip to floor [m], at constant speed.
+    /// A gait for a leg length, hip to floor [m], with the gait's changes of pace.
     ///
     /// # Errors
-    /// Numbers that are not possible, contradictions, curves outside of the range of a joint.
+    /// Numbers that are not possible, contradictions, curves outside of the range of a joint, changes of pace that overlap.
     pub fn new(gait: &Gait, leg_length: f64, findings: &mut Findings) -> Result<Walk, GaitError> {
-        let (law, law_speed) = resolve(gait, leg_length)?;
+        let stands = gait.pace.speed == Some(Speed::MetersPerSecond(0.0));
+        let first = PaceOf { gait, leg_length }.walking(&gait.pace_at_start()?)?;
+        let law = first.law;
         let mut laws = Laws::built_in(gait.style)?;
         for (joint, own) in LegJoint::ALL.into_iter().zip(&gait.curves) {
             if let Some(curve) = own {
@@ -88,31 +101,100 @@ impl Walk {
             *laws.legs.of_mut(joint) = scaled(&curve, joint, law.length_scale, gait.step_height);
             refuse_faults(laws.legs.of(joint), joint, &laws)?;
         }
-        report_range(law.speed(law_speed), leg_length, findings);
-        let plan = SpeedPlan::constant(law, law_speed);
+        report_range(law.speed(first.law_speed), leg_length, findings);
+        let initial = SteadyPace { walks: !stands, ..first.relative_to(&law) };
+        let plan = PacePlan::constant(law, initial, 0.0);
         let (pelvis, style, name) = (gait.pelvis, gait.style, gait.name.clone());
-        Ok(Walk { plan, laws, arms: ArmCurves::new(), pelvis, style, name })
+        let mut walk = Walk { plan, laws, arms: ArmCurves::new(), pelvis, style, name };
+        if stands {
+            // The right leg swings first.
+            let off = walk.foot_off(&walk.clock(0.0));
+            walk.plan = PacePlan::constant(law, initial, off);
+        }
+        for change in &gait.pace_changes {
+            walk.add_change(gait, change, findings)?;
+        }
+        Ok(walk)
     }
 
-    /// The same walk with another change of speed, after all others.
-    ///
-    /// # Errors
-    /// A speed outside of the range of walking, a duration that is not above zero, or a start before the end of the previous change.
-    pub fn with_speed_change(mut self, change: SpeedChange, findings: &mut Findings) -> Result<Walk, GaitError> {
-        above_zero("speed after a change [m/s]", change.speed)?;
-        above_zero("duration of a change of speed [s]", change.duration_s)?;
-        let finite = "a time of zero or more";
-        if !(change.start_s >= 0.0 && change.start_s.is_finite()) {
-            return Err(number("start of a change of speed [s]", change.start_s, finite));
+    /// Adds a change of pace after all others.
+    fn add_change(&mut self, gait: &Gait, change: &PaceChange, findings: &mut Findings) -> Result<(), GaitError> {
+        if !(0.0..=LATEST_CHANGE_S).contains(&change.start_s) {
+            let expected = "0 to 300 s, because a walk at constant pace repeats itself";
+            return Err(number("start of a change of pace [s]", change.start_s, expected));
         }
         if let Some(earliest_s) = self.plan.end_s().filter(|end| change.start_s < *end) {
             return Err(GaitError::OverlappingChange { start_s: change.start_s, earliest_s });
         }
-        let law_speed = self.plan.law().law_speed(change.speed);
-        check_steps(self.plan.law(), law_speed)?;
-        report_range(change.speed, self.leg_length(), findings);
-        self.plan.add(change.start_s, change.duration_s, law_speed);
-        Ok(self)
+        let before = self.plan.last();
+        let to = if change.is_halt() {
+            SteadyPace { walks: false, ..before }
+        } else {
+            let pace = gait.pace.with(change.speed, change.step_length, change.step_frequency);
+            let resolved = PaceOf { gait, leg_length: self.leg_length() }.walking(&pace)?;
+            let to = resolved.relative_to(self.plan.law());
+            for joint in LegJoint::ALL {
+                let curve = self.laws.legs.of(joint);
+                let longer = curve.mapped(|knot| knot.scaled_about(joint.neutral(), to.length));
+                refuse_faults(&longer, joint, &self.laws)?;
+            }
+            report_range(resolved.law.speed(resolved.law_speed), self.leg_length(), findings);
+            to
+        };
+        let paced = if before.walks { before } else { to };
+        let duration_s = match change.duration_s {
+            Some(duration_s) if (SHORTEST_CHANGE_S..=LATEST_CHANGE_S).contains(&duration_s) => duration_s,
+            Some(duration_s) => {
+                let expected = "0.1 to 300 s, because nobody changes pace within less than a tenth of a second";
+                return Err(number("duration of a change of pace [s]", duration_s, expected));
+            }
+            None if before.walks == to.walks => 1.0 / self.plan.rate_in_walking(paced),
+            None => 2.0 / self.plan.rate_in_walking(paced),
+        };
+        // The later foot off of the two paces, so that both have single support in the same part of the cycle.
+        let off = |pace: SteadyPace| self.foot_off(&self.steady(pace).clock(0.0));
+        let foot_off = off(before).max(off(to));
+        self.plan.add(change.start_s, duration_s, to, foot_off);
+        Ok(())
+    }
+
+    /// Whether the pace never changes.
+    #[must_use]
+    pub fn is_steady(&self) -> bool {
+        self.plan.is_constant()
+    }
+
+    /// End of the last change of pace [s].
+    #[must_use]
+    pub fn last_change_s(&self) -> Option<f64> {
+        self.plan.end_s()
+    }
+
+    /// The constant paces before, between and after the changes as gaits without changes, and for each change its start and duration [s].
+    /// Where the figure stands, the gait is that of the change from or to standing.
+    #[must_use]
+    pub fn pace_ramps(&self) -> Vec<PaceRamp> {
+        let ramps = self.plan.ramps();
+        ramps
+            .map(|(start_s, duration_s, from, to)| PaceRamp {
+                start_s,
+                duration_s,
+                paces: [from, to].map(|pace| self.steady(pace)),
+            })
+            .collect()
+    }
+
+    /// The last change of [`Walk::pace_ramps`] that has begun at a time [s], and how much of it the angles have taken, 0 to 1; `None`
+    /// before the first change.
+    #[must_use]
+    pub fn change_progress(&self, time_s: f64) -> Option<(usize, Jet)> {
+        self.plan.progress(time_s)
+    }
+
+    /// This walk at a constant pace, in walking, from a right foot strike.
+    fn steady(&self, pace: SteadyPace) -> Walk {
+        let plan = PacePlan::constant(*self.plan.law(), SteadyPace { walks: true, ..pace }, 0.0);
+        Walk { plan, ..self.clone() }
     }
 
     /// Name of the gait.
@@ -160,13 +242,21 @@ impl Walk {
     /// Walking speed at the start [m/s].
     #[must_use]
     pub fn speed(&self) -> f64 {
-        self.speed_at(0.0)
+        let pace = self.plan.at(0.0);
+        self.plan.law().speed(pace.law_speed.value) * pace.walking.value
     }
 
-    /// Walking speed [m/s].
+    /// Step length × step frequency at a time [m/s].
     #[must_use]
     pub fn speed_at(&self, time_s: f64) -> f64 {
-        self.plan.law().speed(self.plan.at(time_s).law_speed.value)
+        self.step_length_at(time_s) * 2.0 * self.plan.at(time_s).phase.rate
+    }
+
+    /// Step length at a time [m].
+    #[must_use]
+    pub fn step_length_at(&self, time_s: f64) -> f64 {
+        let clock = self.plan.at(time_s);
+        self.plan.law().step_length(clock.law_speed.value) * clock.length.value * clock.walking.value
     }
 
     /// V/√(gL) at the start.
@@ -175,22 +265,39 @@ impl Walk {
         self.speed() / self.plan.law().unit_speed()
     }
 
-    /// Duration of a cycle at the start [s].
+    /// Duration of a cycle at the start [s]; if the figure stands at the start, of the first cycles after it.
     #[must_use]
     pub fn cycle_s(&self) -> f64 {
-        1.0 / self.plan.at(0.0).phase.rate
+        1.0 / self.plan.rate_in_walking(self.first_pace())
+    }
+
+    /// Duration of a cycle after all changes [s]; if the figure then stands, of the last cycles before it.
+    #[must_use]
+    pub fn last_cycle_s(&self) -> f64 {
+        1.0 / self.plan.rate_in_walking(self.plan.last())
+    }
+
+    /// The first pace at which the figure walks.
+    fn first_pace(&self) -> SteadyPace {
+        let first = self.plan.ramps().next().map(|(_, _, from, _)| from);
+        first.unwrap_or_else(|| self.plan.last())
     }
 
     /// Step length at the start [m].
     #[must_use]
     pub fn step_length(&self) -> f64 {
-        self.plan.law().step_length(self.plan.at(0.0).law_speed.value)
+        self.step_length_at(0.0)
     }
 
     /// Phase and law speed at a time [s]; phase 0 is the foot strike of the right foot.
     #[must_use]
     pub fn clock(&self, time_s: f64) -> Clock {
         self.plan.at(time_s)
+    }
+
+    /// The clock of the first pace at which the figure walks, at a foot strike of the right foot.
+    pub(super) fn first_clock(&self) -> Clock {
+        self.steady(self.first_pace()).clock(0.0)
     }
 
     /// The speed at which curves are evaluated: the law speed, limited to the range of the data.
@@ -205,31 +312,46 @@ impl Walk {
         self.posture(&self.plan.at(time_s))
     }
 
-    /// All angles at a phase and law speed.
+    /// All angles at a phase and pace.
     #[must_use]
     pub fn posture(&self, clock: &Clock) -> WalkPosture {
         let speed = self.curve_speed(clock);
         let phases = [clock.phase, clock.phase + 0.5];
-        let [right, left] = phases.map(|phase| self.leg(phase, speed));
+        let [right, left] = phases.map(|phase| self.leg(phase, speed, clock));
         WalkPosture {
             right,
             left,
-            pelvis_tilt: self.pelvis_tilt(clock.phase, speed),
+            pelvis_tilt: self.pelvis_tilt(clock),
             standing_tilt: self.standing_tilt(),
-            trunk_lean: self.trunk_lean(clock.phase, speed),
-            shoulders: phases.map(|phase| ArmCurves::shoulder(phase, speed)),
-            elbows: phases.map(|phase| self.arms.elbow().at(phase, speed)),
+            trunk_lean: self.trunk_lean(clock),
+            shoulders: phases.map(|phase| self.arm_angle(ArmCurves::shoulder(phase, speed), clock)),
+            elbows: phases.map(|phase| self.arm_angle(self.arms.elbow().at(phase, speed), clock)),
             phases: self.phases(clock),
         }
     }
 
-    fn leg(&self, phase: Jet, speed: Jet) -> LegAngles {
+    fn leg(&self, phase: Jet, speed: Jet, clock: &Clock) -> LegAngles {
         let legs = &self.laws.legs;
-        LegAngles {
-            hip: legs.hip.at(phase, speed) - self.hip_offset(speed),
-            knee: legs.knee.at(phase, speed),
-            ankle: legs.ankle.at(phase, speed),
+        let angle = |joint: LegJoint| self.leg_angle(joint, legs.of(joint).at(phase, speed), clock);
+        LegAngles { hip: angle(LegJoint::Hip), knee: angle(LegJoint::Knee), ankle: angle(LegJoint::Ankle) }
+    }
+
+    /// The angle [rad] of a joint of a leg, from the value of its curve.
+    pub(super) fn leg_angle(&self, joint: LegJoint, curve: Jet, clock: &Clock) -> Jet {
+        let neutral = joint.neutral();
+        let long = between(neutral, curve, clock.length);
+        match joint {
+            LegJoint::Hip => {
+                let standing = neutral - STANDING_TILT + self.standing_tilt();
+                between(standing, long - self.hip_offset(self.curve_speed(clock)), clock.walking)
+            }
+            LegJoint::Knee | LegJoint::Ankle => between(neutral, long, clock.walking),
         }
+    }
+
+    /// The angle [rad] of a joint of an arm, from the value of its curve; arms hang in standing.
+    pub(super) fn arm_angle(&self, curve: Jet, clock: &Clock) -> Jet {
+        between(0.0, curve, clock.walking)
     }
 
     /// The angle [rad] that is subtracted from the curve of the hip because the pelvis is held vertical.
@@ -243,18 +365,24 @@ impl Walk {
 
     /// Anterior tilt of the pelvis [rad].
     #[must_use]
-    pub fn pelvis_tilt(&self, phase: Jet, speed: Jet) -> Jet {
+    pub fn pelvis_tilt(&self, clock: &Clock) -> Jet {
         match self.pelvis {
-            Pelvis::Moving => self.laws.pelvis_tilt.at(phase, speed),
+            Pelvis::Moving => {
+                let tilt = self.laws.pelvis_tilt.at(clock.phase, self.curve_speed(clock));
+                between(STANDING_TILT, tilt, clock.walking)
+            }
             Pelvis::Vertical => Jet::ZERO,
         }
     }
 
     /// Forward lean of the trunk [rad].
     #[must_use]
-    pub fn trunk_lean(&self, phase: Jet, speed: Jet) -> Jet {
+    pub fn trunk_lean(&self, clock: &Clock) -> Jet {
         match self.pelvis {
-            Pelvis::Moving => self.laws.trunk_lean.at(phase, speed),
+            Pelvis::Moving => {
+                let lean = self.laws.trunk_lean.at(clock.phase, self.curve_speed(clock));
+                between(0.0, lean, clock.walking)
+            }
             Pelvis::Vertical => Jet::ZERO,
         }
     }
@@ -274,13 +402,62 @@ impl Walk {
         let foot_off = self.foot_off(clock);
         let cycle =
             BySide { right: clock.phase.value, left: clock.phase.value + 0.5 }.map(|phase| phase - phase.floor());
-        Phases { cycle, stance: cycle.map(|phase| phase < foot_off), foot_off }
+        Phases { cycle, stance: cycle.map(|phase| clock.stands() || phase < foot_off), foot_off }
     }
 
     /// Foot off as a share of the cycle: the duration of stance is linear in the duration of the cycle.
     #[must_use]
     pub fn foot_off(&self, clock: &Clock) -> f64 {
-        self.laws.support.share(1.0 / (clock.phase.rate * self.plan.law().leg_time()))
+        let law = self.plan.law();
+        let rate = law.cycle_rate(clock.law_speed).value * clock.cadence.value;
+        self.laws.support.share(1.0 / (rate * law.leg_time()))
+    }
+}
+
+/// A change of pace, for those who need the walks before and after it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PaceRamp {
+    /// Start [s].
+    pub start_s: f64,
+    /// Duration [s].
+    pub duration_s: f64,
+    /// The walk at the pace before and at the pace after the change. Where the figure stands, the pace on the other side of the change.
+    pub paces: [Walk; 2],
+}
+
+/// standing + share (walking - standing), exactly the angle of walking where the share is 1.
+fn between(standing: f64, walking: Jet, share: Jet) -> Jet {
+    if share == Jet::constant(1.0) { walking } else { (walking - standing) * share + standing }
+}
+
+/// The paces of a gait on a leg.
+struct PaceOf<'a> {
+    gait: &'a Gait,
+    leg_length: f64,
+}
+
+/// A pace in walking: a law of steps, and the speed at which it is evaluated.
+struct Resolved {
+    law: StrideLaw,
+    law_speed: f64,
+}
+
+impl PaceOf<'_> {
+    fn walking(&self, pace: &Pace) -> Result<Resolved, GaitError> {
+        let gait = Gait { pace: *pace, ..self.gait.clone() };
+        let (law, law_speed) = resolve(&gait, self.leg_length)?;
+        Ok(Resolved { law, law_speed })
+    }
+}
+
+impl Resolved {
+    fn relative_to(&self, law: &StrideLaw) -> SteadyPace {
+        SteadyPace {
+            law_speed: self.law_speed,
+            length: self.law.length_scale / law.length_scale,
+            cadence: self.law.cadence_scale / law.cadence_scale,
+            walks: true,
+        }
     }
 }
 

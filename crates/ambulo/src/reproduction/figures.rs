@@ -134,7 +134,7 @@ fn leg_curve(walk: &Walk, angle: fn(&LegAngles) -> Jet) -> Vec<[f64; 2]> {
     let law_speed = walk.clock(0.0).law_speed;
     let at = |point: usize| {
         let phase = point as f64 / (4 * (POINTS - 1)) as f64;
-        angle(&walk.posture(&Clock { phase: Jet::new(phase, 1.0, 0.0), law_speed }).right).value.to_degrees()
+        angle(&walk.posture(&Clock::steady(Jet::new(phase, 1.0, 0.0), law_speed)).right).value.to_degrees()
     };
     (0..=4 * (POINTS - 1)).map(|point| [0.25 * point as f64, at(point)]).collect()
 }

@@ -4,7 +4,7 @@ use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{GAITS, Scope};
 use super::figures::REFERENCE_LEG;
 use crate::findings::Findings;
-use crate::gait::{CyclicCurve, Gait, GaitError, Jet, LegAngles, Pace, Speed, SpeedChange, Style, Walk};
+use crate::gait::{CyclicCurve, Gait, GaitError, Jet, LegAngles, Pace, PaceChange, Speed, Style, Walk};
 
 /// Distance from an instant at which both sides of it are compared [s].
 const BESIDE_S: f64 = 1e-6;
@@ -54,7 +54,7 @@ pub(super) const SPEED_LAW: Statement = Statement {
     headline: "share_of_step_length",
     scope: Scope::Full,
     measure: |_| {
-        let [Ok(slow), Ok(fast)] = [1.0, 1.6].map(at_speed) else { return Numbers::new() };
+        let [Ok(slow), Ok(fast)] = [1.0, 1.6].map(|speed| at_speed(speed, Vec::new())) else { return Numbers::new() };
         let product = |walk: &Walk| walk.step_length() * 2.0 / walk.cycle_s() / walk.speed() - 1.0;
         let share = (fast.step_length() / slow.step_length()).ln() / (fast.speed() / slow.speed()).ln();
         numbers([
@@ -95,10 +95,10 @@ fn walk_of(gait: &Gait) -> Result<Walk, GaitError> {
     Walk::new(gait, REFERENCE_LEG, &mut Findings::default())
 }
 
-/// A walk of the paper's style at a speed [m/s].
-fn at_speed(speed: f64) -> Result<Walk, GaitError> {
+/// A walk of the paper's style at a speed [m/s], with changes on the way.
+fn at_speed(speed: f64, pace_changes: Vec<PaceChange>) -> Result<Walk, GaitError> {
     let pace = Pace { speed: Some(Speed::MetersPerSecond(speed)), ..Pace::default() };
-    walk_of(&Gait { pace, ..Gait::new("speed", Style::Paper1997) })
+    walk_of(&Gait { pace, pace_changes, ..Gait::new("speed", Style::Paper1997) })
 }
 
 /// The largest jump of an acceleration at a bound as a share of its largest value, and the number of sub-cycles with both signs.
@@ -137,9 +137,10 @@ const CHANGES_S: [f64; 2] = [2.0, 3.0];
 
 fn changed() -> Option<Numbers> {
     let [from_s, to_s] = CHANGES_S;
-    let change = SpeedChange { start_s: from_s, duration_s: to_s - from_s, speed: 1.6 };
-    let walk = at_speed(1.2).ok()?.with_speed_change(change, &mut Findings::default()).ok()?;
-    let steady = at_speed(1.6).ok()?;
+    let change =
+        PaceChange { start_s: from_s, duration_s: Some(to_s - from_s), speed: Some(1.6), ..PaceChange::default() };
+    let walk = at_speed(1.2, vec![change]).ok()?;
+    let steady = at_speed(1.6, Vec::new()).ok()?;
     let (mut off, mut jump) = (0.0_f64, 0.0_f64);
     for angle in ANGLES {
         for instant in 1..INSTANTS {

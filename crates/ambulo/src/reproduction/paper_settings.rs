@@ -114,8 +114,8 @@ impl PaperSettings {
         gait
     }
 
-    pub(super) fn signals(&self, walk: &Walk, model: &Model) -> Vec<Signal> {
-        let plain = gait_signals(walk, model).into_iter().zip(model.coordinates());
+    pub(super) fn signals(&self, walk: &Walk, model: &Model, duration_s: f64) -> Vec<Signal> {
+        let plain = gait_signals(walk, model, 0.0, duration_s).into_iter().zip(model.coordinates());
         plain
             .map(|(signal, coordinate)| {
                 let of_arm = coordinate.name.starts_with("arm_") || coordinate.name.starts_with("elbow_");

@@ -1,17 +1,18 @@
-//! Sampled periodic functions of time, interpolated with quintics.
+//! Sampled functions of time, periodic or over a span, interpolated with quintics.
 //!
 //! On each interval of length d, a polynomial of degree five matches value, rate and acceleration at both ends. The result is
 //! twice continuously differentiable, and its error falls with d⁶ where the function is smooth. Where the third derivative
 //! jumps by J inside an interval, the acceleration is off by less than J d/4 within that interval alone. One evaluation costs
 //! about 30 operations, whatever the function costs.
 
-/// Samples of several periodic functions at the same instants.
+/// Samples of several functions at the same instants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples {
     step_s: f64,
     columns: usize,
-    /// Value, rate and acceleration, one row per instant; the last instant is the first one of the next period.
+    /// Value, rate and acceleration, one row per instant; the last instant of periodic functions is the first one of the next period.
     rows: Vec<[f64; 3]>,
+    periodic: bool,
 }
 
 impl Samples {
@@ -21,17 +22,28 @@ impl Samples {
     /// # Panics
     /// If the period or the step is not above zero.
     #[must_use]
-    pub fn new(columns: usize, period_s: f64, step_s: f64, mut functions: impl FnMut(f64, &mut [[f64; 3]])) -> Samples {
-        assert!(period_s > 0.0 && step_s > 0.0, "a period of {period_s} s in steps of {step_s} s");
-        let intervals = (period_s / step_s - 1e-9).ceil().max(1.0);
-        let step_s = period_s / intervals;
+    pub fn new(columns: usize, period_s: f64, step_s: f64, functions: impl FnMut(f64, &mut [[f64; 3]])) -> Samples {
+        let mut samples = Samples::over(columns, period_s, step_s, functions);
+        let last = samples.rows.len() - columns;
+        samples.rows.copy_within(..columns, last);
+        samples.periodic = true;
+        samples
+    }
+
+    /// Samples functions from time zero to `span_s`, at most `step_s` apart. Before and after it they have the values of its ends.
+    ///
+    /// # Panics
+    /// If the span or the step is not above zero.
+    #[must_use]
+    pub fn over(columns: usize, span_s: f64, step_s: f64, mut functions: impl FnMut(f64, &mut [[f64; 3]])) -> Samples {
+        assert!(span_s > 0.0 && step_s > 0.0, "a span of {span_s} s in steps of {step_s} s");
+        let intervals = (span_s / step_s - 1e-9).ceil().max(1.0);
+        let step_s = span_s / intervals;
         let mut rows = vec![[0.0; 3]; columns * (intervals as usize + 1)];
         for (number, row) in rows.chunks_exact_mut(columns).enumerate() {
             functions(step_s * number as f64, row);
         }
-        let last = rows.len() - columns;
-        rows.copy_within(..columns, last);
-        Samples { step_s, columns, rows }
+        Samples { step_s, columns, rows, periodic: false }
     }
 
     /// Value, first and second derivative of one function.
@@ -53,9 +65,13 @@ impl Samples {
         let intervals = self.rows.len() / self.columns - 1;
         let count = intervals as f64;
         let mut place = t / self.step_s;
-        // Truncation is one instruction on most processors; a negative remainder is then raised by a period.
-        place -= ((place / count) as i64 as f64) * count;
-        place = if place < 0.0 { place + count } else { place };
+        if self.periodic {
+            // Truncation is one instruction on most processors; a negative remainder is then raised by a period.
+            place -= ((place / count) as i64 as f64) * count;
+            place = if place < 0.0 { place + count } else { place };
+        } else {
+            place = place.clamp(0.0, count);
+        }
         let interval = (place as usize).min(intervals - 1);
         (interval * self.columns + column, place - interval as f64)
     }
@@ -100,6 +116,19 @@ mod tests {
     fn wave(t: f64) -> [f64; 3] {
         let (sin, cos) = (3.0 * t).sin_cos();
         [sin, 3.0 * cos, -9.0 * sin]
+    }
+
+    #[test]
+    fn functions_over_a_span_do_not_repeat() {
+        let samples = Samples::over(1, 1.0, 0.01, |t, row| row[0] = [t * t, 2.0 * t, 2.0]);
+        for t in [0.0, 0.004, 0.5, 0.999, 1.0] {
+            let [x, v, a] = samples.at(0, t);
+            assert!(
+                (x - t * t).abs() < 1e-14 && (v - 2.0 * t).abs() < 1e-11 && (a - 2.0).abs() < 1e-8,
+                "{t}: {x} {v} {a}"
+            );
+        }
+        assert!((samples.value(0, 7.0) - 1.0).abs() < 1e-14 && samples.value(0, -7.0).abs() < 1e-14);
     }
 
     #[test]

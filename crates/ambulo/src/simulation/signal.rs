@@ -53,6 +53,16 @@ impl Signal {
         (0..columns).map(|column| Signal::Sampled(Arc::clone(&samples), column)).collect()
     }
 
+    /// One signal per column of a motion from time zero to `span_s`, sampled like [`Signal::periodic`]; constant after it.
+    ///
+    /// # Panics
+    /// If the span is not above zero.
+    #[must_use]
+    pub fn over(columns: usize, span_s: f64, motion: impl FnMut(f64, &mut [[f64; 3]])) -> Vec<Signal> {
+        let samples = Arc::new(Samples::over(columns, span_s, SAMPLE_STEP_S, motion));
+        (0..columns).map(|column| Signal::Sampled(Arc::clone(&samples), column)).collect()
+    }
+
     /// Value, first and second derivative.
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {

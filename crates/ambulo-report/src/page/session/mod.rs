@@ -12,6 +12,7 @@ mod glance;
 mod groups;
 mod header;
 mod missing;
+mod pace;
 mod peaks;
 mod quality;
 mod results;
@@ -53,6 +54,7 @@ fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Sess
     let mut feasibility = verdict.and_then(|verdict| feasibility::feasibility(verdict, &basis, &quantities));
     let values = extracted::extracted(&results, &shown);
     let mut groups = groups::groups(&results, &size, &shown, block);
+    groups.extend(pace::group(&results, block));
     let mut quality = quality::quality(&results, &quantities, block);
     missing.extend(missing::missing(&results, &size, &quantities, &still));
     if let Some((why, closest)) = verdict.and_then(|verdict| feasibility::partly_judged(verdict, &basis, &quantities)) {

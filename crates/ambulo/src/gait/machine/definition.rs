@@ -1,7 +1,7 @@
 //! The description of a machine: states, transitions, children, activity; and the data that these can read.
 
 use crate::gait::jet::Jet;
-use crate::gait::speed_plan::Clock;
+use crate::gait::pace_plan::Clock;
 use std::fmt;
 
 /// Data that a machine can read: the clock of this step, and all machines as they were after the previous step.

@@ -12,7 +12,7 @@
 
 use super::definition::{ChildOutputs, Machine, MachineInputs};
 use crate::gait::jet::Jet;
-use crate::gait::speed_plan::Clock;
+use crate::gait::pace_plan::Clock;
 
 /// State and output of every machine after a step, parents before children.
 type Snapshot = Vec<(usize, Jet)>;

@@ -18,7 +18,7 @@ use crate::gait::arms::ArmCurves;
 use crate::gait::cyclic_curve::CyclicCurve;
 use crate::gait::jet::Jet;
 use crate::gait::joint::LegJoint;
-use crate::gait::speed_plan::Clock;
+use crate::gait::pace_plan::Clock;
 use crate::gait::sub_cycle::SubCycle;
 use crate::gait::walk::{LegAngles, Phases, Walk, WalkPosture};
 use crate::model::{BySide, Side};
@@ -56,27 +56,45 @@ fn global(walk: &Arc<Walk>) -> Machine {
         "single support on the left, right swing",
     ];
     const EVENTS: [&str; 4] = ["left foot off", "left contact", "right foot off", "right contact"];
-    let windows = support_windows(walk.foot_off(&walk.clock(0.0)));
+    const STANDING: usize = 4;
+    let windows = support_windows(walk.foot_off(&walk.first_clock()));
     let state = |k: usize| State {
         name: NAMES[k].into(),
         span: Some(Span { window: [windows[k], windows[k + 1]], bounds: None }),
     };
-    let transition = |k: usize| {
+    let in_window = |k: usize| {
         let walk = Arc::clone(walk);
-        Transition::new(k, (k + 1) % 4, EVENTS[k], move |inputs: &MachineInputs<'_>| {
-            let windows = support_windows(walk.foot_off(inputs.clock));
-            let phase = walk.phases(inputs.clock).cycle.right;
-            !(windows[k]..windows[k + 1]).contains(&phase)
-        })
+        move |clock: &Clock| {
+            let windows = support_windows(walk.foot_off(clock));
+            (windows[k]..windows[k + 1]).contains(&walk.phases(clock).cycle.right)
+        }
     };
+    let next = |k: usize| {
+        let inside = in_window(k);
+        Transition::new(k, (k + 1) % 4, EVENTS[k], move |inputs: &MachineInputs<'_>| !inside(inputs.clock))
+    };
+    let (mut states, mut transitions) = ((0..4).map(state).collect::<Vec<_>>(), Vec::new());
+    if !walk.is_steady() {
+        states.push(State::named("standing"));
+        let halt =
+            |k: usize| Transition::new(k, STANDING, "speed 0", |inputs: &MachineInputs<'_>| inputs.clock.stands());
+        let begin = |k: usize| {
+            let inside = in_window(k);
+            Transition::new(STANDING, k, "a speed above 0", move |inputs: &MachineInputs<'_>| {
+                !inputs.clock.stands() && inside(inputs.clock)
+            })
+        };
+        transitions.extend((0..4).map(halt).chain((0..4).map(begin)));
+    }
+    transitions.extend((0..4).map(next));
     let phase = |_: usize, inputs: &MachineInputs<'_>, _: &ChildOutputs<'_>| {
         inputs.clock.phase - inputs.clock.phase.value.floor()
     };
-    Machine::new("walk", (0..4).map(state).collect(), phase).with_transitions((0..4).map(transition))
+    Machine::new("walk", states, phase).with_transitions(transitions)
 }
 
 fn leg(walk: &Arc<Walk>, side: Side) -> Machine {
-    let off = walk.foot_off(&walk.clock(0.0));
+    let off = walk.foot_off(&walk.first_clock());
     let state = |name: &str, window: [f64; 2]| State { name: name.into(), span: Some(Span { window, bounds: None }) };
     let states = vec![state("stance", [0.0, off]), state("swing", [off, 1.0])];
     let transition = |from: usize, when: &str| {
@@ -101,27 +119,27 @@ fn joint_name(side: Side, joint: LegJoint) -> String {
 }
 
 fn joint_machine(walk: &Arc<Walk>, side: Side, joint: LegJoint) -> Machine {
-    let offset = {
+    let angle = {
         let walk = Arc::clone(walk);
-        move |speed: Jet| if joint == LegJoint::Hip { walk.hip_offset(speed) } else { Jet::ZERO }
+        move |curve: Jet, clock: &Clock| walk.leg_angle(joint, curve, clock)
     };
-    curve_machine(walk, &joint_name(side, joint), side, walk.legs().of(joint), offset)
+    curve_machine(walk, &joint_name(side, joint), side, walk.legs().of(joint), angle)
 }
 
-/// A machine whose states are the sub-cycles of a curve; `offset` is subtracted from the curve.
+/// A machine whose states are the sub-cycles of a curve; `angle` makes the angle of the joint from the value of the curve.
 fn curve_machine(
     walk: &Arc<Walk>,
     name: &str,
     side: Side,
     curve: &CyclicCurve,
-    offset: impl Fn(Jet) -> Jet + Send + Sync + 'static,
+    angle: impl Fn(Jet, &Clock) -> Jet + Send + Sync + 'static,
 ) -> Machine {
     let curve = Arc::new(curve.clone());
     let sub_cycles = Arc::new(SubCycle::of(&curve));
-    let speed = walk.curve_speed(&walk.clock(0.0));
-    let taken = offset(speed).value;
+    let start = walk.first_clock();
+    let speed = walk.curve_speed(&start);
     let state = |part: &SubCycle| {
-        let bounds = part.bounds(&curve, speed.value).map(|angle| angle - taken);
+        let bounds = part.bounds(&curve, speed.value).map(|value| angle(Jet::constant(value), &start).value);
         let span = Span { window: part.window(&curve, speed.value), bounds: Some(bounds) };
         State { name: part.name.clone(), span: Some(span) }
     };
@@ -143,7 +161,7 @@ fn curve_machine(
         move |state: usize, inputs: &MachineInputs<'_>, _: &ChildOutputs<'_>| {
             let (phase, speed) = (phase_of(side, inputs.clock), walk.curve_speed(inputs.clock));
             let segment = parts[state].segment(&curve, phase.value, speed.value);
-            curve.on_segment(segment, phase, speed) - offset(speed)
+            angle(curve.on_segment(segment, phase, speed), inputs.clock)
         }
     };
     Machine::new(name, states, activity).with_transitions(transitions)
@@ -151,20 +169,16 @@ fn curve_machine(
 
 fn pelvis(walk: &Arc<Walk>) -> Machine {
     let walk = Arc::clone(walk);
-    Machine::new("pelvis", vec![State::named("tilting")], move |_, inputs, _| {
-        walk.pelvis_tilt(inputs.clock.phase, walk.curve_speed(inputs.clock))
-    })
+    Machine::new("pelvis", vec![State::named("tilting")], move |_, inputs, _| walk.pelvis_tilt(inputs.clock))
 }
 
 fn lean(walk: &Arc<Walk>) -> Machine {
     let walk = Arc::clone(walk);
-    Machine::new("trunk", vec![State::named("leaning")], move |_, inputs, _| {
-        walk.trunk_lean(inputs.clock.phase, walk.curve_speed(inputs.clock))
-    })
+    Machine::new("trunk", vec![State::named("leaning")], move |_, inputs, _| walk.trunk_lean(inputs.clock))
 }
 
 fn shoulder(walk: &Arc<Walk>, side: Side) -> Machine {
-    let speed = walk.curve_speed(&walk.clock(0.0));
+    let speed = walk.curve_speed(&walk.first_clock());
     let angle = |phase: f64| ArmCurves::shoulder(Jet::constant(phase), speed).value;
     let state = |name: &str, window: [f64; 2]| {
         let span = Span { window, bounds: Some(window.map(angle)) };
@@ -179,13 +193,18 @@ fn shoulder(walk: &Arc<Walk>, side: Side) -> Machine {
     };
     let walk = Arc::clone(walk);
     Machine::new(&format!("{side} shoulder"), states, move |_, inputs, _| {
-        ArmCurves::shoulder(phase_of(side, inputs.clock), walk.curve_speed(inputs.clock))
+        let swing = ArmCurves::shoulder(phase_of(side, inputs.clock), walk.curve_speed(inputs.clock));
+        walk.arm_angle(swing, inputs.clock)
     })
     .with_transitions([transition(0, "the other foot's contact"), transition(1, "contact")])
 }
 
 fn elbow(walk: &Arc<Walk>, side: Side) -> Machine {
-    curve_machine(walk, &format!("{side} elbow"), side, walk.arms().elbow(), |_| Jet::ZERO)
+    let angle = {
+        let walk = Arc::clone(walk);
+        move |curve: Jet, clock: &Clock| walk.arm_angle(curve, clock)
+    };
+    curve_machine(walk, &format!("{side} elbow"), side, walk.arms().elbow(), angle)
 }
 
 /// A walk that is driven by its state machine.
@@ -225,6 +244,12 @@ impl WalkMachine {
             arms: Side::BOTH.map(|side| ["shoulder", "elbow"].map(|part| number(&format!("{side} {part}")))),
             running,
         }
+    }
+
+    /// The walk that is driven.
+    #[must_use]
+    pub fn walk(&self) -> &Walk {
+        &self.walk
     }
 
     /// Runs all machines once at a time [s] and returns the posture of their outputs.

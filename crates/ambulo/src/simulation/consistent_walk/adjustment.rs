@@ -4,6 +4,7 @@ use super::settings::ConsistentWalkError;
 use super::unknowns::reference;
 use super::walk::ConsistentWalk;
 use crate::contact::HuntCrossley;
+use crate::gait::machine::WalkMachine;
 use crate::model::Model;
 use crate::model::anthropometry::Human;
 
@@ -70,10 +71,11 @@ impl ConsistentWalk {
         let count = model.coordinates().len();
         let mut columns = vec![Vec::with_capacity(INSTANTS); count];
         let [mut q, mut old, mut qd, mut qdd] = [0; 4].map(|_| vec![0.0; count]);
+        let (mut motion, mut machine) = (self.motion(), WalkMachine::new(&self.walk));
         for instant in 0..INSTANTS {
             let time_s = self.walk.cycle_s() * instant as f64 / INSTANTS as f64;
-            self.write(time_s, &mut q, &mut qd, &mut qdd);
-            reference(&self.walk, &self.layout, time_s, &mut old, &mut qd, &mut qdd);
+            motion.write(time_s, &mut q, &mut qd, &mut qdd);
+            reference(&mut machine, self.walk.speed(), &self.layout, time_s, &mut old, &mut qd, &mut qdd);
             for (column, (new, old)) in columns.iter_mut().zip(q.iter().zip(&old)) {
                 column.push(new - old);
             }

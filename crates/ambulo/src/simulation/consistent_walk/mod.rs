@@ -15,11 +15,12 @@
 //! Measured joint moments do not enter the problem.
 //!
 //! Cost: about 120 iterations, each with 72 inverse dynamics per instant; one second in total.
-//! Not handled: motion out of the sagittal plane; turning; changes of speed.
+//! [`make_changing_walk`] joins walks of different paces. Not handled: motion out of the sagittal plane; turning.
 //! Pinned by: tests/consistent_walk.rs
 
 mod settings;
 
+mod changing;
 mod problem;
 mod response;
 mod unknowns;
@@ -28,6 +29,7 @@ mod walk;
 mod adjustment;
 
 pub use adjustment::{Adjustment, Magnitude};
+pub use changing::{ChangingWalk, make_changing_walk};
 pub use response::PlannedForces;
 pub use settings::{ConsistentWalkError, ConsistentWalkSettings, Deviations, SOFT_SHOES};
-pub use walk::{ConsistentWalk, make_consistent_walk};
+pub use walk::{ConsistentMotion, ConsistentWalk, make_consistent_walk};

@@ -10,6 +10,7 @@ use super::settings::{ConsistentWalkError, ConsistentWalkSettings};
 use super::unknowns::{Input, Kind, Layout, reference};
 use crate::contact::HuntCrossley;
 use crate::dynamics::Workspace;
+use crate::gait::machine::WalkMachine;
 use crate::gait::{GroundForceLaws, Walk};
 use crate::model::anthropometry::Human;
 use crate::numerics::{NormalEquations, Residuals};
@@ -61,8 +62,10 @@ impl<'a> Problem<'a> {
         let body = GroundedFigure::of(human)?;
         let forces = GroundForceLaws::built_in()?;
         let count = settings.instants;
-        let instants: Vec<Instant> =
-            (0..count).map(|i| Instant::new(human, walk, layout, &forces, 0.5 * i as f64 / count as f64)).collect();
+        let mut machine = WalkMachine::new(walk);
+        let instants: Vec<Instant> = (0..count)
+            .map(|i| Instant::new(human, &mut machine, layout, &forces, 0.5 * i as f64 / count as f64))
+            .collect();
         Ok(Problem {
             settings,
             layout,
@@ -317,15 +320,16 @@ struct SideTarget {
 }
 
 impl Instant {
-    fn new(human: &Human, walk: &Walk, layout: &Layout, forces: &GroundForceLaws, phase: f64) -> Instant {
+    fn new(human: &Human, machine: &mut WalkMachine, layout: &Layout, forces: &GroundForceLaws, phase: f64) -> Instant {
+        let walk = machine.walk().clone();
         let count = human.model.coordinates().len();
         let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
         let time_s = phase * walk.cycle_s();
         let [q, qd, qdd] = &mut posture;
-        reference(walk, layout, time_s, q, qd, qdd);
+        reference(machine, walk.speed(), layout, time_s, q, qd, qdd);
         let inputs = layout.inputs(phase, walk.cycle_s());
         let columns = inputs.iter().flat_map(|input| input.numbers).collect();
-        let at = walk.at(time_s);
+        let at = machine.step(time_s);
         let sides = [(&at.right, 0.0), (&at.left, 0.5)].map(|(leg, ahead)| {
             let place = (phase + ahead) % 1.0;
             let pitch = leg.hip.value - at.pelvis_tilt.value - leg.knee.value + leg.ankle.value;

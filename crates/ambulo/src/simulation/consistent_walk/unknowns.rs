@@ -1,6 +1,7 @@
 //! The unknowns: periodic splines that are added to the coordinates of a walk.
 
-use crate::gait::{Walk, WalkCoordinates};
+use crate::gait::machine::WalkMachine;
+use crate::gait::{Jet, WalkCoordinates};
 use crate::model::{CoordinateId, Model};
 use crate::numerics::{OVERLAP, PeriodicSplines};
 
@@ -128,6 +129,19 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// The change of every changed coordinate at a phase with its time derivatives; coordinates can come more than once.
+    pub(super) fn changes<'a>(
+        &'a self,
+        coefficients: &'a [f64],
+        phase: Jet,
+    ) -> impl Iterator<Item = (usize, Jet)> + 'a {
+        // With cycles of one second, derivatives are by phase.
+        let inputs = self.inputs(phase.value, 1.0).into_iter();
+        inputs.map(move |input| (input.coordinate, phase.through([0, 1, 2].map(|d| input.sum(coefficients, d)))))
+    }
+}
+
 impl Input {
     /// Sum of the coefficients' contributions to value (0), rate (1) or acceleration (2).
     pub(super) fn sum(&self, coefficients: &[f64], derivative: usize) -> f64 {
@@ -135,16 +149,24 @@ impl Input {
     }
 }
 
-/// Coordinates of the unchanged walk: the curves of the gait, with the pelvis moving forward at constant speed.
-pub(super) fn reference(walk: &Walk, layout: &Layout, time_s: f64, q: &mut [f64], qd: &mut [f64], qdd: &mut [f64]) {
+/// Coordinates of the unchanged walk: what its state machine gives, with the pelvis moving forward at constant speed [m/s].
+pub(super) fn reference(
+    machine: &mut WalkMachine,
+    speed: f64,
+    layout: &Layout,
+    time_s: f64,
+    q: &mut [f64],
+    qd: &mut [f64],
+    qdd: &mut [f64],
+) {
     for values in [&mut *q, &mut *qd, &mut *qdd] {
         values.fill(0.0);
     }
-    layout.coordinates.write(&walk.at(time_s), q, qd, qdd);
+    layout.coordinates.write(&machine.step(time_s), q, qd, qdd);
     if let Some(Curve { coordinates: [Some(forward), _], .. }) =
         layout.curves.iter().find(|curve| curve.kind == Kind::Forward)
     {
-        q[forward.index()] = walk.speed() * time_s;
-        qd[forward.index()] = walk.speed();
+        q[forward.index()] = speed * time_s;
+        qd[forward.index()] = speed;
     }
 }

@@ -7,6 +7,7 @@ use super::unknowns::{self, Layout};
 use crate::contact::HuntCrossley;
 use crate::findings::Findings;
 use crate::gait::Walk;
+use crate::gait::machine::WalkMachine;
 use crate::model::Model;
 use crate::model::anthropometry::Human;
 use crate::numerics::{Progress, minimise};
@@ -19,7 +20,7 @@ use crate::spatial::Vec3;
 pub struct ConsistentWalk {
     pub(super) walk: Walk,
     pub(super) layout: Layout,
-    coefficients: Vec<f64>,
+    pub(super) coefficients: Vec<f64>,
     /// Progress of the solver, one entry per stage.
     pub progress: Vec<Progress>,
 }
@@ -70,10 +71,15 @@ impl ConsistentWalk {
         self.coefficients.len()
     }
 
-    /// Writes coordinates, rates and accelerations at a time [s]; each slice has one entry per coordinate of the model.
+    /// The motion of the walk, for several instants.
+    #[must_use]
+    pub fn motion(&self) -> ConsistentMotion<'_> {
+        ConsistentMotion { of: self, machine: WalkMachine::new(&self.walk) }
+    }
+
+    /// Writes coordinates, rates and accelerations at one time [s]; see [`ConsistentMotion::write`].
     pub fn write(&self, time_s: f64, q: &mut [f64], qd: &mut [f64], qdd: &mut [f64]) {
-        unknowns::reference(&self.walk, &self.layout, time_s, q, qd, qdd);
-        self.layout.add(&self.coefficients, time_s / self.walk.cycle_s(), self.walk.cycle_s(), q, qd, qdd);
+        self.motion().write(time_s, q, qd, qdd);
     }
 
     /// Forces of the planned motion at a time [s], before any simulation.
@@ -100,12 +106,22 @@ impl ConsistentWalk {
         let count = model.coordinates().len();
         let (mut q, mut qd, mut qdd) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
         let forward = model.coordinate("pelvis_tx").map(|id| id.index());
+        let mut motion = self.motion();
         Signal::periodic(count, self.walk().cycle_s(), |t, row| {
-            self.write(t, &mut q, &mut qd, &mut qdd);
+            motion.write(t, &mut q, &mut qd, &mut qdd);
             for (k, entry) in row.iter_mut().enumerate() {
                 *entry = if Some(k) == forward { [0.0; 3] } else { [q[k], qd[k], qdd[k]] };
             }
         })
+    }
+
+    /// Place [m] and velocity [m/s] of the root at a time [s].
+    pub(super) fn root_at(&self, model: &Model, time_s: f64) -> [Vec3; 2] {
+        let count = model.coordinates().len();
+        let (mut q, mut qd, mut qdd) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
+        self.write(time_s, &mut q, &mut qd, &mut qdd);
+        let of = |values: &[f64], name: &str| model.coordinate(name).map_or(0.0, |id| values[id.index()]);
+        [&q, &qd].map(|values| Vec3::new(of(values, "pelvis_tx"), of(values, "pelvis_ty"), 0.0))
     }
 
     /// The figure on a ground, in the posture and with the velocity of the walk at time zero.
@@ -114,12 +130,7 @@ impl ConsistentWalk {
     /// If the model is not planar.
     pub fn walker(&self, human: &Human, ground: &GroundContact) -> Result<Walker, WalkingError> {
         let model = &human.model;
-        let count = model.coordinates().len();
-        let (mut q, mut qd, mut qdd) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
-        self.write(0.0, &mut q, &mut qd, &mut qdd);
-        let of = |values: &[f64], name: &str| model.coordinate(name).map_or(0.0, |id| values[id.index()]);
-        let [place, velocity] =
-            [&q, &qd].map(|values| Vec3::new(of(values, "pelvis_tx"), of(values, "pelvis_ty"), 0.0));
+        let [place, velocity] = self.root_at(model, 0.0);
         Ok(Walker::new(human, self.signals(model), ground, velocity.x)?.starting_at(place, velocity))
     }
 
@@ -135,12 +146,32 @@ impl ConsistentWalk {
         cycles: f64,
         findings: &mut Findings,
     ) -> Result<WalkRecording, WalkingError> {
-        let ground = GroundContact {
-            friction: settings.shoes.dynamic_friction,
-            shoes: Shoes::HuntCrossley(settings.shoes),
-            impact: ImpactLaw::Coulomb,
-        };
         let step = StepSettings { step_s, integrator: Integrator::Impulse, ..StepSettings::default() };
-        self.walker(human, &ground)?.walk(&step, cycles * self.walk().cycle_s(), findings)
+        self.walker(human, &soft_ground(settings))?.walk(&step, cycles * self.walk().cycle_s(), findings)
+    }
+}
+
+/// The ground under the soft shoes of the settings.
+pub(super) fn soft_ground(settings: &ConsistentWalkSettings) -> GroundContact {
+    GroundContact {
+        friction: settings.shoes.dynamic_friction,
+        shoes: Shoes::HuntCrossley(settings.shoes),
+        impact: ImpactLaw::Coulomb,
+    }
+}
+
+/// The motion of a consistent walk: what the state machine of the gait gives, and the change of it.
+#[derive(Debug)]
+pub struct ConsistentMotion<'a> {
+    of: &'a ConsistentWalk,
+    machine: WalkMachine,
+}
+
+impl ConsistentMotion<'_> {
+    /// Writes coordinates, rates and accelerations at a time [s]; each slice has one entry per coordinate of the model.
+    pub fn write(&mut self, time_s: f64, q: &mut [f64], qd: &mut [f64], qdd: &mut [f64]) {
+        let ConsistentWalk { walk, layout, coefficients, .. } = self.of;
+        unknowns::reference(&mut self.machine, walk.speed(), layout, time_s, q, qd, qdd);
+        layout.add(coefficients, time_s / walk.cycle_s(), walk.cycle_s(), q, qd, qdd);
     }
 }

@@ -3,7 +3,7 @@
 use super::SceneError;
 use super::coordinate::{CoordinateEntry, MotionKind};
 use super::material::MaterialEntry;
-use crate::gait::Gait;
+use crate::gait::{Gait, PaceChange};
 use crate::model::anthropometry::{Build, Human, SegmentTable};
 use crate::model::{CoordinateId, CoordinateKind as ModelKind, Side};
 use crate::toml_reader::{Place, Table, Value};
@@ -47,6 +47,10 @@ pub struct WalkEntry {
     pub mode: FigureWalkMode,
     /// Phase at which the scene begins, as a share of the cycle from a right foot strike.
     pub phase: f64,
+    /// Changes of pace after those of the gait.
+    pub changes: Vec<PaceChange>,
+    /// Duration of the scene [s].
+    pub duration_s: f64,
 }
 
 /// Where a gait comes from.
@@ -116,7 +120,7 @@ impl BuiltFigure {
         Ok(BuiltFigure {
             place: value.place(),
             build,
-            walk: table.get("walk").map(|value| WalkEntry::read(&value)).transpose()?,
+            walk: table.get("walk").map(|value| WalkEntry::read(&value, duration_s)).transpose()?,
             arms: arms(table)?,
             shoes: shoes.transpose()?,
             coordinates,
@@ -167,9 +171,9 @@ impl ArmEntry {
 }
 
 impl WalkEntry {
-    fn read(value: &Value<'_>) -> Result<WalkEntry, SceneError> {
+    fn read(value: &Value<'_>, duration_s: f64) -> Result<WalkEntry, SceneError> {
         let table = value.table("{ gait = \"free\", speed = … }")?;
-        table.only(&[&["gait", "speed", "mode", "phase"]])?;
+        table.only(&[&["gait", "speed", "mode", "phase", "changes"]])?;
         let modes = [("corrected", FigureWalkMode::Corrected), ("curves", FigureWalkMode::Curves)];
         let phase = table.number_or("phase", 0.0)?;
         if let Some(value) = table.get("phase").filter(|_| !(0.0..1.0).contains(&phase)) {
@@ -178,7 +182,9 @@ impl WalkEntry {
         Ok(WalkEntry {
             place: value.place(),
             gait: table.get("gait").map_or_else(|| Ok(GaitSource::Named("free".to_owned())), |v| gait(&v))?,
-            speed: table.get("speed").map(|value| value.above_zero()).transpose()?,
+            speed: table.get("speed").map(|value| value.zero_or_more()).transpose()?,
+            changes: table.tables("changes")?.iter().map(PaceChange::read).collect::<Result<_, _>>()?,
+            duration_s,
             mode: table.get("mode").map_or(Ok(FigureWalkMode::Corrected), |value| value.choice(&modes))?,
             phase,
         })

@@ -13,6 +13,8 @@ use super::walk_recorder::FigureRecorder;
 use super::walk_recorder::Placed;
 use super::{Place, SceneError};
 use crate::contact::Shape;
+use crate::findings::Findings;
+use crate::gait::machine::WalkMachine;
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::anthropometry::Human;
@@ -20,9 +22,12 @@ use crate::model::{
     self, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Function, JointAxis, Marker, Model,
     ModelError, Side,
 };
-use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, SOFT_SHOES, make_consistent_walk};
+use crate::simulation::consistent_walk::{
+    ConsistentWalk, ConsistentWalkSettings, SOFT_SHOES, make_changing_walk, make_consistent_walk,
+};
 use crate::simulation::joint::{JointKind, rotation};
 use crate::simulation::signal::Signal;
+use crate::simulation::walking::gait_signals;
 use crate::simulation::world::{
     ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Owner, RigidBody, Spring, Surface, TreeJoint,
     World,
@@ -31,6 +36,9 @@ use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 
 /// Grip point of a hand, as a share of the length from the wrist to the fingertips.
 const GRIP: f64 = 0.5;
+
+/// Longest scene with a walk whose pace changes [s]: it is sampled every millisecond.
+const LONGEST_CHANGING_WALK_S: f64 = 900.0;
 
 /// A motion of all coordinates, and its state at the start of the scene.
 struct Motion {
@@ -94,7 +102,8 @@ fn standing(model: &Model) -> Motion {
 fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -> Result<Motion, SceneError> {
     let same =
         |(build, gait, speed, _): &&(_, _, _, _)| (build, gait, speed) == (&human.build, &entry.gait, &entry.speed);
-    if let (FigureWalkMode::Corrected, Some((_, _, _, walk))) = (entry.mode, sources.corrected.iter().find(same)) {
+    let known = sources.corrected.iter().find(same).filter(|_| entry.changes.is_empty());
+    if let (FigureWalkMode::Corrected, Some((_, _, _, walk))) = (entry.mode, known) {
         return Ok(corrected(walk, &human.model, entry.phase));
     }
     let place = &entry.place;
@@ -109,6 +118,10 @@ fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -
     if let Some(speed) = entry.speed {
         gait.pace.speed = Some(Speed::MetersPerSecond(speed));
     }
+    gait.pace_changes.extend(&entry.changes);
+    if !gait.pace_changes.is_empty() {
+        return changing(entry, gait, human, sources);
+    }
     let walk = Walk::new(&gait, human.dimensions.leg_length, sources.findings).map_err(|e| wrong(&e))?;
     match entry.mode {
         FigureWalkMode::Curves => Ok(along_curves(&walk, human, entry.phase)),
@@ -122,30 +135,86 @@ fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -
     }
 }
 
+/// A walk whose pace changes; times of changes count from the start of the scene.
+fn changing(
+    entry: &WalkEntry,
+    mut gait: Gait,
+    human: &Human,
+    sources: &mut InputFiles<'_, '_>,
+) -> Result<Motion, SceneError> {
+    let wrong = |e: &dyn std::error::Error| entry.place.error(chain(e));
+    if entry.duration_s > LONGEST_CHANGING_WALK_S {
+        let message = format!(
+            "found a scene of {} s with changes of pace; expected at most {LONGEST_CHANGING_WALK_S} s, because the whole walk is computed before the scene begins",
+            entry.duration_s
+        );
+        return Err(entry.place.error(message));
+    }
+    let (model, leg_length) = (&human.model, human.dimensions.leg_length);
+    let planned = Walk::new(&gait, leg_length, &mut Findings::default()).map_err(|e| wrong(&e))?;
+    let start_s = if planned.clock(0.0).stands() { 0.0 } else { entry.phase * planned.cycle_s() };
+    for change in &mut gait.pace_changes {
+        change.start_s += start_s;
+    }
+    let walk = Walk::new(&gait, leg_length, sources.findings).map_err(|e| wrong(&e))?;
+    let duration_s = entry.duration_s;
+    let (signals, root) = match entry.mode {
+        FigureWalkMode::Curves => (gait_signals(&walk, model, start_s, duration_s), None),
+        FigureWalkMode::Corrected => {
+            let walk = make_changing_walk(human, &walk, &ConsistentWalkSettings::default()).map_err(|e| wrong(&e))?;
+            (walk.signals(human, start_s, duration_s), walk.start(model, start_s))
+        }
+    };
+    let [mut q, mut qd, qdd] = [0, 1, 2].map(|d| signals.iter().map(|signal| signal.at(0.0)[d]).collect::<Vec<f64>>());
+    match root {
+        Some([place, velocity]) => set_root(model, &mut q, &mut qd, [0.0, place.y], [velocity.x, velocity.y]),
+        None => {
+            let height = standing_height(human, &q, &qd, &qdd);
+            set_root(model, &mut q, &mut qd, [0.0, height], [walk.speed(), 0.0]);
+        }
+    }
+    Ok(Motion { signals, start: [q, qd] })
+}
+
+/// Sets place [m] and velocity [m/s] of the root, forwards and up.
+fn set_root(model: &Model, q: &mut [f64], qd: &mut [f64], place: [f64; 2], velocity: [f64; 2]) {
+    for (k, name) in ["pelvis_tx", "pelvis_ty"].into_iter().enumerate() {
+        if let Some(id) = model.coordinate(name) {
+            (q[id.index()], qd[id.index()]) = (place[k], velocity[k]);
+        }
+    }
+}
+
+/// Height of the root [m] at which the lowest sole touches the ground.
+fn standing_height(human: &Human, q: &[f64], qd: &[f64], qdd: &[f64]) -> f64 {
+    let mut q = q.to_vec();
+    if let Some(up) = human.model.coordinate("pelvis_ty") {
+        q[up.index()] = 0.0;
+    }
+    let motions = body_motion(&human.model, Posture { q: &q, qd, qdd });
+    let heights = human.soles.iter().map(|s| motions[s.body.index()].pose.place(s.center).y - s.radius);
+    -heights.fold(f64::INFINITY, f64::min)
+}
+
 /// The unchanged curves of the gait, with the lowest sole on the ground.
 fn along_curves(walk: &Walk, human: &Human, phase: f64) -> Motion {
     let model = &human.model;
     let coordinates = WalkCoordinates::of(model);
+    let mut machine = WalkMachine::new(walk);
     let defaults: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
     let write = |t: f64, [q, qd, qdd]: &mut [Vec<f64>; 3]| {
         q.copy_from_slice(&defaults);
-        coordinates.write(&walk.at(t), q, qd, qdd);
+        coordinates.write(&machine.step(t), q, qd, qdd);
     };
     let (signals, [mut q, mut qd, qdd]) = sampled(model, walk.cycle_s(), phase, write);
-    if let Some(forward) = model.coordinate("pelvis_tx") {
-        (q[forward.index()], qd[forward.index()]) = (0.0, walk.speed());
-    }
-    if let Some(up) = model.coordinate("pelvis_ty") {
-        q[up.index()] = 0.0;
-        let motions = body_motion(model, Posture { q: &q, qd: &qd, qdd: &qdd });
-        let heights = human.soles.iter().map(|s| motions[s.body.index()].pose.place(s.center).y - s.radius);
-        q[up.index()] = -heights.fold(f64::INFINITY, f64::min);
-    }
+    let height = standing_height(human, &q, &qd, &qdd);
+    set_root(model, &mut q, &mut qd, [0.0, height], [walk.speed(), 0.0]);
     Motion { signals, start: [q, qd] }
 }
 
 fn corrected(walk: &ConsistentWalk, model: &Model, phase: f64) -> Motion {
-    let write = |t: f64, [q, qd, qdd]: &mut [Vec<f64>; 3]| walk.write(t, q, qd, qdd);
+    let mut motion = walk.motion();
+    let write = |t: f64, [q, qd, qdd]: &mut [Vec<f64>; 3]| motion.write(t, q, qd, qdd);
     let (signals, [mut q, qd, _]) = sampled(model, walk.walk().cycle_s(), phase, write);
     if let Some(forward) = model.coordinate("pelvis_tx") {
         q[forward.index()] = 0.0;
@@ -159,7 +228,7 @@ fn sampled(
     model: &Model,
     cycle_s: f64,
     phase: f64,
-    write: impl Fn(f64, &mut [Vec<f64>; 3]),
+    mut write: impl FnMut(f64, &mut [Vec<f64>; 3]),
 ) -> (Vec<Signal>, [Vec<f64>; 3]) {
     let count = model.coordinates().len();
     let mut posture = [0, 1, 2].map(|_| vec![0.0; count]);

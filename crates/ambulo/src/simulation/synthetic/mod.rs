@@ -13,4 +13,4 @@ mod walk;
 pub use crate::numerics::Progress;
 pub use modes::synthesise;
 pub use settings::{MOST_CYCLES, RATES_HZ, SyntheticError, SyntheticMode, SyntheticWalkSettings};
-pub use walk::{CorrectionReport, SyntheticWalk, WalkReport};
+pub use walk::{CorrectionReport, PaceReached, SyntheticWalk, WalkReport};

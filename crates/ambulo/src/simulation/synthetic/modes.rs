@@ -1,11 +1,13 @@
 //! Synthesis of a walk, in the two modes.
 
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
-use super::walk::{CorrectionReport, SyntheticWalk, simulated_cycles, steady};
+use super::walk::{CorrectionReport, KeptPart, SyntheticWalk, steady};
 use crate::findings::{Code, Findings};
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
-use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
+use crate::simulation::consistent_walk::{
+    ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
+};
 use crate::simulation::walking::{GroundContact, Shoes, Walker, gait_signals};
 use crate::simulation::{ImpactLaw, StepSettings};
 
@@ -56,18 +58,49 @@ fn corrected(
     human: Human,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
-    let walk = Walk::new(settings.gait, human.dimensions.leg_length, findings)?;
+    let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
     let consistent_settings = ConsistentWalkSettings::default();
-    let consistent = make_consistent_walk(&human, &walk, &consistent_settings)?;
-    let correction = correction_report(&consistent, &human, &consistent_settings, findings)?;
-    let recording = consistent.simulate(
-        &human,
-        &consistent_settings,
-        settings.step_s(),
-        simulated_cycles(settings, CORRECTED_SKIPPED),
-        findings,
-    )?;
-    steady(settings, CORRECTED_SKIPPED, human, walk, &recording, Some(correction))
+    if walk.is_steady() {
+        let consistent = make_consistent_walk(&human, &walk, &consistent_settings)?;
+        let correction = correction_report(&consistent, &human, &consistent_settings, findings)?;
+        let cycles = kept.simulated_s / walk.cycle_s();
+        let recording = consistent.simulate(&human, &consistent_settings, settings.step_s(), cycles, findings)?;
+        return steady(settings, &kept, human, walk, &recording, Some(correction));
+    }
+    let changing = make_changing_walk(&human, &walk, &consistent_settings)?;
+    let mut corrections = Vec::new();
+    for pace in changing.paces() {
+        corrections.push(correction_report(pace, &human, &consistent_settings, findings)?);
+    }
+    let first = corrections.into_iter().next();
+    let recording = changing.simulate(&human, &consistent_settings, settings.step_s(), kept.simulated_s, findings)?;
+    steady(settings, &kept, human, walk, &recording, first)
+}
+
+/// The walk of the settings, and the part of its simulation that is kept. Times of changes of pace count from the start of the kept part.
+fn timed(
+    settings: &SyntheticWalkSettings<'_>,
+    gait: &Gait,
+    human: &Human,
+    skipped: usize,
+    findings: &mut Findings,
+) -> Result<(Walk, KeptPart), SyntheticError> {
+    let leg_length = human.dimensions.leg_length;
+    if gait.pace_changes.is_empty() {
+        let walk = Walk::new(gait, leg_length, findings)?;
+        let kept = KeptPart::of_steady(settings, &walk, skipped);
+        return Ok((walk, kept));
+    }
+    let planned = Walk::new(gait, leg_length, &mut Findings::default())?;
+    let first = KeptPart::first_row(settings, &planned, skipped);
+    let later_s = first as f64 * settings.step_s();
+    let mut gait = gait.clone();
+    for change in &mut gait.pace_changes {
+        change.start_s += later_s;
+    }
+    let walk = Walk::new(&gait, leg_length, findings)?;
+    let kept = KeptPart::of_changing(settings, &walk, first);
+    Ok((walk, kept))
 }
 
 /// Reports the change of the gait; warns if residual forces remain.
@@ -102,10 +135,11 @@ fn paper(
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     let gait = Gait { pelvis: Pelvis::Vertical, ..settings.gait.clone() };
-    let walk = Walk::new(&gait, human.dimensions.leg_length, findings)?;
+    let (walk, kept) = timed(settings, &gait, &human, PAPER_SKIPPED, findings)?;
     let ground = GroundContact { friction: FRICTION, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking };
-    let walker = Walker::new(&human, gait_signals(&walk, &human.model), &ground, walk.speed())?;
     let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
-    let recording = walker.walk(&step, simulated_cycles(settings, PAPER_SKIPPED) * walk.cycle_s(), findings)?;
-    steady(settings, PAPER_SKIPPED, human, walk, &recording, None)
+    let signals = gait_signals(&walk, &human.model, 0.0, kept.simulated_s + step.step_s);
+    let walker = Walker::new(&human, signals, &ground, walk.speed())?;
+    let recording = walker.walk(&step, kept.simulated_s, findings)?;
+    steady(settings, &kept, human, walk, &recording, None)
 }

@@ -1,7 +1,7 @@
 //! The result of a synthesis: the steady part of a simulated walk, and a report on how it was made.
 
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
-use crate::gait::{Style, Walk};
+use crate::gait::{PaceRamp, Style, Walk};
 use crate::kinematics::Trajectory;
 use crate::model::anthropometry::{Human, SegmentTable};
 use crate::motion::ForceRecording;
@@ -47,7 +47,9 @@ pub struct WalkReport {
     pub cycle_s: f64,
     /// Leg length: hip to floor, standing [m].
     pub leg_length: f64,
-    /// The correction of the gait; `None` in the paper's mode.
+    /// Changes of pace, in time of the kept motion.
+    pub changes: Vec<PaceReached>,
+    /// The correction of the gait; of its first pace if the pace changes; `None` in the paper's mode.
     pub correction: Option<CorrectionReport>,
     /// Torque that holds the trunk from outside [N.m].
     pub trunk_torque: Magnitude,
@@ -63,6 +65,21 @@ pub struct WalkReport {
     pub steps_hz: f64,
     /// Number of steps whose contacts were not solved to the tolerance.
     pub unsolved_steps: usize,
+}
+
+/// A change of pace and what it leads to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PaceReached {
+    /// Start [s].
+    pub start_s: f64,
+    /// Duration [s].
+    pub duration_s: f64,
+    /// Speed after the change [m/s]; 0 if the figure then stands.
+    pub speed: f64,
+    /// Step length after the change [m].
+    pub step_length: f64,
+    /// Step frequency after the change [steps/s].
+    pub step_frequency: f64,
 }
 
 /// The correction that made a walk dynamically consistent.
@@ -81,29 +98,83 @@ pub struct CorrectionReport {
 /// The kept part begins this share of a cycle before the nominal strike of the right foot, so that the strike is inside.
 const LEAD_IN: f64 = 0.2;
 
-/// Cycles to simulate: the skipped ones, the requested ones, and one more, because the cycles of the left foot begin half a cycle
-/// later and the last strike must be inside.
-pub(super) fn simulated_cycles(settings: &SyntheticWalkSettings<'_>, skipped: usize) -> f64 {
-    (skipped + settings.cycles + 1) as f64
+/// Standing after the last change that is kept [s].
+const STANDING_S: f64 = 1.0;
+/// Cycles after the last change that are kept.
+const CYCLES_AFTER_CHANGE: f64 = 2.0;
+
+/// The part of a simulation that is kept.
+pub(super) struct KeptPart {
+    /// First row of the simulation.
+    first: usize,
+    /// Frames of the motion.
+    frames: usize,
+    /// Duration of the simulation [s].
+    pub(super) simulated_s: f64,
 }
 
-/// The steady part of a simulated walk.
+impl KeptPart {
+    /// The first row of the simulation that is kept: shortly before a strike of the right foot. All rows of a figure that stands at the
+    /// start are kept.
+    pub(super) fn first_row(settings: &SyntheticWalkSettings<'_>, walk: &Walk, skipped: usize) -> usize {
+        if walk.clock(0.0).stands() {
+            return 0;
+        }
+        ((skipped as f64 - LEAD_IN) * walk.cycle_s() / settings.step_s()).max(0.0) as usize
+    }
+
+    /// Of a walk of constant pace. One cycle more than asked, because the cycles of the left foot begin half a cycle later and the last
+    /// strike must be inside.
+    pub(super) fn of_steady(settings: &SyntheticWalkSettings<'_>, walk: &Walk, skipped: usize) -> KeptPart {
+        let kept = (settings.cycles + 1) as f64 * walk.cycle_s();
+        KeptPart {
+            first: KeptPart::first_row(settings, walk, skipped),
+            frames: (kept * settings.rate_hz).round() as usize,
+            simulated_s: (skipped + settings.cycles + 1) as f64 * walk.cycle_s(),
+        }
+    }
+
+    /// Of a walk whose pace changes: as many cycles of the first pace, and at least two cycles, or one second of standing, after the last
+    /// change.
+    pub(super) fn of_changing(settings: &SyntheticWalkSettings<'_>, walk: &Walk, first: usize) -> KeptPart {
+        let start_s = first as f64 * settings.step_s();
+        let last_s = walk.last_change_s().unwrap_or(0.0);
+        let after_s = if walk.clock(last_s).stands() { STANDING_S } else { CYCLES_AFTER_CHANGE * walk.last_cycle_s() };
+        let kept_s = (settings.cycles as f64 * walk.cycle_s()).max(last_s + after_s - start_s);
+        let frames = (kept_s * settings.rate_hz).ceil() as usize + 1;
+        KeptPart { first, frames, simulated_s: start_s + (frames as f64 + 1.0) / settings.rate_hz }
+    }
+}
+
+/// The kept part of a simulated walk.
 pub(super) fn steady(
     settings: &SyntheticWalkSettings<'_>,
-    skipped: usize,
+    kept: &KeptPart,
     human: Human,
     walk: Walk,
     recording: &WalkRecording,
     correction: Option<CorrectionReport>,
 ) -> Result<SyntheticWalk, SyntheticError> {
-    let (every, step_s) = (settings.steps_per_frame(), settings.step_s());
-    let first = ((skipped as f64 - LEAD_IN) * walk.cycle_s() / step_s).max(0.0) as usize;
-    let frames = ((settings.cycles + 1) as f64 * walk.cycle_s() * settings.rate_hz).round() as usize;
-    let rows = ExcerptRows { first, every, frames };
+    let rows = ExcerptRows { first: kept.first, every: settings.steps_per_frame(), frames: kept.frames };
     let excerpt = recording.excerpt(rows)?;
     let report = report(settings, rows, &human, &walk, recording, correction);
     let (trajectory, loads, efforts) = (excerpt.trajectory, excerpt.loads, excerpt.efforts);
     Ok(SyntheticWalk { human, walk, trajectory, loads, efforts, report })
+}
+
+/// The changes of pace in time of the kept motion, which begins at `start_s`.
+fn changes(walk: &Walk, start_s: f64) -> Vec<PaceReached> {
+    let reached = |ramp: PaceRamp| {
+        let end_s = ramp.start_s + ramp.duration_s;
+        PaceReached {
+            start_s: ramp.start_s - start_s,
+            duration_s: ramp.duration_s,
+            speed: walk.speed_at(end_s),
+            step_length: walk.step_length_at(end_s),
+            step_frequency: 2.0 * walk.clock(end_s).phase.rate,
+        }
+    };
+    walk.pace_ramps().into_iter().map(reached).collect()
 }
 
 fn report(
@@ -134,6 +205,7 @@ fn report(
         cycle_s: walk.cycle_s(),
         leg_length: human.dimensions.leg_length,
         correction,
+        changes: changes(walk, start_s),
         trunk_torque: Magnitude::of(trunk.iter().copied()),
         slip: recording.stance_slip(rows.first.saturating_sub(cycle_rows)),
         flight_s: step_s * all.clone().filter(|row| recording.flies(*row)).count() as f64,
