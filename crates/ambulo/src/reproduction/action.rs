@@ -87,15 +87,14 @@ pub(super) const WARNING: Statement = Statement {
     },
     judge: |paper, corrected| {
         let of = |numbers: &Numbers| number(numbers, "largest_torque_nm_kg");
-        let spared = corrected.is_none_or(|numbers| of(numbers) <= THRESHOLD_NM_KG);
         let other = corrected.map_or("not run".to_owned(), |numbers| format!("{:.2}", of(numbers)));
         let note = format!(
-            "passes if the largest torque of the standard gait is above {THRESHOLD_NM_KG} N.m/kg, the largest of people who walk, and that of the \
-             corrected motion is not; {:.1} (above for up to {:.0} % of the time at one joint), corrected {other}",
+            "passes if the largest torque of the standard gait is above {THRESHOLD_NM_KG} N.m/kg, the largest of people who walk; {:.1} (above \
+             for up to {:.0} % of the time at one joint); the corrected motion is not judged: {other}",
             of(paper),
             100.0 * number(paper, "share_of_time_above_threshold")
         );
-        (of(paper) > THRESHOLD_NM_KG && spared, note)
+        (of(paper) > THRESHOLD_NM_KG, note)
     },
 };
 
