@@ -949,7 +949,7 @@ fn built_figures_that_make_no_sense_are_rejected() {
         ),
         (ANN, "model = \"a.osim\"", "`figure[1].model`: unknown key"),
         (ANN, "walk = { gait = \"trot\" }", "line 6, `figure[1].walk.gait`: found \"trot\"; expected a path that ends"),
-        (ANN, "walk = { speed = 0 }", "`figure[1].walk.speed`: found 0; expected a number above zero"),
+        (ANN, "walk = { speed = -1 }", "`figure[1].walk.speed`: found -1; expected a number, zero or more"),
         (ANN, "walk = { phase = 1 }", "`figure[1].walk.phase`: found 1; expected a share of the cycle"),
         (
             ANN,

@@ -273,6 +273,8 @@ fn a_walker_changes_its_speed_on_the_way() {
     }
     let error = built(&text.replace("at = 1.5, ", "")).unwrap_err().to_string();
     assert!(error.contains("walk.changes[1]"), "{error}");
+    let error = built(&alone("", 1.0).replace("speed = 1.2", "speed = 0")).unwrap_err().to_string();
+    assert!(error.contains("no change to a walking speed"), "{error}");
     let error = built(&text.replace("duration = 5", "duration = 5000")).unwrap_err().to_string();
     assert!(error.contains("expected at most 900 s"), "{error}");
 }
