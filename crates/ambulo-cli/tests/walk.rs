@@ -326,3 +326,10 @@ fn changes_of_pace_that_cannot_be_made_are_refused() {
         assert!(run.code == Some(2) && run.stderr.contains(expected), "{words:?}: {}", run.stderr);
     }
 }
+
+#[test]
+fn a_built_in_gait_with_changed_knots_is_walked_in_its_own_style() {
+    let bench = Workbench::empty("walk_parade");
+    bench.run(&["walk", "--gait", "parade", "--cycles", "1", "-o", "out"]).done();
+    assert_eq!(bench.json("out/summary.json")["walk"]["style"], "1997");
+}

@@ -211,9 +211,10 @@ fn gait(args: &GaitArgs) -> Result<(Gait, Vec<PathBuf>)> {
 }
 
 /// Built-in gaits of style 1997 have zero acceleration at their knots; to be corrected, they take style knots unless the user chose a
-/// style.
+/// style. Changes of single knots are made for the style of the gait, so such gaits keep it.
 fn style_for_correction(gait: Gait, args: &GaitArgs) -> Gait {
-    if args.style.is_none() && Gait::NAMES.contains(&args.gait.as_str()) { gait.in_style(Style::Knots) } else { gait }
+    let takes_knots = args.style.is_none() && Gait::NAMES.contains(&args.gait.as_str()) && gait.changes.is_empty();
+    if takes_knots { gait.in_style(Style::Knots) } else { gait }
 }
 
 fn style(word: &str) -> Result<Style> {
