@@ -189,7 +189,9 @@ fn numbers_that_are_not_finite_are_found_in_tables() {
 #[test]
 fn the_options_of_the_sweep_are_the_numeric_ones() {
     let names = |verb: &str| options(verb).into_iter().map(|(name, _)| name).collect::<Vec<String>>();
-    let walk = ["speed", "step-length", "cadence", "step-height", "mass", "height", "cycles", "rate"];
+    let gait =
+        ["speed", "step-length", "cadence", "speed-change", "step-length-change", "cadence-change", "step-height"];
+    let walk = [&gait[..], &["mass", "height", "cycles", "rate"]].concat();
     assert_eq!(names("walk"), walk);
     for name in
         ["from", "to", "rate", "cutoff", "force-cutoff", "order", "mass", "height", "max-gap", "add-mass", "plate"]
