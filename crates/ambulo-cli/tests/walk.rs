@@ -130,7 +130,7 @@ fn the_walk_of_the_papers_mode_is_infeasible() {
 
 #[test]
 fn a_gait_that_cannot_be_made_consistent_gives_a_warning_and_a_verdict() {
-    let bench = Workbench::empty("walk_parade");
+    let bench = Workbench::empty("walk_fast_parade");
     bench.write(
         "fast.toml",
         "name = \"fast parade\"\nbase = \"parade\"\ncadence_scale = 1.0\nstep_length_scale = 1.0\n",

@@ -19,7 +19,7 @@
 use super::jet::Jet;
 use super::stride::StrideLaw;
 
-/// A change of pace while walking. What is not given follows from the rest, as in [`Pace`](super::Pace).
+/// A change of pace while walking. Values that are not given follow from the others, as in [`Pace`](super::Pace).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct PaceChange {
     /// Start [s].

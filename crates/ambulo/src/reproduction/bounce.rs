@@ -8,7 +8,7 @@ use super::ground_force::bounce;
 const PAPER_FRAMES_PER_S: f64 = 2.5;
 /// Frames per second of the results of the paper.
 const PAPER_RATE_HZ: f64 = 30.0;
-/// What bouncing and flying are measured by.
+/// Names of the numbers that measure bouncing and flight.
 const MEASURES: [&str; 3] = ["flight_percent", "landings_a_step", "largest_force_bw"];
 
 pub(super) const SHOES: Statement = Statement {

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 /// Named numbers in order; the names contain the units.
 pub type Numbers = Vec<(String, f64)>;
 
-/// What a claim says about the paper.
+/// The kind of a claim: whether the paper makes it, and whether it could fail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ClaimKind {

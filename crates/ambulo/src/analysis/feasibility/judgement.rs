@@ -121,7 +121,7 @@ fn other_support(reasons: &mut Vec<Reason>, is_predicted: impl Fn(f64) -> bool) 
     Some(undecided_by_other_support(&first))
 }
 
-/// Why a verdict is undecided where the centre of pressure is beside the sole, but no further from the heel than a foot reaches.
+/// The message of an undecided verdict if the centre of pressure is outside the sole, but no further from the heel than a foot reaches.
 fn undecided_by_direction(reason: &Reason) -> String {
     format!(
         "the coordinates may show the direction of a foot wrongly, or force plates and motion are not aligned: {}",
@@ -130,7 +130,7 @@ fn undecided_by_direction(reason: &Reason) -> String {
 }
 
 // One track per check of each coordinate, then of each foot, then of the whole body; then the centre of pressure of each foot while it is
-// beside the sole, within the reach of a foot in another direction.
+// outside the sole, but within the reach of a foot that is turned about its heel.
 const OF_COORDINATES: [Check; 3] = [Check::Strength, Check::Range, Check::Power];
 const OF_FEET: [Check; 3] = [Check::Friction, Check::CenterOfPressure, Check::Sliding];
 const OF_BODY: [Check; 4] = [Check::Flight, Check::Support, Check::Balance, Check::Pull];
@@ -147,7 +147,7 @@ fn slot(model: &Model, measurement: &CheckedValue) -> Option<usize> {
     }
 }
 
-/// Number of tracks before those of centres of pressure beside the sole.
+/// Number of tracks before those of centres of pressure outside the sole.
 fn regular_slots(model: &Model) -> usize {
     OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len()
 }

@@ -1,4 +1,4 @@
-//! What a verdict is about: a motion with its forces.
+//! A motion with its forces, as a verdict judges it.
 
 use crate::analysis::activity::ActivityKind;
 use crate::dynamics::Forces;
