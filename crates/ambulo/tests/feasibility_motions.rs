@@ -39,12 +39,34 @@ fn still(human: &Human, frames: usize, bent: &[(&str, f64)]) -> Trajectory {
     Trajectory::new(&human.model, grid, columns).unwrap()
 }
 
+/// A motion whose ground forces were measured whole and were not filtered.
+fn measured<'a>(
+    model: &'a Model,
+    trajectory: &'a Trajectory,
+    forces: &'a Forces,
+    ground: &'a GroundForces,
+    activity: ActivityKind,
+) -> MotionAndForces<'a> {
+    MotionAndForces {
+        model,
+        trajectory,
+        forces,
+        ground,
+        device: None,
+        predicted: None,
+        partly_measured: &[],
+        activity,
+        cutoff_hz: None,
+        forces_are_predicted: false,
+    }
+}
+
 /// The verdict on a man who stands for 1 s while `force(frame)` acts on the middle of each foot [N].
 fn judged(force: impl Fn(usize, Side) -> Vec3, thresholds: &Thresholds) -> (Verdict, Findings) {
     judged_with(force, thresholds, &[], None)
 }
 
-/// The same with forces and motion that a low-pass filter has smoothed.
+/// The same verdict if a low-pass filter has smoothed forces and motion.
 fn judged_at(force: impl Fn(usize, Side) -> Vec3, thresholds: &Thresholds, cutoff_hz: Option<f64>) -> Verdict {
     judged_with(force, thresholds, &[], cutoff_hz).0
 }
@@ -61,18 +83,7 @@ fn judged_with(
     let trajectory = still(&human, frames, moved);
     let ground = on_both_feet(&human, frames, force);
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
-    let evidence = MotionAndForces {
-        model,
-        trajectory: &trajectory,
-        forces: &forces,
-        ground: &ground,
-        device: None,
-        predicted: None,
-        partly_measured: &[],
-        activity: ActivityKind::Walk,
-        cutoff_hz,
-        forces_are_predicted: false,
-    };
+    let evidence = MotionAndForces { cutoff_hz, ..measured(model, &trajectory, &forces, &ground, ActivityKind::Walk) };
     let mut findings = Findings::default();
     let verdict = check(&evidence, &Person::of_human(&human), thresholds, &mut findings);
     (verdict, findings)
@@ -314,38 +325,17 @@ fn bobbing(clock: f64) -> Verdict {
     };
     let ground = on_both_feet(&human, 201, |i, _| Vec3::new(0.0, force(i), 0.0));
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
-    let evidence = MotionAndForces {
-        model,
-        trajectory: &trajectory,
-        forces: &forces,
-        ground: &ground,
-        device: None,
-        predicted: None,
-        partly_measured: &[],
-        activity: ActivityKind::Other,
-        cutoff_hz: None,
-        forces_are_predicted: false,
-    };
+    let evidence = measured(model, &trajectory, &forces, &ground, ActivityKind::Other);
     check(&evidence, &Person::of_human(&human), &Thresholds::default(), &mut Findings::default())
 }
 
-/// The verdict on a man who stands with these ground forces, some times of which were measured only in part.
+/// The verdict on a man who stands with these ground forces, of which the plates measured only a part at some times.
 fn standing(ground: &GroundForces, partly_measured: &[[f64; 2]]) -> Verdict {
     let human = man();
     let (model, trajectory) = (&human.model, still(&human, 101, &[]));
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
-    let evidence = MotionAndForces {
-        model,
-        trajectory: &trajectory,
-        forces: &forces,
-        ground,
-        device: None,
-        predicted: None,
-        partly_measured,
-        activity: ActivityKind::Stand,
-        cutoff_hz: None,
-        forces_are_predicted: false,
-    };
+    let evidence =
+        MotionAndForces { partly_measured, ..measured(model, &trajectory, &forces, ground, ActivityKind::Stand) };
     check(&evidence, &Person::of_human(&human), &Thresholds::default(), &mut Findings::default())
 }
 
