@@ -1,16 +1,20 @@
 //! How often the claims of the 1997 paper hold: `cargo xtask claim-shares [--settings N] [--seed S] [--write]`.
 //!
-//! Draws all values that the paper does not give jointly, judges the claims with each choice, and searches near the best one for a choice
-//! that meets more claims. Runs on one core for some minutes; start it with `nice`. With `--write` the results go to
-//! `crates/ambulo/data/reproduction/shares.csv`, from where `ambulo reproduce` prints them.
+//! Draws all values that the paper does not give jointly until N choices could be simulated, judges the claims with each of them, and
+//! searches near the best one for a choice that meets more claims. Choices whose gaits are not possible are counted by their reasons. Runs on
+//! one core for some minutes; start it with `nice`. With `--write` the results go to `crates/ambulo/data/reproduction/shares.csv`, from where
+//! `ambulo reproduce` prints them.
 
 use crate::workspace;
 use ambulo::reproduction::{Judgement, OpenValues, StoredShares, judged_of_the_paper, shares_csv};
+use std::collections::BTreeMap;
 use std::fs;
 
-/// Settings that are drawn, if no other number is asked for.
+/// Settings that are simulated, if no other number is asked for.
 const SETTINGS: u64 = 500;
-/// Settings near the best one that are tried afterwards, for each five that are drawn.
+/// For each setting that is simulated, at most so many are drawn.
+const MOST_DRAWN: u64 = 10;
+/// Settings near the best one that are tried afterwards, for each five that were simulated.
 const NEAR: u64 = 1;
 /// The year of the paper.
 const SEED: u64 = 1997;
@@ -33,19 +37,24 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         }
     }
     let mut tally = Tally::default();
-    for number in 0..settings {
-        tally.add(OpenValues::drawn(seed, number));
-        if number % 50 == 49 {
-            eprintln!("{} of {settings}", number + 1);
+    let mut drawn = 0;
+    while (tally.judged.len() as u64) < settings && drawn < MOST_DRAWN * settings {
+        tally.add(OpenValues::drawn(seed, drawn));
+        drawn += 1;
+        if drawn % 50 == 0 {
+            eprintln!("{drawn} drawn, {} of {settings} simulated", tally.judged.len());
         }
     }
-    let drawn = tally.clone();
+    let sampled = tally.clone();
     for number in 0..NEAR * settings / 5 {
         let Some((_, best)) = &tally.best else { break };
-        tally.add(best.near(seed, settings + number));
+        tally.add(best.near(seed, drawn + number));
     }
-    let text = shares_csv(&drawn.shares(seed, &tally)?);
-    println!("{text}{} of {settings} settings could not be simulated", drawn.failed);
+    let text = shares_csv(&sampled.shares(seed, &tally)?);
+    println!("{text}settings that could not be simulated:");
+    for (reason, count) in &sampled.failed {
+        println!("  {count}: {reason}");
+    }
     if write {
         fs::write(workspace::root().join(FILE), text).map_err(|e| format!("{FILE}: cannot write: {e}"))?;
     }
@@ -56,16 +65,21 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
 #[derive(Debug, Clone, Default)]
 struct Tally {
     judged: Vec<Vec<Judgement>>,
-    failed: usize,
+    /// Number of settings that could not be simulated, by reason; numbers in the reasons are left out.
+    failed: BTreeMap<String, usize>,
     /// The judgements and values that meet most claims; the earliest of equals.
     best: Option<(Vec<Judgement>, OpenValues)>,
 }
 
 impl Tally {
     fn add(&mut self, values: OpenValues) {
-        let Ok(judgements) = values.judged() else {
-            self.failed += 1;
-            return;
+        let judgements = match values.judged() {
+            Ok(judgements) => judgements,
+            Err(error) => {
+                let reason = error.to_string().replace(|c: char| c.is_ascii_digit(), "");
+                *self.failed.entry(reason).or_default() += 1;
+                return;
+            }
         };
         let met = |judgements: &[Judgement]| judged_of_the_paper(judgements)[0];
         if self.best.as_ref().is_none_or(|(best, _)| met(&judgements) > met(best)) {
@@ -85,6 +99,7 @@ impl Tally {
         Ok(StoredShares {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             seed,
+            drawn: self.judged.len() + self.failed.values().sum::<usize>(),
             settings: self.judged.len(),
             held: first.iter().enumerate().map(|(claim, judged)| (judged.id.to_owned(), share(claim))).collect(),
             best_held: judged_of_the_paper(&judgements),
