@@ -21,7 +21,7 @@ pub struct Keep(Option<Vec<String>>);
 
 impl Keep {
     /// The names for the run of a recording or a synthetic walk; only `ambulo demo` has the last.
-    pub const OF_RUNS: [&'static str; 18] = [
+    pub const OF_RUNS: [&'static str; 19] = [
         "report",
         "figures",
         "tables",
@@ -39,6 +39,7 @@ impl Keep {
         "cycles",
         "clinical",
         "times_and_distances",
+        "states",
         "recording",
     ];
     /// The names for a simulated scene.

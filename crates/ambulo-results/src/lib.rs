@@ -12,6 +12,7 @@ mod run_summary;
 mod scene_summary;
 mod scene_tables;
 mod sound;
+mod state_table;
 mod subject_summary;
 mod summary;
 mod tables;
@@ -34,6 +35,7 @@ pub use scene_summary::{
 };
 pub use scene_tables::SceneTables;
 pub use sound::{EXPECTED, is_sound};
+pub use state_table::states_csv;
 pub use subject_summary::{
     EventAgreementSummary, EventOrigin, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
     SegmentSummary, SubjectSummary,
@@ -54,5 +56,7 @@ pub const CYCLES: &str = "cycles.csv";
 pub const SUMMARY: &str = "summary.json";
 /// Name of the table of clinical curves in a result folder.
 pub const CLINICAL: &str = "clinical.csv";
+/// Name of the table of the states of a gait's machines in a result folder.
+pub const STATES: &str = "states.csv";
 /// Name of the table of times and distances in a result folder.
 pub const TIMES_AND_DISTANCES: &str = "times_and_distances.csv";

@@ -1,11 +1,12 @@
 //! Tables of a simulated scene: one row per output instant and body, joint coordinate, contact or closure.
 
 use crate::files::OutputFile;
+use crate::state_table::csv_cell;
 use ambulo::simulation::scene::{Outputs, Scene, SceneFrame};
 use ambulo::simulation::{ContactForce, Owner, StepForces, TreeJoint, World, WorldState};
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3};
 use ambulo_formats::Error;
-use ambulo_formats::table::{Table, guarded};
+use ambulo_formats::table::Table;
 use nalgebra::{Rotation3, UnitQuaternion};
 use std::fmt::Write;
 
@@ -292,12 +293,7 @@ impl RowTable {
 
     fn word(&mut self, word: &str) {
         self.cells += 1;
-        let word = guarded(word);
-        if word.contains([',', '"']) {
-            let _ = write!(self.text, ",\"{}\"", word.replace('"', "\"\""));
-        } else {
-            let _ = write!(self.text, ",{word}");
-        }
+        let _ = write!(self.text, ",{}", csv_cell(word));
     }
 
     fn append(&mut self, numbers: &[f64]) {

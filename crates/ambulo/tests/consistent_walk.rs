@@ -76,7 +76,7 @@ fn the_same_curves_unchanged_need_a_hand() {
     let settings = ConsistentWalkSettings::default();
     let ground =
         GroundContact { friction: 0.6, shoes: Shoes::HuntCrossley(settings.shoes), impact: ImpactLaw::Coulomb };
-    let signals = gait_signals(&case.walk, &case.human.model, 0.0, 1.0);
+    let signals = gait_signals(&case.walk, &case.human.model, 0.0, 1.0).unwrap();
     let walker = Walker::new(&case.human, signals, &ground, case.walk.speed()).unwrap_or_else(|e| panic!("{e}"));
     let steps = StepSettings { step_s: STEP_S, ..StepSettings::default() };
     let recording =

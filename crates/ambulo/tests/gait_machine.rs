@@ -3,7 +3,7 @@
 use crate::common::random::Random;
 use ambulo::findings::Findings;
 use ambulo::gait::machine::{
-    ChildOutputs, Machine, MachineInputs, RunningMachine, State, Transition, WalkMachine, state_table,
+    ChildOutputs, Machine, MachineInputs, RunningMachine, Sensed, State, Transition, WalkMachine, state_table,
 };
 use ambulo::gait::{Clock, Gait, Jet, PaceChange, Speed, Walk};
 
@@ -32,7 +32,7 @@ fn stop_and_go(name: &str) -> Walk {
 }
 
 /// A key that puts names into another order for every seed.
-fn shuffled(seed: u64) -> impl Fn(&str) -> u64 {
+pub(crate) fn shuffled(seed: u64) -> impl Fn(&str) -> u64 {
     move |name| {
         name.bytes().fold(seed, |sum, byte| (sum ^ u64::from(byte)).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29))
     }
@@ -125,7 +125,7 @@ fn siblings_see_the_step_before_and_nothing_of_this_one() {
         let mut expected_counter = 0.0;
         let (mut seen, mut states) = (0.0, [0, 0]);
         for step in 0..8 {
-            running.step(&clock);
+            running.step(&clock, &Sensed::default());
             // Both change at once, from opposite to opposite.
             states = [1 - states[0], 1 - states[1]];
             assert_eq!([running.state(left), running.state(right)], states, "seed {seed}, step {step}");

@@ -50,6 +50,7 @@ mod gait_coordinates;
 mod gait_curves;
 mod gait_file;
 mod gait_machine;
+mod gait_machine_files;
 mod gait_speed;
 mod gait_style_1997;
 mod gait_walk;

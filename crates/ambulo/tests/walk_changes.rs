@@ -149,7 +149,7 @@ fn a_figure_comes_to_a_halt_and_stands() {
 fn signals_over_a_span_begin_where_they_are_told() {
     let human = BUILD.human().unwrap();
     let walk = Walk::new(&gait(1.2, &[(1.0, 1.6)]), human.dimensions.leg_length, &mut Findings::default()).unwrap();
-    let signals = |start_s: f64| ambulo::simulation::walking::gait_signals(&walk, &human.model, start_s, 3.0);
+    let signals = |start_s: f64| ambulo::simulation::walking::gait_signals(&walk, &human.model, start_s, 3.0).unwrap();
     let knee = human.model.coordinate("knee_angle_r").unwrap().index();
     let of = |signals: &[Signal], t: f64| signals[knee].at(t)[0];
     let (early, late) = (signals(0.0), signals(0.75));

@@ -22,7 +22,10 @@ fn ground(friction: f64) -> GroundContact {
 fn walker(gait: &str, human: &Human, ground: &GroundContact) -> (Walker, f64) {
     let gait = Gait::named(gait).unwrap();
     let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
-    (Walker::new(human, gait_signals(&walk, &human.model, 0.0, 1.0), ground, walk.speed()).unwrap(), walk.cycle_s())
+    (
+        Walker::new(human, gait_signals(&walk, &human.model, 0.0, 1.0).unwrap(), ground, walk.speed()).unwrap(),
+        walk.cycle_s(),
+    )
 }
 
 fn walked(gait: &str, ground: &GroundContact, step_s: f64, cycles: f64) -> WalkRecording {

@@ -36,7 +36,8 @@ pub(crate) struct DemoArgs {
 
 Modes: `corrected` changes the gait by a few degrees until it has no residual forces, and simulates it on soft shoes; `paper` drives the
 joints with the unchanged curves, holds the trunk upright and has rigid soles, as Faure, Debunne, Cani and Multon did in 1997. Both modes
-take every gait and style. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
+take every gait and style whose sides do the same half a cycle apart; a gait file whose sides differ, or whose joints machines drive, is
+walked in the mode `paper`. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
 step with straight knees; without --style they use style 1997 in the mode
 `paper` and style knots in the mode `corrected`. If no small change makes a gait dynamically consistent, a warning says so.
 
@@ -44,7 +45,7 @@ Two of --speed, --step-length and --cadence determine the third. With one of the
 and cadence to speed (docs/GAITS.md, which also describes gait files). In both cases the gait's own values are ignored.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The
+clinical.csv, times_and_distances.csv, states.csv (the states of the gait's machines), summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The
 results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep writes only
 some of them; summary.json is always written.
 
@@ -55,9 +56,9 @@ pub(crate) struct WalkArgs {
     pub(crate) gait: GaitArgs,
     #[command(flatten)]
     pub(crate) figure: FigureArgs,
-    /// How the walk is computed.
-    #[arg(long, value_enum, default_value_t = WalkMode::Corrected)]
-    pub(crate) mode: WalkMode,
+    /// How the walk is computed [default: corrected; paper if the sides of the gait differ].
+    #[arg(long, value_enum)]
+    pub(crate) mode: Option<WalkMode>,
     /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = super::forces::AngleConvention::Clinical)]
     pub(crate) convention: super::forces::AngleConvention,

@@ -10,10 +10,12 @@ use ambulo::findings::Findings;
 use ambulo::gait::machine::state_table;
 use ambulo::gait::{Gait, PaceChange, Style, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::motion::RecordedTable;
+use ambulo::numerics::NaturalSpline;
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use ambulo_report::gait_figure;
-use ambulo_results::{Convention, GroundSource, Input, Keep, OutputFile, WalkSummary};
+use ambulo_results::{Convention, GroundSource, Input, Keep, OutputFile, STATES, WalkSummary, states_csv};
 use anyhow::{Context, Result, bail};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -21,7 +23,7 @@ use std::path::{Path, PathBuf};
 pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
     let mut findings = Findings::default();
-    let (gait, mut read) = gait(&args.gait)?;
+    let (gait, mut read) = gait(&args.gait, &mut findings)?;
     let build = build(&args.figure)?;
     if args.states {
         let human = build.human()?;
@@ -38,9 +40,10 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let target = ResultTarget::for_run(output, args.replace.existing())?;
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
     read.extend(args.thresholds.clone());
-    let gait = if args.mode == WalkMode::Corrected { style_for_correction(gait, &args.gait) } else { gait };
-    let walk_settings =
-        SyntheticWalkSettings { gait: &gait, build, mode: args.mode.mode(), cycles: args.cycles, rate_hz: args.rate };
+    let by_gait = || if gait.is_symmetric() { SyntheticMode::Corrected } else { SyntheticMode::Paper };
+    let mode = args.mode.map_or_else(by_gait, WalkMode::mode);
+    let gait = if mode == SyntheticMode::Corrected { style_for_correction(gait, &args.gait) } else { gait };
+    let walk_settings = SyntheticWalkSettings { gait: &gait, build, mode, cycles: args.cycles, rate_hz: args.rate };
     let walk = synthesise(&walk_settings, &mut findings)?;
     clock.lap("walk");
     let run = SyntheticRun {
@@ -129,7 +132,11 @@ impl SyntheticRun<'_> {
 
     /// The figure as an OpenSim model, and the picture of the gait.
     fn files(&self) -> Result<Vec<OutputFile<'static>>> {
-        Ok(vec![OutputFile::body("figure.osim", &self.walk.human.model)?, gait_file(&self.walk.walk)?])
+        Ok(vec![
+            OutputFile::body("figure.osim", &self.walk.human.model)?,
+            gait_file(&self.walk.walk)?,
+            OutputFile::new(STATES, states_csv(&self.walk.states).into_bytes()),
+        ])
     }
 }
 
@@ -188,26 +195,49 @@ fn build(args: &FigureArgs) -> Result<Build> {
 }
 
 /// The gait with the user's changes, and the file that it was read from.
-fn gait(args: &GaitArgs) -> Result<(Gait, Vec<PathBuf>)> {
+fn gait(args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, Vec<PathBuf>)> {
     let path = Path::new(&args.gait);
     let is_file = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) || path.components().count() > 1;
-    let (mut gait, read) = if is_file {
+    let mut read = Vec::new();
+    let mut gait = if is_file {
         let shown = || path.display().to_string();
         let text = String::from_utf8(files::read(path)?).with_context(shown)?;
-        (Gait::from_toml(&text).with_context(shown)?, vec![path.to_owned()])
+        read.push(path.to_owned());
+        let mut column = |file: &str, column: &str| {
+            let file = path.with_file_name("").join(file);
+            let values = recorded_angle(&file, column, findings).map_err(|error| format!("{error:#}"));
+            read.push(file);
+            values
+        };
+        Gait::from_toml_with(&text, &mut column).with_context(shown)?
     } else {
-        (Gait::named(&args.gait).context("--gait")?, Vec::new())
+        Gait::named(&args.gait).context("--gait")?
     };
     if let Some(word) = &args.style {
         gait = gait.in_style(style(word)?);
     }
     gait.pace = gait.pace.with(args.speed, args.step_length, args.cadence.map(|cadence| cadence / 60.0));
-    gait.pace_changes.extend(pace_changes(args)?);
+    let changes = pace_changes(args)?;
+    if let (Some(machine), false) = (gait.machine_of_the_pace(), changes.is_empty()) {
+        let name = &machine.name;
+        bail!(
+            "found changes of pace on the command line; expected none, because the machine `{name}` of the gait drives the pace"
+        );
+    }
+    gait.pace_changes.extend(changes);
     gait.pace_changes.sort_by(|a, b| a.start_s.total_cmp(&b.start_s));
     if let Some(height) = args.step_height {
         gait.step_height = height;
     }
     Ok((gait, read))
+}
+
+/// An angle of a recording [rad] against time.
+fn recorded_angle(path: &Path, column: &str, findings: &mut Findings) -> Result<NaturalSpline> {
+    let name = path.display().to_string();
+    let table = RecordedTable::read(&files::read(path)?, &name, findings).with_context(|| name.clone())?;
+    let (values, _) = table.column(column, true, findings).with_context(|| name.clone())?;
+    Ok(values)
 }
 
 /// Built-in gaits of style 1997 have zero acceleration at their knots; to be corrected, they take style knots unless the user chose a

@@ -50,6 +50,31 @@ pub(super) fn read_curve(
     Ok(Some(curve))
 }
 
+/// A curve of `knot` tables whose angles at constant speed stay within limits [rad].
+pub(super) fn read_knots(table: &Table<'_>, [low, high]: [f64; 2]) -> Result<CyclicCurve, TomlError> {
+    let entries = table.tables("knot")?;
+    let knots = entries.iter().map(knot).collect::<Result<Vec<Knot>, TomlError>>()?;
+    let count = knots.len();
+    let Some(curve) = CyclicCurve::new(knots) else {
+        return Err(table.wrong(format!("found {count} of `knot`; expected two or more")));
+    };
+    for (k, entry) in entries.iter().enumerate() {
+        let width = curve.knot_phase(k + 1, MIDDLE) - curve.knot_phase(k, MIDDLE);
+        if width < LEAST_WIDTH {
+            return Err(entry.wrong("found a knot less than 0.5 % of the cycle before the next one; expected knots in the order of their times, within one cycle"));
+        }
+        let angle = curve.knots()[k].angle.at(MIDDLE);
+        if !(low..=high).contains(&angle) {
+            let (found, low, high) = (angle / DEGREE, low / DEGREE, high / DEGREE);
+            return Err(entry.wrong(format!("found {found:.1}°; expected angles from {low:.0}° to {high:.0}°")));
+        }
+    }
+    Ok(curve)
+}
+
+/// Least distance between knots [cycles].
+const LEAST_WIDTH: f64 = 0.005;
+
 fn knot(table: &Table<'_>) -> Result<Knot, TomlError> {
     table.only(&[&["name", "begins", "at_percent", "angle_deg", "slope_deg", "curvature_deg", "height_share"]])?;
     let begins = table.get("begins").map(|value| value.filled_text()).transpose()?;

@@ -3,16 +3,17 @@
 use super::curve_check::check;
 use super::curve_table::read_curve;
 use super::error::GaitError;
-use super::gait_settings::{Gait, KnotChange, Pace, Pelvis, Speed, Style};
-use super::joint::LegJoint;
+use super::gait_settings::{Gait, JointChange, KnotChange, Pace, Pelvis, Speed, Style};
+use super::joint::{LegJoint, WalkPart};
 use super::laws::{DOCUMENT, Laws, checked_speeds};
+use super::machine::{ReadColumn, read_machines};
 use super::pace::{AGREEMENT, CADENCE, FACTOR, Range, SPEED, STEP_LENGTH};
 use super::pace_plan::PaceChange;
 use super::walk::changed;
 use crate::toml_reader::{Source, Table, TomlError, Value, nearest};
 
 /// Keys at the top level of the file.
-const KEYS: [&str; 18] = [
+const KEYS: [&str; 20] = [
     "name",
     "base",
     "style",
@@ -28,6 +29,8 @@ const KEYS: [&str; 18] = [
     "cadence_exponent",
     "change",
     "pace_change",
+    "joint",
+    "machine",
     "hip",
     "knee",
     "ankle",
@@ -35,11 +38,19 @@ const KEYS: [&str; 18] = [
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Gait {
-    /// A gait from a TOML file.
+    /// A gait from a TOML file whose machines do not follow recordings.
     ///
     /// # Errors
     /// Anything that differs from docs/GAITS.md, with line and key.
     pub fn from_toml(text: &str) -> Result<Gait, GaitError> {
+        Gait::from_toml_with(text, &mut |file, _| Err(format!("{file}: found a recording; expected none here")))
+    }
+
+    /// A gait from a TOML file; `load` reads the recordings that its machines follow.
+    ///
+    /// # Errors
+    /// Anything that differs from docs/GAITS.md, with line and key.
+    pub fn from_toml_with(text: &str, load: &mut ReadColumn<'_>) -> Result<Gait, GaitError> {
         let source = Source::new(text, DOCUMENT);
         let parsed = source.parse()?;
         let root = Table::root(&source, &parsed);
@@ -57,6 +68,15 @@ impl Gait {
         }
         read_changes(&root, &mut gait, &laws)?;
         gait.pace_changes = root.tables("pace_change")?.iter().map(PaceChange::read).collect::<Result<_, _>>()?;
+        for table in root.tables("joint")? {
+            gait.joints.extend(read_joint(&table)?);
+        }
+        gait.machines = read_machines(&root, &gait, load)?;
+        if let (Some(value), Some(change)) = (root.get("pace_change"), gait.machine_of_the_pace()) {
+            let message =
+                format!("found changes of pace; expected none, because the machine `{}` drives the pace", change.name);
+            return Err(value.place().error(message).into());
+        }
         Ok(gait)
     }
 }
@@ -65,6 +85,12 @@ impl PaceChange {
     /// Reads `at`, `within`, `speed`, `step_length` and `cadence` of a table.
     pub(crate) fn read(table: &Table<'_>) -> Result<PaceChange, TomlError> {
         table.only(&[&["at", "within", "speed", "step_length", "cadence"]])?;
+        let start_s = table.need("at", "the time at which the change begins [s]")?.zero_or_more()?;
+        PaceChange::read_values(table, start_s)
+    }
+
+    /// The same without `at`.
+    pub(super) fn read_values(table: &Table<'_>, start_s: f64) -> Result<PaceChange, TomlError> {
         let speed = table.get("speed").map(|value| value.zero_or_more()).transpose()?;
         let step_length = table.get("step_length").map(|value| value.above_zero()).transpose()?;
         let cadence = table.get("cadence").map(|value| value.above_zero()).transpose()?;
@@ -72,7 +98,7 @@ impl PaceChange {
             return Err(table.wrong("found no speed, step_length or cadence; expected at least one of them"));
         }
         Ok(PaceChange {
-            start_s: table.need("at", "the time at which the change begins [s]")?.zero_or_more()?,
+            start_s,
             duration_s: table.get("within").map(|value| value.above_zero()).transpose()?,
             speed,
             step_length,
@@ -199,6 +225,33 @@ fn read_changes(root: &Table<'_>, gait: &mut Gait, laws: &Laws) -> Result<(), Ga
         })?;
     }
     Ok(())
+}
+
+/// The changes of a `[[joint]]`: one for each side unless the name says one.
+fn read_joint(table: &Table<'_>) -> Result<Vec<JointChange>, TomlError> {
+    table.only(&[&["joint", "scale", "angle_deg"]])?;
+    let value = table.need("joint", "the joint that changes")?;
+    let name = value.filled_text()?;
+    let parts = WalkPart::of_name(&name);
+    if parts.is_empty() {
+        let both = ["hip", "knee", "ankle", "shoulder", "elbow"];
+        let names = || both.into_iter().chain(WalkPart::ALL.iter().map(|part| part.name()));
+        let error = value
+            .wrong(&format!("one of {}", names().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")));
+        return Err(match nearest(&name, names()) {
+            Some(near) => error.hint(&format!("did you mean \"{near}\"?")),
+            None => error,
+        });
+    }
+    let bounded = |key: &str, default: f64, [low, high]: [f64; 2]| match table.get(key) {
+        Some(value) => match value.number()? {
+            number if (low..=high).contains(&number) => Ok(number),
+            _ => Err(value.wrong(&format!("a number from {low} to {high}"))),
+        },
+        None => Ok(default),
+    };
+    let (scale, angle) = (bounded("scale", 1.0, [-10.0, 10.0])?, bounded("angle_deg", 0.0, [-180.0, 180.0])? * DEGREE);
+    Ok(parts.into_iter().map(|part| JointChange { part, scale, angle }).collect())
 }
 
 fn curve_of<'a>(gait: &'a Gait, laws: &'a Laws, joint: LegJoint) -> &'a super::CyclicCurve {

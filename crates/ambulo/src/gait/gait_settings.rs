@@ -2,9 +2,11 @@
 
 use super::cyclic_curve::CyclicCurve;
 use super::error::GaitError;
-use super::joint::LegJoint;
+use super::joint::{LegJoint, WalkPart};
+use super::machine::{Condition, Driven, MachineSettings};
 use super::pace_plan::PaceChange;
 use super::stride::{ADULT_EXPONENT, EXPONENT_1997};
+use crate::model::Side;
 use crate::toml_reader::nearest;
 
 /// The settings of a gait; [`Walk::new`](super::Walk::new) applies them to a leg length.
@@ -26,6 +28,10 @@ pub struct Gait {
     pub curves: [Option<CyclicCurve>; 3],
     /// Changes of the pace while walking, in the order of their times.
     pub pace_changes: Vec<PaceChange>,
+    /// Changes of whole joints, of one side or both.
+    pub joints: Vec<JointChange>,
+    /// Machines that drive joints or the pace instead of the curves of the gait.
+    pub machines: Vec<MachineSettings>,
 }
 
 /// Speed, step length and step frequency, as far as they are given. With V = step length × frequency, two of them determine the third;
@@ -107,6 +113,17 @@ impl KnotChange {
     pub fn of(joint: LegJoint, knot: &str) -> KnotChange {
         KnotChange { joint, knot: knot.to_owned(), scale: 1.0, angle: 0.0, slope: 0.0, curvature: 0.0, phase: 0.0 }
     }
+}
+
+/// A change of the whole curve of a joint: the distance from upright standing is scaled, then the offset is added.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointChange {
+    /// The joint.
+    pub part: WalkPart,
+    /// Factor on the distance from upright standing.
+    pub scale: f64,
+    /// Added to the angle [rad].
+    pub angle: f64,
 }
 
 impl Default for Pace {
@@ -233,6 +250,8 @@ impl Gait {
             changes: Vec::new(),
             curves: [None, None, None],
             pace_changes: Vec::new(),
+            joints: Vec::new(),
+            machines: Vec::new(),
         }
     }
 
@@ -250,6 +269,40 @@ impl Gait {
         let first = self.pace_changes.first().filter(|change| !change.is_halt());
         let first = first.ok_or(GaitError::StandsForever)?;
         Ok(self.pace.with(first.speed, first.step_length, first.step_frequency))
+    }
+
+    /// The machine that drives the pace.
+    #[must_use]
+    pub fn machine_of_the_pace(&self) -> Option<&MachineSettings> {
+        self.machines.iter().find(|machine| machine.drives == Driven::Pace)
+    }
+
+    /// Names of the signals that machines read.
+    pub fn signals(&self) -> impl Iterator<Item = &str> {
+        self.machines.iter().flat_map(MachineSettings::conditions).filter_map(|condition| match condition {
+            Condition::Signal(name, ..) => Some(name.as_str()),
+            _ => None,
+        })
+    }
+
+    /// Whether a transition of a machine reads what only a simulation knows, such as the loads on the feet.
+    #[must_use]
+    pub fn machines_read_simulation(&self) -> bool {
+        let mut conditions = self.machines.iter().flat_map(|machine| &machine.transitions);
+        conditions.any(|transition| transition.when.reads_simulation())
+    }
+
+    /// Whether left and right do the same half a cycle apart: no machine drives a joint, and both sides have the same changes of joints.
+    #[must_use]
+    pub fn is_symmetric(&self) -> bool {
+        let changes = |side: Side| {
+            let own = self.joints.iter().filter(move |change| change.part.side() == side);
+            own.map(|change| (change.part.name().split_once(' ').map(|(_, joint)| joint), change.scale, change.angle))
+                .filter(|(joint, ..)| joint.is_some())
+                .collect::<Vec<_>>()
+        };
+        changes(Side::Right) == changes(Side::Left)
+            && !self.machines.iter().any(|machine| machine.drives.moves_a_joint())
     }
 
     /// Exponent b of step frequency ~ V^b.

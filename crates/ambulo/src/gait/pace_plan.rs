@@ -18,6 +18,7 @@
 
 use super::jet::Jet;
 use super::stride::StrideLaw;
+use crate::model::Side;
 
 /// A change of pace while walking. Values that are not given follow from the others, as in [`Pace`](super::Pace).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -106,6 +107,15 @@ impl Clock {
     pub fn steady(phase: Jet, law_speed: Jet) -> Clock {
         let one = Jet::constant(1.0);
         Clock { phase, law_speed, length: one, cadence: one, walking: one }
+    }
+
+    /// Cycles of the foot of a side; the left foot is half a cycle behind.
+    #[must_use]
+    pub fn phase_of(&self, side: Side) -> Jet {
+        match side {
+            Side::Right => self.phase,
+            Side::Left => self.phase + 0.5,
+        }
     }
 
     /// Whether the figure stands still.

@@ -14,15 +14,16 @@ use super::arms::ArmCurves;
 use super::curve_check::check;
 use super::cyclic_curve::{CyclicCurve, Knot};
 use super::error::GaitError;
-use super::gait_settings::{Gait, KnotChange, Pace, Pelvis, Speed, Style};
+use super::gait_settings::{Gait, JointChange, KnotChange, Pace, Pelvis, Speed, Style};
 use super::jet::Jet;
-use super::joint::{LegJoint, STANDING_TILT};
+use super::joint::{LegJoint, STANDING_TILT, WalkPart};
 use super::laws::{Laws, LegCurves, checked_speeds};
+use super::machine::Driven;
 use super::pace::{number, resolve};
 use super::pace_plan::{Clock, PaceChange, PacePlan, SteadyPace};
 use super::stride::{StrideLaw, walking_speeds};
 use crate::findings::{Code, Findings};
-use crate::model::BySide;
+use crate::model::{BySide, Side};
 
 /// Latest start and longest duration of a change of pace [s].
 const LATEST_CHANGE_S: f64 = 300.0;
@@ -35,9 +36,10 @@ pub struct Walk {
     plan: PacePlan,
     laws: Laws,
     arms: ArmCurves,
-    pelvis: Pelvis,
-    style: Style,
-    name: String,
+    /// The settings that the walk is made of.
+    gait: Gait,
+    /// Time at which the machines of the gait begin [s].
+    machines_begin_s: f64,
 }
 
 /// Angles of one leg [rad].
@@ -104,21 +106,20 @@ impl Walk {
         report_range(law.speed(first.law_speed), leg_length, findings);
         let initial = SteadyPace { walks: !stands, ..first.relative_to(&law) };
         let plan = PacePlan::constant(law, initial, 0.0);
-        let (pelvis, style, name) = (gait.pelvis, gait.style, gait.name.clone());
-        let mut walk = Walk { plan, laws, arms: ArmCurves::new(), pelvis, style, name };
+        let mut walk = Walk { plan, laws, arms: ArmCurves::new(), gait: gait.clone(), machines_begin_s: 0.0 };
         if stands {
             // The right leg swings first.
             let off = walk.foot_off(&walk.clock(0.0));
             walk.plan = PacePlan::constant(law, initial, off);
         }
         for change in &gait.pace_changes {
-            walk.add_change(gait, change, findings)?;
+            walk.add_change(change, findings)?;
         }
         Ok(walk)
     }
 
     /// Adds a change of pace after all others.
-    fn add_change(&mut self, gait: &Gait, change: &PaceChange, findings: &mut Findings) -> Result<(), GaitError> {
+    pub(super) fn add_change(&mut self, change: &PaceChange, findings: &mut Findings) -> Result<(), GaitError> {
         if !(0.0..=LATEST_CHANGE_S).contains(&change.start_s) {
             let expected = "0 to 300 s, because a walk at constant pace repeats itself";
             return Err(number("start of a change of pace [s]", change.start_s, expected));
@@ -130,8 +131,8 @@ impl Walk {
         let to = if change.is_halt() {
             SteadyPace { walks: false, ..before }
         } else {
-            let pace = gait.pace.with(change.speed, change.step_length, change.step_frequency);
-            let resolved = PaceOf { gait, leg_length: self.leg_length() }.walking(&pace)?;
+            let pace = self.gait.pace.with(change.speed, change.step_length, change.step_frequency);
+            let resolved = PaceOf { gait: &self.gait, leg_length: self.leg_length() }.walking(&pace)?;
             let to = resolved.relative_to(self.plan.law());
             for joint in LegJoint::ALL {
                 let curve = self.laws.legs.of(joint);
@@ -158,10 +159,23 @@ impl Walk {
         Ok(())
     }
 
-    /// Whether the pace never changes.
+    /// Whether every cycle is like the others: the pace never changes, and the gait has no machines.
     #[must_use]
     pub fn is_steady(&self) -> bool {
-        self.plan.is_constant()
+        self.plan.is_constant() && self.gait.machines.is_empty()
+    }
+
+    /// The same walk with another time at which the machines of the gait begin [s]; before it the curves of the gait are followed.
+    #[must_use]
+    pub fn with_machines_from(mut self, begin_s: f64) -> Walk {
+        self.machines_begin_s = begin_s;
+        self
+    }
+
+    /// Time at which the machines of the gait begin [s].
+    #[must_use]
+    pub fn machines_begin_s(&self) -> f64 {
+        self.machines_begin_s
     }
 
     /// End of the last change of pace [s].
@@ -200,13 +214,13 @@ impl Walk {
     /// Name of the gait.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.name
+        &self.gait.name
     }
 
     /// Style of the gait.
     #[must_use]
     pub fn style(&self) -> Style {
-        self.style
+        self.gait.style
     }
 
     /// Leg length, hip to floor [m].
@@ -316,30 +330,30 @@ impl Walk {
     #[must_use]
     pub fn posture(&self, clock: &Clock) -> WalkPosture {
         let speed = self.curve_speed(clock);
-        let phases = [clock.phase, clock.phase + 0.5];
-        let [right, left] = phases.map(|phase| self.leg(phase, speed, clock));
+        let legs = Side::BOTH.map(|side| self.leg(side, clock.phase_of(side), speed, clock));
+        let of_arms = |part: fn(Side) -> WalkPart| Side::BOTH.map(|side| self.part_angle(part(side), clock));
         WalkPosture {
-            right,
-            left,
+            right: legs[0],
+            left: legs[1],
             pelvis_tilt: self.pelvis_tilt(clock),
             standing_tilt: self.standing_tilt(),
             trunk_lean: self.trunk_lean(clock),
-            shoulders: phases.map(|phase| self.arm_angle(ArmCurves::shoulder(phase, speed), clock)),
-            elbows: phases.map(|phase| self.arm_angle(self.arms.elbow().at(phase, speed), clock)),
+            shoulders: of_arms(WalkPart::Shoulder),
+            elbows: of_arms(WalkPart::Elbow),
             phases: self.phases(clock),
         }
     }
 
-    fn leg(&self, phase: Jet, speed: Jet, clock: &Clock) -> LegAngles {
+    fn leg(&self, side: Side, phase: Jet, speed: Jet, clock: &Clock) -> LegAngles {
         let legs = &self.laws.legs;
-        let angle = |joint: LegJoint| self.leg_angle(joint, legs.of(joint).at(phase, speed), clock);
+        let angle = |joint: LegJoint| self.leg_angle(side, joint, legs.of(joint).at(phase, speed), clock);
         LegAngles { hip: angle(LegJoint::Hip), knee: angle(LegJoint::Knee), ankle: angle(LegJoint::Ankle) }
     }
 
     /// The angle [rad] of a joint of a leg, from the value of its curve.
-    pub(super) fn leg_angle(&self, joint: LegJoint, curve: Jet, clock: &Clock) -> Jet {
+    pub(super) fn leg_angle(&self, side: Side, joint: LegJoint, curve: Jet, clock: &Clock) -> Jet {
         let neutral = joint.neutral();
-        let long = between(neutral, curve, clock.length);
+        let long = self.edited(WalkPart::Leg(side, joint), neutral, between(neutral, curve, clock.length));
         match joint {
             LegJoint::Hip => {
                 let standing = neutral - STANDING_TILT + self.standing_tilt();
@@ -350,14 +364,62 @@ impl Walk {
     }
 
     /// The angle [rad] of a joint of an arm, from the value of its curve; arms hang in standing.
-    pub(super) fn arm_angle(&self, curve: Jet, clock: &Clock) -> Jet {
-        between(0.0, curve, clock.walking)
+    pub(super) fn arm_angle(&self, part: WalkPart, curve: Jet, clock: &Clock) -> Jet {
+        between(0.0, self.edited(part, 0.0, curve), clock.walking)
+    }
+
+    /// An angle in walking [rad] with the changes of this joint.
+    fn edited(&self, part: WalkPart, neutral: f64, angle: Jet) -> Jet {
+        let changes = self.gait.joints.iter().filter(|change| change.part == part);
+        changes.fold(angle, |angle, JointChange { scale, angle: offset, .. }| {
+            (angle - neutral) * *scale + (neutral + offset)
+        })
+    }
+
+    /// The angle [rad] of a part at a clock.
+    #[must_use]
+    pub fn part_angle(&self, part: WalkPart, clock: &Clock) -> Jet {
+        let (phase, speed) = (clock.phase_of(part.side()), self.curve_speed(clock));
+        match part {
+            WalkPart::Leg(side, joint) => self.leg_angle(side, joint, self.laws.legs.of(joint).at(phase, speed), clock),
+            WalkPart::Pelvis => self.pelvis_tilt(clock),
+            WalkPart::Trunk => self.trunk_lean(clock),
+            WalkPart::Shoulder(_) => self.arm_angle(part, ArmCurves::shoulder(phase, speed), clock),
+            WalkPart::Elbow(_) => self.arm_angle(part, self.arms.elbow().at(phase, speed), clock),
+        }
+    }
+
+    /// The angle of a part in upright standing [rad].
+    #[must_use]
+    pub fn upright_angle(&self, part: WalkPart) -> f64 {
+        match part {
+            WalkPart::Leg(_, LegJoint::Hip) => LegJoint::Hip.neutral() - STANDING_TILT + self.standing_tilt(),
+            WalkPart::Pelvis => self.standing_tilt(),
+            _ => 0.0,
+        }
+    }
+
+    /// Whether the figure stands still at some time, or a machine may halt it.
+    pub(super) fn may_stand(&self) -> bool {
+        !self.plan.is_constant() || self.gait.machines.iter().any(|machine| machine.drives == Driven::Pace)
+    }
+
+    /// Whether left and right do the same half a cycle apart, without machines or changes of single joints that make them differ.
+    #[must_use]
+    pub fn is_symmetric(&self) -> bool {
+        self.gait.is_symmetric()
+    }
+
+    /// The gait of the walk.
+    #[must_use]
+    pub fn gait(&self) -> &Gait {
+        &self.gait
     }
 
     /// The angle [rad] that is subtracted from the curve of the hip because the pelvis is held vertical.
     #[must_use]
     pub fn hip_offset(&self, speed: Jet) -> Jet {
-        match self.pelvis {
+        match self.gait.pelvis {
             Pelvis::Moving => Jet::ZERO,
             Pelvis::Vertical => self.laws.pelvis_tilt.mean.jet(speed),
         }
@@ -366,10 +428,10 @@ impl Walk {
     /// Anterior tilt of the pelvis [rad].
     #[must_use]
     pub fn pelvis_tilt(&self, clock: &Clock) -> Jet {
-        match self.pelvis {
+        match self.gait.pelvis {
             Pelvis::Moving => {
                 let tilt = self.laws.pelvis_tilt.at(clock.phase, self.curve_speed(clock));
-                between(STANDING_TILT, tilt, clock.walking)
+                between(STANDING_TILT, self.edited(WalkPart::Pelvis, STANDING_TILT, tilt), clock.walking)
             }
             Pelvis::Vertical => Jet::ZERO,
         }
@@ -378,10 +440,10 @@ impl Walk {
     /// Forward lean of the trunk [rad].
     #[must_use]
     pub fn trunk_lean(&self, clock: &Clock) -> Jet {
-        match self.pelvis {
+        match self.gait.pelvis {
             Pelvis::Moving => {
                 let lean = self.laws.trunk_lean.at(clock.phase, self.curve_speed(clock));
-                between(0.0, lean, clock.walking)
+                between(0.0, self.edited(WalkPart::Trunk, 0.0, lean), clock.walking)
             }
             Pelvis::Vertical => Jet::ZERO,
         }
@@ -390,7 +452,7 @@ impl Walk {
     /// Tilt of the pelvis in upright standing [rad]; 0 if the pelvis is held vertical.
     #[must_use]
     pub fn standing_tilt(&self) -> f64 {
-        match self.pelvis {
+        match self.gait.pelvis {
             Pelvis::Moving => STANDING_TILT,
             Pelvis::Vertical => 0.0,
         }

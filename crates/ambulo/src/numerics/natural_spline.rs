@@ -138,7 +138,7 @@ impl SplineDegree {
 }
 
 /// How a fit was smoothed.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SmoothingUsed {
     /// p [s^(2m-1)]; 0 for interpolation.
     pub(super) parameter: f64,
@@ -149,7 +149,7 @@ pub(super) struct SmoothingUsed {
 }
 
 /// A natural spline through, or near, samples.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct NaturalSpline {
     half_order: usize,
     times: Arc<[f64]>,

@@ -84,7 +84,7 @@ pub fn paper_walk_with(settings: &PaperSettings, trial: &TrialSettings<'_>) -> R
     };
     let ground = GroundContact { friction: trial.friction, shoes, impact };
     let duration_s = walk.cycle_s() * trial.cycles as f64;
-    let signals = settings.signals(&walk, &human.model, duration_s);
+    let signals = settings.signals(&walk, &human.model, duration_s)?;
     let walker = Walker::new(&human, signals, &ground, walk.speed())?;
     let steps = StepSettings { step_s: 1.0 / trial.rate_hz, ..StepSettings::default() };
     let recording = walker.walk(&steps, duration_s, &mut findings)?;

@@ -6,7 +6,7 @@ use crate::contact::HuntCrossley;
 use crate::gait::{Gait, Pelvis, Style, Walk};
 use crate::model::anthropometry::Human;
 use crate::model::{Function, Model};
-use crate::simulation::walking::gait_signals;
+use crate::simulation::walking::{WalkingError, gait_signals};
 use crate::simulation::{ImpactLaw, Signal};
 
 /// Values that the paper does not give. The default is used in the paper's mode.
@@ -114,9 +114,9 @@ impl PaperSettings {
         gait
     }
 
-    pub(super) fn signals(&self, walk: &Walk, model: &Model, duration_s: f64) -> Vec<Signal> {
-        let plain = gait_signals(walk, model, 0.0, duration_s).into_iter().zip(model.coordinates());
-        plain
+    pub(super) fn signals(&self, walk: &Walk, model: &Model, duration_s: f64) -> Result<Vec<Signal>, WalkingError> {
+        let plain = gait_signals(walk, model, 0.0, duration_s)?.into_iter().zip(model.coordinates());
+        let changed = plain
             .map(|(signal, coordinate)| {
                 let of_arm = coordinate.name.starts_with("arm_") || coordinate.name.starts_with("elbow_");
                 let slope = if of_arm { self.arm_swing } else { 1.0 };
@@ -124,6 +124,7 @@ impl PaperSettings {
                 let changes = (slope - 1.0).abs() > 0.0 || intercept.abs() > 0.0;
                 if changes { Signal::Of(Function::Linear { slope, intercept }, Box::new(signal)) } else { signal }
             })
-            .collect()
+            .collect();
+        Ok(changed)
     }
 }

@@ -31,6 +31,8 @@ pub enum Signal {
     OfTime(Function, f64),
     /// A function of another signal, for a coordinate that a coupler drives.
     Of(Function, Box<Signal>),
+    /// A parabola with value, rate and acceleration at an instant [s], for a step that ends there.
+    Near(f64, [f64; 3]),
     /// One column of samples.
     Sampled(Arc<Samples>, usize),
 }
@@ -83,6 +85,10 @@ impl Signal {
                 }
             }
             Signal::OfTime(function, start) => function.at(t + start),
+            Signal::Near(at_s, [value, rate, acceleration]) => {
+                let dt = t - at_s;
+                [value + dt * (rate + 0.5 * dt * acceleration), rate + dt * acceleration, *acceleration]
+            }
             Signal::Sampled(samples, column) => samples.at(*column, t),
             Signal::Of(function, leader) => {
                 let [x, rate, acceleration] = leader.at(t);

@@ -2,16 +2,85 @@
 
 use crate::gait::jet::Jet;
 use crate::gait::pace_plan::Clock;
+use crate::gait::quintic::{End, quintic};
+use crate::model::BySide;
 use std::fmt;
+use std::sync::Arc;
 
-/// Data that a machine can read: the clock of this step, and all machines as they were after the previous step.
+/// Data that a machine can read: the clock and the figure in this step, and all machines as they were after the previous step.
 #[derive(Debug, Clone, Copy)]
 pub struct MachineInputs<'a> {
     /// Phase and speed of this step.
     pub clock: &'a Clock,
+    /// What is known of the figure in this step.
+    pub sensed: &'a Sensed,
     pub(super) names: &'a [String],
-    pub(super) states: &'a [Vec<String>],
-    pub(super) before: &'a [(usize, Jet)],
+    pub(super) states: &'a [Vec<State>],
+    pub(super) before: &'a [Active],
+    /// Time [s] and steps of the figure when the machine that reads entered its state.
+    pub(super) entered: [f64; 2],
+}
+
+/// What machines know of the figure besides the clock.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sensed {
+    /// Time since the machines began [s]; below zero before that.
+    pub time_s: f64,
+    /// Whether each foot is loaded.
+    pub loaded: BySide<bool>,
+    /// The same in the previous step.
+    pub loaded_before: BySide<bool>,
+    /// Angles of joints [rad]: clinical signs for parts of the gait, the model's signs for coordinates.
+    pub angles: Vec<(String, f64)>,
+    /// Numbers from outside.
+    pub signals: Vec<(String, f64)>,
+}
+
+/// A machine after a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Active {
+    /// Index of its state.
+    pub(super) state: usize,
+    /// The state before a machine above interrupted it.
+    pub(super) interrupted: Option<usize>,
+    /// Time [s] and steps of the figure when it entered its state.
+    pub(super) entered: [f64; 2],
+    pub(super) output: Jet,
+    pub(super) passage: Option<Passage>,
+}
+
+/// The rest of an earlier activity, which fades within some time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Passage {
+    start_s: f64,
+    duration_s: f64,
+    /// Output of the earlier activity minus that of the new one, at the start.
+    from: Jet,
+}
+
+impl Passage {
+    pub(super) fn new(start_s: f64, duration_s: f64, from: Jet) -> Passage {
+        Passage { start_s, duration_s, from }
+    }
+
+    pub(super) fn is_over(&self, time_s: f64) -> bool {
+        time_s - self.start_s >= self.duration_s
+    }
+
+    /// Difference from the new activity at a time: a quintic from the difference at the start, with its rate and acceleration, to zero.
+    /// Zero after the end.
+    pub(super) fn at(&self, time_s: f64) -> Jet {
+        if self.is_over(time_s) {
+            return Jet::ZERO;
+        }
+        let (since_s, span) = (time_s - self.start_s, self.duration_s);
+        let from = End {
+            value: Jet::constant(self.from.value),
+            slope: Jet::constant(self.from.rate * span),
+            curvature: Jet::constant(self.from.acceleration * span * span),
+        };
+        quintic(from, End::default(), Jet::new(since_s / span, 1.0 / span, 0.0))
+    }
 }
 
 /// Outputs of a machine's children in this step.
@@ -20,25 +89,50 @@ pub struct ChildOutputs<'a> {
     /// Number of the first machine below this one in the tree.
     pub(super) first: usize,
     pub(super) names: &'a [String],
-    pub(super) outputs: &'a [(usize, Jet)],
+    pub(super) outputs: &'a [Active],
 }
 
-impl MachineInputs<'_> {
+impl<'a> MachineInputs<'a> {
     fn number(&self, machine: &str) -> Option<usize> {
         self.names.iter().position(|name| name == machine)
     }
 
     /// Name of the active state of a machine after the previous step.
     #[must_use]
-    pub fn state(&self, machine: &str) -> Option<&str> {
+    pub fn state(&self, machine: &str) -> Option<&'a str> {
         let number = self.number(machine)?;
-        Some(&self.states[number][self.before[number].0])
+        Some(&self.states[number][self.before[number].state].name)
     }
 
     /// Output of a machine in the previous step; zero before the first step.
     #[must_use]
     pub fn output(&self, machine: &str) -> Option<Jet> {
-        self.number(machine).map(|number| self.before[number].1)
+        self.number(machine).map(|number| self.before[number].output)
+    }
+
+    /// Whether a machine was in a state that is marked as done.
+    #[must_use]
+    pub fn is_done(&self, machine: &str) -> bool {
+        self.number(machine).is_some_and(|number| self.states[number][self.before[number].state].done)
+    }
+
+    /// Time since the machine that reads this entered its state [s].
+    #[must_use]
+    pub fn since_s(&self) -> f64 {
+        self.sensed.time_s - self.entered[0]
+    }
+
+    /// Steps of the figure since the machine that reads this entered its state; with fractions.
+    #[must_use]
+    pub fn steps(&self) -> f64 {
+        2.0 * self.clock.phase.value - self.entered[1]
+    }
+
+    /// An angle of the figure [rad]; of the previous step's machines where no simulation measures it.
+    #[must_use]
+    pub fn angle(&self, name: &str) -> Option<f64> {
+        let measured = self.sensed.angles.iter().find(|(own, _)| own == name).map(|(_, angle)| *angle);
+        measured.or_else(|| self.output(name).map(|output| output.value))
     }
 }
 
@@ -47,22 +141,35 @@ impl ChildOutputs<'_> {
     #[must_use]
     pub fn output(&self, machine: &str) -> Jet {
         let found = self.names.iter().position(|name| name == machine);
-        found.map_or(Jet::ZERO, |i| self.outputs[self.first + i].1)
+        found.map_or(Jet::ZERO, |i| self.outputs[self.first + i].output)
     }
 }
 
 /// Computes the output of a machine in a state.
-pub(super) type Activity = Box<dyn Fn(usize, &MachineInputs<'_>, &ChildOutputs<'_>) -> Jet + Send + Sync>;
+pub(super) type Activity = Arc<dyn Fn(usize, &MachineInputs<'_>, &ChildOutputs<'_>) -> Jet + Send + Sync>;
 /// Decides whether a transition is taken.
-pub(super) type Condition = Box<dyn Fn(&MachineInputs<'_>) -> bool + Send + Sync>;
+pub(super) type Condition = Arc<dyn Fn(&MachineInputs<'_>) -> bool + Send + Sync>;
 
 /// The description of a machine; [`RunningMachine`](super::RunningMachine) has the active states.
+#[derive(Clone)]
 pub struct Machine {
     pub(super) name: String,
     pub(super) states: Vec<State>,
     pub(super) transitions: Vec<Transition>,
     pub(super) children: Vec<Machine>,
     pub(super) activity: Activity,
+    pub(super) gate: Option<Gate>,
+}
+
+/// When a machine runs. While it does not, it is in its first state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gate {
+    /// Another machine and its state; `None` for a machine that runs from the time at which machines begin.
+    pub during: Option<(String, String)>,
+    /// Whether it goes on in the state in which it was interrupted.
+    pub resumes: bool,
+    /// Duration of the passages into the second state, where it starts, and back into the first [s].
+    pub within_s: [f64; 2],
 }
 
 /// A state.
@@ -72,6 +179,8 @@ pub struct State {
     pub name: String,
     /// Time and angles of the state, for tables and figures.
     pub span: Option<Span>,
+    /// Whether the machine has then done its work.
+    pub done: bool,
 }
 
 /// The time in which a state is active, and the angles at both ends.
@@ -87,11 +196,12 @@ impl State {
     /// A state without times and angles.
     #[must_use]
     pub fn named(name: &str) -> State {
-        State { name: name.to_owned(), span: None }
+        State { name: name.to_owned(), span: None, done: false }
     }
 }
 
 /// A change from one state to another.
+#[derive(Clone)]
 pub struct Transition {
     /// Index of the state that is left.
     pub from: usize,
@@ -99,6 +209,8 @@ pub struct Transition {
     pub to: usize,
     /// Description of the condition.
     pub when: String,
+    /// Duration of the passage to the activity of the new state [s]; 0 where both agree.
+    pub within_s: f64,
     pub(super) condition: Condition,
 }
 
@@ -110,7 +222,14 @@ impl Transition {
         when: impl Into<String>,
         condition: impl Fn(&MachineInputs<'_>) -> bool + Send + Sync + 'static,
     ) -> Transition {
-        Transition { from, to, when: when.into(), condition: Box::new(condition) }
+        Transition { from, to, when: when.into(), within_s: 0.0, condition: Arc::new(condition) }
+    }
+
+    /// The same transition with a passage to the new activity [s], in which the output stays continuous up to its acceleration.
+    #[must_use]
+    pub fn within(mut self, within_s: f64) -> Transition {
+        self.within_s = within_s;
+        self
     }
 }
 
@@ -127,8 +246,16 @@ impl Machine {
             states,
             transitions: Vec::new(),
             children: Vec::new(),
-            activity: Box::new(activity),
+            activity: Arc::new(activity),
+            gate: None,
         }
+    }
+
+    /// A machine that runs at some times only. Its first state is that of rest, the second the one in which it starts.
+    #[must_use]
+    pub fn with_gate(mut self, gate: Gate) -> Machine {
+        self.gate = Some(gate);
+        self
     }
 
     /// Adds transitions; transitions of states that do not exist are ignored.
@@ -144,6 +271,12 @@ impl Machine {
     #[must_use]
     pub fn with_children(mut self, children: impl IntoIterator<Item = Machine>) -> Machine {
         self.children.extend(children);
+        self
+    }
+
+    /// The same machine with each child replaced by the result of a function.
+    pub(super) fn with_mapped_children(mut self, image: impl FnMut(Machine) -> Machine) -> Machine {
+        self.children = self.children.into_iter().map(image).collect();
         self
     }
 

@@ -4,12 +4,22 @@
 //! each step from the clock and the outputs of its children. A machine reads the other machines as they were after the previous step,
 //! so the order of siblings does not matter.
 
+mod authored;
+mod condition;
 mod definition;
+mod machine_file;
 mod running_machine;
+mod settings;
 mod state_table;
+mod state_trace;
 mod walking;
 
-pub use definition::{ChildOutputs, Machine, MachineInputs, Span, State, Transition};
+pub use condition::{Comparison, Condition, ConditionError, FootEvent};
+pub use definition::{ChildOutputs, Gate, Machine, MachineInputs, Sensed, Span, State, Transition};
+pub use machine_file::ReadColumn;
+pub(super) use machine_file::read_machines;
 pub use running_machine::RunningMachine;
+pub use settings::{Activity, Driven, MachineSettings, PASSAGE_S, StateSettings, TransitionSettings};
 pub use state_table::{StateRow, state_rows, state_table};
-pub use walking::{WalkMachine, walking_machine};
+pub use state_trace::{StatePeriod, StateTrace};
+pub use walking::{WalkMachine, planned, walking_machine};

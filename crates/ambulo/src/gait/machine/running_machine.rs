@@ -8,25 +8,27 @@
 //! 2. The children run in any order, because none of them reads what another one does in this step.
 //! 3. The activity function computes the output from the state, the clock, the snapshot and the new outputs of the children.
 //!
+//! 4. Where a transition has a passage, the difference between the activities of both states at that instant, with its rate and
+//!    acceleration, fades along a quintic, so the output is C².
+//!
+//! A machine with a gate is in its first state until the gate opens, and again when it closes; the gate is tested before transitions.
 //! A step does not allocate. Pinned by: tests/gait_machine.rs.
 
-use super::definition::{ChildOutputs, Machine, MachineInputs};
+use super::definition::{Active, ChildOutputs, Gate, Machine, MachineInputs, Passage, Sensed, State, Transition};
 use crate::gait::jet::Jet;
 use crate::gait::pace_plan::Clock;
 
-/// State and output of every machine after a step, parents before children.
-type Snapshot = Vec<(usize, Jet)>;
-
 /// A machine with its active states and outputs.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct RunningMachine {
     machine: Machine,
     /// Names, parents before children, children in the order of the tree.
     names: Vec<String>,
-    /// Names of the states of each machine.
-    states: Vec<Vec<String>>,
-    before: Snapshot,
-    after: Snapshot,
+    /// States of each machine.
+    states: Vec<Vec<State>>,
+    /// State and output of every machine before and after the last step, in the order of the names.
+    before: Vec<Active>,
+    after: Vec<Active>,
 }
 
 impl RunningMachine {
@@ -35,7 +37,7 @@ impl RunningMachine {
     pub fn new(machine: Machine) -> RunningMachine {
         let (mut names, mut states) = (Vec::new(), Vec::new());
         list(&machine, &mut names, &mut states);
-        let start = vec![(0, Jet::ZERO); names.len()];
+        let start = vec![Active::default(); names.len()];
         RunningMachine { machine, names, states, before: start.clone(), after: start }
     }
 
@@ -46,10 +48,17 @@ impl RunningMachine {
     }
 
     /// Runs the whole tree once.
-    pub fn step(&mut self, clock: &Clock) {
+    pub fn step(&mut self, clock: &Clock, sensed: &Sensed) {
         std::mem::swap(&mut self.before, &mut self.after);
-        let inputs = MachineInputs { clock, names: &self.names, states: &self.states, before: &self.before };
+        let (names, states, before) = (&self.names, &self.states, &self.before);
+        let inputs = MachineInputs { clock, sensed, names, states, before, entered: [0.0; 2] };
         run(&self.machine, 0, &inputs, &mut self.after);
+    }
+
+    /// Names of all machines, parents before children.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
     }
 
     /// Number of a machine by its name, for [`RunningMachine::state`] and [`RunningMachine::output`].
@@ -61,51 +70,114 @@ impl RunningMachine {
     /// Index of the active state of a machine.
     #[must_use]
     pub fn state(&self, machine: usize) -> usize {
-        self.after[machine].0
+        self.after[machine].state
+    }
+
+    /// Whether a machine has entered its state in the last step.
+    #[must_use]
+    pub fn has_changed(&self, machine: usize) -> bool {
+        self.after[machine].state != self.before[machine].state
     }
 
     /// Name of the active state of a machine.
     #[must_use]
     pub fn state_name(&self, machine: usize) -> &str {
-        &self.states[machine][self.state(machine)]
+        self.name_of(machine, self.state(machine))
+    }
+
+    /// Name of a state of a machine.
+    #[must_use]
+    pub fn name_of(&self, machine: usize, state: usize) -> &str {
+        &self.states[machine][state].name
     }
 
     /// Output of a machine in the last step.
     #[must_use]
     pub fn output(&self, machine: usize) -> Jet {
-        self.after[machine].1
+        self.after[machine].output
     }
 }
 
-fn list(machine: &Machine, names: &mut Vec<String>, states: &mut Vec<Vec<String>>) {
+fn list(machine: &Machine, names: &mut Vec<String>, states: &mut Vec<Vec<State>>) {
     names.push(machine.name.clone());
-    states.push(machine.states.iter().map(|state| state.name.clone()).collect());
+    states.push(machine.states.clone());
     for child in &machine.children {
         list(child, names, states);
     }
 }
 
 /// Runs a machine and all machines below it; returns the number of the next machine in the tree.
-fn run(machine: &Machine, number: usize, inputs: &MachineInputs<'_>, after: &mut [(usize, Jet)]) -> usize {
-    let state = settled(machine, inputs.before[number].0, inputs);
+fn run(machine: &Machine, number: usize, inputs: &MachineInputs<'_>, after: &mut [Active]) -> usize {
     let mut next = number + 1;
     for child in &machine.children {
         next = run(child, next, inputs, after);
     }
     let children = ChildOutputs { first: number + 1, names: &inputs.names[number + 1..next], outputs: after };
-    after[number] = (state, (machine.activity)(state, inputs, &children));
+    let before = inputs.before[number];
+    let taken = settled(machine, &before, inputs);
+    let time_s = inputs.sensed.time_s;
+    let output = (machine.activity)(taken.state, &MachineInputs { entered: taken.entered, ..*inputs }, &children);
+    let mut passage = before.passage;
+    if taken.state != before.state && taken.within_s > 0.0 {
+        let own = (machine.activity)(before.state, &MachineInputs { entered: before.entered, ..*inputs }, &children);
+        let old = before.passage.map_or(own, |passage| own + passage.at(time_s));
+        passage = Some(Passage::new(time_s, taken.within_s, old - output));
+    }
+    let output = passage.map_or(output, |passage| output + passage.at(time_s));
+    let passage = passage.filter(|passage| !passage.is_over(time_s));
+    after[number] =
+        Active { state: taken.state, interrupted: taken.interrupted, entered: taken.entered, output, passage };
     next
 }
 
+/// What the transitions of a step lead to.
+struct Settled {
+    state: usize,
+    /// The state to go on with after an interruption.
+    interrupted: Option<usize>,
+    /// Time [s] and steps of the figure when the state was entered.
+    entered: [f64; 2],
+    /// Duration of the passage to it [s].
+    within_s: f64,
+}
+
+impl Settled {
+    fn enter(&mut self, state: usize, within_s: f64, inputs: &MachineInputs<'_>) {
+        (self.state, self.within_s) = (state, within_s);
+        self.entered = [inputs.sensed.time_s, 2.0 * inputs.clock.phase.value];
+    }
+}
+
 /// The state after all transitions of this step.
-fn settled(machine: &Machine, mut state: usize, inputs: &MachineInputs<'_>) -> usize {
+fn settled(machine: &Machine, before: &Active, inputs: &MachineInputs<'_>) -> Settled {
+    let Active { state, interrupted, entered, .. } = *before;
+    let mut settled = Settled { state, interrupted, entered, within_s: 0.0 };
+    if let Some(gate) = &machine.gate {
+        let open = is_open(gate, inputs);
+        if open && state == 0 {
+            let first = interrupted.filter(|_| gate.resumes).unwrap_or(1);
+            settled.enter(first, gate.within_s[0], inputs);
+            settled.interrupted = None;
+        } else if !open && state > 0 {
+            settled.enter(0, gate.within_s[1], inputs);
+            settled.interrupted = Some(state);
+        }
+        if !open {
+            return settled;
+        }
+    }
     for _ in 0..machine.states.len() {
-        let taken =
-            machine.transitions.iter().find(|transition| transition.from == state && (transition.condition)(inputs));
-        match taken {
-            Some(transition) => state = transition.to,
+        let now = MachineInputs { entered: settled.entered, ..*inputs };
+        let leaves = |transition: &&Transition| transition.from == settled.state && (transition.condition)(&now);
+        match machine.transitions.iter().find(leaves) {
+            Some(transition) => settled.enter(transition.to, transition.within_s, inputs),
             None => break,
         }
     }
-    state
+    settled
+}
+
+fn is_open(gate: &Gate, inputs: &MachineInputs<'_>) -> bool {
+    let begun = inputs.sensed.time_s >= 0.0;
+    begun && gate.during.as_ref().is_none_or(|(machine, state)| inputs.state(machine) == Some(state))
 }

@@ -34,7 +34,7 @@ fn collect(machine: &Machine, depth: usize, rows: &mut Vec<StateRow>) {
         let leads = transitions
             .map(|transition| (transition.when.clone(), machine.states()[transition.to].name.clone()))
             .collect();
-        let State { name, span } = state.clone();
+        let State { name, span, .. } = state.clone();
         rows.push(StateRow { depth, machine: machine.name().to_owned(), state: name, span, leads });
     }
     for child in machine.children() {

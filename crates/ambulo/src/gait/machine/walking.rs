@@ -8,17 +8,24 @@
 //! └ shoulders, elbows       forward and backward swing, flexion and extension; output: flexion [rad]
 //! ```
 //!
-//! Transitions test only the clock: a machine leaves a state when the phase is outside the window of the state. Windows are evaluated at
+//! Machines of the gait ([`MachineSettings`](super::MachineSettings)) come in addition: below the machine of the part that they drive, whose
+//! place they take, or below the root.
+//!
+//! Transitions of the machines above test only the clock: a machine leaves a state when the phase is outside the window of the state. Windows are evaluated at
 //! the current speed, so all machines stay synchronised when the speed changes. The machine of a joint evaluates the polynomial of its
 //! sub-cycle on the same curves as [`Walk::at`]: both give the same bits at any step rate (tests/gait_machine.rs).
 
-use super::definition::{ChildOutputs, Machine, MachineInputs, Span, State, Transition};
+use super::authored::{authored, driven_part, pace_of};
+use super::definition::{ChildOutputs, Machine, MachineInputs, Sensed, Span, State, Transition};
 use super::running_machine::RunningMachine;
+use super::settings::Driven;
+use crate::findings::Findings;
 use crate::gait::arms::ArmCurves;
 use crate::gait::cyclic_curve::CyclicCurve;
+use crate::gait::error::GaitError;
 use crate::gait::jet::Jet;
-use crate::gait::joint::LegJoint;
-use crate::gait::pace_plan::Clock;
+use crate::gait::joint::{LegJoint, WalkPart};
+use crate::gait::pace_plan::{Clock, PaceChange};
 use crate::gait::sub_cycle::SubCycle;
 use crate::gait::walk::{LegAngles, Phases, Walk, WalkPosture};
 use crate::model::{BySide, Side};
@@ -32,15 +39,32 @@ pub fn walking_machine(walk: &Walk) -> Machine {
     let legs = sides.map(|side| leg(&walk, side));
     let arms = sides.into_iter().flat_map(|side| [shoulder(&walk, side), elbow(&walk, side)]);
     let trunk = [pelvis(&walk), lean(&walk)];
-    global(&walk).with_children(legs).with_children(trunk).with_children(arms)
+    let walking = global(&walk).with_children(legs).with_children(trunk).with_children(arms);
+    walk.gait().machines.iter().fold(walking, |tree, settings| {
+        let machine = authored(&walk, settings);
+        match driven_part(settings) {
+            Some(part) => driven_by(tree, part.name(), machine),
+            None => tree.with_children([machine]),
+        }
+    })
 }
 
-/// Phase of the foot of a side.
-fn phase_of(side: Side, clock: &Clock) -> Jet {
-    match side {
-        Side::Right => clock.phase,
-        Side::Left => clock.phase + 0.5,
+/// The tree in which a machine takes the place of the one with this name.
+fn driven_by(tree: Machine, name: &str, machine: Machine) -> Machine {
+    let mut machine = Some(machine);
+    replaced(tree, name, &mut machine)
+}
+
+fn replaced(tree: Machine, name: &str, machine: &mut Option<Machine>) -> Machine {
+    if tree.name() == name
+        && let Some(machine) = machine.take()
+    {
+        let driver = machine.name().to_owned();
+        let state = State::named(&format!("driven by {driver}"));
+        return Machine::new(name, vec![state], move |_, _, children| children.output(&driver))
+            .with_children([machine]);
     }
+    tree.with_mapped_children(|child| replaced(child, name, machine))
 }
 
 /// Windows of the global cycle in cycles of the right foot.
@@ -59,8 +83,8 @@ fn global(walk: &Arc<Walk>) -> Machine {
     const STANDING: usize = 4;
     let windows = support_windows(walk.foot_off(&walk.first_clock()));
     let state = |k: usize| State {
-        name: NAMES[k].into(),
         span: Some(Span { window: [windows[k], windows[k + 1]], bounds: None }),
+        ..State::named(NAMES[k])
     };
     let in_window = |k: usize| {
         let walk = Arc::clone(walk);
@@ -74,7 +98,7 @@ fn global(walk: &Arc<Walk>) -> Machine {
         Transition::new(k, (k + 1) % 4, EVENTS[k], move |inputs: &MachineInputs<'_>| !inside(inputs.clock))
     };
     let (mut states, mut transitions) = ((0..4).map(state).collect::<Vec<_>>(), Vec::new());
-    if !walk.is_steady() {
+    if walk.may_stand() {
         states.push(State::named("standing"));
         let halt =
             |k: usize| Transition::new(k, STANDING, "speed 0", |inputs: &MachineInputs<'_>| inputs.clock.stands());
@@ -95,7 +119,8 @@ fn global(walk: &Arc<Walk>) -> Machine {
 
 fn leg(walk: &Arc<Walk>, side: Side) -> Machine {
     let off = walk.foot_off(&walk.first_clock());
-    let state = |name: &str, window: [f64; 2]| State { name: name.into(), span: Some(Span { window, bounds: None }) };
+    let state =
+        |name: &str, window: [f64; 2]| State { span: Some(Span { window, bounds: None }), ..State::named(name) };
     let states = vec![state("stance", [0.0, off]), state("swing", [off, 1.0])];
     let transition = |from: usize, when: &str| {
         let walk = Arc::clone(walk);
@@ -104,9 +129,9 @@ fn leg(walk: &Arc<Walk>, side: Side) -> Machine {
             stands != (from == 0)
         })
     };
-    let names = LegJoint::ALL.map(|joint| joint_name(side, joint));
+    let names = LegJoint::ALL.map(|joint| WalkPart::Leg(side, joint).name());
     let foot = move |_: usize, _: &MachineInputs<'_>, children: &ChildOutputs<'_>| {
-        let [hip, knee, ankle] = [0, 1, 2].map(|i| children.output(&names[i]));
+        let [hip, knee, ankle] = names.map(|name| children.output(name));
         hip - knee + ankle
     };
     Machine::new(&format!("{side} leg"), states, foot)
@@ -114,26 +139,22 @@ fn leg(walk: &Arc<Walk>, side: Side) -> Machine {
         .with_children(LegJoint::ALL.map(|joint| joint_machine(walk, side, joint)))
 }
 
-fn joint_name(side: Side, joint: LegJoint) -> String {
-    format!("{side} {}", joint.name())
-}
-
 fn joint_machine(walk: &Arc<Walk>, side: Side, joint: LegJoint) -> Machine {
     let angle = {
         let walk = Arc::clone(walk);
-        move |curve: Jet, clock: &Clock| walk.leg_angle(joint, curve, clock)
+        move |curve: Jet, clock: &Clock| walk.leg_angle(side, joint, curve, clock)
     };
-    curve_machine(walk, &joint_name(side, joint), side, walk.legs().of(joint), angle)
+    curve_machine(walk, WalkPart::Leg(side, joint), walk.legs().of(joint), angle)
 }
 
 /// A machine whose states are the sub-cycles of a curve; `angle` makes the angle of the joint from the value of the curve.
 fn curve_machine(
     walk: &Arc<Walk>,
-    name: &str,
-    side: Side,
+    part: WalkPart,
     curve: &CyclicCurve,
     angle: impl Fn(Jet, &Clock) -> Jet + Send + Sync + 'static,
 ) -> Machine {
+    let side = part.side();
     let curve = Arc::new(curve.clone());
     let sub_cycles = Arc::new(SubCycle::of(&curve));
     let start = walk.first_clock();
@@ -141,7 +162,7 @@ fn curve_machine(
     let state = |part: &SubCycle| {
         let bounds = part.bounds(&curve, speed.value).map(|value| angle(Jet::constant(value), &start).value);
         let span = Span { window: part.window(&curve, speed.value), bounds: Some(bounds) };
-        State { name: part.name.clone(), span: Some(span) }
+        State { span: Some(span), ..State::named(&part.name) }
     };
     let count = sub_cycles.len();
     let transition = |k: usize| {
@@ -150,7 +171,7 @@ fn curve_machine(
         let when = curve.knots()[end].name.clone();
         Transition::new(k, (k + 1) % count, when, move |inputs: &MachineInputs<'_>| {
             let speed = walk.curve_speed(inputs.clock).value;
-            let segment = curve.segment_at(phase_of(side, inputs.clock).value, speed);
+            let segment = curve.segment_at(inputs.clock.phase_of(side).value, speed);
             !parts[k].has_segment(segment, curve.knots().len())
         })
     };
@@ -159,12 +180,12 @@ fn curve_machine(
     let activity = {
         let (walk, curve, parts) = (Arc::clone(walk), Arc::clone(&curve), Arc::clone(&sub_cycles));
         move |state: usize, inputs: &MachineInputs<'_>, _: &ChildOutputs<'_>| {
-            let (phase, speed) = (phase_of(side, inputs.clock), walk.curve_speed(inputs.clock));
+            let (phase, speed) = (inputs.clock.phase_of(side), walk.curve_speed(inputs.clock));
             let segment = parts[state].segment(&curve, phase.value, speed.value);
             angle(curve.on_segment(segment, phase, speed), inputs.clock)
         }
     };
-    Machine::new(name, states, activity).with_transitions(transitions)
+    Machine::new(part.name(), states, activity).with_transitions(transitions)
 }
 
 fn pelvis(walk: &Arc<Walk>) -> Machine {
@@ -182,19 +203,19 @@ fn shoulder(walk: &Arc<Walk>, side: Side) -> Machine {
     let angle = |phase: f64| ArmCurves::shoulder(Jet::constant(phase), speed).value;
     let state = |name: &str, window: [f64; 2]| {
         let span = Span { window, bounds: Some(window.map(angle)) };
-        State { name: name.into(), span: Some(span) }
+        State { span: Some(span), ..State::named(name) }
     };
     let states = vec![state("forward swing", [0.0, 0.5]), state("backward swing", [0.5, 1.0])];
     let transition = |from: usize, when: &str| {
         Transition::new(from, 1 - from, when, move |inputs: &MachineInputs<'_>| {
-            let phase = phase_of(side, inputs.clock).value;
+            let phase = inputs.clock.phase_of(side).value;
             (phase - phase.floor() < 0.5) != (from == 0)
         })
     };
     let walk = Arc::clone(walk);
-    Machine::new(&format!("{side} shoulder"), states, move |_, inputs, _| {
-        let swing = ArmCurves::shoulder(phase_of(side, inputs.clock), walk.curve_speed(inputs.clock));
-        walk.arm_angle(swing, inputs.clock)
+    Machine::new(WalkPart::Shoulder(side).name(), states, move |_, inputs, _| {
+        let swing = ArmCurves::shoulder(inputs.clock.phase_of(side), walk.curve_speed(inputs.clock));
+        walk.arm_angle(WalkPart::Shoulder(side), swing, inputs.clock)
     })
     .with_transitions([transition(0, "the other foot's contact"), transition(1, "contact")])
 }
@@ -202,21 +223,22 @@ fn shoulder(walk: &Arc<Walk>, side: Side) -> Machine {
 fn elbow(walk: &Arc<Walk>, side: Side) -> Machine {
     let angle = {
         let walk = Arc::clone(walk);
-        move |curve: Jet, clock: &Clock| walk.arm_angle(curve, clock)
+        move |curve: Jet, clock: &Clock| walk.arm_angle(WalkPart::Elbow(side), curve, clock)
     };
-    curve_machine(walk, &format!("{side} elbow"), side, walk.arms().elbow(), angle)
+    curve_machine(walk, WalkPart::Elbow(side), walk.arms().elbow(), angle)
 }
 
 /// A walk that is driven by its state machine.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct WalkMachine {
     walk: Walk,
     running: RunningMachine,
+    sensed: Sensed,
     /// Numbers of the machines whose outputs are parts of the posture.
     legs: [usize; 2],
-    joints: [[usize; 3]; 2],
-    trunk: [usize; 2],
-    arms: [[usize; 2]; 2],
+    parts: [usize; 12],
+    /// Names and numbers of the machines that drive coordinates of the model.
+    coordinates: Vec<(String, usize)>,
 }
 
 impl WalkMachine {
@@ -236,12 +258,16 @@ impl WalkMachine {
         let running = RunningMachine::new(machine);
         // Every name is one that `walking_machine` gave.
         let number = |name: &str| running.number(name).unwrap_or(0);
+        let coordinates = walk.gait().machines.iter().filter_map(|settings| match &settings.drives {
+            Driven::Coordinate(name) => Some((name.clone(), number(&settings.name))),
+            _ => None,
+        });
         WalkMachine {
             walk: walk.clone(),
+            sensed: Sensed::default(),
             legs: Side::BOTH.map(|side| number(&format!("{side} leg"))),
-            joints: Side::BOTH.map(|side| LegJoint::ALL.map(|joint| number(&joint_name(side, joint)))),
-            trunk: ["pelvis", "trunk"].map(number),
-            arms: Side::BOTH.map(|side| ["shoulder", "elbow"].map(|part| number(&format!("{side} {part}")))),
+            parts: WalkPart::ALL.map(|part| number(part.name())),
+            coordinates: coordinates.collect(),
             running,
         }
     }
@@ -252,21 +278,35 @@ impl WalkMachine {
         &self.walk
     }
 
-    /// Runs all machines once at a time [s] and returns the posture of their outputs.
+    /// Runs all machines once at a time [s] and returns the posture of their outputs. Feet are loaded as the gait plans, and angles are those
+    /// of the previous step.
     pub fn step(&mut self, time_s: f64) -> WalkPosture {
+        let stance = self.walk.phases(&self.walk.clock(time_s)).stance;
+        self.step_with(time_s, stance)
+    }
+
+    /// The same with the loads that the feet have.
+    pub fn step_with(&mut self, time_s: f64, loaded: BySide<bool>) -> WalkPosture {
         let clock = self.walk.clock(time_s);
-        self.running.step(&clock);
-        let output = |number: usize| self.running.output(number);
-        let leg =
-            |[hip, knee, ankle]: [usize; 3]| LegAngles { hip: output(hip), knee: output(knee), ankle: output(ankle) };
+        self.sensed.time_s = time_s - self.walk.machines_begin_s();
+        self.sensed.loaded_before = std::mem::replace(&mut self.sensed.loaded, loaded);
+        self.running.step(&clock, &self.sensed);
+        let part = |part: WalkPart| {
+            let place = WalkPart::ALL.iter().position(|own| *own == part).unwrap_or(0);
+            self.running.output(self.parts[place])
+        };
+        let leg = |side: Side| {
+            let [hip, knee, ankle] = LegJoint::ALL.map(|joint| part(WalkPart::Leg(side, joint)));
+            LegAngles { hip, knee, ankle }
+        };
         WalkPosture {
-            right: leg(self.joints[0]),
-            left: leg(self.joints[1]),
-            pelvis_tilt: output(self.trunk[0]),
+            right: leg(Side::Right),
+            left: leg(Side::Left),
+            pelvis_tilt: part(WalkPart::Pelvis),
             standing_tilt: self.walk.standing_tilt(),
-            trunk_lean: output(self.trunk[1]),
-            shoulders: self.arms.map(|arm| output(arm[0])),
-            elbows: self.arms.map(|arm| output(arm[1])),
+            trunk_lean: part(WalkPart::Trunk),
+            shoulders: Side::BOTH.map(|side| part(WalkPart::Shoulder(side))),
+            elbows: Side::BOTH.map(|side| part(WalkPart::Elbow(side))),
             phases: Phases {
                 stance: BySide::from(self.legs).map(|leg| self.running.state(leg) == 0),
                 ..self.walk.phases(&clock)
@@ -274,9 +314,78 @@ impl WalkMachine {
         }
     }
 
+    /// Coordinates of the model that machines drive, by name, with what they add to the default value [rad].
+    pub fn coordinates(&self) -> impl Iterator<Item = (&str, Jet)> {
+        self.coordinates.iter().map(|(name, number)| (name.as_str(), self.running.output(*number)))
+    }
+
+    /// What the machines knew of the figure in the last step.
+    #[must_use]
+    pub fn sensed(&self) -> &Sensed {
+        &self.sensed
+    }
+
+    /// What the machines know of the figure; angles and signals may be set before a step.
+    pub fn sensed_mut(&mut self) -> &mut Sensed {
+        &mut self.sensed
+    }
+
     /// The machines with their states.
     #[must_use]
     pub fn running(&self) -> &RunningMachine {
         &self.running
+    }
+
+    /// Changes the pace as the states ask that machines have entered in the last step.
+    fn change_pace(&mut self, time_s: f64, findings: &mut Findings) -> Result<(), GaitError> {
+        let machines = self.walk.gait().machines.clone();
+        for settings in &machines {
+            let Some(number) = self.running.number(&settings.name) else { continue };
+            let entered = self.running.has_changed(number);
+            if let Some(change) = pace_of(settings, self.running.state(number)).filter(|_| entered) {
+                self.walk.add_change(&PaceChange { start_s: time_s, ..*change }, findings)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Step at which machines run in a plan [s].
+const PLAN_STEP_S: f64 = 1e-3;
+/// Standing after the last change of pace [s].
+const STANDING_S: f64 = 1.0;
+
+/// The walk with the changes of pace that its machines make, until the right foot has made a number of cycles since the machines began or the
+/// figure stands for good, at most for `longest_s`; and the duration from their beginning to that instant [s].
+///
+/// # Errors
+/// Changes of pace that are not possible, or that overlap.
+pub fn planned(walk: Walk, cycles: f64, longest_s: f64, findings: &mut Findings) -> Result<(Walk, f64), GaitError> {
+    let begin_s = walk.machines_begin_s();
+    let mut machine = WalkMachine::new(&walk);
+    let first = machine.walk.clock(begin_s).phase.value;
+    let mut stood_s = 0.0;
+    for step in 0..(longest_s / PLAN_STEP_S) as usize {
+        let since_s = PLAN_STEP_S * step as f64;
+        let time_s = begin_s + since_s;
+        machine.step(time_s);
+        machine.change_pace(time_s, findings)?;
+        let clock = machine.walk.clock(time_s);
+        stood_s = if clock.stands() { stood_s + PLAN_STEP_S } else { 0.0 };
+        let stays = stood_s > STANDING_S && machine.is_final();
+        if clock.phase.value >= first + cycles || stays {
+            return Ok((machine.walk, since_s));
+        }
+    }
+    Ok((machine.walk, longest_s))
+}
+
+impl WalkMachine {
+    /// Whether no machine of the pace can leave its state any more.
+    fn is_final(&self) -> bool {
+        self.walk.gait().machines.iter().filter(|settings| settings.drives == Driven::Pace).all(|settings| {
+            let state = self.running.number(&settings.name).map_or(0, |number| self.running.state(number));
+            state > 0 && !settings.transitions.iter().any(|transition| transition.from + 1 == state)
+        })
     }
 }

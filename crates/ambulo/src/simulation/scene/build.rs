@@ -101,6 +101,7 @@ impl Scene {
     ) -> Result<Scene, SceneError> {
         let duration_s = changes.duration_s.unwrap_or(file.duration_s);
         let mut sources = InputFiles::new(load, findings, duration_s);
+        sources.signals = file.joints.iter().map(|joint| joint.name.clone()).collect();
         let mut world = World { gravity: file.gravity, impact: file.impact, ..World::default() };
         world.materials = file.materials.iter().map(material).collect();
         let (walkers, recorders) = add_bodies(&mut world, file, &mut sources)?;

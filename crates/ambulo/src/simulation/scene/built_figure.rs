@@ -9,12 +9,11 @@ use super::figure::FigureEntry;
 use super::model_figure::{PlacedFigure, add_spheres};
 use super::recorder::Recorder;
 use super::sources::{InputFiles, chain};
-use super::walk_recorder::FigureRecorder;
-use super::walk_recorder::Placed;
+use super::walk_recorder::{FigureRecorder, LiveTargets, Placed};
 use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::findings::Findings;
-use crate::gait::machine::WalkMachine;
+use crate::gait::machine::{WalkMachine, planned};
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::anthropometry::Human;
@@ -27,7 +26,7 @@ use crate::simulation::consistent_walk::{
 };
 use crate::simulation::joint::{JointKind, rotation};
 use crate::simulation::signal::Signal;
-use crate::simulation::walking::gait_signals;
+use crate::simulation::walking::{GaitTargets, gait_signals};
 use crate::simulation::world::{
     ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Owner, RigidBody, Spring, Surface, TreeJoint,
     World,
@@ -45,6 +44,8 @@ struct Motion {
     signals: Vec<Signal>,
     /// Coordinates and their rates at the start.
     start: [Vec<f64>; 2],
+    /// Targets that are computed from step to step, and the time of the gait at the start of the scene [s].
+    live: Option<(Box<GaitTargets>, f64)>,
 }
 
 /// Adds a figure to the world.
@@ -87,7 +88,8 @@ pub(super) fn add(
     add_spheres(world, entry, number, model, first_body)?;
     let soles = add_soles(world, built, &human, first_body)?;
     world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
-    let recorder = || FigureRecorder::new(&entry.name, &human, placed.clone(), soles);
+    let live = motion.live.map(|(targets, start_s)| LiveTargets { targets, figure, start_s });
+    let recorder = || FigureRecorder::new(&entry.name, &human, placed.clone(), soles, live);
     let recorder = built.walk.is_some().then(|| Recorder::Walk(Box::new(recorder())));
     Ok((PlacedFigure { figure, first_body, name: entry.name.clone(), placed: Some(placed) }, recorder))
 }
@@ -96,7 +98,7 @@ pub(super) fn add(
 fn standing(model: &Model) -> Motion {
     let values: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
     let rest = vec![0.0; values.len()];
-    Motion { signals: values.iter().map(|value| Signal::Constant(*value)).collect(), start: [values, rest] }
+    Motion { signals: values.iter().map(|value| Signal::Constant(*value)).collect(), start: [values, rest], live: None }
 }
 
 fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -> Result<Motion, SceneError> {
@@ -112,14 +114,19 @@ fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -
         GaitSource::Named(name) => Gait::named(name).map_err(|e| wrong(&e))?,
         GaitSource::File(path) => {
             let text = sources.text(place, path)?;
-            Gait::from_toml(&text).map_err(|e| place.error(format!("{path}: {}", chain(&e))))?
+            let mut load = |file: &str, column: &str| {
+                let table = sources.table(place, file).map_err(|e| e.to_string())?;
+                let read = table.column(column, true, sources.findings);
+                read.map(|(spline, _)| spline).map_err(|e| format!("{file}: {}", chain(&e)))
+            };
+            Gait::from_toml_with(&text, &mut load).map_err(|e| place.error(format!("{path}: {}", chain(&e))))?
         }
     };
     if let Some(speed) = entry.speed {
         gait.pace.speed = Some(Speed::MetersPerSecond(speed));
     }
     gait.pace_changes.extend(&entry.changes);
-    if !gait.pace_changes.is_empty() {
+    if !gait.pace_changes.is_empty() || !gait.machines.is_empty() {
         return changing(entry, gait, human, sources);
     }
     let walk = Walk::new(&gait, human.dimensions.leg_length, sources.findings).map_err(|e| wrong(&e))?;
@@ -151,16 +158,31 @@ fn changing(
         return Err(entry.place.error(message));
     }
     let (model, leg_length) = (&human.model, human.dimensions.leg_length);
-    let planned = Walk::new(&gait, leg_length, &mut Findings::default()).map_err(|e| wrong(&e))?;
-    let start_s = if planned.clock(0.0).stands() { 0.0 } else { entry.phase * planned.cycle_s() };
+    let first = Walk::new(&gait, leg_length, &mut Findings::default()).map_err(|e| wrong(&e))?;
+    let start_s = if first.clock(0.0).stands() { 0.0 } else { entry.phase * first.cycle_s() };
     for change in &mut gait.pace_changes {
         change.start_s += start_s;
     }
-    let walk = Walk::new(&gait, leg_length, sources.findings).map_err(|e| wrong(&e))?;
     let duration_s = entry.duration_s;
+    let walk = Walk::new(&gait, leg_length, sources.findings).map_err(|e| wrong(&e))?.with_machines_from(start_s);
+    let (walk, _) = planned(walk, f64::INFINITY, duration_s, sources.findings).map_err(|e| wrong(&e))?;
+    let mut live = None;
     let (signals, root) = match entry.mode {
-        FigureWalkMode::Curves => (gait_signals(&walk, model, start_s, duration_s), None),
+        FigureWalkMode::Curves => {
+            if gait.machines_read_simulation() {
+                let targets = GaitTargets::new(&walk, model, &sources.signals).map_err(|e| wrong(&e))?;
+                live = Some((Box::new(targets), start_s));
+            }
+            (gait_signals(&walk, model, start_s, duration_s).map_err(|e| wrong(&e))?, None)
+        }
         FigureWalkMode::Corrected => {
+            if !gait.is_symmetric() {
+                let message = format!(
+                    "found mode \"corrected\" for the gait `{}`, whose sides differ or whose joints machines drive; expected mode \"curves\"",
+                    gait.name
+                );
+                return Err(entry.place.error(message));
+            }
             let walk = make_changing_walk(human, &walk, &ConsistentWalkSettings::default()).map_err(|e| wrong(&e))?;
             (walk.signals(human, start_s, duration_s), walk.start(model, start_s))
         }
@@ -173,7 +195,7 @@ fn changing(
             set_root(model, &mut q, &mut qd, [0.0, height], [walk.speed(), 0.0]);
         }
     }
-    Ok(Motion { signals, start: [q, qd] })
+    Ok(Motion { signals, start: [q, qd], live })
 }
 
 /// Sets place [m] and velocity [m/s] of the root, forwards and up.
@@ -209,7 +231,7 @@ fn along_curves(walk: &Walk, human: &Human, phase: f64) -> Motion {
     let (signals, [mut q, mut qd, qdd]) = sampled(model, walk.cycle_s(), phase, write);
     let height = standing_height(human, &q, &qd, &qdd);
     set_root(model, &mut q, &mut qd, [0.0, height], [walk.speed(), 0.0]);
-    Motion { signals, start: [q, qd] }
+    Motion { signals, start: [q, qd], live: None }
 }
 
 fn corrected(walk: &ConsistentWalk, model: &Model, phase: f64) -> Motion {
@@ -219,7 +241,7 @@ fn corrected(walk: &ConsistentWalk, model: &Model, phase: f64) -> Motion {
     if let Some(forward) = model.coordinate("pelvis_tx") {
         q[forward.index()] = 0.0;
     }
-    Motion { signals, start: [q, qd] }
+    Motion { signals, start: [q, qd], live: None }
 }
 
 /// A periodic motion as signals that begin at a phase, with coordinates, rates and accelerations at the start. The signals of the root's

@@ -32,6 +32,18 @@ impl Recorder {
         }
     }
 
+    /// Sets the drives of a figure whose machines read the simulation.
+    pub(super) fn aim(&mut self, world: &mut World, state: &WorldState, end_s: f64) {
+        if let Recorder::Walk(recorder) = self {
+            recorder.aim(world, state, end_s);
+        }
+    }
+
+    /// Whether machines of the figure read the simulation.
+    pub(super) fn is_live(&self) -> bool {
+        matches!(self, Recorder::Walk(recorder) if recorder.is_live())
+    }
+
     /// Records a step; the wrenches of the workspace must have been read. `poses` are those at the start of the step.
     pub(super) fn after_step(
         &mut self,

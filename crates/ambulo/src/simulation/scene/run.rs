@@ -218,6 +218,7 @@ impl Scene {
         }
         for recorder in &mut self.recorders {
             recorder.before_step(&self.world, &self.state);
+            recorder.aim(&mut self.world, &self.state, (self.steps + 1) as f64 * self.settings.step_s);
         }
         let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
         if self.steps == 0 {

@@ -2,6 +2,7 @@
 
 use super::build::Scene;
 use super::event::{EventAction, EventEntry};
+use super::recorder::Recorder;
 use crate::simulation::state::RowKey;
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use serde::{Deserialize, Serialize};
@@ -36,14 +37,23 @@ pub struct SavedState {
 
 /// Why a saved state cannot be resumed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("the saved state belongs to another scene: {what} {found}; expected {expected}")]
-pub struct ResumeError {
-    /// What differs.
-    what: &'static str,
-    /// What was saved.
-    found: String,
-    /// What the scene has.
-    expected: String,
+#[non_exhaustive]
+pub enum ResumeError {
+    /// The state of another scene.
+    #[error("the saved state belongs to another scene: {what} {found}; expected {expected}")]
+    Other {
+        /// What differs.
+        what: &'static str,
+        /// What was saved.
+        found: String,
+        /// What the scene has.
+        expected: String,
+    },
+    /// Machines whose states are not saved.
+    #[error(
+        "a figure of the scene has machines that read loads, angles or joints, and the states of machines are not saved; expected machines that read the clock alone. hint: simulate the scene from its start"
+    )]
+    Machines,
 }
 
 impl Scene {
@@ -76,6 +86,9 @@ impl Scene {
     /// # Errors
     /// A state of another scene, or with another time step.
     pub fn resume(&mut self, saved: &SavedState) -> Result<(), ResumeError> {
+        if self.recorders.iter().any(Recorder::is_live) {
+            return Err(ResumeError::Machines);
+        }
         let names: Vec<&str> = self.world.bodies.iter().map(|body| body.name.as_str()).collect();
         agree("the bodies", &saved.bodies.join(", "), &names.join(", "))?;
         agree("the step is", &saved.step_s, &self.settings.step_s)?;
@@ -109,7 +122,7 @@ fn agree<T: PartialEq + ToString>(what: &'static str, found: &T, expected: &T) -
     if found == expected {
         return Ok(());
     }
-    Err(ResumeError { what, found: found.to_string(), expected: expected.to_string() })
+    Err(ResumeError::Other { what, found: found.to_string(), expected: expected.to_string() })
 }
 
 fn twelve(pose: &Pose) -> [f64; 12] {

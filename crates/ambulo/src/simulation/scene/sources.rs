@@ -24,11 +24,13 @@ pub(super) struct InputFiles<'a, 'f> {
     pub(super) findings: &'a mut Findings,
     /// Duration of the scene [s].
     pub(super) duration_s: f64,
+    /// Names of the joints of the scene, which machines of gaits read.
+    pub(super) signals: Vec<String>,
 }
 
 impl<'a, 'f> InputFiles<'a, 'f> {
     pub(super) fn new(load: &'a mut ReadFile<'f>, findings: &'a mut Findings, duration_s: f64) -> InputFiles<'a, 'f> {
-        InputFiles { load, tables: BTreeMap::new(), corrected: Vec::new(), findings, duration_s }
+        InputFiles { load, tables: BTreeMap::new(), corrected: Vec::new(), findings, duration_s, signals: Vec::new() }
     }
 
     pub(super) fn model(&mut self, place: &Place, path: &str) -> Result<Model, SceneError> {

@@ -2,11 +2,12 @@
 
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anthropometry::Human;
-use crate::model::{BodyId, Side};
+use crate::model::{BodyId, BySide, Side};
 use crate::motion::TimeGrid;
 use crate::simulation::forces::ContactForce;
+use crate::simulation::signal::Signal;
 use crate::simulation::state::WorldState;
-use crate::simulation::walking::{FootRecord, WalkRecording};
+use crate::simulation::walking::{FootRecord, GaitTargets, WalkRecording};
 use crate::simulation::workspace::StepWorkspace;
 use crate::simulation::world::{Owner, World};
 
@@ -50,10 +51,28 @@ pub(super) struct FigureRecorder {
     efforts: Vec<Vec<f64>>,
     feet: [FootRecord; 2],
     unsolved: usize,
+    /// Targets of the drives that machines compute from step to step.
+    targets: Option<LiveTargets>,
+}
+
+/// Targets that machines of a figure compute from step to step, because they read loads, angles or joints of the scene.
+#[derive(Debug, Clone)]
+pub(super) struct LiveTargets {
+    pub(super) targets: Box<GaitTargets>,
+    /// Index of the figure in the world.
+    pub(super) figure: usize,
+    /// Time of the gait at the start of the scene [s].
+    pub(super) start_s: f64,
 }
 
 impl FigureRecorder {
-    pub(super) fn new(name: &str, human: &Human, placed: Vec<Placed>, soles: Vec<(usize, Side)>) -> FigureRecorder {
+    pub(super) fn new(
+        name: &str,
+        human: &Human,
+        placed: Vec<Placed>,
+        soles: Vec<(usize, Side)>,
+        targets: Option<LiveTargets>,
+    ) -> FigureRecorder {
         let count = placed.len();
         let foot = |side: Side| human.soles.iter().find(|sole| sole.side == side).map_or(BodyId(0), |sole| sole.body);
         let toes = |side: Side| {
@@ -71,6 +90,44 @@ impl FigureRecorder {
             efforts: vec![Vec::new(); count],
             feet: Side::BOTH.map(|side| FootRecord::new(foot(side), toes(side), 0)),
             unsolved: 0,
+            targets,
+        }
+    }
+
+    /// Whether machines of the figure read the simulation.
+    pub(super) fn is_live(&self) -> bool {
+        self.targets.is_some()
+    }
+
+    /// Sets the drives of the figure for a step that ends at a time [s]; machines read the figure as it is at its start.
+    pub(super) fn aim(&mut self, world: &mut World, state: &WorldState, end_s: f64) {
+        let Some(LiveTargets { targets, figure, start_s }) = &mut self.targets else { return };
+        let coordinate = |name: &str| {
+            let joint = world.joints.iter().position(|joint| joint.name == name)?;
+            state.coordinates[joint].first().copied()
+        };
+        let signals: Vec<f64> = targets.signals().map(|name| coordinate(name).unwrap_or(f64::NAN)).collect();
+        targets.measure(|id| self.before[id][0], |k| signals[k]);
+        match self.feet[0].force.len().checked_sub(1) {
+            Some(last) => {
+                let loaded = BySide::from([0, 1].map(|k| self.feet[k].loaded(last)));
+                targets.step_with(*start_s + end_s, loaded);
+            }
+            None => targets.step(*start_s + end_s),
+        }
+        let joint_of = world.joint_of_body();
+        for (id, placed) in self.placed.iter().enumerate().take(targets.count()) {
+            let signal = Signal::Near(end_s, targets.at(id));
+            if let Some(joint) = joint_of[placed.body] {
+                let acting = &mut world.joints[joint].coordinates[placed.coordinate];
+                if let Some(drive) = &mut acting.drive {
+                    drive.signal = signal.clone();
+                }
+                if let Some(motor) = &mut acting.motor {
+                    motor.target = signal.clone();
+                }
+            }
+            world.figures[*figure].coordinates[id] = signal;
         }
     }
 

@@ -1,20 +1,23 @@
 //! Synthesis of a walk, in the two modes.
 
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
-use super::walk::{CorrectionReport, KeptPart, SyntheticWalk, steady};
+use super::walk::{CorrectionReport, KeptPart, Made, SyntheticWalk, steady};
 use crate::findings::{Code, Findings};
+use crate::gait::machine::planned;
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
 use crate::simulation::consistent_walk::{
     ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
 };
-use crate::simulation::walking::{GroundContact, Shoes, Walker, gait_signals};
+use crate::simulation::walking::{GaitTargets, GroundContact, Shoes, Walker, gait_signals};
 use crate::simulation::{ImpactLaw, StepSettings};
 
 /// Cycles before the corrected walk is steady; it starts with the planned motion.
 const CORRECTED_SKIPPED: usize = 1;
 /// Largest residual of a consistent walk, rms: force as a share of body weight, moment of body weight times leg length.
 const LARGEST_RESIDUAL: [f64; 2] = [0.01, 0.005];
+/// Longest walk with machines [s].
+const LONGEST_PLAN_S: f64 = 300.0;
 /// Cycles before the paper's walk repeats.
 const PAPER_SKIPPED: usize = 2;
 /// The paper's coefficient of friction (section 4.3).
@@ -58,14 +61,18 @@ fn corrected(
     human: Human,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
+    if !settings.gait.is_symmetric() {
+        return Err(SyntheticError::Asymmetric { gait: settings.gait.name.clone() });
+    }
     let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
     let consistent_settings = ConsistentWalkSettings::default();
-    if walk.is_steady() {
+    if walk.pace_ramps().is_empty() {
         let consistent = make_consistent_walk(&human, &walk, &consistent_settings)?;
         let correction = correction_report(&consistent, &human, &consistent_settings, findings)?;
         let cycles = kept.simulated_s / walk.cycle_s();
         let recording = consistent.simulate(&human, &consistent_settings, settings.step_s(), cycles, findings)?;
-        return steady(settings, &kept, human, walk, &recording, Some(correction));
+        let made = Made { recording: &recording, states: kept.states(settings, &walk), correction: Some(correction) };
+        return steady(settings, &kept, human, walk, made);
     }
     let changing = make_changing_walk(&human, &walk, &consistent_settings)?;
     let mut corrections = Vec::new();
@@ -74,7 +81,8 @@ fn corrected(
     }
     let first = corrections.into_iter().next();
     let recording = changing.simulate(&human, &consistent_settings, settings.step_s(), kept.simulated_s, findings)?;
-    steady(settings, &kept, human, walk, &recording, first)
+    let made = Made { recording: &recording, states: kept.states(settings, &walk), correction: first };
+    steady(settings, &kept, human, walk, made)
 }
 
 /// The walk of the settings, and the part of its simulation that is kept. Times of changes of pace count from the start of the kept part.
@@ -86,6 +94,14 @@ fn timed(
     findings: &mut Findings,
 ) -> Result<(Walk, KeptPart), SyntheticError> {
     let leg_length = human.dimensions.leg_length;
+    if !gait.machines.is_empty() {
+        let walk = Walk::new(gait, leg_length, findings)?;
+        let first = KeptPart::first_row(settings, &walk, skipped);
+        let walk = walk.with_machines_from(first as f64 * settings.step_s());
+        let (walk, kept_s) = planned(walk, (settings.cycles + 1) as f64, LONGEST_PLAN_S, findings)?;
+        let kept = KeptPart::of_duration(settings, first, kept_s);
+        return Ok((walk, kept));
+    }
     if gait.pace_changes.is_empty() {
         let walk = Walk::new(gait, leg_length, findings)?;
         let kept = KeptPart::of_steady(settings, &walk, skipped);
@@ -138,8 +154,14 @@ fn paper(
     let (walk, kept) = timed(settings, &gait, &human, PAPER_SKIPPED, findings)?;
     let ground = GroundContact { friction: FRICTION, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking };
     let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
-    let signals = gait_signals(&walk, &human.model, 0.0, kept.simulated_s + step.step_s);
+    let signals = gait_signals(&walk, &human.model, 0.0, kept.simulated_s + step.step_s)?;
     let walker = Walker::new(&human, signals, &ground, walk.speed())?;
-    let recording = walker.walk(&step, kept.simulated_s, findings)?;
-    steady(settings, &kept, human, walk, &recording, None)
+    let mut targets =
+        if walk.gait().machines_read_simulation() { Some(GaitTargets::new(&walk, &human.model, &[])?) } else { None };
+    let recording = walker.walk_with(targets.as_mut(), &step, kept.simulated_s, findings)?;
+    let states = match &targets {
+        Some(targets) => kept.traced(settings, targets.trace(), targets.machine()),
+        None => kept.states(settings, &walk),
+    };
+    steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None })
 }

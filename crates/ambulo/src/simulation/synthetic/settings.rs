@@ -94,6 +94,14 @@ pub enum SyntheticError {
         /// Frame rate [Hz].
         found_hz: f64,
     },
+    /// A gait whose sides differ cannot be corrected.
+    #[error(
+        "the gait `{gait}`: found sides that differ, or joints that machines drive; expected equal sides half a cycle apart, because the correction computes half a cycle. hint: use the mode `paper`"
+    )]
+    Asymmetric {
+        /// Name of the gait.
+        gait: String,
+    },
     /// The figure could not be built.
     #[error(transparent)]
     Build(#[from] BuildError),

@@ -1,6 +1,7 @@
 //! The result of a synthesis: the steady part of a simulated walk, and a report on how it was made.
 
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
+use crate::gait::machine::{StatePeriod, StateTrace, WalkMachine};
 use crate::gait::{PaceRamp, Style, Walk};
 use crate::kinematics::Trajectory;
 use crate::model::anthropometry::{Human, SegmentTable};
@@ -22,6 +23,8 @@ pub struct SyntheticWalk {
     pub loads: Vec<ForceRecording>,
     /// Moments of the simulator's drives [N.m], one column per coordinate, one entry per frame.
     pub efforts: Vec<Vec<f64>>,
+    /// The states of the machines of the gait, in time of the kept motion.
+    pub states: Vec<StatePeriod>,
     /// How the walk was made, in numbers.
     pub report: WalkReport,
 }
@@ -134,6 +137,13 @@ impl KeptPart {
         }
     }
 
+    /// Of a walk with machines, for the duration of their plan.
+    pub(super) fn of_duration(settings: &SyntheticWalkSettings<'_>, first: usize, kept_s: f64) -> KeptPart {
+        let frames = (kept_s * settings.rate_hz).ceil() as usize + 1;
+        let start_s = first as f64 * settings.step_s();
+        KeptPart { first, frames, simulated_s: start_s + (frames as f64 + 1.0) / settings.rate_hz }
+    }
+
     /// Of a walk whose pace changes: as many cycles of the first pace, and at least two cycles, or one second of standing, after the last
     /// change.
     pub(super) fn of_changing(settings: &SyntheticWalkSettings<'_>, walk: &Walk, first: usize) -> KeptPart {
@@ -141,9 +151,46 @@ impl KeptPart {
         let last_s = walk.last_change_s().unwrap_or(0.0);
         let after_s = if walk.clock(last_s).stands() { STANDING_S } else { CYCLES_AFTER_CHANGE * walk.last_cycle_s() };
         let kept_s = (settings.cycles as f64 * walk.cycle_s()).max(last_s + after_s - start_s);
-        let frames = (kept_s * settings.rate_hz).ceil() as usize + 1;
-        KeptPart { first, frames, simulated_s: start_s + (frames as f64 + 1.0) / settings.rate_hz }
+        KeptPart::of_duration(settings, first, kept_s)
     }
+}
+
+impl KeptPart {
+    /// First and last instant in time of the simulation [s].
+    fn ends_s(&self, settings: &SyntheticWalkSettings<'_>) -> [f64; 2] {
+        let first_s = self.first as f64 * settings.step_s();
+        [first_s, first_s + self.frames.saturating_sub(1) as f64 / settings.rate_hz]
+    }
+
+    /// The states of a walk whose machines read the clock alone.
+    pub(super) fn states(&self, settings: &SyntheticWalkSettings<'_>, walk: &Walk) -> Vec<StatePeriod> {
+        let ([first_s, last_s], step_s) = (self.ends_s(settings), settings.step_s());
+        let (mut machine, mut trace) = (WalkMachine::new(walk), StateTrace::default());
+        for step in 0..=((last_s - first_s) / step_s) as usize {
+            let time_s = first_s + step_s * step as f64;
+            machine.step(time_s);
+            trace.add(machine.running(), time_s);
+        }
+        self.traced(settings, &trace, &machine)
+    }
+
+    /// The states of a trace in time of the kept motion.
+    pub(super) fn traced(
+        &self,
+        settings: &SyntheticWalkSettings<'_>,
+        trace: &StateTrace,
+        machine: &WalkMachine,
+    ) -> Vec<StatePeriod> {
+        let [first_s, last_s] = self.ends_s(settings);
+        trace.periods(machine.running(), first_s, last_s)
+    }
+}
+
+/// What a mode has made of a gait.
+pub(super) struct Made<'a> {
+    pub(super) recording: &'a WalkRecording,
+    pub(super) states: Vec<StatePeriod>,
+    pub(super) correction: Option<CorrectionReport>,
 }
 
 /// The kept part of a simulated walk.
@@ -152,14 +199,14 @@ pub(super) fn steady(
     kept: &KeptPart,
     human: Human,
     walk: Walk,
-    recording: &WalkRecording,
-    correction: Option<CorrectionReport>,
+    made: Made<'_>,
 ) -> Result<SyntheticWalk, SyntheticError> {
+    let Made { recording, states, correction } = made;
     let rows = ExcerptRows { first: kept.first, every: settings.steps_per_frame(), frames: kept.frames };
     let excerpt = recording.excerpt(rows)?;
     let report = report(settings, rows, &human, &walk, recording, correction);
     let (trajectory, loads, efforts) = (excerpt.trajectory, excerpt.loads, excerpt.efforts);
-    Ok(SyntheticWalk { human, walk, trajectory, loads, efforts, report })
+    Ok(SyntheticWalk { human, walk, trajectory, loads, efforts, states, report })
 }
 
 /// The changes of pace in time of the kept motion, which begins at `start_s`.

@@ -277,6 +277,40 @@ pub enum WalkingError {
         /// Number of coordinates.
         expected: usize,
     },
+    /// A machine that drives a coordinate that the model does not have.
+    #[error("the machine `{machine}` drives the coordinate `{found}`; expected one of {expected}")]
+    Coordinate {
+        /// Name of the machine.
+        machine: String,
+        /// The coordinate.
+        found: String,
+        /// Coordinates of the model.
+        expected: String,
+    },
+    /// A machine that reads an angle that the model does not have.
+    #[error(
+        "the machine `{machine}` reads the angle `{found}`; expected a joint such as 'left knee', or one of {expected}"
+    )]
+    Angle {
+        /// Name of the machine.
+        machine: String,
+        /// The angle.
+        found: String,
+        /// Coordinates of the model.
+        expected: String,
+    },
+    /// A machine that reads a signal that does not exist.
+    #[error(
+        "the machine `{machine}` reads the signal `{found}`; expected {expected}. hint: joints of a scene are signals; a walk without a scene has none"
+    )]
+    Signal {
+        /// Name of the machine.
+        machine: String,
+        /// The signal.
+        found: String,
+        /// Signals that exist.
+        expected: String,
+    },
     /// A duration without a whole step.
     #[error("{duration_s} s in steps of {step_s} s; expected at least one whole step")]
     Duration {

@@ -19,5 +19,5 @@ mod slip;
 pub use feet::{FootRecord, ToeRecord};
 pub use figure::{GroundContact, Shoes, Walker, WalkingError};
 pub use recording::{Excerpt, ExcerptRows, FootImpact, WalkRecording};
-pub use signals::gait_signals;
+pub use signals::{GaitTargets, gait_signals};
 pub use slip::StanceSlip;

@@ -3,11 +3,12 @@
 use super::feet::FootRecord;
 use super::figure::{Placed, Walker, WalkingError};
 use super::recording::{FootImpact, WalkRecording};
+use super::signals::GaitTargets;
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
-use crate::model::{BodyId, Side};
+use crate::model::{BodyId, BySide, Side};
 use crate::motion::TimeGrid;
-use crate::simulation::{Impact, Integrator, Owner, StepSettings, StepWorkspace, World, WorldState, step};
+use crate::simulation::{Impact, Integrator, Owner, Signal, StepSettings, StepWorkspace, World, WorldState, step};
 use crate::spatial::{Pose, Twist, Vec3};
 
 /// Largest number of steps, because of memory: a step takes about 2 kB, with the results that are made from it.
@@ -21,6 +22,8 @@ struct Recorder<'a> {
     feet: [FootRecord; 2],
     impacts: Vec<FootImpact>,
     unsolved: usize,
+    /// Targets of this row that were computed from step to step.
+    targets: Vec<[f64; 3]>,
 }
 
 impl Walker {
@@ -34,6 +37,20 @@ impl Walker {
         duration_s: f64,
         findings: &mut Findings,
     ) -> Result<WalkRecording, WalkingError> {
+        self.walk_with(None, settings, duration_s, findings)
+    }
+
+    /// The same with targets that are computed from step to step: their machines read the loads on the feet in the step before.
+    ///
+    /// # Errors
+    /// As [`Walker::walk`].
+    pub fn walk_with(
+        &self,
+        mut targets: Option<&mut GaitTargets>,
+        settings: &StepSettings,
+        duration_s: f64,
+        findings: &mut Findings,
+    ) -> Result<WalkRecording, WalkingError> {
         let step_s = settings.step_s;
         let rows = (duration_s / step_s + 1e-9).floor();
         if !(step_s > 0.0 && rows >= 1.0 && rows.is_finite()) {
@@ -43,17 +60,38 @@ impl Walker {
             return Err(WalkingError::TooLong { duration_s, step_s, most: MOST_STEPS });
         }
         let settings = StepSettings { integrator: Integrator::Impulse, ..*settings };
-        let (mut state, mut w) = (WorldState::new(&self.world), StepWorkspace::default());
+        let mut world = self.world.clone();
+        let (mut state, mut w) = (WorldState::new(&world), StepWorkspace::default());
         let mut recorder = Recorder::new(self, rows as usize);
         for row in 0..rows as usize {
             // Times are computed from the row, so that rounding does not accumulate.
             state.time_s = step_s * row as f64;
-            let before = RootBefore::of(&self.world, &state);
-            let convergence = step(&self.world, &mut state, &settings, &mut w, findings)?;
+            let before = RootBefore::of(&world, &state);
+            if let Some(targets) = &mut targets {
+                recorder.read_targets(targets, state.time_s);
+                // The posture at the end of this step, with angles and loads of the last one.
+                targets.measure(|id| recorder.targets[id][0], |_| 0.0);
+                match recorder.last_loads() {
+                    Some(loaded) => targets.step_with(state.time_s + step_s, loaded),
+                    None => targets.step(state.time_s + step_s),
+                }
+                self.aim(&mut world, targets, state.time_s + step_s);
+            }
+            let convergence = step(&world, &mut state, &settings, &mut w, findings)?;
             recorder.unsolved += usize::from(!convergence.converged);
             recorder.record(&before, &state, &w);
         }
         recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: rows as usize })
+    }
+
+    /// Sets the motion of all drives near an instant [s].
+    fn aim(&self, world: &mut World, targets: &GaitTargets, at_s: f64) {
+        for (id, placed) in self.placed.iter().enumerate() {
+            let coordinate = &mut world.joints[placed.joint].coordinates[placed.coordinate];
+            if let Some(drive) = &mut coordinate.drive {
+                drive.signal = Signal::Near(at_s, targets.at(id).map(|number| placed.sense * number));
+            }
+        }
     }
 
     fn friction(&self) -> f64 {
@@ -100,7 +138,23 @@ impl<'a> Recorder<'a> {
             feet: std::array::from_fn(|k| FootRecord::new(walker.feet[k], walker.toes[k], rows)),
             impacts: Vec::new(),
             unsolved: 0,
+            targets: Vec::new(),
         }
+    }
+
+    /// Keeps the targets of a row; at the start they are those of the signals.
+    fn read_targets(&mut self, targets: &GaitTargets, time_s: f64) {
+        let count = self.walker.signals.len();
+        self.targets = match self.columns.is_empty() || self.feet[0].force.is_empty() {
+            true => self.walker.signals.iter().map(|signal| signal.at(time_s)).collect(),
+            false => (0..count).map(|id| targets.at(id)).collect(),
+        };
+    }
+
+    /// Which feet were loaded in the last row.
+    fn last_loads(&self) -> Option<BySide<bool>> {
+        let last = self.feet[0].force.len().checked_sub(1)?;
+        Some(BySide::from([0, 1].map(|k| self.feet[k].loaded(last))))
     }
 
     fn record(&mut self, before: &RootBefore, after: &WorldState, w: &StepWorkspace) {
@@ -113,7 +167,10 @@ impl<'a> Recorder<'a> {
             self.efforts[id].push(effort);
             let driven = (placed.joint, placed.coordinate) != (0, 0) && (placed.joint, placed.coordinate) != (0, 1);
             if driven {
-                let values = self.walker.signals[id].at(before.time_s);
+                let values = match self.targets.get(id) {
+                    Some(values) => *values,
+                    None => self.walker.signals[id].at(before.time_s),
+                };
                 columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
             }
         }

@@ -1,0 +1,119 @@
+//! Machines that a user describes: what they drive, their states with activities, and their transitions.
+
+use super::condition::Condition;
+use crate::gait::cyclic_curve::CyclicCurve;
+use crate::gait::joint::WalkPart;
+use crate::gait::pace_plan::PaceChange;
+use crate::numerics::NaturalSpline;
+use std::sync::Arc;
+
+/// A machine that a user describes. It runs next to the machine of the walk.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MachineSettings {
+    /// Name, different from those of all other machines.
+    pub name: String,
+    /// What its activities set.
+    pub drives: Driven,
+    /// Another machine and one of its states: this machine runs only during that state, and is interrupted when it ends.
+    pub during: Option<(String, String)>,
+    /// Whether it goes on in its last state when it runs again; otherwise it restarts in its first state.
+    pub resumes: bool,
+    /// States; it starts in the first one.
+    pub states: Vec<StateSettings>,
+    /// Transitions, in the order in which they are tested.
+    pub transitions: Vec<TransitionSettings>,
+}
+
+impl MachineSettings {
+    /// The conditions of its transitions, with the conditions inside them.
+    #[must_use]
+    pub fn conditions(&self) -> Vec<&Condition> {
+        let mut all = Vec::new();
+        for transition in &self.transitions {
+            transition.when.visit(&mut |condition| all.push(condition));
+        }
+        all
+    }
+}
+
+/// What a machine sets.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Driven {
+    /// An angle of the gait.
+    Part(WalkPart),
+    /// A coordinate of the model that the gait does not move, by name.
+    Coordinate(String),
+    /// The pace.
+    Pace,
+    /// Nothing: other machines wait for its states.
+    Nothing,
+}
+
+impl Driven {
+    /// Whether it is a joint.
+    #[must_use]
+    pub fn moves_a_joint(&self) -> bool {
+        matches!(self, Driven::Part(_) | Driven::Coordinate(_))
+    }
+}
+
+/// A state of a machine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateSettings {
+    /// Name.
+    pub name: String,
+    /// What the machine does in it.
+    pub activity: Activity,
+    /// Whether the machine has then done its work, for machines that wait for it.
+    pub done: bool,
+}
+
+/// What a machine does in a state.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Activity {
+    /// Nothing; of machines that drive nothing.
+    Wait,
+    /// The curve of the gait at another phase, with the distance from upright standing scaled, and an offset.
+    Walk {
+        /// Factor on the distance from upright standing.
+        scale: f64,
+        /// Added to the angle [rad].
+        angle: f64,
+        /// Added to the phase [cycles].
+        phase: f64,
+    },
+    /// A sub-cycle: from the angle, rate and acceleration at its start to a bound without rate and acceleration, where the joint stays.
+    SubCycle {
+        /// The bound [rad].
+        to: f64,
+        /// Duration [s].
+        within_s: f64,
+    },
+    /// A curve over the cycle of the part's side.
+    Curve(CyclicCurve),
+    /// A recording.
+    Recording {
+        /// The recorded values [rad].
+        values: Arc<NaturalSpline>,
+        /// Time of the recording at which the state is entered [s].
+        from_s: f64,
+    },
+    /// Another pace; its start is the time at which the state is entered.
+    Pace(PaceChange),
+}
+
+/// A change from one state to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TransitionSettings {
+    /// Index of the state that is left.
+    pub from: usize,
+    /// Index of the state that is entered.
+    pub to: usize,
+    /// When it is taken.
+    pub when: Condition,
+    /// Duration of the passage from the old activity to the new one [s]. Angle, rate and acceleration are continuous.
+    pub within_s: f64,
+}
+
+/// Duration of the passage from one activity to another if the file does not give it [s]: about a double support.
+pub const PASSAGE_S: f64 = 0.1;
