@@ -16,7 +16,7 @@ fn the_paper_is_recomputed_into_the_documented_files() {
     bench.run(&["report", "paper"]).refused(&["`ambulo reproduce` wrote this folder"]);
     let claims = bench.json("paper/claims.json");
     let rows = claims.as_array().unwrap();
-    assert_eq!(rows.len(), 30);
+    assert_eq!(rows.len(), 34);
     for row in rows {
         let keys: Vec<&String> = row.as_object().unwrap().keys().collect();
         for key in ["id", "paper", "paper_mode", "corrected", "pass", "note", "headline", "kind"] {
@@ -54,8 +54,33 @@ fn the_paper_is_recomputed_into_the_documented_files() {
             .text("paper/assumptions.csv")
             .starts_with("what,value,why,other,claim,headline,with_value,with_other,turns\n")
     );
-    assert_eq!(bench.text("paper/assumptions.csv").lines().count(), 1 + 15);
+    assert_eq!(bench.text("paper/assumptions.csv").lines().count(), 1 + 16);
+    the_torques_are_replayed(&bench);
     the_page_says_what_the_files_say(&bench.text("paper/report.html"), rows);
+}
+
+/// The torques act on the figure that they were computed for, which falls without feedback.
+fn the_torques_are_replayed(bench: &Workbench) {
+    let replay = ["walk", "--torques", "paper/torques.toml", "--figure", "faure-1997", "-v", "-o", "replay"];
+    let run = bench.run(&replay).infeasible();
+    run.reports(&["the torques act without feedback from 1.00 s on", "the figure falls 0."]);
+    let findings = bench.json("replay/summary.json")["findings"].clone();
+    assert!(findings.as_array().unwrap().iter().any(|finding| finding["code"] == "walk.replay_fell"), "{findings}");
+    assert!(bench.text("replay/report.html").contains("the figure falls 0."));
+    let refused = |more: &[&str], words: &[&str]| bench.run(&[&replay[..], more].concat()).refused(words);
+    refused(&["--mode", "corrected"], &["--torques", "expected the mode paper"]);
+    refused(&["--gait", "free"], &["found no torques of the gait `free`", "standard, long, short, goose"]);
+    refused(&["--speed-change", "1:1.6"], &["expected equal cycles"]);
+    let text = bench.text("paper/torques.toml");
+    for (from, to, words) in [
+        ("mean = ", "mean = \"x\" # ", "expected a number"),
+        ("cosine = [", "cosine = [1, ", "six torques"),
+        ("coordinate = \"knee_angle_r\"", "coordinate = \"knee\"", "found torques of the coordinate `knee`"),
+        ("cycle_s = ", "cycle_s = 0 # ", "expected a number above zero"),
+    ] {
+        bench.write("paper/torques.toml", text.replacen(from, to, 1));
+        refused(&[], &[words]);
+    }
 }
 
 fn the_page_says_what_the_files_say(html: &str, claims: &[serde_json::Value]) {

@@ -133,12 +133,52 @@ fn a_gait_that_cannot_be_made_consistent_gives_a_warning_and_a_verdict() {
     let bench = Workbench::empty("walk_fast_parade");
     bench.write(
         "fast.toml",
-        "name = \"fast parade\"\nbase = \"parade\"\ncadence_scale = 1.0\nstep_length_scale = 1.0\n",
+        "name = \"fast parade\"\nbase = \"parade\"\ncadence_scale = 1.2\nstep_length_scale = 1.0\n",
     );
     let run = bench.run(&["walk", "--gait", "fast.toml", "--cycles", "1", "-o", "out"]).infeasible();
     run.reports(&["warning: no small change makes this gait dynamically consistent", "hint: "]);
     let findings = bench.json("out/summary.json")["findings"].clone();
     assert!(findings.as_array().unwrap().iter().any(|f| f["code"] == "walk.not_consistent"), "{findings}");
+}
+
+#[test]
+fn machines_of_a_gait_file_drive_the_walk_and_their_states_are_written() {
+    let bench = Workbench::empty("walk_machines");
+    let examples = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/gaits");
+    for name in ["limp", "stop-and-go", "sub-cycles"] {
+        bench.write(&format!("{name}.toml"), std::fs::read(examples.join(format!("{name}.toml"))).unwrap());
+    }
+    // Sides that differ are walked in the mode of the paper, unless the other mode is asked for.
+    bench.run(&["walk", "--gait", "limp.toml", "--cycles", "2", "--quiet", "-o", "limp"]).infeasible();
+    assert_eq!(bench.json("limp/summary.json")["ground"]["rule"], "rigid soles");
+    let refused = ["walk", "--gait", "limp.toml", "--mode", "corrected", "-o", "limp"];
+    bench.run(&refused).refused(&["sides that differ", "use the mode `paper`"]);
+    let states = bench.text("limp/states.csv");
+    assert!(states.starts_with("machine,state,start_s,end_s\nwalk,"), "{states}");
+    assert!(states.contains("\nbalancing arm,lifted,"), "{states}");
+    assert!(states.contains("\"double support, right foot ahead\""), "{states}");
+    // A machine of the pace is corrected, and the summary has its changes.
+    bench.run(&["walk", "--gait", "stop-and-go.toml", "--cycles", "4", "--quiet", "-o", "stop"]);
+    let summary = bench.json("stop/summary.json");
+    assert_eq!(summary["ground"]["rule"], "soft shoes");
+    assert_eq!(summary["walk"]["pace_changes"][0]["speed_m_s"], 0.0);
+    let line = |text: &str, name: &str| text.lines().filter(|line| line.starts_with(name)).count();
+    assert!(line(&bench.text("stop/states.csv"), "traffic light,standing,") == 1);
+    let changes = ["walk", "--gait", "stop-and-go.toml", "--speed-change", "1:1.3", "-o", "stop"];
+    bench.run(&changes).refused(&["the machine `traffic light` of the gait drives the pace"]);
+    // States of machines in the table of states, below what they drive.
+    let table = bench.run(&["walk", "--gait", "limp.toml", "--states"]).done().stdout;
+    assert!(table.contains("driven by balancing arm") && table.contains("lifted, left foot is down"), "{table}");
+    bench.write("nod.toml", "[[machine]]\nname = \"nod\"\ndrives = \"trunk\"\nstate = [{ name = \"on\", activity = \"recording\", file = \"none.sto\", column = \"x\" }]\n");
+    bench.run(&["walk", "--gait", "nod.toml", "-o", "nod"]).refused(&[
+        "nod.toml",
+        "line 4, `machine[1].state[1].file`",
+        "none.sto",
+    ]);
+    // A recording next to the gait file is followed.
+    bench.edit("nod.toml", "none.sto", "limp/kinematics.mot");
+    bench.edit("nod.toml", "\"x\"", "\"arm_flex_r\"");
+    bench.run(&["walk", "--gait", "nod.toml", "--cycles", "1", "--quiet", "-o", "nod"]).infeasible();
 }
 
 #[test]

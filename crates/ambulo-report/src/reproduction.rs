@@ -10,7 +10,7 @@ use ambulo::reproduction::{
 use ambulo_results::OutputFile;
 use std::fmt::Write;
 
-/// All figures and tables.
+/// All figures and tables. `best` has the walks with the values that meet most claims, for figures 4 to 7.
 ///
 /// # Errors
 /// A figure that could not be drawn.
@@ -18,6 +18,7 @@ pub fn reproduction_files(
     claims: &[Claim],
     paper: &Evidence,
     corrected: Option<&Evidence>,
+    best: Option<&Evidence>,
     sensitivities: &[Sensitivity],
 ) -> Result<Vec<OutputFile<'static>>, FigureError> {
     let file = |name: String, text: String| OutputFile::new(name, text.into_bytes());
@@ -32,6 +33,11 @@ pub fn reproduction_files(
     for figure in angular_laws().iter().chain(&figures) {
         files.push(file(format!("figures/{}.csv", figure.name), figure_csv(figure)));
     }
+    let of_best = best.map(|best| paper_figures(best, None)).unwrap_or_default();
+    for figure in of_best.iter().filter(|figure| BEST.contains(&figure.name)) {
+        files.push(file(format!("figures/best_{}.svg", figure.name), paper_figure(figure)?));
+        files.push(file(format!("figures/best_{}.csv", figure.name), figure_csv(figure)));
+    }
     let modes = || std::iter::once(("paper", paper)).chain(corrected.map(|evidence| ("corrected", evidence)));
     files.push(file("muscles.csv".into(), muscles_csv(modes())));
     files.push(file("torques.csv".into(), torques_csv(modes())));
@@ -39,6 +45,9 @@ pub fn reproduction_files(
     files.push(file("assumptions.csv".into(), assumptions_csv(claims, sensitivities)));
     Ok(files)
 }
+
+/// Figures that are also made with the values that meet most claims.
+const BEST: [&str; 4] = ["figure4", "figure5", "figure6", "figure7"];
 
 /// Figure 1: the angular laws of the standard gait with their sub-cycles.
 fn first_figure() -> Result<Option<String>, FigureError> {

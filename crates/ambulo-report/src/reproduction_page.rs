@@ -108,10 +108,13 @@ move at its speed.</p>
 {figures}
 <h2>Claims</h2>
 {claims}
+<h2>The most plausible figure of 1997</h2>
+{best}
 <h2>What the paper does not give</h2>
 {assumptions}
 </main>"#,
         moving = moving_pictures(modes),
+        best = most_plausible(files),
         version = env!("CARGO_PKG_VERSION"),
         claims = claim_table(claims),
         assumptions = assumption_table(claims, sensitivities),
@@ -140,6 +143,44 @@ fn moving_pictures(modes: &[(&str, &Evidence)]) -> String {
     html
 }
 
+/// The values that meet most claims, with figures 4 to 7 as they are with them.
+fn most_plausible(files: &[OutputFile<'_>]) -> String {
+    let shares = stored_shares();
+    let [held, judged] = shares.best_held;
+    let mut html = format!(
+        "<p>Of {} settings of all values that the paper does not give and of those near the best, this one meets most claims: {held} of the \
+         {judged} claims of the paper that were judged with other settings. The figure of 1997 most likely was near it.</p>\n\
+         <div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\" class=\"number\">Value</th></tr></thead>\n<tbody>\n",
+        shares.settings
+    );
+    for (name, value) in shares.best.named() {
+        let _ = writeln!(
+            html,
+            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td></tr>",
+            escaped(name),
+            shown(value)
+        );
+    }
+    html += "</tbody>\n</table></div>\n";
+    for number in 4..=7 {
+        let svg = svg_of(files, &format!("figures/best_figure{number}.svg"));
+        let Some(svg) = svg else { continue };
+        let svg = svg.replacen("<svg ", &format!("<svg aria-label=\"Figure {number} with these values\" "), 1);
+        let _ = writeln!(
+            html,
+            "<section class=\"figure\" aria-label=\"Figure {number} with these values\">\n<h3>Figure {number} with these values</h3>\n\
+             <div class=\"picture\">{svg}</div>\n</section>"
+        );
+    }
+    html
+}
+
+/// The text of a file of the run.
+fn svg_of(files: &[OutputFile<'_>], name: &str) -> Option<String> {
+    let file = files.iter().find(|file| file.name == name)?;
+    String::from_utf8(file.bytes().ok()?).ok()
+}
+
 impl Figure {
     fn section(&self, claims: &[Claim], files: &[OutputFile<'_>]) -> String {
         let Figure { number, caption, says, here, .. } = self;
@@ -158,8 +199,7 @@ impl Figure {
 /// A figure as SVG, or a message if it could not be drawn.
 fn picture(files: &[OutputFile<'_>], number: u8) -> String {
     let name = format!("figures/figure{number}.svg");
-    let svg = files.iter().find(|file| file.name == name).and_then(|file| String::from_utf8(file.bytes().ok()?).ok());
-    match svg {
+    match svg_of(files, &name) {
         Some(svg) => svg.replacen("<svg ", &format!("<svg aria-label=\"Figure {number} as computed here\" "), 1),
         None => format!("Figure {number} could not be drawn."),
     }

@@ -85,8 +85,8 @@ fn transitions_by_events_start_from_the_present_value_rate_and_acceleration() {
     assert!(states.len() > 6, "{states:?}");
     let [rate, acceleration] = jumps(&text, |posture| posture.left.knee, 3.0);
     println!("largest jump: {rate:.2e} rad/s, {acceleration:.2e} rad/s²");
-    // A jump of the acceleration by 1 rad/s² would show as 0.5 here; the curves' own third derivatives, up to 5e4 rad/s³, show as 1e-4 × that.
-    assert!(rate < 1e-3 && acceleration < 6.0, "{rate} {acceleration}");
+    // Differences of the third order, (fourth derivative) h²/6, are below 1 rad/s²; a jump shows in full.
+    assert!(rate < 1e-3 && acceleration < 2.0, "{rate} {acceleration}");
     // Without passages the same transitions jump.
     let abrupt = jumps(&text.replace("within = 0.15", "within = 0.01"), |posture| posture.left.knee, 3.0);
     assert!(abrupt[1] > 3.0 * acceleration, "{abrupt:?}");
@@ -139,13 +139,13 @@ fn stop_and_go_is_corrected_like_any_change_of_pace() {
 fn left_and_right_are_edited_apart() {
     let walk = walk(LIMP);
     assert!(!walk.is_symmetric());
-    let plain = crate::gait_machine_files::walk("speed = 0.9");
+    let plain = crate::gait_machine_files::walk("base = \"standard\"");
     for i in 0..50 {
         let t = 0.031 * f64::from(i);
         let (limp, usual) = (walk.at(t), plain.at(t));
         assert_eq!(limp.right, usual.right);
         assert!((limp.left.knee.value - usual.left.knee.value - 8_f64.to_radians()).abs() < 1e-12);
-        assert_eq!(limp.left.knee.rate, usual.left.knee.rate);
+        assert!((limp.left.knee.rate - usual.left.knee.rate).abs() < 1e-12);
     }
     // Both sides by one name, pelvis, trunk and arms.
     let text = "[[joint]]\njoint = \"elbow\"\nangle_deg = 20\n[[joint]]\njoint = \"trunk\"\nangle_deg = 5\n[[joint]]\njoint = \"pelvis\"\nscale = 2\n[[joint]]\njoint = \"right shoulder\"\nscale = 0\n";
@@ -156,7 +156,7 @@ fn left_and_right_are_edited_apart() {
     assert!((own.trunk_lean.value - usual.trunk_lean.value - 5_f64.to_radians()).abs() < 1e-12);
     let tilt = |posture: &WalkPosture| posture.pelvis_tilt.value - posture.standing_tilt;
     assert!((tilt(&own) - 2.0 * tilt(&usual)).abs() < 1e-12);
-    assert_eq!(own.shoulders[0].value, 0.0);
+    assert!(own.shoulders[0].value.abs() < 1e-15);
     assert_eq!(own.shoulders[1], usual.shoulders[1]);
 }
 

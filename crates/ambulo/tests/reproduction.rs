@@ -233,3 +233,13 @@ fn the_measured_force_is_that_of_the_data() {
         assert!((measured_vertical(percent / 59.0)[0] - force).abs() < 1e-9);
     }
 }
+
+#[test]
+fn other_bodies_and_figures_behave_as_the_paper_says() {
+    for id in ["n1", "n2", "n3", "n4"] {
+        println!("{id}: {}", claim(id).note);
+        assert!(claim(id).pass, "{}", claim(id).note);
+    }
+    // Without loops one solve per step is enough.
+    assert!((value("n1", "solves_per_step_without_loops") - value("n1", "solves_per_step_with_all_loops")) < 0.0);
+}

@@ -311,3 +311,55 @@ fn errors_in_other_files_are_reported_with_their_place() {
         + "[[closure]]\nname = \"c\"\nkind = \"ball\"\nfirst = \"ann/paw\"\nsecond = \"world\"\nat = [0, 0, 0]\n";
     assert!(refusal(&text).contains("`closure[1].first`: found \"ann/paw\"; expected a body of the figure"));
 }
+
+/// A walker without correction whose gait is this text, next to a door that opens by 1 rad from 0.6 s to 0.8 s.
+fn next_to_a_door(gait: &str) -> Result<Scene, SceneError> {
+    let text = alone(", gait = \"own.toml\", mode = \"curves\"", 1.6).replace("gait = \"free\", ", "")
+        + "[[body]]\nname = \"panel\"\nmass = 5\nposition = [0, 1, 3]\nshape = { kind = \"box\", size = [0.8, 2, 0.04] }\n\
+           [[joint]]\nname = \"door\"\nkind = \"revolute\"\nparent = \"world\"\nchild = \"panel\"\nat = [-0.4, 1, 3]\naxis = [0, 1, 0]\n\
+           [joint.coordinate]\ndrive = { stops = [[0.6, 0.0], [0.8, 1.0]] }\n";
+    let mut load = |_: &str| Ok(gait.as_bytes().to_vec());
+    Scene::build(&SceneFile::parse(&text)?, SceneSettings::default(), &mut load, &mut Findings::default())
+}
+
+#[test]
+fn machines_of_a_walker_read_its_feet_and_the_joints_of_the_scene() {
+    let waving = |when: &str| {
+        format!(
+            "[[machine]]\nname = \"wave\"\ndrives = \"left elbow\"\nstate = [{{ name = \"down\" }}, {{ name = \"up\", activity = \"sub_cycle\", to_deg = 110, within = 0.3 }}]\n\
+             transition = [{{ from = \"down\", to = \"up\", when = \"{when}\" }}]\n"
+        )
+    };
+    let elbow = |when: &str| {
+        let mut scene = next_to_a_door(&waving(when)).unwrap_or_else(|e| panic!("{e}"));
+        let number = scene.world().joints.iter().position(|joint| joint.name == "ann/elbow_flex_l").unwrap();
+        let mut angles = Vec::new();
+        scene
+            .run(&mut Findings::default(), |frame| {
+                angles.push((frame.scene.state().time_s, frame.scene.state().coordinates[number][0].to_degrees()));
+            })
+            .unwrap();
+        angles
+    };
+    let first_above = |angles: &[(f64, f64)]| angles.iter().find(|(_, angle)| *angle > 100.0).map(|(t, _)| *t);
+    // The door is half open at 0.7 s, and the arm is up 0.3 s later; a quintic passes 100 of 110 degrees somewhat earlier.
+    let opened = first_above(&elbow("signal door > 0.5")).unwrap();
+    assert!((0.88..1.0).contains(&opened), "{opened}");
+    let struck = first_above(&elbow("left foot strikes and time > 0.2 s")).unwrap();
+    assert!((0.4..1.4).contains(&struck), "{struck}");
+    // The knee bends by more than 40 degrees in swing alone.
+    let bent = first_above(&elbow("angle 'left knee' > 40 deg")).unwrap();
+    assert!(bent > 0.2, "{bent}");
+    assert_eq!(first_above(&elbow("angle 'left knee' > 150 deg")), None);
+    for (when, words) in [
+        ("signal gate > 0.5", "the machine `wave` reads the signal `gate`; expected door"),
+        ("angle knee > 5 deg", "the machine `wave` reads the angle `knee`; expected a joint such as 'left knee'"),
+    ] {
+        let error = next_to_a_door(&waving(when)).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    }
+    let mut scene = next_to_a_door(&waving("left foot strikes")).unwrap();
+    let saved = scene.save();
+    assert!(scene.resume(&saved).unwrap_err().to_string().contains("the states of machines are not saved"));
+    assert!(next_to_a_door(&waving("after 1 s")).unwrap().resume(&saved).is_ok());
+}

@@ -5,7 +5,9 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::each_body_motion;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::simulation::walking::{GroundContact, Shoes, WalkRecording, Walker, WalkingError, gait_signals};
+use ambulo::simulation::walking::{
+    GroundContact, HARMONICS, Release, Shoes, TorqueSeries, WalkRecording, Walker, WalkingError, gait_signals,
+};
 use ambulo::simulation::{ImpactLaw, Signal, StepSettings};
 use ambulo::spatial::{Vec3, Wrench};
 
@@ -169,4 +171,41 @@ fn invalid_figures_are_rejected() {
     let (walker, _) = walker("free", &human, &ground(1.0));
     let refused = walker.walk(&StepSettings::default(), 1e-4, &mut Findings::default()).unwrap_err();
     assert!(refused.to_string().contains("at least one whole step"), "{refused}");
+}
+
+#[test]
+fn a_figure_without_drives_and_torques_falls_like_a_pendulum_that_is_let_go() {
+    let (walker, cycle_s) = walker("standard", &human(), &ground(1.0));
+    let still = |coordinate: &str| TorqueSeries {
+        coordinate: coordinate.to_owned(),
+        cycle_s,
+        mean: 0.0,
+        cosine: [0.0; HARMONICS],
+        sine: [0.0; HARMONICS],
+        r_squared: 1.0,
+    };
+    let joints = ["hip_flexion", "knee_angle", "ankle_angle"];
+    let torques: Vec<TorqueSeries> =
+        joints.iter().flat_map(|joint| ["r", "l"].map(|side| still(&format!("{joint}_{side}")))).collect();
+    let settings = StepSettings { step_s: 1e-3, ..StepSettings::default() };
+    let release = Release { torques: &torques, time_s: 1.0 };
+    let released = walker.walk_released(release, &settings, 4.0, &mut Findings::default()).unwrap();
+    let fell_after_s = released.fell_after_s.unwrap();
+    // Falling freely through a quarter of its height takes 0.22 s; legs that fold hold it up longer, but not for long.
+    assert!((0.2..1.0).contains(&fell_after_s), "{fell_after_s}");
+    let recording = &released.recording;
+    assert!((recording.grid().end_s() - 1.0 - fell_after_s - 0.1).abs() < 0.01);
+    // The efforts are those that were asked for: none, and the trunk is held by nothing.
+    for name in ["knee_angle_r", "hip_flexion_l", "pelvis_tilt"] {
+        let largest = recording.effort(name).unwrap()[1001..1150].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        assert!(largest < 1e-6, "{name}: {largest}");
+    }
+    let driven = walker.walk(&settings, 1.0, &mut Findings::default()).unwrap();
+    for id in recording.model.coordinate_ids() {
+        assert_eq!(driven.trajectory.values(id)[..999], recording.trajectory.values(id)[..999]);
+    }
+    let unknown = [still("pelvis_tx")];
+    let release = Release { torques: &unknown, time_s: 1.0 };
+    let error = walker.walk_released(release, &settings, 2.0, &mut Findings::default()).unwrap_err();
+    assert!(error.to_string().starts_with("found torques of the coordinate `pelvis_tx`"), "{error}");
 }

@@ -62,6 +62,9 @@ pub(crate) struct WalkArgs {
     /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = super::forces::AngleConvention::Clinical)]
     pub(crate) convention: super::forces::AngleConvention,
+    /// Replay torques without feedback: a torques.toml of `ambulo reproduce`, with the gait of --gait [default then: standard] in the mode paper.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) torques: Option<PathBuf>,
     /// Whole gait cycles per foot, 1 to 1000.
     #[arg(long, value_name = "N", default_value_t = 3, allow_negative_numbers = true, value_parser = whole_number)]
     pub(crate) cycles: usize,
@@ -91,9 +94,9 @@ pub(crate) struct WalkArgs {
 /// The gait to synthesise.
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct GaitArgs {
-    /// Name of a gait (standard, long, short, goose, parade, slow, free, fast) or a gait file (docs/GAITS.md).
-    #[arg(long, value_name = "NAME|FILE.toml", default_value = "free")]
-    pub(crate) gait: String,
+    /// Name of a gait (standard, long, short, goose, parade, slow, free, fast) or a gait file (docs/GAITS.md) [default: free].
+    #[arg(long, value_name = "NAME|FILE.toml")]
+    pub(crate) gait: Option<String>,
     /// Walking speed, 0.05 to 5 m/s, or 0 to stand until the first change [default: the gait's].
     #[arg(long, value_name = "M/S", allow_negative_numbers = true, value_parser = number)]
     pub(crate) speed: Option<f64>,

@@ -5,7 +5,7 @@ use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, printer};
 use ambulo::reproduction::{
-    Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities,
+    Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities, stored_shares,
 };
 use ambulo_report::{reproduction_files, reproduction_page};
 use ambulo_results::{Keep, OutputFile, summary_json};
@@ -22,6 +22,12 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     let mut mode = CorrectedMode::default();
     let corrected = gather("the corrected mode", &mut |trial: &TrialSettings<'_>| mode.walk(trial), &clock, args)?;
     let claims: Vec<Claim> = claims(&paper, Some(&corrected));
+    let best = if args.brief {
+        None
+    } else {
+        printer::progress("the setting that meets most claims", args.print);
+        Some(stored_shares().best.evidence()?)
+    };
     let others = if args.brief {
         Vec::new()
     } else {
@@ -29,7 +35,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
         sensitivities()?
     };
     let modes = [("The paper's mode", &paper), ("The corrected mode", &corrected)];
-    let mut written = reproduction_files(&claims, &paper, Some(&corrected), &others)?;
+    let mut written = reproduction_files(&claims, &paper, Some(&corrected), best.as_ref(), &others)?;
     written.push(reproduction_page(&claims, &modes, &others, &written));
     let mut json = serde_json::to_vec_pretty(&claims)?;
     json.push(b'\n');

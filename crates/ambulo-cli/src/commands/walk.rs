@@ -12,7 +12,8 @@ use ambulo::gait::{Gait, PaceChange, Style, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::RecordedTable;
 use ambulo::numerics::NaturalSpline;
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, replay, synthesise};
+use ambulo::simulation::walking::TorqueSeries;
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use ambulo_report::gait_figure;
 use ambulo_results::{Convention, GroundSource, Input, Keep, OutputFile, STATES, WalkSummary, states_csv};
@@ -23,7 +24,8 @@ use std::path::{Path, PathBuf};
 pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
     let mut findings = Findings::default();
-    let (gait, mut read) = gait(&args.gait, &mut findings)?;
+    let name = args.gait.gait.as_deref().unwrap_or(if args.torques.is_some() { "standard" } else { "free" });
+    let (gait, mut read) = gait(name, &args.gait, &mut findings)?;
     let build = build(&args.figure)?;
     if args.states {
         let human = build.human()?;
@@ -41,10 +43,21 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
     read.extend(args.thresholds.clone());
     let by_gait = || if gait.is_symmetric() { SyntheticMode::Corrected } else { SyntheticMode::Paper };
-    let mode = args.mode.map_or_else(by_gait, WalkMode::mode);
-    let gait = if mode == SyntheticMode::Corrected { style_for_correction(gait, &args.gait) } else { gait };
+    let torques = args.torques.as_deref().map(|path| read_torques(path, &gait.name)).transpose()?;
+    read.extend(args.torques.clone());
+    if torques.is_some() && args.mode == Some(WalkMode::Corrected) {
+        bail!("--torques: found --mode corrected; expected the mode paper, in which the torques were computed");
+    }
+    let mode = match (&torques, args.mode) {
+        (Some(_), _) => SyntheticMode::Paper,
+        (None, mode) => mode.map_or_else(by_gait, WalkMode::mode),
+    };
+    let gait = if mode == SyntheticMode::Corrected { style_for_correction(gait, name, &args.gait) } else { gait };
     let walk_settings = SyntheticWalkSettings { gait: &gait, build, mode, cycles: args.cycles, rate_hz: args.rate };
-    let walk = synthesise(&walk_settings, &mut findings)?;
+    let walk = match &torques {
+        Some(torques) => replay(&walk_settings, torques, &mut findings)?,
+        None => synthesise(&walk_settings, &mut findings)?,
+    };
     clock.lap("walk");
     let run = SyntheticRun {
         walk: &walk,
@@ -195,8 +208,8 @@ fn build(args: &FigureArgs) -> Result<Build> {
 }
 
 /// The gait with the user's changes, and the file that it was read from.
-fn gait(args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, Vec<PathBuf>)> {
-    let path = Path::new(&args.gait);
+fn gait(name: &str, args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, Vec<PathBuf>)> {
+    let path = Path::new(name);
     let is_file = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) || path.components().count() > 1;
     let mut read = Vec::new();
     let mut gait = if is_file {
@@ -211,7 +224,7 @@ fn gait(args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, Vec<PathBuf>)
         };
         Gait::from_toml_with(&text, &mut column).with_context(shown)?
     } else {
-        Gait::named(&args.gait).context("--gait")?
+        Gait::named(name).context("--gait")?
     };
     if let Some(word) = &args.style {
         gait = gait.in_style(style(word)?);
@@ -232,6 +245,13 @@ fn gait(args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, Vec<PathBuf>)
     Ok((gait, read))
 }
 
+/// The torques of a gait.
+fn read_torques(path: &Path, gait: &str) -> Result<Vec<TorqueSeries>> {
+    let shown = || path.display().to_string();
+    let text = String::from_utf8(files::read(path)?).with_context(shown)?;
+    TorqueSeries::read(&text, gait).with_context(shown)
+}
+
 /// An angle of a recording [rad] against time.
 fn recorded_angle(path: &Path, column: &str, findings: &mut Findings) -> Result<NaturalSpline> {
     let name = path.display().to_string();
@@ -242,8 +262,8 @@ fn recorded_angle(path: &Path, column: &str, findings: &mut Findings) -> Result<
 
 /// Built-in gaits of style 1997 have zero acceleration at their knots; to be corrected, they take style knots unless the user chose a
 /// style. Changes of single knots are made for the style of the gait, so such gaits keep it.
-fn style_for_correction(gait: Gait, args: &GaitArgs) -> Gait {
-    let takes_knots = args.style.is_none() && Gait::NAMES.contains(&args.gait.as_str()) && gait.changes.is_empty();
+fn style_for_correction(gait: Gait, name: &str, args: &GaitArgs) -> Gait {
+    let takes_knots = args.style.is_none() && Gait::NAMES.contains(&name) && gait.changes.is_empty();
     if takes_knots { gait.in_style(Style::Knots) } else { gait }
 }
 

@@ -422,6 +422,9 @@ codes! {
     WalkNotConsistent "walk.not_consistent" Warning
         "No small change makes this gait dynamically consistent; residual forces remain, and the verdict judges them."
         "Choose another speed, step length or style.";
+    WalkReplayFell "walk.replay_fell" Note
+        "Torques without feedback were replayed on the figure; it falls or is still up after the time that the message gives."
+        "Nothing to do: torques that know nothing of the motion do not keep a figure upright.";
     DriveGaveWay "drive.gave_way" Warning
         "A drive without a largest force would need an unreasonable one, above 1,000 times the total weight; it gave way."
         "Prescribe a motion that the other constraints allow, or give the drive a largest force.";

@@ -177,8 +177,13 @@ fn about_step_heights() -> Vec<Assumption> {
                 ("1.25 times the standard height", PaperSettings { own_height: Some(("goose", 1.25)), ..taken }),
                 ("2.0 times the standard height", PaperSettings { own_height: Some(("goose", 2.0)), ..taken }),
                 ("1.2 times the standard length", PaperSettings { own_length: Some(("goose", 1.2)), ..taken }),
-                ("straight knees, as in `parade`", PaperSettings { straight_goose: true, ..taken }),
             ],
+        ),
+        with(
+            "recipe of the gaits",
+            "`standard`: 1.5 m/s at 1.0 s; `long`: 1.2 times its steps at 1.0 s; `short`: 0.62 times its steps at 0.62 s; `goose`: its steps 1.5 times as high at 0.82 s; `parade` (ours, not the paper's): 0.7 times its steps at 1.67 s, knees times 0.2, hip flexion times 2 and 10 % earlier",
+            "periods from section 4.5; lengths and heights as in the rows above; straight knees are no step height, so `parade` is no gait of the paper",
+            vec![("`goose` walked as `parade`, at its own period", PaperSettings { straight_goose: true, ..taken })],
         ),
         with(
             "step height of the gaits",

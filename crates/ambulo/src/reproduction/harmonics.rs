@@ -1,44 +1,11 @@
-//! Torque curves as a few harmonics, for example as a feedforward for a controller.
-//!
-//!   τ(t) = mean + Σ_k (cosine_k cos(2π k t/T) + sine_k sin(2π k t/T))          t from the nominal foot strike of the right foot
+//! Torque curves of a walk as a few harmonics ([`TorqueSeries`]), for example as a feedforward for a controller.
 //!
 //! Coefficients are sums over the rows of the steady cycles, without impacts.
 
 use super::mode::Run;
 use super::steady::{Steady, mean};
+use crate::simulation::walking::TorqueSeries;
 use std::f64::consts::TAU;
-
-/// Number of harmonics.
-pub const HARMONICS: usize = 6;
-
-/// The torque of one coordinate over a cycle.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TorqueSeries {
-    /// The coordinate of the model, which also gives the sign.
-    pub coordinate: String,
-    /// Duration of the cycle [s].
-    pub cycle_s: f64,
-    /// [N.m].
-    pub mean: f64,
-    /// First to last harmonic [N.m].
-    pub cosine: [f64; HARMONICS],
-    /// First to last harmonic [N.m].
-    pub sine: [f64; HARMONICS],
-    /// Share of the variance that mean and harmonics represent.
-    pub r_squared: f64,
-}
-
-impl TorqueSeries {
-    /// The torque at a share of the cycle [N.m].
-    #[must_use]
-    pub fn at(&self, phase: f64) -> f64 {
-        let wave = |k: usize| {
-            let (sin, cos) = (TAU * (k + 1) as f64 * phase).sin_cos();
-            self.cosine[k] * cos + self.sine[k] * sin
-        };
-        self.mean + (0..HARMONICS).map(wave).sum::<f64>()
-    }
-}
 
 /// Hips, knees and ankles, right and left.
 #[must_use]

@@ -102,6 +102,16 @@ impl OpenValues {
         }
     }
 
+    /// All walks of the paper's mode with these values.
+    ///
+    /// # Errors
+    /// A walk that cannot be simulated with these values.
+    pub fn evidence(&self) -> Result<Evidence, ReproductionError> {
+        let settings = self.settings();
+        let mut mode = |trial: &TrialSettings<'_>| paper_walk_with(&settings, trial);
+        Evidence::gather(&mut mode, Scope::Full, None)
+    }
+
     /// The judgements of the claims for which brief evidence is sufficient.
     ///
     /// # Errors

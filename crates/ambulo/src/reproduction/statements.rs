@@ -2,10 +2,10 @@
 
 use super::claim::{Claim, Judgement, Statement};
 use super::evidence::{Evidence, Scope};
-use super::{action, bounce, convergence, forward, gaits, ground_force, joints, laws, mass, sliding};
+use super::{action, bounce, convergence, forward, gaits, ground_force, interaction, joints, laws, mass, sliding};
 
 /// All statements, in the order of the figures in the paper.
-const STATEMENTS: [Statement; 30] = [
+const STATEMENTS: [Statement; 34] = [
     laws::SMOOTH,
     laws::SPEED_LAW,
     laws::CHANGE,
@@ -35,6 +35,10 @@ const STATEMENTS: [Statement; 30] = [
     gaits::PLAUSIBLE,
     action::MUSCLES,
     action::WARNING,
+    interaction::LOOPS,
+    interaction::OBSTACLE,
+    interaction::GRASP_CLAIM,
+    interaction::HAND_IN_HAND,
     bounce::SPEED,
 ];
 

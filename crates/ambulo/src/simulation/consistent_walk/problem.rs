@@ -219,6 +219,12 @@ impl<'a> Problem<'a> {
                 }
                 _ => {}
             }
+            // The model's knee angle is extension.
+            let known = instant.posture[0][input.coordinate];
+            let extended = known + input.sum(x, 0) + self.settings.least_knee_flexion;
+            if joint == Some(1) && extended > 0.0 {
+                near(input, 0, -known - self.settings.least_knee_flexion, dev.knee_extension);
+            }
             if let Some(joint) = joint {
                 near(input, 0, 0.0, dev.joints[joint]);
                 near(input, 2, 0.0, dev.joint_acceleration);

@@ -32,6 +32,8 @@ pub struct Deviations {
     pub slip: f64,
     /// Depth of a swinging sole below its clearance [m].
     pub clearance: f64,
+    /// Extension of the knee beyond its least flexion [rad].
+    pub knee_extension: f64,
 }
 
 /// Settings of [`make_consistent_walk`](super::make_consistent_walk).
@@ -47,6 +49,8 @@ pub struct ConsistentWalkSettings {
     pub instants: usize,
     /// Smallest height of heel, ball and toes in swing [m].
     pub clearance: f64,
+    /// Least flexion of the knee [rad]: people who walk do not hyperextend it.
+    pub least_knee_flexion: f64,
 }
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
@@ -64,15 +68,17 @@ impl Default for ConsistentWalkSettings {
                 trunk_acceleration: 3.0,
                 ground_force: [0.02, 0.01],
                 toe_force: 0.15,
-                moment_rate: 3.0,
+                moment_rate: 2.0,
                 root_force: 0.002,
                 root_moment: 0.0007,
                 slip: 0.005,
                 clearance: 0.002,
+                knee_extension: 0.25 * DEGREE,
             },
             splines: [48, 18],
             instants: 96,
             clearance: 0.008,
+            least_knee_flexion: 1.0 * DEGREE,
         }
     }
 }

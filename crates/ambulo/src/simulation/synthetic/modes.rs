@@ -9,7 +9,7 @@ use crate::model::anthropometry::Human;
 use crate::simulation::consistent_walk::{
     ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
 };
-use crate::simulation::walking::{GaitTargets, GroundContact, Shoes, Walker, gait_signals};
+use crate::simulation::walking::{GaitTargets, GroundContact, Release, Shoes, TorqueSeries, Walker, gait_signals};
 use crate::simulation::{ImpactLaw, StepSettings};
 
 /// Cycles before the corrected walk is steady; it starts with the planned motion.
@@ -20,8 +20,8 @@ const LARGEST_RESIDUAL: [f64; 2] = [0.01, 0.005];
 const LONGEST_PLAN_S: f64 = 300.0;
 /// Cycles before the paper's walk repeats.
 const PAPER_SKIPPED: usize = 2;
-/// The paper's coefficient of friction (section 4.3).
-const FRICTION: f64 = 1.0;
+/// The paper's ground: rigid soles, and a coefficient of friction of 1 (section 4.3).
+const PAPER_GROUND: GroundContact = GroundContact { friction: 1.0, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking };
 
 /// Computes a synthetic walk.
 ///
@@ -152,10 +152,9 @@ fn paper(
 ) -> Result<SyntheticWalk, SyntheticError> {
     let gait = Gait { pelvis: Pelvis::Vertical, ..settings.gait.clone() };
     let (walk, kept) = timed(settings, &gait, &human, PAPER_SKIPPED, findings)?;
-    let ground = GroundContact { friction: FRICTION, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking };
     let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
     let signals = gait_signals(&walk, &human.model, 0.0, kept.simulated_s + step.step_s)?;
-    let walker = Walker::new(&human, signals, &ground, walk.speed())?;
+    let walker = Walker::new(&human, signals, &PAPER_GROUND, walk.speed())?;
     let mut targets =
         if walk.gait().machines_read_simulation() { Some(GaitTargets::new(&walk, &human.model, &[])?) } else { None };
     let recording = walker.walk_with(targets.as_mut(), &step, kept.simulated_s, findings)?;
@@ -165,3 +164,47 @@ fn paper(
     };
     steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None })
 }
+
+/// Replays torques without feedback: the gait is walked in the paper's mode, then its joints and its trunk are let go at a nominal strike of the
+/// right foot, and the torques act instead. The walk ends shortly after the figure falls; the kept part begins a cycle before the release.
+///
+/// # Errors
+/// As [`synthesise`]; torques of coordinates that the figure does not have; a gait whose cycles differ.
+pub fn replay(
+    settings: &SyntheticWalkSettings<'_>,
+    torques: &[TorqueSeries],
+    findings: &mut Findings,
+) -> Result<SyntheticWalk, SyntheticError> {
+    settings.check()?;
+    let human = settings.build.human()?;
+    let gait = Gait { pelvis: Pelvis::Vertical, ..settings.gait.clone() };
+    let walk = Walk::new(&gait, human.dimensions.leg_length, findings)?;
+    if !walk.is_steady() {
+        return Err(SyntheticError::Replay { gait: gait.name });
+    }
+    let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
+    let release_s = REPLAY_SKIPPED as f64 * walk.cycle_s();
+    let duration_s = release_s + settings.cycles as f64 * walk.cycle_s();
+    let signals = gait_signals(&walk, &human.model, 0.0, duration_s)?;
+    let walker = Walker::new(&human, signals, &PAPER_GROUND, walk.speed())?;
+    let release = Release { torques, time_s: release_s };
+    let released = walker.walk_released(release, &step, duration_s, findings)?;
+    let first = ((release_s - walk.cycle_s()) / step.step_s) as usize;
+    let kept = KeptPart::of_rows(settings, first, released.recording.grid().frames);
+    let free_s = duration_s - release_s;
+    findings.report(
+        Code::WalkReplayFell,
+        match released.fell_after_s {
+            Some(after_s) => format!(
+                "the torques act without feedback from {:.2} s on, and nothing holds the trunk; the figure falls {after_s:.2} s later",
+                release_s - first as f64 * step.step_s
+            ),
+            None => format!("the torques act without feedback; the figure is still up after {free_s:.2} s"),
+        },
+    );
+    let states = kept.states(settings, &walk);
+    steady(settings, &kept, human, walk, Made { recording: &released.recording, states, correction: None })
+}
+
+/// Cycles before torques are replayed.
+const REPLAY_SKIPPED: usize = 3;

@@ -102,6 +102,14 @@ pub enum SyntheticError {
         /// Name of the gait.
         gait: String,
     },
+    /// Torques of one cycle cannot replay a gait whose cycles differ.
+    #[error(
+        "the gait `{gait}`: found machines or changes of pace; expected equal cycles, because the torques are those of one cycle"
+    )]
+    Replay {
+        /// Name of the gait.
+        gait: String,
+    },
     /// The figure could not be built.
     #[error(transparent)]
     Build(#[from] BuildError),

@@ -311,6 +311,14 @@ pub enum WalkingError {
         /// Signals that exist.
         expected: String,
     },
+    /// Torques of a coordinate that no drive moves.
+    #[error("found torques of the coordinate `{found}`; expected joints among {expected}")]
+    Torque {
+        /// The coordinate.
+        found: String,
+        /// Coordinates of the model.
+        expected: String,
+    },
     /// A duration without a whole step.
     #[error("{duration_s} s in steps of {step_s} s; expected at least one whole step")]
     Duration {

@@ -15,9 +15,12 @@ mod figure;
 mod recording;
 mod run;
 mod slip;
+mod torques;
 
 pub use feet::{FootRecord, ToeRecord};
 pub use figure::{GroundContact, Shoes, Walker, WalkingError};
 pub use recording::{Excerpt, ExcerptRows, FootImpact, WalkRecording};
+pub use run::{Release, Released};
 pub use signals::{GaitTargets, gait_signals};
 pub use slip::StanceSlip;
+pub use torques::{HARMONICS, TorqueSeries};

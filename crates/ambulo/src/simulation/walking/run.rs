@@ -4,6 +4,7 @@ use super::feet::FootRecord;
 use super::figure::{Placed, Walker, WalkingError};
 use super::recording::{FootImpact, WalkRecording};
 use super::signals::GaitTargets;
+use super::torques::TorqueSeries;
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
 use crate::model::{BodyId, BySide, Side};
@@ -13,6 +14,31 @@ use crate::spatial::{Pose, Twist, Vec3};
 
 /// Largest number of steps, because of memory: a step takes about 2 kB, with the results that are made from it.
 const MOST_STEPS: usize = 1_200_000;
+
+/// Torques without feedback that take the place of drives.
+#[derive(Debug, Clone, Copy)]
+pub struct Release<'a> {
+    /// The torques, by coordinate.
+    pub torques: &'a [TorqueSeries],
+    /// Time at which the drives of these coordinates and the hand at the trunk let go [s].
+    pub time_s: f64,
+}
+
+/// A walk whose drives have let go.
+#[derive(Debug, Clone)]
+pub struct Released {
+    /// The walk, driven and then free.
+    pub recording: WalkRecording,
+    /// Time from the release to the fall [s]; `None` if the figure has not fallen at the end.
+    pub fell_after_s: Option<f64>,
+}
+
+/// A figure whose pelvis is lower than this share of its height at the release has fallen.
+const FALLEN: f64 = 0.75;
+/// So has one whose trunk is turned by more than this [rad].
+const FALLEN_TILT: f64 = std::f64::consts::FRAC_PI_3;
+/// What is recorded after a fall [s].
+const AFTER_FALL_S: f64 = 0.1;
 
 /// A recording under way.
 struct Recorder<'a> {
@@ -24,6 +50,8 @@ struct Recorder<'a> {
     unsolved: usize,
     /// Targets of this row that were computed from step to step.
     targets: Vec<[f64; 3]>,
+    /// Coordinates that no drive moves any more; empty while all are driven.
+    freed: Vec<bool>,
 }
 
 impl Walker {
@@ -52,18 +80,12 @@ impl Walker {
         findings: &mut Findings,
     ) -> Result<WalkRecording, WalkingError> {
         let step_s = settings.step_s;
-        let rows = (duration_s / step_s + 1e-9).floor();
-        if !(step_s > 0.0 && rows >= 1.0 && rows.is_finite()) {
-            return Err(WalkingError::Duration { duration_s, step_s });
-        }
-        if rows > MOST_STEPS as f64 {
-            return Err(WalkingError::TooLong { duration_s, step_s, most: MOST_STEPS });
-        }
+        let rows = rows_of(duration_s, step_s)?;
         let settings = StepSettings { integrator: Integrator::Impulse, ..*settings };
         let mut world = self.world.clone();
         let (mut state, mut w) = (WorldState::new(&world), StepWorkspace::default());
-        let mut recorder = Recorder::new(self, rows as usize);
-        for row in 0..rows as usize {
+        let mut recorder = Recorder::new(self, rows);
+        for row in 0..rows {
             // Times are computed from the row, so that rounding does not accumulate.
             state.time_s = step_s * row as f64;
             let before = RootBefore::of(&world, &state);
@@ -81,7 +103,93 @@ impl Walker {
             recorder.unsolved += usize::from(!convergence.converged);
             recorder.record(&before, &state, &w);
         }
-        recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: rows as usize })
+        recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: rows })
+    }
+
+    /// Walks until the drives let go, then with torques that know nothing of the motion, until the figure falls or for `duration_s`.
+    ///
+    /// # Errors
+    /// As [`Walker::walk`], and torques of a coordinate that no drive moves.
+    pub fn walk_released(
+        &self,
+        release: Release<'_>,
+        settings: &StepSettings,
+        duration_s: f64,
+        findings: &mut Findings,
+    ) -> Result<Released, WalkingError> {
+        let settings = StepSettings { integrator: Integrator::Impulse, ..*settings };
+        let step_s = settings.step_s;
+        let rows = rows_of(duration_s, step_s)?;
+        let free = self.freed(release.torques)?;
+        let mut world = self.world.clone();
+        let (mut state, mut w) = (WorldState::new(&world), StepWorkspace::default());
+        let mut recorder = Recorder::new(self, rows);
+        let (mut height, mut end, mut fell_after_s) = (None, rows, None);
+        let mut row = 0;
+        while row < end {
+            state.time_s = step_s * row as f64;
+            if state.time_s >= release.time_s - 0.5 * step_s {
+                recorder.freed.clone_from(&free);
+                let now = *height.get_or_insert(self.pelvis(&state)[0]);
+                self.push(&mut world, release.torques, state.time_s);
+                let [up, tilt] = self.pelvis(&state);
+                if fell_after_s.is_none() && (up < FALLEN * now || tilt.abs() > FALLEN_TILT) {
+                    fell_after_s = Some(state.time_s - release.time_s);
+                    end = rows.min(row + (AFTER_FALL_S / step_s) as usize);
+                }
+            }
+            let before = RootBefore::of(&world, &state);
+            let values = recorder.free_values(&world, &state);
+            let convergence = step(&world, &mut state, &settings, &mut w, findings)?;
+            recorder.unsolved += usize::from(!convergence.converged);
+            recorder.targets_of_free(&world, values, &state, step_s);
+            recorder.record(&before, &state, &w);
+            row += 1;
+        }
+        let recording = recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: row })?;
+        Ok(Released { recording, fell_after_s })
+    }
+
+    /// The coordinates that are free after the release: those with torques, and the rotation of the root.
+    fn freed(&self, torques: &[TorqueSeries]) -> Result<Vec<bool>, WalkingError> {
+        let mut free: Vec<bool> =
+            self.placed.iter().map(|placed| (placed.joint, placed.coordinate) == (0, 2)).collect();
+        for series in torques {
+            let id = self.model.coordinate(&series.coordinate).filter(|id| self.placed[id.index()].joint > 0);
+            let id = id.ok_or_else(|| WalkingError::Torque {
+                found: series.coordinate.clone(),
+                expected: self.model.coordinates().iter().map(|own| own.name.as_str()).collect::<Vec<_>>().join(", "),
+            })?;
+            free[id.index()] = true;
+        }
+        Ok(free)
+    }
+
+    /// Height of the pelvis [m] and rotation of the trunk from the vertical [rad].
+    fn pelvis(&self, state: &WorldState) -> [f64; 2] {
+        let root = &state.coordinates[0];
+        let tilt = root.get(2).copied().unwrap_or_default();
+        [root.get(1).copied().unwrap_or_default().abs(), tilt]
+    }
+
+    /// Takes the drives of coordinates with torques and of the trunk away, and sets the torques of this instant.
+    fn push(&self, world: &mut World, torques: &[TorqueSeries], time_s: f64) {
+        if let Some(trunk) = world.joints[0].coordinates.get_mut(2) {
+            trunk.drive = None;
+        }
+        for series in torques {
+            let Some(id) = self.model.coordinate(&series.coordinate) else { continue };
+            let placed = &self.placed[id.index()];
+            let coordinate = &mut world.joints[placed.joint].coordinates[placed.coordinate];
+            coordinate.drive = None;
+            // A joint that nothing drives turns no further than its range.
+            coordinate.limits = match (self.model.coordinates()[id.index()].range, placed.sense > 0.0) {
+                (Some([low, high]), true) => (Some(low), Some(high)),
+                (Some([low, high]), false) => (Some(-high), Some(-low)),
+                (None, _) => (None, None),
+            };
+            coordinate.effort = placed.sense * series.at(time_s / series.cycle_s);
+        }
     }
 
     /// Sets the motion of all drives near an instant [s].
@@ -97,6 +205,18 @@ impl Walker {
     fn friction(&self) -> f64 {
         self.world.materials.first().map_or(0.0, |material| material.friction)
     }
+}
+
+/// Number of whole steps.
+fn rows_of(duration_s: f64, step_s: f64) -> Result<usize, WalkingError> {
+    let rows = (duration_s / step_s + 1e-9).floor();
+    if !(step_s > 0.0 && rows >= 1.0 && rows.is_finite()) {
+        return Err(WalkingError::Duration { duration_s, step_s });
+    }
+    if rows > MOST_STEPS as f64 {
+        return Err(WalkingError::TooLong { duration_s, step_s, most: MOST_STEPS });
+    }
+    Ok(rows as usize)
 }
 
 /// The state of the root before a step.
@@ -139,6 +259,7 @@ impl<'a> Recorder<'a> {
             impacts: Vec::new(),
             unsolved: 0,
             targets: Vec::new(),
+            freed: Vec::new(),
         }
     }
 
@@ -149,6 +270,30 @@ impl<'a> Recorder<'a> {
             true => self.walker.signals.iter().map(|signal| signal.at(time_s)).collect(),
             false => (0..count).map(|id| targets.at(id)).collect(),
         };
+    }
+
+    /// Values and rates of the free coordinates before a step.
+    fn free_values(&self, world: &World, state: &WorldState) -> Vec<Option<[f64; 2]>> {
+        let of = |(free, placed): (&bool, &Placed)| {
+            free.then(|| {
+                let (joint, k) = (placed.joint, placed.coordinate);
+                [state.coordinates[joint][k], state.rates(&world.joints[joint])[k]].map(|x| placed.sense * x)
+            })
+        };
+        self.freed.iter().zip(&self.walker.placed).map(of).collect()
+    }
+
+    /// Sets the row of the free coordinates: values at the start of a step, velocities in its middle.
+    fn targets_of_free(&mut self, world: &World, before: Vec<Option<[f64; 2]>>, after: &WorldState, step_s: f64) {
+        self.targets.clear();
+        let time_s = after.time_s - step_s;
+        let after = self.free_values(world, after);
+        for (id, (before, after)) in before.into_iter().zip(after).enumerate() {
+            self.targets.push(match (before, after) {
+                (Some([value, old]), Some([_, new])) => [value, 0.5 * (old + new), (new - old) / step_s],
+                _ => self.walker.signals[id].at(time_s),
+            });
+        }
     }
 
     /// Which feet were loaded in the last row.
