@@ -220,14 +220,20 @@ fn the_demo_needs_no_input_and_its_walk_can_be_read_as_a_recording() {
     bench.run(&[&model[..], &["--loads", "demo/input/walk_grf.xml", "-o", "again"], &RAW].concat()).done();
     let (made, read) = (bench.table("demo/moments.sto"), bench.table("again/moments.sto"));
     let frames = made.rows();
+    // A foot that is loaded by less than the threshold has a force in the walk and none in the table: frames next to a strike or an off.
+    let table = bench.table("demo/grf.mot");
+    let vertical = ["r", "l"].map(|side| table.column(&format!("ground_force_{side}_vy")).unwrap());
+    let changes = |i: usize| vertical.iter().any(|force| (i - 1..=i + 1).any(|k| (force[k] > 0.0) != (force[i] > 0.0)));
+    let compared: Vec<usize> = (10..frames - 10).filter(|i| !changes(*i)).collect();
+    assert!(compared.len() * 10 > frames * 8, "{} of {frames} frames", compared.len());
     // The recording's accelerations are those of its samples: exact in between, not at its ends; and a plate measures the whole foot, so
     // the moment at the toe joint is lost.
     for name in ["hip_flexion_r_moment", "knee_angle_l_moment", "ankle_angle_r_moment", "lumbar_extension_moment"] {
         let (a, b) = (made.column(name).unwrap(), read.column(name).unwrap());
-        let differences: Vec<f64> = (10..frames - 10).map(|i| (a[i] - b[i]).powi(2)).collect();
+        let differences: Vec<f64> = compared.iter().map(|i| (a[*i] - b[*i]).powi(2)).collect();
         let rms = (differences.iter().sum::<f64>() / differences.len() as f64).sqrt();
         println!("{name}: {rms:.3} N.m rms");
-        assert!(rms < 0.5, "{name}: {rms} N.m rms");
+        assert!(rms < 0.3, "{name}: {rms} N.m rms");
     }
     let vertical =
         |folder: &str| bench.table(&format!("{folder}/grf.mot")).column("ground_force_r_vy").unwrap().to_vec();

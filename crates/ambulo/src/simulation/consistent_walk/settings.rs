@@ -68,17 +68,17 @@ impl Default for ConsistentWalkSettings {
                 trunk_acceleration: 3.0,
                 ground_force: [0.02, 0.01],
                 toe_force: 0.15,
-                moment_rate: 2.0,
+                moment_rate: 3.0,
                 root_force: 0.002,
                 root_moment: 0.0007,
                 slip: 0.005,
                 clearance: 0.002,
-                knee_extension: 0.25 * DEGREE,
+                knee_extension: 0.5 * DEGREE,
             },
             splines: [48, 18],
             instants: 96,
             clearance: 0.008,
-            least_knee_flexion: 1.0 * DEGREE,
+            least_knee_flexion: 1.5 * DEGREE,
         }
     }
 }
