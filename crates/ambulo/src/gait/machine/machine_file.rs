@@ -134,32 +134,54 @@ fn driven(value: &Value<'_>) -> Result<Driven, TomlError> {
     })
 }
 
+/// Keys of every state.
+const STATE_KEYS: &[&str] = &["name", "activity", "done"];
+
 fn read_state(table: &Table<'_>, drives: &Driven, load: &mut ReadColumn<'_>) -> Result<StateSettings, TomlError> {
-    const BASE: &[&str] = &["name", "activity", "done"];
+    let word = activity_word(table, drives)?;
+    Ok(StateSettings {
+        activity: read_activity(table, word, drives, load)?,
+        name: table.need("name", "the name of the state")?.filled_text()?,
+        done: table.truth_or("done", false)?,
+    })
+}
+
+/// The word of an activity that fits what the machine drives.
+fn activity_word(table: &Table<'_>, drives: &Driven) -> Result<&'static str, TomlError> {
     let value = table.get("activity");
     let default = if drives.moves_a_joint() { "walk" } else { "wait" };
     let word = match &value {
         Some(value) => value.choice(&ACTIVITIES.map(|word| (word, word)))?,
         None => default,
     };
-    let fits = match drives {
-        Driven::Part(_) => !matches!(word, "pace" | "wait"),
-        Driven::Coordinate(_) => !matches!(word, "walk" | "pace" | "wait"),
-        Driven::Pace => matches!(word, "pace" | "wait"),
-        Driven::Nothing => word == "wait",
+    let (fits, allowed) = match drives {
+        Driven::Part(_) => {
+            (!matches!(word, "pace" | "wait"), "an activity of a joint: walk, sub_cycle, constant, curve or recording")
+        }
+        Driven::Coordinate(_) => (
+            !matches!(word, "walk" | "pace" | "wait"),
+            "an activity of a coordinate: sub_cycle, constant, curve or recording",
+        ),
+        Driven::Pace => (matches!(word, "pace" | "wait"), "an activity of the pace: pace or wait"),
+        Driven::Nothing => (word == "wait", "wait, because this machine drives nothing"),
     };
-    if !fits {
-        let allowed = match drives {
-            Driven::Part(_) => "an activity of a joint: walk, sub_cycle, constant, curve or recording",
-            Driven::Coordinate(_) => "an activity of a coordinate: sub_cycle, constant, curve or recording",
-            Driven::Pace => "an activity of the pace: pace or wait",
-            Driven::Nothing => "wait, because this machine drives nothing",
-        };
-        return Err(value.map_or_else(|| table.missing("activity", allowed), |value| value.wrong(allowed)));
+    match value {
+        _ if fits => Ok(word),
+        Some(value) => Err(value.wrong(allowed)),
+        None => Err(table.missing("activity", allowed)),
     }
-    let activity = match word {
+}
+
+fn read_activity(
+    table: &Table<'_>,
+    word: &str,
+    drives: &Driven,
+    load: &mut ReadColumn<'_>,
+) -> Result<Activity, TomlError> {
+    let only = |keys: &[&str]| table.only(&[STATE_KEYS, keys]);
+    Ok(match word {
         "walk" => {
-            table.only(&[BASE, &["scale", "angle_deg", "time_percent"]])?;
+            only(&["scale", "angle_deg", "time_percent"])?;
             Activity::Walk {
                 scale: bounded(table, "scale", 1.0, [-10.0, 10.0])?,
                 angle: bounded(table, "angle_deg", 0.0, [-180.0, 180.0])? * DEGREE,
@@ -167,48 +189,46 @@ fn read_state(table: &Table<'_>, drives: &Driven, load: &mut ReadColumn<'_>) -> 
             }
         }
         "sub_cycle" => {
-            table.only(&[BASE, &["to_deg", "within"]])?;
+            only(&["to_deg", "within"])?;
             let within_s =
                 within(table)?.ok_or_else(|| table.missing("within", "the duration of the sub-cycle [s]"))?;
             Activity::SubCycle { to: angle(table, "to_deg", drives)?, within_s }
         }
         "constant" => {
-            table.only(&[BASE, &["angle_deg"]])?;
+            only(&["angle_deg"])?;
             Activity::SubCycle { to: angle(table, "angle_deg", drives)?, within_s: PASSAGE_S }
         }
         "curve" => {
-            table.only(&[BASE, &["knot"]])?;
-            let [low, high] = limits(drives);
-            Activity::Curve(read_knots(table, [low, high])?)
+            only(&["knot"])?;
+            Activity::Curve(read_knots(table, limits(drives))?)
         }
         "recording" => {
-            table.only(&[BASE, &["file", "column", "from"]])?;
-            let file = table.need("file", "a recording")?;
-            let column = table.need("column", "the column of the recording")?.filled_text()?;
-            let values = load(&file.filled_text()?, &column).map_err(|message| file.place().error(message))?;
-            let (first, last) = (values.times()[0], values.times()[values.times().len() - 1]);
-            let from_s = table.number_or("from", first)?;
-            match table.get("from") {
-                Some(value) if !(first..=last).contains(&from_s) => {
-                    return Err(value.wrong(&format!("a time of the recording, {first} to {last} s")));
-                }
-                _ => Activity::Recording { values: Arc::new(values), from_s },
-            }
+            only(&["file", "column", "from"])?;
+            read_recording(table, load)?
         }
         "pace" => {
-            table.only(&[BASE, &["speed", "step_length", "cadence", "within"]])?;
+            only(&["speed", "step_length", "cadence", "within"])?;
             Activity::Pace(PaceChange::read_values(table, 0.0)?)
         }
         _ => {
-            table.only(&[BASE])?;
+            only(&[])?;
             Activity::Wait
         }
-    };
-    Ok(StateSettings {
-        name: table.need("name", "the name of the state")?.filled_text()?,
-        activity,
-        done: table.truth_or("done", false)?,
     })
+}
+
+fn read_recording(table: &Table<'_>, load: &mut ReadColumn<'_>) -> Result<Activity, TomlError> {
+    let file = table.need("file", "a recording")?;
+    let column = table.need("column", "the column of the recording")?.filled_text()?;
+    let values = load(&file.filled_text()?, &column).map_err(|message| file.place().error(message))?;
+    let (first, last) = (values.times()[0], values.times()[values.times().len() - 1]);
+    let from_s = table.number_or("from", first)?;
+    match table.get("from") {
+        Some(value) if !(first..=last).contains(&from_s) => {
+            Err(value.wrong(&format!("a time of the recording, {first} to {last} s")))
+        }
+        _ => Ok(Activity::Recording { values: Arc::new(values), from_s }),
+    }
 }
 
 /// Accepted angles [rad].
