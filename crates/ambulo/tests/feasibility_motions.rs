@@ -506,18 +506,8 @@ fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
     let Subject { model, motion, plates } = subject;
     let analysis = analyse(model, motion, plates, settings, &mut findings).unwrap();
     let (trajectory, forces, ground) = (&analysis.trajectory, &analysis.forces, &analysis.ground);
-    let evidence = MotionAndForces {
-        model,
-        trajectory,
-        forces,
-        ground,
-        device: None,
-        predicted: None,
-        partly_measured: &[],
-        activity: ActivityKind::Walk,
-        cutoff_hz: Some(six_hz.cutoff_hz),
-        forces_are_predicted: false,
-    };
+    let cutoff_hz = Some(six_hz.cutoff_hz);
+    let evidence = MotionAndForces { cutoff_hz, ..measured(model, trajectory, forces, ground, ActivityKind::Walk) };
     check(&evidence, &Person::of_model(model), thresholds, &mut findings)
 }
 

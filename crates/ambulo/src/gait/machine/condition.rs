@@ -12,7 +12,7 @@
 //!      | "standing"                                                     the figure stands still
 //! ```
 //!
-//! COMPARISON is one of `<`, `<=`, `>`, `>=`; a NAME with spaces stands in single quotes.
+//! COMPARISON is one of `<`, `<=`, `>`, `>=`; a NAME with spaces is written in single quotes.
 
 use super::definition::MachineInputs;
 use crate::model::Side;
@@ -112,7 +112,7 @@ impl Condition {
     /// Reads a condition.
     ///
     /// # Errors
-    /// What was found and what was expected at the first word that does not fit.
+    /// An error that names the first word that does not fit, and what was expected there.
     pub fn parse(text: &str) -> Result<Condition, ConditionError> {
         let words = words(text)?;
         let mut reader = Reader { words: &words, next: 0 };

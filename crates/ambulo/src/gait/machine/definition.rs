@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub struct MachineInputs<'a> {
     /// Phase and speed of this step.
     pub clock: &'a Clock,
-    /// What is known of the figure in this step.
+    /// State of the figure in this step.
     pub sensed: &'a Sensed,
     pub(super) names: &'a [String],
     pub(super) states: &'a [Vec<State>],
@@ -21,7 +21,7 @@ pub struct MachineInputs<'a> {
     pub(super) entered: [f64; 2],
 }
 
-/// What machines know of the figure besides the clock.
+/// State of the figure that machines can read, apart from the clock.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Sensed {
     /// Time since the machines began [s]; below zero before that.

@@ -14,7 +14,7 @@ use crate::toml_reader::{Table, TomlError, Value, nearest};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Reads a column of a recording: file and name of the column, as they stand in the gait file; an angle in radians against time.
+/// Reads a column of a recording as an angle [rad] against time [s]. The arguments are the file and the column as the gait file names them.
 pub type ReadColumn<'a> = dyn FnMut(&str, &str) -> Result<NaturalSpline, String> + 'a;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;

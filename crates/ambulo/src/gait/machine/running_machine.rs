@@ -130,7 +130,7 @@ fn run(machine: &Machine, number: usize, inputs: &MachineInputs<'_>, after: &mut
     next
 }
 
-/// What the transitions of a step lead to.
+/// The state after the transitions of a step.
 struct Settled {
     state: usize,
     /// The state to go on with after an interruption.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub struct MachineSettings {
     /// Name, different from those of all other machines.
     pub name: String,
-    /// What its activities set.
+    /// The joint, the coordinate or the pace that its activities set.
     pub drives: Driven,
     /// Another machine and one of its states: this machine runs only during that state, and is interrupted when it ends.
     pub during: Option<(String, String)>,
@@ -36,7 +36,7 @@ impl MachineSettings {
     }
 }
 
-/// What a machine sets.
+/// The quantity that a machine sets.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Driven {
     /// An angle of the gait.
@@ -62,13 +62,13 @@ impl Driven {
 pub struct StateSettings {
     /// Name.
     pub name: String,
-    /// What the machine does in it.
+    /// Activity of the machine in this state.
     pub activity: Activity,
     /// Whether the machine has then done its work, for machines that wait for it.
     pub done: bool,
 }
 
-/// What a machine does in a state.
+/// How a machine computes its output in a state.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Activity {
     /// Nothing; of machines that drive nothing.

@@ -8,11 +8,11 @@
 //! └ shoulders, elbows       forward and backward swing, flexion and extension; output: flexion [rad]
 //! ```
 //!
-//! Machines of the gait ([`MachineSettings`](super::MachineSettings)) come in addition: below the machine of the part that they drive, whose
-//! place they take, or below the root.
+//! Machines of the gait ([`MachineSettings`](super::MachineSettings)) are added to this tree. One that drives a part of the figure replaces the
+//! output of the machine of that part and is its child; all others are children of the root.
 //!
-//! Transitions of the machines above test only the clock: a machine leaves a state when the phase is outside the window of the state. Windows are evaluated at
-//! the current speed, so all machines stay synchronised when the speed changes. The machine of a joint evaluates the polynomial of its
+//! Transitions of the machines above test only the clock: a machine leaves a state when the phase is outside the window of the state. Windows
+//! are evaluated at the current speed, so all machines stay synchronised when the speed changes. The machine of a joint evaluates the polynomial of its
 //! sub-cycle on the same curves as [`Walk::at`]: both give the same bits at any step rate (tests/gait_machine.rs).
 
 use super::authored::{authored, driven_part, pace_of};
@@ -319,13 +319,13 @@ impl WalkMachine {
         self.coordinates.iter().map(|(name, number)| (name.as_str(), self.running.output(*number)))
     }
 
-    /// What the machines knew of the figure in the last step.
+    /// State of the figure that the machines read in the last step.
     #[must_use]
     pub fn sensed(&self) -> &Sensed {
         &self.sensed
     }
 
-    /// What the machines know of the figure; angles and signals may be set before a step.
+    /// State of the figure for the next step: the caller may set angles and signals.
     pub fn sensed_mut(&mut self) -> &mut Sensed {
         &mut self.sensed
     }
@@ -355,8 +355,10 @@ const PLAN_STEP_S: f64 = 1e-3;
 /// Standing after the last change of pace [s].
 const STANDING_S: f64 = 1.0;
 
-/// The walk with the changes of pace that its machines make, until the right foot has made a number of cycles since the machines began or the
-/// figure stands for good, at most for `longest_s`; and the duration from their beginning to that instant [s].
+/// Runs the machines of a walk in advance. Returns the walk with the changes of pace that they make, and the duration of the plan [s].
+///
+/// The plan begins with the machines and ends when the right foot has made `cycles` cycles, when the figure stands and no machine can make it
+/// walk again, or after `longest_s` seconds.
 ///
 /// # Errors
 /// Changes of pace that are not possible, or that overlap.

@@ -192,7 +192,7 @@ impl KeptPart {
     }
 }
 
-/// What a mode has made of a gait.
+/// The simulation of a gait in one of the modes.
 pub(super) struct Made<'a> {
     pub(super) recording: &'a WalkRecording,
     pub(super) states: Vec<StatePeriod>,

@@ -37,7 +37,7 @@ pub struct Released {
 const FALLEN: f64 = 0.75;
 /// So has one whose trunk is turned by more than this [rad].
 const FALLEN_TILT: f64 = std::f64::consts::FRAC_PI_3;
-/// What is recorded after a fall [s].
+/// Duration of the recording after a fall [s].
 const AFTER_FALL_S: f64 = 0.1;
 
 /// A recording under way.
