@@ -371,6 +371,22 @@ fn files_that_describe_no_machine_are_refused_with_line_and_key() {
 }
 
 #[test]
+fn angles_that_no_joint_can_follow_are_refused() {
+    for (text, expected) in [
+        (
+            "[[joint]]\njoint = \"left knee\"\nangle_deg = 150\n".to_owned(),
+            "left knee, with its scale and offset: found 16",
+        ),
+        ("[[joint]]\njoint = \"hip\"\nscale = -9\n".to_owned(), "right hip, with its scale and offset: found"),
+        (knee("{ name = \"a\", scale = 8 }", ""), "expected angles from -15° to 160°. hint: use a scale nearer to 1"),
+    ] {
+        let error = Walk::new(&gait(&text), LEG, &mut Findings::default()).unwrap_err().to_string();
+        assert!(error.contains(expected), "{text}\n{error}");
+    }
+    walk("[[joint]]\njoint = \"knee\"\nangle_deg = 90\n");
+}
+
+#[test]
 fn a_change_of_pace_during_another_is_refused() {
     let text = "[[machine]]\nname = \"m\"\ndrives = \"pace\"\nstate = [{ name = \"a\", activity = \"pace\", speed = 1 }, { name = \"b\", activity = \"pace\", speed = 1.4 }]\ntransition = [{ from = \"a\", to = \"b\", when = \"after 0.2 s\" }]\n";
     let error = planned(walk(text), 4.0, 60.0, &mut Findings::default()).unwrap_err().to_string();

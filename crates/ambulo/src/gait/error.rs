@@ -63,6 +63,18 @@ pub enum GaitError {
         /// What was found and what was expected.
         message: String,
     },
+    /// A change of a whole joint, or a machine that scales its curve, turns the joint further than people can.
+    #[error(
+        "{joint}, with its scale and offset: found {found_deg:.0}° in the cycle; expected angles from {:.0}° to {:.0}°. hint: use a scale nearer to 1 or a smaller offset", allowed_deg[0], allowed_deg[1]
+    )]
+    JointAngle {
+        /// Joint.
+        joint: &'static str,
+        /// The angle [deg].
+        found_deg: f64,
+        /// Smallest and largest angle [deg].
+        allowed_deg: [f64; 2],
+    },
     /// A figure that stands at the start and never walks.
     #[error(
         "speed: found 0 m/s at the start and no change to a walking speed after it; expected such a change, or a speed of 0.05 to 5 m/s, because a figure that only stands has no cycle"

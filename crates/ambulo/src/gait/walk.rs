@@ -18,7 +18,7 @@ use super::gait_settings::{Gait, JointChange, KnotChange, Pace, Pelvis, Speed, S
 use super::jet::Jet;
 use super::joint::{LegJoint, STANDING_TILT, WalkPart};
 use super::laws::{Laws, LegCurves, checked_speeds};
-use super::machine::Driven;
+use super::machine::{Driven, MachineSettings};
 use super::pace::{number, resolve};
 use super::pace_plan::{Clock, PaceChange, PacePlan, SteadyPace};
 use super::stride::{StrideLaw, walking_speeds};
@@ -27,6 +27,8 @@ use crate::model::{BySide, Side};
 
 /// Latest start and longest duration of a change of pace [s].
 const LATEST_CHANGE_S: f64 = 300.0;
+/// Instants of a cycle at which changed joints are checked.
+const CHECKED_PHASES: u32 = 100;
 /// Shortest duration of a change of pace [s].
 const SHORTEST_CHANGE_S: f64 = 0.1;
 
@@ -115,6 +117,7 @@ impl Walk {
         for change in &gait.pace_changes {
             walk.add_change(change, findings)?;
         }
+        walk.refuse_far_angles()?;
         Ok(walk)
     }
 
@@ -387,6 +390,31 @@ impl Walk {
             WalkPart::Shoulder(_) => self.arm_angle(part, ArmCurves::shoulder(phase, speed), clock),
             WalkPart::Elbow(_) => self.arm_angle(part, self.arms.elbow().at(phase, speed), clock),
         }
+    }
+
+    /// The angle of a part at a clock, with its distance from upright standing scaled and an offset [rad].
+    pub(super) fn altered_angle(&self, part: WalkPart, clock: &Clock, scale: f64, offset: f64) -> Jet {
+        let upright = self.upright_angle(part);
+        (self.part_angle(part, clock) - upright) * scale + (upright + offset)
+    }
+
+    /// Refuses changes of whole joints, and activities of machines that scale a curve, that no joint can follow at the first pace.
+    fn refuse_far_angles(&self) -> Result<(), GaitError> {
+        let changed = self.gait.joints.iter().map(|change| (change.part, 1.0, 0.0));
+        let driven = self.gait.machines.iter().flat_map(MachineSettings::altered_curves);
+        for (part, scale, offset) in changed.chain(driven) {
+            let [low, high] = part.plausible();
+            for k in 0..CHECKED_PHASES {
+                let phase = Jet::constant(f64::from(k) / f64::from(CHECKED_PHASES));
+                let clock = Clock { phase, ..self.first_clock() };
+                let angle = self.altered_angle(part, &clock, scale, offset).value;
+                if !(low..=high).contains(&angle) {
+                    let (joint, allowed_deg) = (part.name(), [low, high].map(f64::to_degrees));
+                    return Err(GaitError::JointAngle { joint, found_deg: angle.to_degrees(), allowed_deg });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The angle of a part in upright standing [rad].

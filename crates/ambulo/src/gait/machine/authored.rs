@@ -65,11 +65,10 @@ fn output(walk: &Walk, drives: &Driven, activity: &Activity, inputs: &MachineInp
         Activity::Wait | Activity::Pace(_) => at_rest(walk, drives, clock),
         Activity::Walk { scale, angle, phase } => {
             let shifted = Clock { phase: clock.phase + *phase, ..*clock };
-            let (own, upright) = match drives {
-                Driven::Part(part) => (walk.part_angle(*part, &shifted), walk.upright_angle(*part)),
-                _ => (Jet::ZERO, 0.0),
-            };
-            (own - upright) * *scale + (upright + angle)
+            match drives {
+                Driven::Part(part) => walk.altered_angle(*part, &shifted, *scale, *angle),
+                _ => Jet::ZERO,
+            }
         }
         Activity::SubCycle { to, .. } => Jet::constant(*to),
         Activity::Curve(curve) => curve.at(clock.phase_of(side), walk.curve_speed(clock)),

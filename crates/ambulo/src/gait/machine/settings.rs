@@ -34,6 +34,15 @@ impl MachineSettings {
         }
         all
     }
+
+    /// The parts whose curve its states scale and move: part, factor on the distance from upright standing, and offset [rad].
+    pub(in crate::gait) fn altered_curves(&self) -> Vec<(WalkPart, f64, f64)> {
+        let of_state = |state: &StateSettings| match (&self.drives, &state.activity) {
+            (Driven::Part(part), Activity::Walk { scale, angle, .. }) => Some((*part, *scale, *angle)),
+            _ => None,
+        };
+        self.states.iter().filter_map(of_state).collect()
+    }
 }
 
 /// The quantity that a machine sets.
