@@ -1,19 +1,25 @@
 //! The fourth-order integrator: closed forms, its order, energy, and the instants at which surfaces meet.
 
+use crate::common::turn;
 use crate::common::worlds::{
-    G, O, Run, add_ball, add_body, add_closure, add_floor, add_joint, drive, empty, of_rigid, sine, turned, v,
+    G, O, Run, add_ball, add_body, add_closure, add_floor, add_joint, along, drive, empty, of_material, of_rigid, sine,
+    turned, v,
 };
-use ambulo::simulation::{Integrator, JointKind, energy};
+use ambulo::dynamics::SolverSettings;
+use ambulo::findings::Code;
+use ambulo::simulation::{
+    ContactLaw, Integrator, JointKind, Material, StepWorkspace, World, WorldState, accelerations, energy,
+};
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3};
 
-fn smooth(world: ambulo::simulation::World, step_s: f64) -> Run {
+fn smooth(world: World, step_s: f64) -> Run {
     let mut run = Run::new(world, step_s);
     run.settings.integrator = Integrator::RungeKutta;
     run
 }
 
 /// A chain of links of 0.2 m and 1 kg, level, hinged about z.
-fn chain(count: usize) -> ambulo::simulation::World {
+fn chain(count: usize) -> World {
     let mut world = empty();
     for i in 0..count {
         let body = add_body(&mut world, 1.0, [0.002, 0.004, 0.004], Pose::at(v(0.2 * i as f64 + 0.1, 0.0, 0.0)));
@@ -119,6 +125,22 @@ fn a_whipping_chain_of_twenty_links_keeps_its_energy_to_a_thousandth() {
     assert!(drift < 1e-3 * kinetic, "{drift} of {kinetic}");
 }
 
+/// Height of a point that falls from `height` and bounces, after a time [s].
+fn height_of_bounces(height: f64, restitution: f64, time_s: f64) -> f64 {
+    let (mut speed, mut since) = ((2.0 * G * height).sqrt(), time_s - (2.0 * height / G).sqrt());
+    if since < 0.0 {
+        return height - 0.5 * G * time_s * time_s;
+    }
+    loop {
+        speed *= restitution;
+        let flight = 2.0 * speed / G;
+        if since < flight {
+            return since * (speed - 0.5 * G * since);
+        }
+        since -= flight;
+    }
+}
+
 #[test]
 fn a_bouncing_ball_rises_by_the_square_of_its_restitution() {
     let (restitution, height) = (0.8_f64, 1.0);
@@ -128,7 +150,15 @@ fn a_bouncing_ball_rises_by_the_square_of_its_restitution() {
     let mut run = smooth(world, 1e-3);
     let mut heights = Vec::new();
     let mut before = (0.0, 0.0);
+    let mut steps = 0;
     run.watch(2.5, |run| {
+        steps += 1;
+        assert!(
+            (run.state.time_s - f64::from(steps) * 1e-3).abs() < 1e-9,
+            "a step with an impact takes as long as any"
+        );
+        let expected = 0.1 + height_of_bounces(height, restitution, run.state.time_s);
+        assert!((run.place(ball).y - expected).abs() < 1e-7, "{} for {expected}", run.state.time_s);
         let speed = run.velocity(ball).y;
         let top = run.place(ball).y - 0.1 + speed * speed / (2.0 * G);
         if before.1 > 0.0 && speed <= 0.0 {
@@ -142,6 +172,23 @@ fn a_bouncing_ball_rises_by_the_square_of_its_restitution() {
         let expected = height * restitution.powi(2 * (bounce as i32 + 1));
         // The instant of contact is found to 1e-10 m.
         assert!((found - expected).abs() < 1e-8, "{bounce}: {found} for {expected}");
+    }
+}
+
+#[test]
+fn spin_and_place_do_not_change_the_bounces_of_a_smooth_ball() {
+    // Without friction only the velocity along the normal counts, which a spin does not change at the lowest point of a ball.
+    for spin in [-20.0, 20.0] {
+        let mut world = of_rigid(0.0, 0.8);
+        add_floor(&mut world, Pose::IDENTITY);
+        let ball = add_ball(&mut world, 2.0, 0.1, v(3.0, 0.6, 0.0));
+        world.bodies[ball].twist.angular = v(0.0, 0.0, spin);
+        let mut run = smooth(world, 1e-3);
+        run.watch(1.5, |run| {
+            let expected = 0.1 + height_of_bounces(0.5, 0.8, run.state.time_s);
+            assert!((run.place(ball).y - expected).abs() < 1e-7, "{} for {expected}", run.state.time_s);
+        });
+        assert!((run.spin(ball).z - spin).abs() < 1e-9);
     }
 }
 
@@ -194,4 +241,152 @@ fn a_rotation_turned_the_wrong_way_is_noticed() {
     run.to(0.1);
     let turned: Mat3 = run.state.poses[0].rotation;
     assert!(run.q(0, 0) < -1e-3 && (turned[(1, 0)] - run.q(0, 0).sin()).abs() < 1e-12);
+}
+
+#[test]
+fn a_rod_that_is_let_go_level_falls_at_the_rate_of_its_moment_of_inertia() {
+    let world = chain(1);
+    let state = WorldState::new(&world);
+    let found = accelerations(&world, &state, &SolverSettings::default(), &mut StepWorkspace::default()).unwrap();
+    let expected = -G * 0.1 / (0.004 + 0.1 * 0.1);
+    assert_eq!(found.len(), 1);
+    assert!((found[0].angular - v(0.0, 0.0, expected)).norm() < 1e-12 * G, "{:?}", found[0]);
+    assert!((found[0].linear - v(0.0, 0.1 * expected, 0.0)).norm() < 1e-12 * G, "{:?}", found[0]);
+}
+
+/// A mass of 2 kg on a level slide along x, at a speed.
+fn slide(speed: f64) -> World {
+    let mut world = empty();
+    let body = add_body(&mut world, 2.0, [0.1; 3], Pose::IDENTITY);
+    world.bodies[body].twist.linear = v(speed, 0.0, 0.0);
+    let frame = along(Vec3::x(), O);
+    add_joint(&mut world, JointKind::Prismatic, body, None, [frame, frame]);
+    world
+}
+
+#[test]
+fn dry_friction_stops_a_slide_and_holds_it() {
+    let (speed, friction, mass) = (1.0, 4.0, 2.0);
+    let mut world = slide(speed);
+    world.joints[0].coordinates[0].friction = friction;
+    let mut run = smooth(world, 1e-3);
+    let stop = mass * speed / friction;
+    run.watch(0.8, |run| {
+        let t = run.state.time_s.min(stop);
+        let expected = speed * t - 0.5 * friction / mass * t * t;
+        // A step of impulses moves with the velocity of its end: F/m h t/2 off at time t.
+        let first_order = 0.5 * friction / mass * 1e-3 * t;
+        assert!((run.q(0, 0) - expected).abs() < first_order + 1e-9, "{} for {expected}", run.q(0, 0));
+    });
+    assert!(run.velocity(0).norm() < 1e-9);
+}
+
+#[test]
+fn a_ball_joint_follows_its_rotation_vector_wherever_that_turns() {
+    // The axis of the rotation vector turns, so its rate is not the angular velocity.
+    let signals = [sine(1.0, 0.8, 0.0, 0.0), sine(1.0, 1.1, 0.5, 0.0), sine(1.0, 0.5, 1.0, 0.0)];
+    let start = v(0.0, 0.5_f64.sin(), 1.0_f64.sin());
+    let mut world = empty();
+    let pose = Pose { rotation: turn(start, start.norm()), translation: O };
+    add_body(&mut world, 1.0, [0.01, 0.02, 0.03], pose);
+    add_joint(&mut world, JointKind::Ball, 0, None, [Pose::IDENTITY; 2]);
+    signals.iter().enumerate().for_each(|(k, signal)| drive(&mut world, 0, k, signal.clone()));
+    let mut run = smooth(world, 1e-3);
+    run.watch(1.0, |run| {
+        let q = Vec3::from_iterator(signals.iter().map(|signal| signal.at(run.state.time_s)[0]));
+        let off = (run.state.poses[0].rotation - turn(q, q.norm())).norm();
+        assert!(off < 1e-12, "{off:e} at {}", run.state.time_s);
+    });
+}
+
+/// A ball of 1 kg over a floor, its lowest point at this height, with this speed upwards; their contact is a spring [N/m].
+fn ball_on_springs(stiffness: f64, height: f64, speed: f64) -> World {
+    // Those of ball and floor act in series.
+    let law = ContactLaw::Regularised { stiffness: 2.0 * stiffness, damping: 0.0 };
+    let mut world = of_material(Material { law, friction: 0.0, restitution: 0.0 });
+    add_floor(&mut world, Pose::IDENTITY);
+    let ball = add_ball(&mut world, 1.0, 0.125, v(0.0, 0.125 + height, 0.0));
+    world.bodies[ball].twist.linear = v(0.0, speed, 0.0);
+    world
+}
+
+#[test]
+fn a_floor_of_springs_throws_a_ball_back_as_high_as_it_fell_from() {
+    let (height, stiffness) = (0.2, 1e4_f64);
+    let mut run = smooth(ball_on_springs(stiffness, height, 0.0), 1e-4);
+    let fall = (2.0 * height / G).sqrt();
+    run.watch(0.9 * fall, |run| {
+        // Before contact: a parabola, exact for the fourth-order integrator.
+        let expected = 0.125 + height - 0.5 * G * run.state.time_s.powi(2);
+        assert!((run.place(0).y - expected).abs() < 1e-12);
+    });
+    let (mut deepest, mut top) = (0.0_f64, 0.0_f64);
+    run.watch(0.6, |run| {
+        let above = run.place(0).y - 0.125;
+        deepest = deepest.min(above);
+        assert!(run.workspace.impacts().is_empty(), "springs push over time, in no instant");
+        top = if deepest < 0.0 { top.max(above) } else { 0.0 };
+    });
+    let depth = (2.0 * G * height / stiffness).sqrt() + G / stiffness;
+    println!("springs: {deepest} deep for {depth}, back to {top} of {height}");
+    // Springs taken implicitly lose the share π ω h = 3 % of their energy in half a cycle (ω = 100 rad/s); m g adds 1 % to the depth.
+    assert!((deepest + depth).abs() < 0.02 * depth, "{deepest} for -{depth}");
+    assert!(top > 0.95 * height && top < height, "{top} of {height}");
+}
+
+#[test]
+fn a_ball_thrown_up_from_a_floor_of_springs_flies_its_parabola_from_the_first_step_on() {
+    let mut run = smooth(ball_on_springs(1e4, 0.0, 2.0), 1e-3);
+    run.watch(0.4, |run| {
+        let t = run.state.time_s;
+        let expected = 0.125 + 2.0 * t - 0.5 * G * t * t;
+        assert!((run.place(0).y - expected).abs() < 1e-12, "{} for {expected} at {t}", run.place(0).y);
+    });
+}
+
+#[test]
+fn a_slide_stops_at_either_limit_and_before_it_keeps_its_order() {
+    for (sign, limits) in [(1.0, (None, Some(0.2))), (-1.0, (Some(-0.2), None))] {
+        let mut world = slide(0.0);
+        world.joints[0].coordinates[0].limits = limits;
+        world.bodies[0].load.force = v(3.0 * sign, 0.0, 0.0);
+        let mut run = smooth(world, 1e-3);
+        run.watch(1.0, |run| {
+            let expected = (0.5 * 1.5 * run.state.time_s.powi(2)).min(0.2);
+            assert!((run.q(0, 0) * sign - expected).abs() < 1e-9, "{} for {expected}", run.q(0, 0));
+        });
+        assert!(run.velocity(0).norm() < 1e-9);
+        assert!((run.forces().efforts[0][0] + 3.0 * sign).abs() < 1e-8, "{:?}", run.forces().efforts);
+    }
+}
+
+#[test]
+fn a_drive_below_its_limit_keeps_its_order_and_beyond_it_gives_way() {
+    // A slide of 2 kg driven with A sin(ω t + π/2) needs m A ω² at most: 2 N.
+    let signal = sine(0.25, 1.0 / std::f64::consts::PI, std::f64::consts::FRAC_PI_2, 0.0);
+    let driven = |max: f64| {
+        let mut world = slide(0.0);
+        drive(&mut world, 0, 0, signal.clone());
+        world.joints[0].coordinates[0].drive.as_mut().unwrap().max = Some(max);
+        let mut run = smooth(world, 1e-3);
+        run.state.coordinates[0][0] = 0.25;
+        run.state.poses[0].translation.x = 0.25;
+        run
+    };
+    let mut strong = driven(2.1);
+    strong.watch(1.0, |run| {
+        let needed = 2.0 * signal.at(run.state.time_s - 1e-3)[2];
+        let effort = run.forces().efforts[0][0];
+        // Forces are those at the start of the step.
+        assert!((effort - needed).abs() < 1e-9, "{effort} for {needed}");
+    });
+    assert!(strong.findings.as_slice().is_empty());
+    let mut weak = driven(1.5);
+    let mut most = 0.0_f64;
+    weak.watch(0.2, |run| most = most.max(run.forces().efforts[0][0].abs()));
+    assert!(most < 1.5 + 1e-9, "{most} N");
+    // It gets 1.5 of the 2 N, so it falls behind by a quarter of 1 m/s² at least at first.
+    let behind = weak.q(0, 0) - signal.at(0.2)[0];
+    assert!(behind > 0.4 * 0.25 * 0.2 * 0.2, "{behind}");
+    assert!(weak.findings.as_slice().iter().any(|finding| finding.code == Code::DriveAtLimit));
 }

@@ -11,13 +11,14 @@
 //! displacements), 3.2 (drives), 3.3 (contact). Time stepping by impulses after Moreau (unverified).
 
 use super::assemble::{Assembly, Prescribed, Span, Yielding, twist};
+use super::forces::ContactForce;
 use super::joint::advance;
 use super::projection::still_closing;
 use super::state::{RowKey, WorldState};
 use super::touch::obstacle_motion;
 use super::workspace::{StepSettings, StepWorkspace};
-use super::world::{ImpactLaw, TreeJoint, World};
-use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, solve_graph};
+use super::world::{ImpactLaw, Owner, TreeJoint, World};
+use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, Six, solve_graph};
 use crate::findings::{Code, Findings};
 use crate::spatial::STANDARD_GRAVITY;
 
@@ -123,7 +124,7 @@ impl StepWorkspace {
             solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
             self.read_wrenches();
         }
-        self.report(world, &yielding, findings);
+        self.report(world, state, &yielding, findings);
         Ok(())
     }
 
@@ -191,10 +192,38 @@ impl StepWorkspace {
         }
     }
 
-    fn report(&self, world: &World, yielding: &Yielding, findings: &mut Findings) {
-        for &(joint, coordinate, max) in yielding {
-            let joint = &world.joints[joint];
+    /// Whether a drive is stopped by another body that it presses on, as the finger of a gripper is: contacts with bodies that it does
+    /// not carry bear at least half of its effort. The limit of such a drive is the force that it is meant to press with. Obstacles
+    /// do not count, so that a leg too weak for the ground under it is still reported.
+    fn presses_on_a_body(&self, world: &World, state: &WorldState, number: usize, coordinate: usize) -> bool {
+        let child = world.joints[number].child;
+        let carried = world.carried_by(child);
+        let side = |surface: usize| match world.surfaces[surface].owner {
+            Owner::Body(body) => Some(carried[body]),
+            Owner::Obstacle(_) => None,
+        };
+        let direction = &self.assembly.directions[number][coordinate];
+        let along = |contact: ContactForce| {
+            let force = match (side(contact.surfaces.0), side(contact.surfaces.1)) {
+                (Some(true), Some(false)) => contact.force,
+                (Some(false), Some(true)) => -contact.force,
+                _ => return 0.0,
+            };
+            let moment = (contact.point - state.poses[child].translation).cross(&force);
+            direction.dot(&Six::new(moment.x, moment.y, moment.z, force.x, force.y, force.z))
+        };
+        let borne: f64 = self.contacts().map(along).sum();
+        let effort = self.effort(child, number, coordinate);
+        borne * effort < 0.0 && borne.abs() >= 0.5 * effort.abs()
+    }
+
+    fn report(&self, world: &World, state: &WorldState, yielding: &Yielding, findings: &mut Findings) {
+        for &(number, coordinate, max) in yielding {
+            let joint = &world.joints[number];
             let limited = joint.coordinates[coordinate].drive.as_ref().is_some_and(|drive| drive.max.is_some());
+            if limited && self.presses_on_a_body(world, state, number, coordinate) {
+                continue;
+            }
             let name = joint.kind.coordinate_names()[coordinate];
             let unit = if joint.kind.turns(coordinate) { "N.m" } else { "N" };
             let joint = &joint.name;

@@ -90,6 +90,9 @@ fn smooth_step(
             *state = end;
             return Ok(w.solution.convergence);
         }
+        if gives(world) {
+            break;
+        }
         let (mut before, mut after) = (0.0, left);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (before + after);
@@ -117,13 +120,17 @@ fn smooth_here(world: &World, state: &WorldState, w: &mut StepWorkspace, h: f64)
         let turns = matches!(j.kind, JointKind::Ball | JointKind::Free);
         turns && j.coordinates.iter().take(3).any(|c| c.drive.is_some())
     });
-    let soft = world.materials.iter().any(|m| m.law != ContactLaw::Rigid);
-    if rubs || turned || (soft && !world.surfaces.is_empty() && w.least_gap(world, state) < 0.0) {
+    if rubs || turned || (gives(world) && w.least_gap(world, state) < 0.0) {
         return false;
     }
     obstacle_motion(world, state.time_s, h, &mut w.obstacles);
     w.touch.detect(world, state, &w.obstacles, h);
     !w.touch.approaches(world, state, &w.obstacles, TOUCHING_M)
+}
+
+/// Whether any material is compliant: its contacts act over time, and have no impacts.
+fn gives(world: &World) -> bool {
+    world.materials.iter().any(|m| m.law != ContactLaw::Rigid)
 }
 
 impl StepWorkspace {
@@ -155,20 +162,25 @@ impl StepWorkspace {
         Ok(())
     }
 
+    /// Whether a coordinate has reached a limit, or a drive needs more than it may have.
     fn overloaded_or_limited(&self, world: &World, end: &WorldState) -> bool {
         let limited = world.joints.iter().zip(&end.coordinates).any(|(joint, q)| {
             joint.coordinates.iter().zip(q).any(|(acting, q)| {
                 acting.limits.0.is_some_and(|low| *q <= low) || acting.limits.1.is_some_and(|high| *q >= high)
             })
         });
-        let bounded = |c: &JointCoordinate| c.drive.as_ref().and_then(|d| d.max);
-        if limited || !world.joints.iter().any(|j| j.coordinates.iter().any(|c| bounded(c).is_some())) {
-            return limited;
+        limited || self.overloaded_drive(world)
+    }
+
+    fn overloaded_drive(&self, world: &World) -> bool {
+        let most = |c: &JointCoordinate| c.drive.as_ref().and_then(|d| d.max);
+        let bounded = world.joints.iter().any(|j| j.coordinates.iter().any(|c| most(c).is_some()));
+        bounded && {
+            let forces = self.forces(world);
+            world.joints.iter().zip(&forces.efforts).any(|(joint, efforts)| {
+                joint.coordinates.iter().zip(efforts).any(|(c, effort)| most(c).is_some_and(|max| effort.abs() > max))
+            })
         }
-        let forces = self.forces(world);
-        world.joints.iter().zip(&forces.efforts).any(|(joint, efforts)| {
-            joint.coordinates.iter().zip(efforts).any(|(c, effort)| bounded(c).is_some_and(|max| effort.abs() > max))
-        })
     }
 
     /// Smallest distance of surfaces that may touch [m]; infinite if none are near.

@@ -324,6 +324,14 @@ impl World {
         joints
     }
 
+    /// For each body, whether joints lead from it inwards to `root`, or it is `root`.
+    pub(crate) fn carried_by(&self, root: usize) -> Vec<bool> {
+        let joint_of = self.joint_of_body();
+        let inwards = |body: usize| joint_of[body].and_then(|joint| self.joints[joint].parent);
+        let path = |body: usize| std::iter::successors(Some(body), |body| inwards(*body)).take(self.bodies.len());
+        (0..self.bodies.len()).map(|body| path(body).any(|on_path| on_path == root)).collect()
+    }
+
     /// Total mass of all bodies [kg].
     #[must_use]
     pub fn mass(&self) -> f64 {
