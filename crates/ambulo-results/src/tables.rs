@@ -9,6 +9,7 @@ use ambulo::spatial::Vec3;
 use ambulo_formats::Error;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::TableRows;
+use std::borrow::{Borrow, Cow};
 use std::rc::Rc;
 
 pub(crate) type Column = (String, Vec<f64>);
@@ -109,11 +110,11 @@ pub(crate) fn ground(model: &Model, analysis: &Analysis) -> Result<TableRows<'st
 
 /// `ground_force_{s}_v`, `ground_force_{s}_p` and `ground_torque_{s}_` with x, y, z, for both sides; an unloaded foot has zeros.
 #[must_use]
-pub fn ground_columns(feet: &[(Side, BodyForces)], frames: usize) -> Vec<(String, Vec<f64>)> {
+pub fn ground_columns(feet: &[(Side, impl Borrow<BodyForces>)], frames: usize) -> Vec<(String, Vec<f64>)> {
     let mut columns = Vec::new();
     for side in Side::BOTH {
         let letter = side.letter();
-        let foot = feet.iter().find(|(s, _)| *s == side).map(|(_, f)| f);
+        let foot = feet.iter().find(|(s, _)| *s == side).map(|(_, f)| f.borrow());
         let loaded = |frame: usize| foot.is_some_and(|f| !f.center_of_pressure[frame].x.is_nan());
         let series = |pick: &dyn Fn(&BodyForces, usize) -> Vec3| {
             let at = |i: usize| foot.filter(|_| loaded(i)).map_or(Vec3::zeros(), |f| pick(f, i));
@@ -128,7 +129,7 @@ pub fn ground_columns(feet: &[(Side, BodyForces)], frames: usize) -> Vec<(String
 
 /// `external_loads.xml`: tells OpenSim how to apply `grf.mot`.
 pub(crate) fn external_loads(model: &Model, analysis: &Analysis) -> ExternalLoads {
-    let force = |(side, foot): (Side, BodyForces)| {
+    let force = |(side, foot): (Side, Cow<'_, BodyForces>)| {
         let prefix = format!("ground_force_{}_", side.letter());
         ExternalForce::with_prefix(&format!("{side}_ground_reaction"), body_name(model, foot.body), &prefix)
     };

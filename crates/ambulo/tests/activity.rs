@@ -23,19 +23,19 @@ pub(crate) fn man() -> Human {
     Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false }.human().unwrap()
 }
 
-/// Coordinates of a man with level feet whose hips and ankles are at these places. The trunk leans so that it is upright.
-fn posture(human: &Human, places: [[f64; 2]; 3]) -> Vec<(String, f64)> {
+/// Coordinates of a man whose hips and ankles are at these places; the soles of right and left foot slope down to the front by the pitches.
+fn posture(human: &Human, places: [[f64; 2]; 3], pitches: [f64; 2]) -> Vec<(String, f64)> {
     let d = &human.dimensions;
     let [pelvis, right, left] = places;
     let mut values = vec![("pelvis_tx".to_owned(), pelvis[0]), ("pelvis_ty".to_owned(), pelvis[1])];
-    for (letter, ankle) in [("r", right), ("l", left)] {
+    for (letter, ankle, pitch) in [("r", right, pitches[0]), ("l", left, pitches[1])] {
         let [x, y] = [ankle[0] - pelvis[0], ankle[1] + d.ankle_height - pelvis[1]];
         let length = x.hypot(y).min((d.thigh + d.shank) * 0.9999);
         let knee = std::f64::consts::PI - angle(d.thigh, d.shank, length);
         let hip = x.atan2(-y) + angle(d.thigh, length, d.shank);
         values.push((format!("hip_flexion_{letter}"), hip));
         values.push((format!("knee_angle_{letter}"), -knee));
-        values.push((format!("ankle_angle_{letter}"), knee - hip));
+        values.push((format!("ankle_angle_{letter}"), knee - hip - pitch));
     }
     values
 }
@@ -45,12 +45,22 @@ fn angle(a: f64, b: f64, opposite: f64) -> f64 {
     ((a * a + b * b - opposite * opposite) / (2.0 * a * b)).clamp(-1.0, 1.0).acos()
 }
 
-/// A motion of some seconds.
+/// A motion of some seconds with level feet.
 pub(crate) fn moving(human: &Human, places: Places, seconds: f64) -> Trajectory {
+    moving_on_soles(human, |t| (places(t), [0.0; 2]), seconds)
+}
+
+/// A motion of some seconds, from the places and the pitches of the soles.
+pub(crate) fn moving_on_soles(
+    human: &Human,
+    motion: impl Fn(f64) -> ([[f64; 2]; 3], [f64; 2]),
+    seconds: f64,
+) -> Trajectory {
     let model = &human.model;
     let frames = (seconds / STEP_S) as usize;
     let value = |t: f64| -> Vec<f64> {
-        let posture = posture(human, places(t));
+        let (places, pitches) = motion(t);
+        let posture = posture(human, places, pitches);
         let of = |name: &str, default| posture.iter().find(|(n, _)| n == name).map_or(default, |(_, value)| *value);
         model.coordinates().iter().map(|c| of(&c.name, c.default_value)).collect()
     };
@@ -100,7 +110,7 @@ fn step(t: f64, period: f64, duty: f64, [stride, rise]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Pelvis and feet of someone who steps along, each foot half a period after the other.
-fn stepping(t: f64, period: f64, duty: f64, change: [f64; 2], height: f64) -> [[f64; 2]; 3] {
+pub(crate) fn stepping(t: f64, period: f64, duty: f64, change: [f64; 2], height: f64) -> [[f64; 2]; 3] {
     let from = t + 5.0 * period;
     let right = step(from, period, duty, change);
     let behind = step(from - 0.5 * period, period, duty, change);

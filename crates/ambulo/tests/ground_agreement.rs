@@ -55,7 +55,7 @@ fn against(change: impl Fn(&mut Analysis)) -> GroundAgreement {
 
 /// Measured forces of each foot.
 fn of_feet(analysis: &Analysis) -> Vec<BodyForces> {
-    feet(&WALK.human.model, &analysis.ground).into_iter().map(|(_, forces)| forces).collect()
+    feet(&WALK.human.model, &analysis.ground).into_iter().map(|(_, forces)| forces.into_owned()).collect()
 }
 
 #[test]

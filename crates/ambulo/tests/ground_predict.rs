@@ -29,7 +29,7 @@ fn walk() -> SyntheticWalk {
 fn applied(walk: &SyntheticWalk) -> GroundForces {
     let mut findings = Findings::default();
     let ground = measured(&walk.human.model, &walk.trajectory, &walk.loads, None, &mut findings).unwrap();
-    let bodies = feet(&walk.human.model, &ground).into_iter().map(|(_, forces)| forces).collect();
+    let bodies = feet(&walk.human.model, &ground).into_iter().map(|(_, forces)| forces.into_owned()).collect();
     GroundForces { bodies }
 }
 

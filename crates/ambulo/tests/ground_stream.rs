@@ -101,7 +101,7 @@ fn a_synthetic_walk_is_streamed_as_it_is_predicted_whole() {
     let prompt = pushed(stream_of(walk, &StreamSettings { delay_s: 0.0, ..unsmoothed() }), &frames);
     let at_once = rms(&apart(&prompt, &batch.ground.bodies, SETTLED_S)) * (100.0 / weight);
     let truth = measured(model, &walk.trajectory, &walk.loads, None, &mut Findings::default()).unwrap();
-    let applied: Vec<BodyForces> = feet(model, &truth).into_iter().map(|(_, foot)| foot).collect();
+    let applied: Vec<BodyForces> = feet(model, &truth).into_iter().map(|(_, foot)| foot.into_owned()).collect();
     let [of_stream, of_batch] = [&streamed, &as_frames(&batch, &streamed)]
         .map(|frames| rms(&apart(frames, &applied, SETTLED_S)) * (100.0 / weight));
     println!(

@@ -1,9 +1,10 @@
-//! Predicted ground forces of landings on both feet: the feet carry the body until the recording ends.
+//! Predicted ground forces of landings: on both feet, which carry the body until the recording ends, and on the forefoot, as downstairs.
 
-use crate::activity::{GRAVITY, Places, man, moving};
+use crate::activity::{GRAVITY, Places, man, moving, moving_on_soles, smooth, stepping};
 use ambulo::findings::Findings;
 use ambulo::ground::predict::{PredictSettings, predict};
-use ambulo::model::BySide;
+use ambulo::model::anthropometry::Human;
+use ambulo::model::{BySide, Side};
 
 /// Time of the landing [s]; the flight before it lasts 0.3 s.
 const LANDING_S: f64 = 0.6;
@@ -54,5 +55,70 @@ fn a_landing_is_carried_to_the_end_of_the_recording() {
             println!("landing {what}, {:.1} s after it: off by {error:.3} body weights", seconds - LANDING_S);
             assert!(error < limit, "{what}, {seconds} s: {error}");
         }
+    }
+}
+
+/// Time of a stride and the share of it that a foot is on the ground, downstairs.
+const STRIDE_S: f64 = 1.4;
+const DUTY: f64 = 0.65;
+/// Stairs down: forward and up in a stride [m].
+const STAIRS: [f64; 2] = [0.6, -0.34];
+
+/// Slope of a sole that comes down with its ball first and has its heel down 0.2 s later [rad], against the share of the stride.
+fn forefoot_first(share: f64) -> f64 {
+    let p = share.rem_euclid(1.0);
+    0.5 * if p < DUTY { 1.0 - smooth(p * STRIDE_S / 0.2) } else { smooth((p - DUTY) / (1.0 - DUTY)) }
+}
+
+/// Someone who goes downstairs; the soles turn about the balls of the feet, so that these are where they would be in level feet.
+fn downstairs(human: &Human, t: f64, pitch: fn(f64) -> f64) -> ([[f64; 2]; 3], [f64; 2]) {
+    let [pelvis, right, left] = stepping(t, STRIDE_S, DUTY, STAIRS, 0.8);
+    let pitches = [pitch(t / STRIDE_S), pitch(t / STRIDE_S - 0.5)];
+    let ball = human.sole(Side::Right).map(|sole| sole.points[1].place).unwrap();
+    let lifted = |ankle: [f64; 2], pitch: f64| {
+        let (sine, cosine) = pitch.sin_cos();
+        [ankle[0] + ball.x * (1.0 - cosine) - ball.y * sine, ankle[1] + ball.x * sine + ball.y * (1.0 - cosine)]
+    };
+    ([pelvis, lifted(right, pitches[0]), lifted(left, pitches[1])], pitches)
+}
+
+/// Places of the centre of pressure between heel (0) and ball (1) a time after each strike that is known; from the strikes of the puppet.
+fn places_after_strikes(pitch: fn(f64) -> f64, after_s: f64) -> Vec<f64> {
+    let human = man();
+    let trajectory = moving_on_soles(&human, |t| downstairs(&human, t, pitch), 5.0);
+    let soles = BySide::from_fn(|side| human.sole(side));
+    let predicted =
+        predict(&human.model, &trajectory, &soles, &PredictSettings::default(), &mut Findings::default()).unwrap();
+    let mut places = Vec::new();
+    for (side, first) in [(Side::Right, 0.0), (Side::Left, 0.5)] {
+        let foot = predicted.foot(side).0;
+        for stride in 1..3 {
+            let strike = (f64::from(stride) + first) * STRIDE_S;
+            let found = predicted.footfalls.falls.iter().filter(|fall| fall.side == side);
+            let off =
+                found.filter_map(|fall| fall.strike_s).map(|at| (at - strike).abs()).fold(f64::INFINITY, f64::min);
+            assert!(off < 0.1, "{side} strike {strike}: {off} s off");
+            let (places, frame) = (&mut places, ((strike + after_s) / trajectory.grid().step_s).round() as usize);
+            let ([_, right, left], _) = downstairs(&human, strike + 0.3, pitch);
+            let ankle = if side == Side::Right { right } else { left };
+            let sole = human.sole(side).unwrap().points.map(|point| point.place.x);
+            assert!(
+                foot.force[frame].y > 0.05 * human.model.mass() * GRAVITY,
+                "{side} {strike}: {}",
+                foot.force[frame]
+            );
+            places.push((foot.center_of_pressure[frame].x - ankle[0] - sole[0]) / (sole[1] - sole[0]));
+        }
+    }
+    places
+}
+
+#[test]
+fn downstairs_the_forefoot_is_loaded_first_and_then_the_heel() {
+    let early = places_after_strikes(forefoot_first, 0.08);
+    let flat = places_after_strikes(|_| 0.0, 0.08);
+    println!("centre of pressure 0.08 s after the strike: {early:.2?}, of level feet {flat:.2?}");
+    for (forefoot, flat) in early.iter().zip(&flat) {
+        assert!(*forefoot > 0.8 && *flat < 0.5, "{forefoot} {flat}");
     }
 }

@@ -27,6 +27,7 @@ use crate::motion::{ForceRecording, TimeGrid, Window};
 use crate::numerics::or_nan;
 use crate::spatial::Vec3;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Shorter stances are left out [s].
 const SHORTEST_STANCE_S: f64 = 0.2;
@@ -252,7 +253,7 @@ pub fn ground_agreement(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverag
         direction: WalkingDirection::of(model, &predicted.trajectory, &prediction.footfalls),
     };
     let (found, truth) = (feet(model, &predicted.ground), feet(model, &measured.ground));
-    let of = |list: &[(Side, BodyForces)], side: Side| list.iter().position(|(s, _)| *s == side);
+    let of = |list: &[(Side, Cow<'_, BodyForces>)], side: Side| list.iter().position(|(s, _)| *s == side);
     let of_foot = |side: Side| {
         let (found, truth) = (&found[of(&found, side)?].1, &truth[of(&truth, side)?].1);
         let deviation = prediction.deviations.iter().find(|deviation| deviation.side == side);
@@ -260,7 +261,8 @@ pub fn ground_agreement(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverag
     };
     let feet = Side::BOTH.into_iter().filter_map(of_foot).collect();
     let moments = Side::BOTH.into_iter().flat_map(|side| {
-        let frames = comparison.measured_frames(side, coverage, truth.iter().find(|(s, _)| *s == side).map(|(_, f)| f));
+        let frames =
+            comparison.measured_frames(side, coverage, truth.iter().find(|(s, _)| *s == side).map(|(_, f)| &**f));
         MOMENTS.into_iter().filter_map(move |movement| moment(compared, side, movement, &frames)).collect::<Vec<_>>()
     });
     let grid = comparison.grid;

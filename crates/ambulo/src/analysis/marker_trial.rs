@@ -12,7 +12,7 @@ use crate::ground::plates::{FeetOnPlates, feet_on_plates};
 use crate::kinematics::calibration::{
     self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
 };
-use crate::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, fit_markers};
+use crate::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, fit_own_markers};
 use crate::kinematics::scaling::{ScalingError, SizeSettings, SizedModel, fit_size};
 use crate::model::marker_set::{MarkerSet, RecognisedMarkers, RecognitionError};
 use crate::model::{Drive, Model, Side};
@@ -167,13 +167,11 @@ pub(crate) fn fit_body_to_markers(
     // The author of a given model decides which coordinates are clamped; the built-in body needs its ranges to keep arm angles unique.
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let settings = FitSettings { weights: subject.weights.clone(), limits, ..settings.clone() };
-    let mut fit = fit_markers(&subject.model, &markers, &settings, findings)?;
+    let mut fit = fit_own_markers(&subject.model, markers, &settings, findings)?;
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
-    // The fit has its own copy of what it followed.
-    drop(markers);
     progress.end(Stage::Markers)?;
     let feet = foot_motion(&fit.followed, findings);
     let on_plates = feet_on_plates(&fit.followed, &plates, &feet, plate_feet, findings);

@@ -89,9 +89,7 @@ fn prediction_of_whole_motion(
 ) -> Option<Result<Prediction, AnalysisError>> {
     /// Frames are simultaneous if they differ by less than this share of a time step.
     const SAME_INSTANT: f64 = 1e-3;
-    let is_the_same =
-        settings.smoother == Smoother::Butterworth(LowPass::MOTION) && settings.window == Window::default();
-    if is_the_same || input.settings.prescribed != Prescribed::default() {
+    if settings.filters_as_the_prediction() || input.settings.prescribed != Prescribed::default() {
         return None;
     }
     let settings = AnalysisSettings { smoother: Smoother::Butterworth(LowPass::MOTION), ..settings };

@@ -34,6 +34,14 @@ pub struct AnalysisSettings {
     pub instrumented: Option<Window>,
 }
 
+impl AnalysisSettings {
+    /// Whether ground forces are predicted from the very motion that is analysed: the whole recording, with the low-pass filter that was used
+    /// to fit the parameters of the estimator ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md).
+    pub(crate) fn filters_as_the_prediction(&self) -> bool {
+        self.smoother == Smoother::Butterworth(LowPass::MOTION) && self.window == Window::default()
+    }
+}
+
 /// Everything that was computed from one recording.
 #[derive(Debug, Clone)]
 pub struct Analysis {

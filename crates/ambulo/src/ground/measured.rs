@@ -25,6 +25,7 @@ use crate::motion::filter::{LowPass, low_pass};
 use crate::motion::gaps::rows_around;
 use crate::motion::{ForceRecording, MotionError, TimeGrid, Window, interpolate};
 use crate::spatial::{Pose, Vec3, Wrench};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -63,17 +64,20 @@ impl GroundForces {
     }
 }
 
-/// Ground reaction force on each foot: the sum over the bodies of that side, assigned to the most loaded one.
+/// Ground reaction force on each foot: the sum over the bodies of that side, assigned to the most loaded one. A single body is borrowed.
 #[must_use]
-pub fn feet(model: &Model, ground: &GroundForces) -> Vec<(Side, BodyForces)> {
+pub fn feet<'a>(model: &Model, ground: &'a GroundForces) -> Vec<(Side, Cow<'a, BodyForces>)> {
     let up = upward(model);
     let side_of = |b: &BodyForces| model.anatomy().body_side(b.body);
     let sum = |side: Side| {
         let bodies: Vec<&BodyForces> = ground.bodies.iter().filter(|b| side_of(b) == Some(side)).collect();
+        if let [only] = bodies[..] {
+            return Some((side, Cow::Borrowed(only)));
+        }
         let carried = |b: &&&BodyForces| b.force.iter().map(Vec3::norm).sum::<f64>();
         let body = bodies.iter().max_by(|a, b| carried(a).total_cmp(&carried(b)))?.body;
         let parts = bodies.iter().map(|b| (b.force.as_slice(), b.moment.as_slice(), b.surface_height.as_slice()));
-        Some((side, combine(body, &parts.collect::<Vec<_>>(), up)))
+        Some((side, Cow::Owned(combine(body, &parts.collect::<Vec<_>>(), up))))
     };
     Side::BOTH.into_iter().filter_map(sum).collect()
 }

@@ -9,6 +9,7 @@ use crate::analysis::{
     PredictionChecks, TimesAndDistances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
+use crate::ground::footfalls::Footfalls;
 use crate::ground::predict::Prediction;
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
@@ -99,6 +100,13 @@ pub struct PredictedGround {
     pub coverage: Option<PlateCoverage>,
     /// How prediction and measurement agree; `None` where nothing was measured completely.
     pub agreement: Option<GroundAgreement>,
+}
+
+impl PredictedGround {
+    /// The stances of the motion of an analysis, if this was predicted from the same motion.
+    pub(super) fn stances(&self, analysis: &Analysis, settings: AnalysisSettings) -> Option<&Footfalls> {
+        (!analysis.adjusted && settings.filters_as_the_prediction()).then_some(&self.prediction.footfalls)
+    }
 }
 
 /// How a body follows what was recorded.

@@ -21,6 +21,7 @@ use crate::ground::footfalls::footfalls;
 use crate::ground::predict::predict;
 use crate::model::Model;
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 /// Computes the forces behind a recording. Problems that still allow results are reported in `findings`.
@@ -83,8 +84,8 @@ fn road(
     let model = reduction.as_ref().map_or(model, |reduced| reduced.model.clone());
     progress.end(Stage::ResidualReduction)?;
     let device = device.map(|device| worn(&device, &analysis, findings));
-    let checks = prediction.as_ref().map(|prediction| &prediction.checks);
-    let activity = recognised(&model, &person, &analysis, &force_origin, findings);
+    let activity = recognised(&model, &person, &analysis, prediction.as_ref(), processing, findings);
+    report_untested_prediction(activity.kind, &force_origin, findings);
     let judged = Judged {
         activity: activity.kind,
         cutoff_hz: processing.smoother.cutoff_hz(),
@@ -92,7 +93,7 @@ fn road(
         person: &person,
         analysis: &analysis,
         device: device.as_deref(),
-        checks,
+        checks: prediction.as_ref().map(|found| &found.checks),
     };
     let verdict = judged.verdict(settings, &force_origin, &origin.partly_measured(), findings);
     progress.end(Stage::Feasibility)?;
@@ -105,7 +106,7 @@ fn road(
         smoother: processing.smoother,
         force_origin,
         tracking: tracking.as_ref(),
-        checks,
+        checks: prediction.as_ref().map(|found| &found.checks),
         verdict: &verdict,
     };
     Ok(Outcome {
@@ -153,19 +154,20 @@ fn report_missing_cycles(analysis: &Analysis, findings: &mut Findings) {
     }
 }
 
-/// Recognises the activity; reports a recording without a whole gait cycle, and predicted forces without validation.
+/// Recognises the activity from the stances in this motion, which are detected if they are not known; reports a recording without a whole gait cycle.
 fn recognised(
     model: &Model,
     person: &Person,
     analysis: &Analysis,
-    force_origin: &ForceOrigin,
+    prediction: Option<&PredictedGround>,
+    processing: analysis::AnalysisSettings,
     findings: &mut Findings,
 ) -> Activity {
     report_missing_cycles(analysis, findings);
-    let footfalls = footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
-    let found = activity(model, &analysis.trajectory, &person.soles, person.leg_length_m, &footfalls);
-    report_untested_prediction(found.kind, force_origin, findings);
-    found
+    let known = prediction.and_then(|found| found.stances(analysis, processing));
+    let detect = || footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
+    let footfalls = known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed);
+    activity(model, &analysis.trajectory, &person.soles, person.leg_length_m, &footfalls)
 }
 
 /// Reports ground forces that are predicted for an activity without validation.

@@ -10,6 +10,7 @@ use ambulo::model::{BySide, Side};
 use ambulo::motion::{TimeGrid, Window};
 use ambulo::spatial::{Vec3, Wrench};
 use ambulo::study::{Outcome, PredictedGround, Source};
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// A foot is loaded above this vertical force [N].
@@ -84,7 +85,7 @@ fn truths(
 ) -> Vec<(&'static str, Prescribed)> {
     let grid = outcome.analysis.trajectory.grid();
     let by_side = feet(&outcome.body, &measured.ground);
-    let of = |side: Side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces);
+    let of = |side: Side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| &**forces);
     let footfalls = Some(true_footfalls(found, seen));
     let (Some(right), Some(left)) = (of(Side::Right), of(Side::Left)) else {
         return vec![("events", Prescribed { footfalls, ..Prescribed::default() })];
@@ -166,9 +167,8 @@ fn microseconds(outcome: &Outcome) -> Result<f64, String> {
 /// Largest vertical force of each whole stance compared with the measured one.
 fn peaks_off(outcome: &Outcome, truth: &Analysis, seen: &PlateCoverage) -> Vec<(&'static str, f64, f64)> {
     let grid = outcome.analysis.trajectory.grid();
-    let sides = |analysis: &Analysis| feet(&outcome.body, &analysis.ground);
-    let (found, truth) = (sides(&outcome.analysis), sides(truth));
-    let peak = |feet: &[(Side, BodyForces)], side: Side, [from, to]: [f64; 2]| {
+    let (found, truth) = (feet(&outcome.body, &outcome.analysis.ground), feet(&outcome.body, &truth.ground));
+    let peak = |feet: &[(Side, Cow<'_, BodyForces>)], side: Side, [from, to]: [f64; 2]| {
         let (_, foot) = feet.iter().find(|(s, _)| *s == side)?;
         let (first, count) = grid.inside(Window { from_s: Some(from), to_s: Some(to) });
         Some(foot.force[first..first + count].iter().map(|f| f.y).fold(0.0, f64::max))

@@ -8,12 +8,13 @@ use crate::ground::{BodyForces, GroundForces, feet, upward};
 use crate::kinematics::BodyMotion;
 use crate::model::BySide;
 use crate::spatial::Vec3;
+use std::borrow::Cow;
 
 /// Gives the frames of a motion with forces.
 pub(super) struct FrameReader<'a> {
     motion: MotionAndForces<'a>,
     forces: &'a Forces,
-    feet: BySide<Option<BodyForces>>,
+    feet: BySide<Option<Cow<'a, BodyForces>>>,
     roots: Roots,
     ground_velocity: Vec3,
     ground_height: f64,
@@ -29,15 +30,18 @@ impl<'a> FrameReader<'a> {
         let model = motion.model;
         let up = upward(model);
         let over = over_ground(model, motion.trajectory, ground, up);
-        let by_side = feet(model, ground);
-        let feet = BySide::from_fn(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces.clone()));
+        let mut by_side = feet(model, ground);
+        let feet = BySide::from_fn(|side| {
+            let found = by_side.iter().position(|(s, _)| *s == side);
+            found.map(|number| by_side.swap_remove(number).1)
+        });
         let [q, qd, tau, power] = [0; 4].map(|_| vec![0.0; model.coordinates().len()]);
         FrameReader {
             motion: *motion,
             forces,
             roots: Roots::of(model),
             ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
-            ground_height: ground_height(&feet.as_ref().map(Option::as_ref), up),
+            ground_height: ground_height(&feet.as_ref().map(Option::as_deref), up),
             walking: motion.activity.keeps_a_foot_down(),
             feet,
             q,

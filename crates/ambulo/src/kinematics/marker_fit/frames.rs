@@ -9,7 +9,8 @@ pub(super) const FEWEST: usize = 3;
 /// Share of the frames in which all markers of the core are visible.
 const SHARE_COMPLETE: f64 = 0.5;
 
-/// Per frame and marker: whether it is used, and from which path; per frame: posture and result of the fit.
+/// Per frame and marker: whether it is used, and from which path; per frame: posture and result of the fit. What most frames of a good
+/// recording do not have takes no memory there.
 #[derive(Debug, Clone)]
 pub(super) struct Frames {
     markers: usize,
@@ -18,16 +19,20 @@ pub(super) struct Frames {
     seen: Vec<bool>,
     /// Recorded and not an outlier.
     used: Vec<bool>,
-    /// Index of the path that belongs to a marker; another one where labels are swapped.
-    path: Vec<usize>,
+    /// Index of the path that belongs to each marker, of the frames in which labels are swapped.
+    swapped: Vec<Option<Box<[usize]>>>,
+    /// The same in all other frames: 0, 1, 2 ...
+    own: Box<[usize]>,
     postures: Vec<f64>,
     pub(super) outcomes: Vec<Option<Outcome>>,
     /// Markers that a complete frame must have.
     pub(super) core: Vec<bool>,
     /// From the marker of the model to the recorded one, in body axes at the posture of the frame [m].
     offsets: Vec<Vec3>,
-    /// The offsets used in the fit of a frame that lacks markers [m].
-    targets: Vec<Vec3>,
+    /// The offsets used in the fit of a frame, of the frames that lack markers [m].
+    targets: Vec<Option<Box<[Vec3]>>>,
+    /// The same of all other frames: not a number.
+    no_targets: Box<[Vec3]>,
     /// Whether the frame was fitted to the markers of the model, without offsets.
     plain: Vec<bool>,
     /// Whether no linear solve was left before the fit of the frame was complete.
@@ -47,12 +52,14 @@ impl Frames {
             markers,
             unknowns,
             used: seen.clone(),
-            path: (0..frames * markers).map(|i| i % markers).collect(),
+            swapped: vec![None; frames],
+            own: (0..markers).collect(),
             postures: vec![f64::NAN; frames * unknowns],
             outcomes: vec![None; frames],
             core: vec![true; markers],
             offsets: vec![Vec3::repeat(f64::NAN); frames * markers],
-            targets: vec![Vec3::repeat(f64::NAN); frames * markers],
+            targets: vec![None; frames],
+            no_targets: vec![Vec3::repeat(f64::NAN); markers].into(),
             plain: vec![false; frames],
             unfinished: vec![false; frames],
             seen,
@@ -113,24 +120,24 @@ impl Frames {
 
     /// Index of the path that belongs to a marker; another one where labels are swapped.
     pub(super) fn path(&self, frame: usize, marker: usize) -> usize {
-        self.path[frame * self.markers + marker]
+        self.paths(frame)[marker]
     }
 
     /// Path of each marker in a frame.
     pub(super) fn paths(&self, frame: usize) -> &[usize] {
-        &self.path[frame * self.markers..(frame + 1) * self.markers]
+        self.swapped[frame].as_deref().unwrap_or(&self.own)
     }
 
     /// Uses or excludes a marker in a frame.
     pub(super) fn set_used(&mut self, frame: usize, marker: usize, believed: bool) {
         let i = frame * self.markers + marker;
-        let path_seen = self.seen[frame * self.markers + self.path[i]];
+        let path_seen = self.is_seen(frame, self.path(frame, marker));
         self.used[i] = believed && path_seen;
     }
 
     /// Sets the path of every marker in a frame.
     pub(super) fn exchange(&mut self, frame: usize, paths: &[usize]) {
-        self.path[frame * self.markers..(frame + 1) * self.markers].copy_from_slice(paths);
+        self.swapped[frame] = (*paths != *self.own).then(|| paths.into());
     }
 
     pub(super) fn posture(&self, frame: usize) -> &[f64] {
@@ -153,12 +160,15 @@ impl Frames {
 
     /// The offsets used in the fit of a frame that lacks markers [m]; NaN for excluded markers.
     pub(super) fn targets(&self, frame: usize) -> &[Vec3] {
-        &self.targets[frame * self.markers..(frame + 1) * self.markers]
+        self.targets[frame].as_deref().unwrap_or(&self.no_targets)
     }
 
     /// Stores the offsets used in the fit of a frame.
     pub(super) fn set_targets(&mut self, frame: usize, offsets: &[Vec3]) {
-        self.targets[frame * self.markers..(frame + 1) * self.markers].copy_from_slice(offsets);
+        match &mut self.targets[frame] {
+            Some(targets) => targets.copy_from_slice(offsets),
+            none => *none = Some(offsets.into()),
+        }
     }
 
     /// Loads the markers used in a frame, and the missing markers of the core at the positions that follow from posture and offsets.

@@ -98,6 +98,25 @@ pub fn fit_markers(
     settings: &FitSettings,
     findings: &mut Findings,
 ) -> Result<MarkerFit, FitError> {
+    Ok(fitted(model, markers, settings, findings)?.following(markers.clone()))
+}
+
+/// As [`fit_markers`], without a copy of a recording that is not needed any more.
+pub(crate) fn fit_own_markers(
+    model: &Model,
+    markers: MarkerRecording,
+    settings: &FitSettings,
+    findings: &mut Findings,
+) -> Result<MarkerFit, FitError> {
+    Ok(fitted(model, &markers, settings, findings)?.following(markers))
+}
+
+fn fitted(
+    model: &Model,
+    markers: &MarkerRecording,
+    settings: &FitSettings,
+    findings: &mut Findings,
+) -> Result<report::Fitted, FitError> {
     let mut problem = FitProblem::new(model, markers, settings, findings)?;
     if settings.smoothing.is_some() {
         smoothing::check(problem.frames(), problem.tree.unknowns())?;

@@ -13,14 +13,50 @@ use crate::spatial::Vec3;
 /// Maximum number of time spans in a message.
 const MOST_SPANS: usize = 6;
 
-/// The result of the fit: coordinates, distances and the corrected markers.
+/// The result of a fit, without the recording that it follows.
+pub(super) struct Fitted {
+    motion: Motion,
+    errors: Vec<MarkerResidual>,
+    rms_m: Vec<f64>,
+    iterations: Vec<usize>,
+    converged: Vec<bool>,
+    solves: usize,
+    corrections: Vec<Correction>,
+}
+
+/// A position that differs from the recorded one: marker of the recording, frame and position [m].
+struct Correction {
+    marker: usize,
+    frame: usize,
+    position: Vec3,
+}
+
+impl Fitted {
+    /// The result with the corrected recording.
+    pub(super) fn following(self, mut recording: MarkerRecording) -> MarkerFit {
+        for Correction { marker, frame, position } in self.corrections {
+            recording.markers[marker].positions[frame] = position;
+        }
+        MarkerFit {
+            motion: self.motion,
+            errors: self.errors,
+            rms_m: self.rms_m,
+            followed: recording,
+            iterations: self.iterations,
+            converged: self.converged,
+            solves: self.solves,
+        }
+    }
+}
+
+/// The result of the fit: coordinates, distances and corrections of the markers.
 pub(super) fn fit(
     model: &Model,
     recording: &MarkerRecording,
     problem: &mut FitProblem<'_>,
     frames: &Frames,
     states: &[Determination],
-) -> MarkerFit {
+) -> Fitted {
     let count = frames.count();
     let leaders = leaders(model, problem);
     let mut columns: Vec<Option<Vec<f64>>> =
@@ -40,11 +76,11 @@ pub(super) fn fit(
         rms_m[frame] = note_distances(problem, &mut distances);
     }
     let errors = distances.iter().enumerate().map(|(i, d)| d.error(i, problem, frames)).collect();
-    MarkerFit {
+    Fitted {
         motion: Motion { origin: format!("markers of {}", recording.name), times: problem.times.to_vec(), columns },
         errors,
         rms_m,
-        followed: followed(recording, problem, frames, states),
+        corrections: corrections(recording, problem, frames, states),
         iterations: frames.outcomes.iter().map(|o| o.map_or(0, |o| o.steps)).collect(),
         converged: frames.outcomes.iter().map(|o| o.is_none_or(|o| o.converged)).collect(),
         solves: problem.solver.budget.spent(),
@@ -111,16 +147,16 @@ impl Distances {
     }
 }
 
-/// The recording with swapped labels swapped back, without outliers, and with missing markers where the fitted body has them at
-/// their offsets, if the posture is known. Events and plates are detected from these markers, so that a foot is not lost with its
-/// toe marker. Markers that the model does not have are kept.
-fn followed(
+/// What corrects the recording: swapped labels are swapped back, outliers are removed, and missing markers are where the fitted body
+/// has them at their offsets, if the posture is known. Events and plates are detected from these markers, so that a foot is not lost
+/// with its toe marker. Markers that the model does not have are kept.
+fn corrections(
     recording: &MarkerRecording,
     problem: &mut FitProblem<'_>,
     frames: &Frames,
     states: &[Determination],
-) -> MarkerRecording {
-    let mut out = recording.clone();
+) -> Vec<Correction> {
+    let mut all = Vec::new();
     let numbers: Vec<Option<usize>> =
         problem.paths.iter().map(|path| recording.markers.iter().position(|m| m.name == path.name)).collect();
     let unknowns = problem.tree.unknowns();
@@ -133,15 +169,17 @@ fn followed(
             problem.pose_at(frames.posture(frame));
         }
         for (i, number) in numbers.iter().enumerate() {
-            let Some(number) = *number else { continue };
-            out.markers[number].positions[frame] = match frames.targets(frame)[i] {
+            let Some(marker) = *number else { continue };
+            let position = match frames.targets(frame)[i] {
+                _ if !lacks(i) && frames.path(frame, i) == i => continue,
                 _ if !lacks(i) => problem.paths[frames.path(frame, i)].positions[frame],
                 offset if is_posed && offset.iter().all(|x| x.is_finite()) => problem.place(i, &offset),
                 _ => Vec3::repeat(f64::NAN),
             };
+            all.push(Correction { marker, frame, position });
         }
     }
-    out
+    all
 }
 
 /// Reports markers that are missing, excluded or swapped.
