@@ -2,7 +2,7 @@
 //!
 //! | part       | must hold                                                                                            |
 //! |------------|------------------------------------------------------------------------------------------------------|
-//! | examples   | every scene in `examples/` can be simulated, every program in `crates/*/examples` ends without error |
+//! | examples   | every scene in `examples/` can be simulated and every gait walked, every program in `crates/*/examples` ends without error |
 //! | recordings | `ambulo info` on every file of the data folder, and `ambulo forces` on every recording with markers or a skeleton, end with an exit code of their own: 0, 1 or 2, never by a panic |
 //! | kills      | after a run that was killed at a random time while it replaced other results, a folder has all old or all new results and the user's own files, and the same command then gives the same files as in an empty folder |
 
@@ -37,9 +37,12 @@ pub(crate) fn run() -> Result<(), String> {
     let scratch = Scratch::new()?;
     let program = release_program()?;
     let mut failures = Vec::new();
-    let scenes = below(&workspace::root().join("examples"))?;
-    for scene in &scenes {
-        let command = ambulo(&program, &["simulate", &text(scene), "-o", &text(&scratch.0.join("scene"))]);
+    let files = below(&workspace::root().join("examples"))?;
+    for file in &files {
+        let is_gait = file.parent().is_some_and(|folder| folder.ends_with("gaits"));
+        let verb: &[&str] = if is_gait { &["walk", "--gait"] } else { &["simulate"] };
+        let mut command = ambulo(&program, verb);
+        command.args([text(file), "-o".to_owned(), text(&scratch.0.join("example"))]);
         failures.extend(failure(command, &[0, 1])?);
     }
     let examples = library_examples()?;
@@ -49,7 +52,7 @@ pub(crate) fn run() -> Result<(), String> {
         command.stdout(Stdio::null());
         failures.extend(failure(command, &[0])?);
     }
-    println!("examples: {} scenes, {} programs", scenes.len(), examples.len());
+    println!("examples: {} scenes and gaits, {} programs", files.len(), examples.len());
     let data = workspace::data().join("data");
     let files = if data.is_dir() { below(&data)? } else { Vec::new() };
     let with = |endings: &[&str]| -> Vec<&PathBuf> { files.iter().filter(|file| ends_in(file, endings)).collect() };
