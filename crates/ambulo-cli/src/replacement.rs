@@ -16,7 +16,7 @@
 
 use crate::args::Existing;
 use crate::folder_lock::FolderLock;
-use crate::record::{Hashed, Record, hash, hash_of_file, is_inside};
+use crate::record::{Hashed, Record, hash_of_file, is_inside};
 use ambulo_results::{OutputFile, SUMMARY, WriteError};
 use anyhow::{Context, Error, Result, bail};
 use serde::{Deserialize, Serialize};
@@ -141,7 +141,7 @@ impl ResultTarget {
                     None => {
                         bail!("{shown}: no run of Ambulo recorded this file as its own, so it is not replaced. {hint}")
                     }
-                    Some(recorded) if *recorded != hash(&read(&path)?) => {
+                    Some(recorded) if *recorded != hash_of(&path)? => {
                         bail!(
                             "{shown}: this file was changed after the run that wrote it, so it is not replaced. {hint}"
                         )
@@ -256,7 +256,7 @@ fn finish(disk: &impl Changes, folder: &Path, manifest: &Manifest) -> Result<()>
     }
     for (name, recorded) in &manifest.removed {
         let path = folder.join(name);
-        if fs::read(&path).is_ok_and(|bytes| hash(&bytes) == *recorded) {
+        if hash_of_file(&path).is_ok_and(|found| found == *recorded) {
             disk.remove_file(&path).with_context(|| format!("{}: cannot be removed", path.display()))?;
         }
     }
@@ -305,6 +305,10 @@ pub(crate) fn is_input(path: &Path, inputs: &[PathBuf]) -> bool {
 }
 
 /// The content of a file of the folder.
+fn hash_of(path: &Path) -> Result<String> {
+    hash_of_file(path).with_context(|| format!("{}: cannot be read", path.display()))
+}
+
 fn read(path: &Path) -> Result<Vec<u8>> {
     fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))
 }
@@ -376,6 +380,7 @@ pub(crate) fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::hash;
     use std::cell::Cell;
 
     /// A disk that fails after some changes: for good, as after a kill, or for writing only, as when it is full.

@@ -167,14 +167,14 @@ pub(crate) fn fit_body_to_markers(
     // The author of a given model decides which coordinates are clamped; the built-in body needs its ranges to keep arm angles unique.
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let settings = FitSettings { weights: subject.weights.clone(), limits, ..settings.clone() };
-    let mut fit = fit_own_markers(&subject.model, markers, &settings, findings)?;
+    let (mut fit, followed) = fit_own_markers(&subject.model, markers, &settings, findings)?;
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
-    let feet = foot_motion(&fit.followed, findings);
-    let on_plates = feet_on_plates(&fit.followed, &plates, &feet, plate_feet, findings);
+    let feet = foot_motion(&followed, findings);
+    let on_plates = feet_on_plates(&followed, &plates, &feet, plate_feet, findings);
     progress.end(Stage::Feet)?;
     Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
 }

@@ -37,7 +37,8 @@ impl Record {
         let soles_of_body = [soles.right?, soles.left?];
         let (grid, floor) = (trajectory.grid(), prediction.footfalls.floor_velocity);
         let way = |frame: usize| floor * (grid.time(frame) - grid.start_s);
-        let (mut velocity, mut soles) = (Vec::with_capacity(grid.frames), [Vec::new(), Vec::new()]);
+        let mut velocity = Vec::with_capacity(grid.frames);
+        let mut soles = [(); 2].map(|()| Vec::with_capacity(grid.frames));
         each_body_motion(model, trajectory, |frame, bodies| {
             let momentum: Vec3 =
                 model.bodies().iter().zip(bodies).map(|(b, m)| m.twist.linear * b.inertia.mass()).sum();

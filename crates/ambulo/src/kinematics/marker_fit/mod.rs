@@ -98,16 +98,17 @@ pub fn fit_markers(
     settings: &FitSettings,
     findings: &mut Findings,
 ) -> Result<MarkerFit, FitError> {
-    Ok(fitted(model, markers, settings, findings)?.following(markers.clone()))
+    let (fit, followed) = fitted(model, markers, settings, findings)?.following(markers.clone());
+    Ok(MarkerFit { followed: Some(followed), ..fit })
 }
 
-/// As [`fit_markers`], without a copy of a recording that is not needed any more.
+/// As [`fit_markers`], without a copy of a recording that is not needed any more; gives the corrected recording beside the result.
 pub(crate) fn fit_own_markers(
     model: &Model,
     markers: MarkerRecording,
     settings: &FitSettings,
     findings: &mut Findings,
-) -> Result<MarkerFit, FitError> {
+) -> Result<(MarkerFit, MarkerRecording), FitError> {
     Ok(fitted(model, &markers, settings, findings)?.following(markers))
 }
 

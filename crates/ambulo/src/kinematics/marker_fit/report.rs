@@ -32,20 +32,21 @@ struct Correction {
 }
 
 impl Fitted {
-    /// The result with the corrected recording.
-    pub(super) fn following(self, mut recording: MarkerRecording) -> MarkerFit {
+    /// The result, and the recording after correction.
+    pub(super) fn following(self, mut recording: MarkerRecording) -> (MarkerFit, MarkerRecording) {
         for Correction { marker, frame, position } in self.corrections {
             recording.markers[marker].positions[frame] = position;
         }
-        MarkerFit {
+        let fit = MarkerFit {
             motion: self.motion,
             errors: self.errors,
             rms_m: self.rms_m,
-            followed: recording,
+            followed: None,
             iterations: self.iterations,
             converged: self.converged,
             solves: self.solves,
-        }
+        };
+        (fit, recording)
     }
 }
 

@@ -12,8 +12,8 @@ pub struct MarkerFit {
     /// RMS distance of the markers used in each frame [m]; NaN if none was visible.
     pub rms_m: Vec<f64>,
     /// The recording after correction: swapped labels are swapped back, outliers are removed, and missing markers are where the
-    /// fitted body has them, as far as its posture is known. Events and plates are detected from these markers.
-    pub followed: MarkerRecording,
+    /// fitted body has them, as far as its posture is known. Events and plates are detected from these markers; `None` where that is done.
+    pub followed: Option<MarkerRecording>,
     /// Iterations in each frame.
     pub iterations: Vec<usize>,
     /// Whether the iteration converged in each frame.
