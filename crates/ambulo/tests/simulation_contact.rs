@@ -895,6 +895,51 @@ fn a_point_that_strikes_and_sticks_loses_all_its_velocity() {
 }
 
 #[test]
+fn a_turntable_carries_what_lies_on_it() {
+    let mut world = of_rigid(0.9, 0.0);
+    let turn = Signal::OfTime(ambulo::model::Function::Linear { slope: 1.0, intercept: 0.0 }, 0.0);
+    let path = ObstaclePath { shift: [0; 3].map(|_| Signal::Constant(0.0)), axis: Vec3::y(), turn };
+    let table = add_obstacle(&mut world, Pose::IDENTITY, Some(path));
+    add_surface(&mut world, Owner::Obstacle(table), Shape::half_space(), Pose::IDENTITY);
+    let block = add_box(&mut world, 1.0, v(0.05, 0.05, 0.05), Pose::at(v(0.3, 0.05, 0.0)));
+    world.bodies[block].twist = ambulo::spatial::Twist { angular: Vec3::y(), linear: v(0.0, 0.0, -0.3) };
+    let mut run = Run::new(world, 1e-3);
+    run.to(1.0);
+    let expected = v(0.3 * 1.0_f64.cos(), 0.05, -0.3 * 1.0_f64.sin());
+    // A step of first order leaves the circle by r (ω h)²/2: 0.15 mm in a second.
+    assert!((run.place(block) - expected).norm() < 3e-4, "{} for {expected}", run.place(block));
+    // m ω² r towards the axis.
+    assert_near(force_on(&run, 1).xz().norm(), 0.3, 1e-3, "friction");
+}
+
+#[test]
+fn of_two_points_that_strike_within_a_step_the_one_that_touched_first_sticks_first() {
+    // At 2 m/s and steps of 10 us both reach the floor within one step.
+    for heights in [[1e-6, 6e-6], [6e-6, 1e-6]] {
+        let mut world = World { impact: ImpactLaw::Sticking, ..of_rigid(0.2, 0.0) };
+        add_floor(&mut world, Pose::IDENTITY);
+        for (x, height) in [0.0, 1.0].into_iter().zip(heights) {
+            let ball = add_ball(&mut world, 2.0, 0.1, v(x, 0.1 + height, 0.0));
+            world.bodies[ball].twist.linear = v(3.0, -2.0, 0.0);
+        }
+        let mut run = Run::new(world, 1e-5);
+        while run.workspace.impacts().is_empty() {
+            run.step();
+        }
+        let lower = usize::from(heights[1] < heights[0]);
+        let first = &run.workspace.impacts()[0];
+        // The point that sticks first is stopped along the floor as well: 2/7 of m v.
+        let along = |ball: usize| -> f64 {
+            let at = run.place(ball).x;
+            first.contacts.iter().filter(|c| (c.point.x - at).abs() < 0.5).map(|c| c.force.x.abs()).sum()
+        };
+        assert_near(along(lower), 2.0 / 7.0 * 2.0 * 3.0, 2e-3, "impulse along the floor");
+        assert!(along(1 - lower) < 0.9 * along(lower), "{}", along(1 - lower));
+        assert_near(run.velocity(lower).x, 15.0 / 7.0, 1e-3, "speed of rolling");
+    }
+}
+
+#[test]
 fn without_that_the_same_ball_bounces_and_slides() {
     let mut run = thrown_ball(ImpactLaw::Coulomb);
     run.to(0.01);
