@@ -108,7 +108,8 @@ fn wilson(hits: usize, trials: usize) -> (f64, f64) {
 fn origins<'a>(records: impl Iterator<Item = (&'a str, &'a Record)>) -> String {
     let one = |(name, record): (&str, &Record)| {
         let drawn = match (record.outcomes.len() < record.mutants, record.note.as_str()) {
-            (false, _) => "all mutants".to_owned(),
+            (false, "") => "all mutants".to_owned(),
+            (false, note) => format!("all mutants; {note}"),
             (true, "") => format!("seed {}", record.seed),
             (true, note) => note.to_owned(),
         };
