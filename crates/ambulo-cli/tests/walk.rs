@@ -169,6 +169,14 @@ fn machines_of_a_gait_file_drive_the_walk_and_their_states_are_written() {
     // States of machines in the table of states, below what they drive.
     let table = bench.run(&["walk", "--gait", "limp.toml", "--states"]).done().stdout;
     assert!(table.contains("driven by balancing arm") && table.contains("lifted, left foot is down"), "{table}");
+    // Then the run of states in order of time, with the same states as in the file, and the condition of each change.
+    let (_, run) = table.split_once("time s  machine").unwrap();
+    let times: Vec<f64> =
+        run.lines().skip(1).map(|line| line.split_whitespace().next().unwrap().parse().unwrap()).collect();
+    assert!(times.is_sorted(), "{run}");
+    let lifted = run.lines().filter(|line| line.contains("lifted  ") && line.ends_with("left foot is down")).count();
+    assert!(lifted >= 3, "{run}");
+    assert!(run.contains("the results begin") && run.contains("left contact"), "{run}");
     bench.write("nod.toml", "[[machine]]\nname = \"nod\"\ndrives = \"trunk\"\nstate = [{ name = \"on\", activity = \"recording\", file = \"none.sto\", column = \"x\" }]\n");
     bench.run(&["walk", "--gait", "nod.toml", "-o", "nod"]).refused(&[
         "nod.toml",
@@ -194,6 +202,11 @@ fn states_are_printed_and_drawn() {
     let json = bench.run(&["walk", "--states", "--json"]).done().stdout;
     let table = serde_json::from_str::<Value>(&json).unwrap()["states"].as_str().unwrap().to_owned();
     assert!(table.contains("right hip"), "{table}");
+    let run = serde_json::from_str::<Value>(&json).unwrap()["run"].as_array().unwrap().clone();
+    assert!(
+        run.iter().any(|row| row["machine"] == "left leg" && row["from"] == "stance" && row["to"] == "swing"),
+        "{run:?}"
+    );
 }
 
 #[test]

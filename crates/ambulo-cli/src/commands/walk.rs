@@ -12,7 +12,9 @@ use ambulo::gait::{Gait, PaceChange, Style, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::RecordedTable;
 use ambulo::numerics::NaturalSpline;
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, replay, synthesise};
+use ambulo::simulation::synthetic::{
+    SyntheticMode, SyntheticWalk, SyntheticWalkSettings, replay, run_of_states, synthesise,
+};
 use ambulo::simulation::walking::TorqueSeries;
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use ambulo_report::gait_figure;
@@ -27,22 +29,15 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let name = args.gait.gait.as_deref().unwrap_or(if args.torques.is_some() { "standard" } else { "free" });
     let (gait, mut read) = gait(name, &args.gait, &mut findings)?;
     let build = build(&args.figure)?;
+    let by_gait = || if gait.is_symmetric() { SyntheticMode::Corrected } else { SyntheticMode::Paper };
     if args.states {
-        let human = build.human()?;
-        let walk = Walk::new(&gait, human.dimensions.leg_length, &mut findings)?;
-        if let Some(output) = &args.output {
-            let file = gait_file(&walk)?;
-            let path = output.join(&file.name);
-            files::check_target(&path, &read, args.replace.existing())?;
-            files::write(&path, &file.bytes()?)?;
-        }
-        return printer::states(&state_table(&walk), &findings, args.print).map(|()| Completion::Passed);
+        let mode = args.mode.map_or_else(by_gait, WalkMode::mode);
+        return states(args, &shaped(&gait, build, mode, args), &read, findings);
     }
     let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
     let target = ResultTarget::for_run(output, args.replace.existing())?;
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
     read.extend(args.thresholds.clone());
-    let by_gait = || if gait.is_symmetric() { SyntheticMode::Corrected } else { SyntheticMode::Paper };
     let torques = args.torques.as_deref().map(|path| read_torques(path, &gait.name)).transpose()?;
     read.extend(args.torques.clone());
     if torques.is_some() && args.mode == Some(WalkMode::Corrected) {
@@ -53,7 +48,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
         (None, mode) => mode.map_or_else(by_gait, WalkMode::mode),
     };
     let gait = if mode == SyntheticMode::Corrected { style_for_correction(gait, name, &args.gait) } else { gait };
-    let walk_settings = SyntheticWalkSettings { gait: &gait, build, mode, cycles: args.cycles, rate_hz: args.rate };
+    let walk_settings = shaped(&gait, build, mode, args);
     let walk = match &torques {
         Some(torques) => replay(&walk_settings, torques, &mut findings)?,
         None => synthesise(&walk_settings, &mut findings)?,
@@ -71,6 +66,30 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
         check: args.check,
     };
     run.analyse_and_write(findings, clock, &target, args.print)
+}
+
+fn shaped<'a>(gait: &'a Gait, build: Build, mode: SyntheticMode, args: &WalkArgs) -> SyntheticWalkSettings<'a> {
+    SyntheticWalkSettings { gait, build, mode, cycles: args.cycles, rate_hz: args.rate }
+}
+
+/// Prints the machines of the gait and the run of their states; draws the gait if a folder is given.
+fn states(
+    args: &WalkArgs,
+    settings: &SyntheticWalkSettings<'_>,
+    read: &[PathBuf],
+    mut findings: Findings,
+) -> Result<Completion> {
+    let human = settings.build.human()?;
+    let walk = Walk::new(settings.gait, human.dimensions.leg_length, &mut findings)?;
+    // The same remarks would be made about the same gait.
+    let changes = run_of_states(settings, &mut Findings::default())?;
+    if let Some(output) = &args.output {
+        let file = gait_file(&walk)?;
+        let path = output.join(&file.name);
+        files::check_target(&path, read, args.replace.existing())?;
+        files::write(&path, &file.bytes()?)?;
+    }
+    printer::states(&state_table(&walk), &changes, &findings, args.print).map(|()| Completion::Passed)
 }
 
 /// The command with the options that matter for the results.

@@ -21,6 +21,7 @@ use crate::args::PrintArgs;
 use crate::hints;
 use ambulo::analysis::feasibility::{Verdict, VerdictState};
 use ambulo::findings::{Finding, Findings, Severity};
+use ambulo::gait::machine::{StateChange, change_table};
 use anyhow::Result;
 use std::borrow::Cow;
 use std::io::{ErrorKind, Write, stdout};
@@ -81,15 +82,22 @@ pub(crate) fn progress(what: &str, print: PrintArgs) {
 }
 
 /// Prints the state machine of a gait.
-pub(crate) fn states(table: &str, findings: &Findings, print: PrintArgs) -> Result<()> {
+pub(crate) fn states(table: &str, changes: &[StateChange], findings: &Findings, print: PrintArgs) -> Result<()> {
     if print.quiet {
         return Ok(());
     }
     print_findings(findings.as_slice());
     if print.json {
-        return print_line(&serde_json::to_string_pretty(&serde_json::json!({ "states": table }))?);
+        let change = |change: &StateChange| {
+            let StateChange { time_s, machine, from, to, when } = change;
+            serde_json::json!({ "time_s": time_s, "machine": machine, "from": from, "to": to, "because": when })
+        };
+        let run: Vec<_> = changes.iter().map(change).collect();
+        return print_line(&serde_json::to_string_pretty(&serde_json::json!({ "states": table, "run": run }))?);
     }
-    print_line(table.trim_end())
+    print_line(table.trim_end())?;
+    print_line("")?;
+    print_line(change_table(changes).trim_end())
 }
 
 fn print_findings(findings: &[Finding]) {

@@ -45,8 +45,22 @@ pub(super) struct Active {
     pub(super) interrupted: Option<usize>,
     /// Time [s] and steps of the figure when it entered its state.
     pub(super) entered: [f64; 2],
+    /// Why it entered its state.
+    pub(super) cause: Cause,
     pub(super) output: Jet,
     pub(super) passage: Option<Passage>,
+}
+
+/// Why a machine is in its state.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) enum Cause {
+    /// It started in it.
+    #[default]
+    Start,
+    /// Its gate opened, or closed.
+    Gate(bool),
+    /// A transition by its number.
+    Transition(usize),
 }
 
 /// The rest of an earlier activity, which fades within some time.
@@ -190,6 +204,17 @@ pub struct Span {
     pub window: [f64; 2],
     /// Angles at start and end [rad].
     pub bounds: Option<[f64; 2]>,
+}
+
+impl Gate {
+    /// Why the machine starts, or is interrupted.
+    pub(super) fn reason(&self, opens: bool) -> String {
+        match (&self.during, opens) {
+            (Some((machine, state)), true) => format!("{machine} is in {state}"),
+            (Some((machine, state)), false) => format!("{machine} left {state}"),
+            (None, _) => "the machines begin".to_owned(),
+        }
+    }
 }
 
 impl State {

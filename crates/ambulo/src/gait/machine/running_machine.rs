@@ -14,7 +14,9 @@
 //! A machine with a gate is in its first state until the gate opens, and again when it closes; the gate is tested before transitions.
 //! A step does not allocate. Pinned by: tests/gait_machine.rs.
 
-use super::definition::{Active, ChildOutputs, Gate, Machine, MachineInputs, Passage, Sensed, State, Transition};
+use super::definition::{
+    Active, Cause, ChildOutputs, Gate, Machine, MachineInputs, Passage, Sensed, State, Transition,
+};
 use crate::gait::jet::Jet;
 use crate::gait::pace_plan::Clock;
 
@@ -26,6 +28,8 @@ pub struct RunningMachine {
     names: Vec<String>,
     /// States of each machine.
     states: Vec<Vec<State>>,
+    /// Conditions of the transitions of each machine, and those of its gate: closed, open.
+    reasons: Vec<Reasons>,
     /// State and output of every machine before and after the last step, in the order of the names.
     before: Vec<Active>,
     after: Vec<Active>,
@@ -35,10 +39,10 @@ impl RunningMachine {
     /// A machine before its first step.
     #[must_use]
     pub fn new(machine: Machine) -> RunningMachine {
-        let (mut names, mut states) = (Vec::new(), Vec::new());
-        list(&machine, &mut names, &mut states);
+        let (mut names, mut states, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
+        list(&machine, &mut names, &mut states, &mut reasons);
         let start = vec![Active::default(); names.len()];
-        RunningMachine { machine, names, states, before: start.clone(), after: start }
+        RunningMachine { machine, names, states, reasons, before: start.clone(), after: start }
     }
 
     /// The machine itself.
@@ -91,6 +95,17 @@ impl RunningMachine {
         &self.states[machine][state].name
     }
 
+    /// The condition that brought a machine into its state; `None` for the state in which it started.
+    #[must_use]
+    pub fn reason(&self, machine: usize) -> Option<&str> {
+        let (transitions, gate) = &self.reasons[machine];
+        match self.after[machine].cause {
+            Cause::Start => None,
+            Cause::Gate(opens) => gate.as_ref().map(|words| words[usize::from(opens)].as_str()),
+            Cause::Transition(number) => transitions.get(number).map(String::as_str),
+        }
+    }
+
     /// Output of a machine in the last step.
     #[must_use]
     pub fn output(&self, machine: usize) -> Jet {
@@ -98,11 +113,15 @@ impl RunningMachine {
     }
 }
 
-fn list(machine: &Machine, names: &mut Vec<String>, states: &mut Vec<Vec<State>>) {
+type Reasons = (Vec<String>, Option<[String; 2]>);
+
+fn list(machine: &Machine, names: &mut Vec<String>, states: &mut Vec<Vec<State>>, reasons: &mut Vec<Reasons>) {
     names.push(machine.name.clone());
     states.push(machine.states.clone());
+    let conditions = machine.transitions.iter().map(|transition| transition.when.clone()).collect();
+    reasons.push((conditions, machine.gate.as_ref().map(|gate| [false, true].map(|opens| gate.reason(opens)))));
     for child in &machine.children {
-        list(child, names, states);
+        list(child, names, states, reasons);
     }
 }
 
@@ -125,8 +144,8 @@ fn run(machine: &Machine, number: usize, inputs: &MachineInputs<'_>, after: &mut
     }
     let output = passage.map_or(output, |passage| output + passage.at(time_s));
     let passage = passage.filter(|passage| !passage.is_over(time_s));
-    after[number] =
-        Active { state: taken.state, interrupted: taken.interrupted, entered: taken.entered, output, passage };
+    let Settled { state, interrupted, entered, cause, .. } = taken;
+    after[number] = Active { state, interrupted, entered, cause, output, passage };
     next
 }
 
@@ -137,29 +156,30 @@ struct Settled {
     interrupted: Option<usize>,
     /// Time [s] and steps of the figure when the state was entered.
     entered: [f64; 2],
+    cause: Cause,
     /// Duration of the passage to it [s].
     within_s: f64,
 }
 
 impl Settled {
-    fn enter(&mut self, state: usize, within_s: f64, inputs: &MachineInputs<'_>) {
-        (self.state, self.within_s) = (state, within_s);
+    fn enter(&mut self, state: usize, cause: Cause, within_s: f64, inputs: &MachineInputs<'_>) {
+        (self.state, self.cause, self.within_s) = (state, cause, within_s);
         self.entered = [inputs.sensed.time_s, 2.0 * inputs.clock.phase.value];
     }
 }
 
 /// The state after all transitions of this step.
 fn settled(machine: &Machine, before: &Active, inputs: &MachineInputs<'_>) -> Settled {
-    let Active { state, interrupted, entered, .. } = *before;
-    let mut settled = Settled { state, interrupted, entered, within_s: 0.0 };
+    let Active { state, interrupted, entered, cause, .. } = *before;
+    let mut settled = Settled { state, interrupted, entered, cause, within_s: 0.0 };
     if let Some(gate) = &machine.gate {
         let open = is_open(gate, inputs);
         if open && state == 0 {
             let first = interrupted.filter(|_| gate.resumes).unwrap_or(1);
-            settled.enter(first, gate.within_s[0], inputs);
+            settled.enter(first, Cause::Gate(true), gate.within_s[0], inputs);
             settled.interrupted = None;
         } else if !open && state > 0 {
-            settled.enter(0, gate.within_s[1], inputs);
+            settled.enter(0, Cause::Gate(false), gate.within_s[1], inputs);
             settled.interrupted = Some(state);
         }
         if !open {
@@ -168,9 +188,9 @@ fn settled(machine: &Machine, before: &Active, inputs: &MachineInputs<'_>) -> Se
     }
     for _ in 0..machine.states.len() {
         let now = MachineInputs { entered: settled.entered, ..*inputs };
-        let leaves = |transition: &&Transition| transition.from == settled.state && (transition.condition)(&now);
-        match machine.transitions.iter().find(leaves) {
-            Some(transition) => settled.enter(transition.to, transition.within_s, inputs),
+        let leaves = |transition: &Transition| transition.from == settled.state && (transition.condition)(&now);
+        match machine.transitions.iter().enumerate().find(|(_, transition)| leaves(transition)) {
+            Some((k, taken)) => settled.enter(taken.to, Cause::Transition(k), taken.within_s, inputs),
             None => break,
         }
     }

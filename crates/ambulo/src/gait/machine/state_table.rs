@@ -1,6 +1,7 @@
 //! Lists the states of a machine as rows and as a table of text, with their windows, angles and transitions.
 
 use super::definition::{Machine, Span, State};
+use super::state_trace::StateChange;
 use super::walking_machine;
 use crate::gait::walk::Walk;
 use std::fmt::Write;
@@ -64,14 +65,38 @@ pub fn state_table(walk: &Walk) -> String {
         rows.push(cells(&row, row.machine != machine));
         machine = row.machine;
     }
+    text.push_str(&aligned(&rows, 2..6));
+    text
+}
+
+/// Changes of states as text, one line each, in their order. Where the trace begins, a line has the state in which a machine starts.
+#[must_use]
+pub fn change_table(changes: &[StateChange]) -> String {
+    let header = ["time s", "machine", "from", "to", "because"].map(String::from);
+    let row = |StateChange { time_s, machine, from, to, when }: &StateChange| {
+        let because = if from.is_none() { "the results begin" } else { when };
+        let from = from.as_deref().unwrap_or("-");
+        [&format!("{time_s:.3}"), machine.as_str(), from, to, because].map(String::from)
+    };
+    let rows: Vec<[String; 5]> = std::iter::once(header).chain(changes.iter().map(row)).collect();
+    aligned(&rows, 0..1)
+}
+
+/// Rows of text in columns; those of numbers end at the same place.
+fn aligned<const N: usize>(rows: &[[String; N]], numeric: std::ops::Range<usize>) -> String {
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..7).map(width).collect();
-    for row in &rows {
+    let widths: [usize; N] = std::array::from_fn(width);
+    let mut text = String::new();
+    for row in rows {
         let mut line = String::new();
         for (column, cell) in row.iter().enumerate() {
-            let (width, numeric) = (widths[column], (2..6).contains(&column));
+            let width = widths[column];
             // Writing to a string cannot fail.
-            let _ = if numeric { write!(line, "{cell:>width$}  ") } else { write!(line, "{cell:<width$}  ") };
+            let _ = if numeric.contains(&column) {
+                write!(line, "{cell:>width$}  ")
+            } else {
+                write!(line, "{cell:<width$}  ")
+            };
         }
         text.push_str(line.trim_end());
         text.push('\n');

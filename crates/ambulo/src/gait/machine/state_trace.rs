@@ -13,6 +13,21 @@ pub struct StatePeriod {
     pub time_s: [f64; 2],
 }
 
+/// A change of a machine from one state to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateChange {
+    /// When [s].
+    pub time_s: f64,
+    /// Name of the machine.
+    pub machine: String,
+    /// The state that it left; `None` where the trace begins.
+    pub from: Option<String>,
+    /// The state that it entered.
+    pub to: String,
+    /// The condition that was true; empty where the trace begins.
+    pub when: String,
+}
+
 /// The states of all machines of a tree since its first step.
 #[derive(Debug, Clone, Default)]
 pub struct StateTrace {
@@ -20,6 +35,8 @@ pub struct StateTrace {
     open: Vec<(usize, f64)>,
     /// Number of the machine, state, start and end [s].
     closed: Vec<(usize, usize, [f64; 2])>,
+    /// Every change, in order of time.
+    changes: Vec<StateChange>,
 }
 
 impl StateTrace {
@@ -32,6 +49,13 @@ impl StateTrace {
             let now = running.state(machine);
             if now != *state {
                 self.closed.push((machine, *state, [*since_s, time_s]));
+                self.changes.push(StateChange {
+                    time_s,
+                    machine: running.names()[machine].clone(),
+                    from: Some(running.name_of(machine, *state).to_owned()),
+                    to: running.state_name(machine).to_owned(),
+                    when: running.reason(machine).unwrap_or_default().to_owned(),
+                });
                 (*state, *since_s) = (now, time_s);
             }
         }
@@ -50,5 +74,21 @@ impl StateTrace {
             time_s: [start.max(zero_s) - zero_s, end.min(end_s) - zero_s],
         };
         all.into_iter().map(period).collect()
+    }
+
+    /// The states in which all machines are at `zero_s`, parents before children, and every change until `end_s` in order of time. Times count
+    /// from `zero_s`.
+    #[must_use]
+    pub fn changes(&self, running: &RunningMachine, zero_s: f64, end_s: f64) -> Vec<StateChange> {
+        let first = self.periods(running, zero_s, end_s).into_iter().filter(|period| period.time_s[0] <= 0.0);
+        let start = first.map(|StatePeriod { machine, state, .. }| StateChange {
+            time_s: 0.0,
+            machine,
+            from: None,
+            to: state,
+            when: String::new(),
+        });
+        let inside = self.changes.iter().filter(|change| change.time_s > zero_s && change.time_s < end_s);
+        start.chain(inside.map(|change| StateChange { time_s: change.time_s - zero_s, ..change.clone() })).collect()
     }
 }

@@ -11,6 +11,6 @@ mod modes;
 mod walk;
 
 pub use crate::numerics::Progress;
-pub use modes::{replay, synthesise};
+pub use modes::{replay, run_of_states, synthesise};
 pub use settings::{MOST_CYCLES, RATES_HZ, SyntheticError, SyntheticMode, SyntheticWalkSettings};
 pub use walk::{CorrectionReport, PaceReached, SyntheticWalk, WalkReport};

@@ -1,15 +1,17 @@
 //! Synthesis of a walk, in the two modes.
 
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
-use super::walk::{CorrectionReport, KeptPart, Made, SyntheticWalk, steady};
+use super::walk::{CorrectionReport, KeptPart, Made, StateRun, SyntheticWalk, steady};
 use crate::findings::{Code, Findings};
-use crate::gait::machine::planned;
+use crate::gait::machine::{StateChange, planned};
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
 use crate::simulation::consistent_walk::{
     ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
 };
-use crate::simulation::walking::{GaitTargets, GroundContact, Release, Shoes, TorqueSeries, Walker, gait_signals};
+use crate::simulation::walking::{
+    GaitTargets, GroundContact, Release, Shoes, TorqueSeries, WalkRecording, Walker, gait_signals,
+};
 use crate::simulation::{ImpactLaw, StepSettings};
 
 /// Cycles before the corrected walk is steady; it starts with the planned motion.
@@ -150,19 +152,68 @@ fn paper(
     human: Human,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
+    let (walk, kept) = paper_plan(settings, &human, findings)?;
+    let (recording, states) = paper_run(settings, &human, &walk, &kept, findings)?;
+    steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None })
+}
+
+fn paper_plan(
+    settings: &SyntheticWalkSettings<'_>,
+    human: &Human,
+    findings: &mut Findings,
+) -> Result<(Walk, KeptPart), SyntheticError> {
     let gait = Gait { pelvis: Pelvis::Vertical, ..settings.gait.clone() };
-    let (walk, kept) = timed(settings, &gait, &human, PAPER_SKIPPED, findings)?;
+    timed(settings, &gait, human, PAPER_SKIPPED, findings)
+}
+
+fn paper_run(
+    settings: &SyntheticWalkSettings<'_>,
+    human: &Human,
+    walk: &Walk,
+    kept: &KeptPart,
+    findings: &mut Findings,
+) -> Result<(WalkRecording, StateRun), SyntheticError> {
     let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
-    let signals = gait_signals(&walk, &human.model, 0.0, kept.simulated_s + step.step_s)?;
-    let walker = Walker::new(&human, signals, &PAPER_GROUND, walk.speed())?;
+    let signals = gait_signals(walk, &human.model, 0.0, kept.simulated_s + step.step_s)?;
+    let walker = Walker::new(human, signals, &PAPER_GROUND, walk.speed())?;
     let mut targets =
-        if walk.gait().machines_read_simulation() { Some(GaitTargets::new(&walk, &human.model, &[])?) } else { None };
+        if walk.gait().machines_read_simulation() { Some(GaitTargets::new(walk, &human.model, &[])?) } else { None };
     let recording = walker.walk_with(targets.as_mut(), &step, kept.simulated_s, findings)?;
     let states = match &targets {
         Some(targets) => kept.traced(settings, targets.trace(), targets.machine()),
-        None => kept.states(settings, &walk),
+        None => kept.states(settings, walk),
     };
-    steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None })
+    Ok((recording, states))
+}
+
+/// The run of states of a walk: the first state of each machine, then every change in order of time. Only a gait whose machines read the
+/// simulation, in the paper's mode, is simulated for it.
+///
+/// # Errors
+/// As [`synthesise`].
+pub fn run_of_states(
+    settings: &SyntheticWalkSettings<'_>,
+    findings: &mut Findings,
+) -> Result<Vec<StateChange>, SyntheticError> {
+    settings.check()?;
+    let human = settings.build.human()?;
+    let states = match settings.mode {
+        SyntheticMode::Paper => {
+            let (walk, kept) = paper_plan(settings, &human, findings)?;
+            if walk.gait().machines_read_simulation() {
+                paper_run(settings, &human, &walk, &kept, findings)?.1
+            } else {
+                // Machines that drive coordinates which the figure does not have are refused as in a simulation.
+                GaitTargets::new(&walk, &human.model, &[])?;
+                kept.states(settings, &walk)
+            }
+        }
+        SyntheticMode::Corrected => {
+            let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
+            kept.states(settings, &walk)
+        }
+    };
+    Ok(states.changes)
 }
 
 /// Replays torques without feedback: the gait is walked in the paper's mode, then its joints and its trunk are let go at a nominal strike of the

@@ -1,7 +1,7 @@
 //! The result of a synthesis: the steady part of a simulated walk, and a report on how it was made.
 
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
-use crate::gait::machine::{StatePeriod, StateTrace, WalkMachine};
+use crate::gait::machine::{StateChange, StatePeriod, StateTrace, WalkMachine};
 use crate::gait::{PaceRamp, Style, Walk};
 use crate::kinematics::Trajectory;
 use crate::model::anthropometry::{Human, SegmentTable};
@@ -25,6 +25,8 @@ pub struct SyntheticWalk {
     pub efforts: Vec<Vec<f64>>,
     /// The states of the machines of the gait, in time of the kept motion.
     pub states: Vec<StatePeriod>,
+    /// The same states as changes in order of time, beginning with the first state of each machine.
+    pub state_changes: Vec<StateChange>,
     /// How the walk was made, in numbers.
     pub report: WalkReport,
 }
@@ -169,7 +171,7 @@ impl KeptPart {
     }
 
     /// The states of a walk whose machines read the clock alone.
-    pub(super) fn states(&self, settings: &SyntheticWalkSettings<'_>, walk: &Walk) -> Vec<StatePeriod> {
+    pub(super) fn states(&self, settings: &SyntheticWalkSettings<'_>, walk: &Walk) -> StateRun {
         let ([first_s, last_s], step_s) = (self.ends_s(settings), settings.step_s());
         let (mut machine, mut trace) = (WalkMachine::new(walk), StateTrace::default());
         for step in 0..=((last_s - first_s) / step_s) as usize {
@@ -186,16 +188,22 @@ impl KeptPart {
         settings: &SyntheticWalkSettings<'_>,
         trace: &StateTrace,
         machine: &WalkMachine,
-    ) -> Vec<StatePeriod> {
-        let [first_s, last_s] = self.ends_s(settings);
-        trace.periods(machine.running(), first_s, last_s)
+    ) -> StateRun {
+        let ([first_s, last_s], running) = (self.ends_s(settings), machine.running());
+        StateRun { periods: trace.periods(running, first_s, last_s), changes: trace.changes(running, first_s, last_s) }
     }
+}
+
+/// The states of the machines of a kept part: machine by machine, and in order of time.
+pub(super) struct StateRun {
+    periods: Vec<StatePeriod>,
+    pub(super) changes: Vec<StateChange>,
 }
 
 /// The simulation of a gait in one of the modes.
 pub(super) struct Made<'a> {
     pub(super) recording: &'a WalkRecording,
-    pub(super) states: Vec<StatePeriod>,
+    pub(super) states: StateRun,
     pub(super) correction: Option<CorrectionReport>,
 }
 
@@ -212,7 +220,8 @@ pub(super) fn steady(
     let excerpt = recording.excerpt(rows)?;
     let report = report(settings, rows, &human, &walk, recording, correction);
     let (trajectory, loads, efforts) = (excerpt.trajectory, excerpt.loads, excerpt.efforts);
-    Ok(SyntheticWalk { human, walk, trajectory, loads, efforts, states, report })
+    let StateRun { periods: states, changes: state_changes } = states;
+    Ok(SyntheticWalk { human, walk, trajectory, loads, efforts, states, state_changes, report })
 }
 
 /// The changes of pace in time of the kept motion, which begins at `start_s`.
