@@ -36,9 +36,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in ["pendulum", "four-bar", "carry", "top"] {
         copy("scene", &format!("examples/{name}.toml"))?;
     }
-    for name in ["pendulum", "four-bar", "top", "pile", "slope", "grasp"] {
+    for name in ["pendulum", "four-bar", "top", "pile", "slope"] {
         copy("scene_run", &format!("examples/{name}.toml"))?;
     }
+    copy("scene_run", "crates/ambulo/data/scenes/grasp.toml")?;
     save("saved_state", "top.json", &saved()?)?;
     save("thresholds", "weak.toml", THRESHOLDS.as_bytes())?;
     save("result_folder", "events.csv", b"time,side,event\n0.5,right,foot strike\n1.1,right,foot off\n")?;

@@ -2,7 +2,7 @@
 //!
 //! | part       | must hold                                                                                            |
 //! |------------|------------------------------------------------------------------------------------------------------|
-//! | examples   | every scene in `examples/` can be simulated and every gait walked, every program in `crates/*/examples` ends without error |
+//! | examples   | every scene in `examples/` and in the library can be simulated and every gait walked, every program in `crates/*/examples` ends without error |
 //! | recordings | `ambulo info` on every file of the data folder, and `ambulo forces` on every recording with markers or a skeleton, end with an exit code of their own: 0, 1 or 2, never by a panic |
 //! | kills      | after a run that was killed at a random time while it replaced other results, a folder has all old or all new results and the user's own files, and the same command then gives the same files as in an empty folder |
 
@@ -37,7 +37,8 @@ pub(crate) fn run() -> Result<(), String> {
     let scratch = Scratch::new()?;
     let program = release_program()?;
     let mut failures = Vec::new();
-    let files = below(&workspace::root().join("examples"))?;
+    let mut files = below(&workspace::root().join("examples"))?;
+    files.extend(below(&workspace::root().join("crates/ambulo/data/scenes"))?);
     for file in &files {
         let is_gait = file.parent().is_some_and(|folder| folder.ends_with("gaits"));
         let verb: &[&str] = if is_gait { &["walk", "--gait"] } else { &["simulate"] };

@@ -108,11 +108,14 @@ fn root() -> PathBuf {
 }
 
 fn examples() -> Vec<(String, String)> {
-    let folder = root().join("examples");
-    let listing = fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
-    let mut paths: Vec<PathBuf> = listing.map(|entry| entry.expect("a listing").path()).collect();
+    let listing = |folder: &str| {
+        let folder = root().join(folder);
+        fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
+    };
+    let both = listing("examples").chain(listing("crates/ambulo/data/scenes"));
+    let mut paths: Vec<PathBuf> = both.map(|entry| entry.expect("a listing").path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
-    paths.sort();
+    paths.sort_by(|a, b| a.file_name().cmp(&b.file_name()));
     let name = |path: &PathBuf| path.file_stem().expect("a name").to_string_lossy().into_owned();
     paths.iter().map(|path| (name(path), fs::read_to_string(path).expect("a text"))).collect()
 }

@@ -16,6 +16,13 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
 }
 
+/// A scene of `examples/`, or one of the library's own.
+fn path_of(name: &str) -> PathBuf {
+    let own = folder().join(name);
+    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes").join(name);
+    if own.is_file() { own } else { library }
+}
+
 fn build_in(folder: &Path, text: &str, changes: SceneSettings) -> Result<(Scene, Findings), SceneError> {
     let mut findings = Findings::default();
     let mut load = |path: &str| std::fs::read(folder.join(path)).map_err(|e| format!("{path}: {e}"));
@@ -35,7 +42,7 @@ fn refusal(text: &str) -> String {
 
 /// An example, shortened to `duration_s`.
 fn example(name: &str, duration_s: f64) -> Scene {
-    let text = std::fs::read_to_string(folder().join(name)).unwrap();
+    let text = std::fs::read_to_string(path_of(name)).unwrap();
     let changes = SceneSettings { duration_s: Some(duration_s), ..SceneSettings::default() };
     build_in(&folder(), &text, changes).unwrap_or_else(|e| panic!("{name}: {e}")).0
 }
@@ -198,7 +205,7 @@ fn friction_lifts_and_holds_the_box() {
 #[test]
 fn a_gripper_too_weak_for_its_own_fingers_is_reported() {
     // 0.2 kg reach 25 mm in 0.6 s with at most 0.08 N; the fingers get less, and touch nothing but air.
-    let text = std::fs::read_to_string(folder().join("grasp.toml")).unwrap();
+    let text = std::fs::read_to_string(path_of("grasp.toml")).unwrap();
     let weak = text.replace("drive_max = 20 ", "drive_max = 0.01 ");
     let changes = SceneSettings { duration_s: Some(0.4), ..SceneSettings::default() };
     let (mut scene, _) = build_in(&folder(), &weak, changes).unwrap();
@@ -208,7 +215,7 @@ fn a_gripper_too_weak_for_its_own_fingers_is_reported() {
 
 #[test]
 fn without_friction_the_box_stays_on_the_table() {
-    let text = std::fs::read_to_string(folder().join("grasp.toml")).unwrap();
+    let text = std::fs::read_to_string(path_of("grasp.toml")).unwrap();
     let slippery = text.replace("friction = 0.8", "friction = 0.0");
     let changes = SceneSettings { duration_s: Some(1.8), ..SceneSettings::default() };
     let (mut scene, _) = build_in(&folder(), &slippery, changes).unwrap();

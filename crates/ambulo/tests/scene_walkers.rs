@@ -16,6 +16,13 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
 }
 
+/// A scene of `examples/`, or one of the library's own.
+fn path_of(name: &str) -> PathBuf {
+    let own = folder().join(name);
+    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes").join(name);
+    if own.is_file() { own } else { library }
+}
+
 fn built(text: &str) -> Result<Scene, SceneError> {
     let mut load = |path: &str| std::fs::read(folder().join(path)).map_err(|e| format!("{path}: {e}"));
     Scene::build(&SceneFile::parse(text)?, SceneSettings::default(), &mut load, &mut Findings::default())
@@ -26,7 +33,7 @@ fn scene(text: &str) -> Scene {
 }
 
 fn example(name: &str) -> String {
-    std::fs::read_to_string(folder().join(name)).unwrap()
+    std::fs::read_to_string(path_of(name)).unwrap()
 }
 
 fn run(scene: &mut Scene, visit: impl FnMut(&SceneFrame<'_>)) {

@@ -1,5 +1,5 @@
 //! Claims about other bodies and figures: loops cost from linear to quadratic time, obstacles move, a gripper grasps, two people walk hand in
-//! hand. They are simulated once, in the scenes of `examples/`, and do not depend on the mode of walking.
+//! hand. They are simulated once, in the scenes of `data/scenes`, which are examples too, and do not depend on the mode of walking.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::Scope;
@@ -8,9 +8,9 @@ use crate::simulation::scene::{RunStatistics, Scene, SceneFile, SceneFrame, Scen
 use std::fmt::Write;
 use std::sync::LazyLock;
 
-const GRASP: &str = include_str!("../../../../examples/grasp.toml");
-const PUSHER: &str = include_str!("../../../../examples/pusher.toml");
-const HANDS: &str = include_str!("../../../../examples/hand-in-hand.toml");
+const GRASP: &str = include_str!("../../data/scenes/grasp.toml");
+const PUSHER: &str = include_str!("../../data/scenes/pusher.toml");
+const HANDS: &str = include_str!("../../data/scenes/hand-in-hand.toml");
 
 /// Rungs of the ladders whose cost is compared.
 const RUNGS: [usize; 3] = [10, 20, 40];
@@ -59,7 +59,7 @@ pub(super) const OBSTACLE: Statement = Statement {
         let (swept, deep) = (number(paper, "swept_m"), number(paper, "largest_overlap_m"));
         let note = format!(
             "passes if a paddle with a prescribed motion sweeps a box of 3 kg over a floor by more than 0.1 m and no overlap is deeper than 1 mm; \
-             {swept:.2} m, {:.2} mm (`examples/pusher.toml`)",
+             {swept:.2} m, {:.2} mm (`crates/ambulo/data/scenes/pusher.toml`)",
             1000.0 * deep
         );
         (swept > 0.1 && deep < 1e-3, note)
@@ -80,7 +80,7 @@ pub(super) const GRASP_CLAIM: Statement = Statement {
         let (lifted, slip) = (number(paper, "lifted_m"), number(paper, "slip_m"));
         let note = format!(
             "passes if two fingers of a gripper lift a box by 0.3 m with friction alone and it slips by less than 1 mm; {lifted:.3} m, {:.3} mm \
-             (`examples/grasp.toml`)",
+             (`crates/ambulo/data/scenes/grasp.toml`)",
             1000.0 * slip
         );
         ((lifted - 0.3).abs() < 1e-3 && slip < 1e-3, note)
@@ -102,7 +102,7 @@ pub(super) const HAND_IN_HAND: Statement = Statement {
         let (gap, apart, force) = (of("largest_gap_m"), of("apart_m"), of("largest_force_n"));
         let note = format!(
             "passes if the hands of two people of different size stay within 1 mm for {HANDS_S} s of walking and one is never more than half a \
-             step ahead of where both began; {:.3} mm, {apart:.2} m ahead, at most {force:.0} N between the hands (`examples/hand-in-hand.toml`)",
+             step ahead of where both began; {:.3} mm, {apart:.2} m ahead, at most {force:.0} N between the hands (`crates/ambulo/data/scenes/hand-in-hand.toml`)",
             1000.0 * gap
         );
         (gap < CLOSED_M && apart < 0.35, note)
