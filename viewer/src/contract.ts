@@ -79,6 +79,10 @@ cycles: Array<PageCycle>,
  */
 groups: Array<Group>, 
 /**
+ * The state machines of a synthetic walk, parents before children; empty for recordings and scenes.
+ */
+machines: Array<PageMachine>, 
+/**
  * Time and distance, extracted values, symmetry.
  */
 tables: Array<Table>, 
@@ -144,6 +148,34 @@ strike: boolean,
  * When [s].
  */
 time_s: number, };
+
+export type PageMachine = { 
+/**
+ * Its name: `left knee`.
+ */
+name: string, 
+/**
+ * Names of its states, in the order in which they were entered first.
+ */
+states: Array<string>, 
+/**
+ * Times in its states, without gaps.
+ */
+periods: Array<PagePeriod>, };
+
+export type PagePeriod = { 
+/**
+ * Place in `states`.
+ */
+state: number, 
+/**
+ * From [s].
+ */
+from_s: number, 
+/**
+ * To [s].
+ */
+to_s: number, };
 
 export type PageCycle = { 
 /**

@@ -10,6 +10,7 @@ import { about, header } from "./header";
 import { helpDialog } from "./help";
 import { listenToKeys } from "./keyboard";
 import { legend } from "./legend";
+import { machines } from "./machines";
 import { Panels } from "./panels";
 import { prepareForPaper } from "./paper";
 import { cycleAt, timeAt } from "./phase";
@@ -23,6 +24,7 @@ import "./css/page.css";
 import "./css/stage.css";
 import "./css/panel.css";
 import "./css/table.css";
+import "./css/machines.css";
 import "./css/print.css";
 
 /** Percent of a right cycle at which the page opens: the leg is loaded, so the first picture shows forces. */
@@ -94,7 +96,9 @@ function content(context: Context, panels: Panels): HTMLElement {
     ...chapter(
       "curves",
       "Curves",
-      curves.length > 0 ? [legend(context, panels), ...cycleless(context), ...curves, sources(context, panels)] : [],
+      curves.length > 0
+        ? [legend(context, panels), ...cycleless(context), ...curves, ...machines(context), sources(context, panels)]
+        : [],
     ),
     ...feasibility(context, panels),
     ...chapter("tables", "Numbers", abreast(numbers)),

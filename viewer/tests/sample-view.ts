@@ -80,6 +80,7 @@ function sampleSession(numbers: SampleNumbers, walk: SampleWalk): Session {
     events: eventsOf(walk),
     cycles: [],
     groups: [],
+    machines: [],
     tables: [],
     quality: { facts: [], groups: [], tables: [], findings: [], assumptions: [] },
     feasibility: null,

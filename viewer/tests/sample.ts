@@ -4,6 +4,8 @@ import {
   type Page,
   type PageCycle,
   type PageEvent,
+  type PageMachine,
+  type PagePeriod,
   type PageSide,
   type Panel,
   type RedSpan,
@@ -98,6 +100,21 @@ export interface Variant {
   readonly red: boolean;
 }
 
+/** A leg with two states, and an arm that rests. */
+function machines(): PageMachine[] {
+  const end = START_S + (FRAMES - 1) * STEP_S;
+  const periods: PagePeriod[] = [];
+  for (let from_s = START_S, state = 0; from_s < end; state = 1 - state) {
+    const to_s = Math.min(from_s + STRIDE_S * (state === 0 ? TOE_OFF : 1 - TOE_OFF), end);
+    periods.push({ state, from_s, to_s });
+    from_s = to_s;
+  }
+  return [
+    { name: "right leg", states: ["stance", "swing"], periods },
+    { name: "right arm", states: ["rest"], periods: [{ state: 0, from_s: START_S, to_s: end }] },
+  ];
+}
+
 /** A page of invented sessions that contains every kind of element. */
 export function samplePage(block: Block, variants: readonly Variant[]): Page {
   const title = variants.map((variant) => variant.name).join(" / ");
@@ -138,6 +155,7 @@ function session(block: Block, variant: Variant): Session {
     time: { start_s: START_S, step_s: STEP_S, frames: FRAMES },
     events: events(),
     cycles: variant.cycles ? cycles() : [],
+    machines: variant.cycles ? machines() : [],
     groups: [
       group("kinematics", "Joint angles", 4, KINEMATICS, null),
       group("kinetics", "Joint moments and powers", 4, KINETICS, "Internal moments: moments of muscles and ligaments."),

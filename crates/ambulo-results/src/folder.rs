@@ -4,9 +4,10 @@ use crate::cycle_table::{self, CycleRow};
 use crate::files::OutputFile;
 use crate::run_summary::RunSummary;
 use crate::sound::{EXPECTED, is_sound};
-use crate::{CYCLES, EVENTS, tables};
+use crate::{CYCLES, EVENTS, STATES, state_table, tables};
 use ambulo::analysis::Event;
 use ambulo::findings::Findings;
+use ambulo::gait::machine::StatePeriod;
 use ambulo::model::Model;
 use ambulo_formats::table::Table;
 use ambulo_formats::{Error as FormatError, Remark};
@@ -133,6 +134,15 @@ impl<'a> Folder<'a> {
         }
         let Some(text) = self.text(CYCLES)? else { return Ok(Vec::new()) };
         cycle_table::read(&text).map_err(|reason| self.unreadable(CYCLES, reason))
+    }
+
+    /// `states.csv`, in the order of the file; empty without the file.
+    ///
+    /// # Errors
+    /// A file that holds anything else.
+    pub fn states(&self) -> Result<Vec<StatePeriod>, ResultsError> {
+        let Some(text) = self.text(STATES)? else { return Ok(Vec::new()) };
+        state_table::read(&text).map_err(|reason| self.unreadable(STATES, reason))
     }
 
     /// The model of the run and the name of its file; `None` without the file.

@@ -1,6 +1,6 @@
 //! A moving stick figure as SVG that animates itself, without a script.
 
-use ambulo::reproduction::{MovingFigure, SeriesKind};
+use ambulo::reproduction::{MovingFigure, MovingHead, SeriesKind};
 use std::fmt::Write;
 
 /// Width and height of the picture [px], and pixels per metre.
@@ -8,6 +8,8 @@ const SIZE: [f64; 2] = [170.0, 240.0];
 const SCALE: f64 = 112.0;
 /// Height of the ground line above the lower edge [px].
 const GROUND: f64 = 14.0;
+/// Colour and thickness of trunk, head and near limbs.
+const NEAR: (&str, f64) = ("#1d4ed8", 2.5);
 /// Marks on the ground are about this far apart [m].
 const MARKS_M: f64 = 0.5;
 
@@ -20,11 +22,12 @@ pub(crate) fn moving_picture(figure: &MovingFigure, label: &str) -> String {
          stroke-linecap=\"round\" stroke-linejoin=\"round\"><path d=\"M0 {ground}H{width}\" stroke=\"#888\"/>"
     );
     svg += &marks(figure, ground);
+    svg += &figure.head.as_ref().map_or_else(String::new, |drawn| head(drawn, figure.cycle_s, ground));
     for stick in &figure.sticks {
         let paths: Vec<String> = stick.points.iter().map(|points| path(points, ground)).collect();
         let (colour, thickness) = match stick.kind {
             SeriesKind::Faint => ("#999", 1.5),
-            SeriesKind::Line | SeriesKind::Dots => ("#1d4ed8", 2.5),
+            SeriesKind::Line | SeriesKind::Dots => NEAR,
         };
         let _ = write!(
             svg,
@@ -36,6 +39,29 @@ pub(crate) fn moving_picture(figure: &MovingFigure, label: &str) -> String {
         );
     }
     svg + "</svg>"
+}
+
+fn head(head: &MovingHead, cycle_s: f64, ground: f64) -> String {
+    let place = |[x, y]: [f64; 2]| [0.5 * SIZE[0] + SCALE * x, ground - SCALE * y];
+    let (colour, thickness) = NEAR;
+    let mut svg = String::from("<circle");
+    let first = head.centres.first().map_or([0.0; 2], |centre| place(*centre));
+    let _ = write!(
+        svg,
+        " cx=\"{:.1}\" cy=\"{:.1}\" r=\"{:.1}\" stroke=\"{colour}\" stroke-width=\"{thickness}\">",
+        first[0],
+        first[1],
+        SCALE * head.radius
+    );
+    for (axis, name) in ["cx", "cy"].into_iter().enumerate() {
+        let values: Vec<String> = head.centres.iter().map(|centre| format!("{:.1}", place(*centre)[axis])).collect();
+        let _ = write!(
+            svg,
+            "<animate attributeName=\"{name}\" dur=\"{cycle_s:.3}s\" repeatCount=\"indefinite\" values=\"{}\"/>",
+            values.join(";")
+        );
+    }
+    svg + "</circle>"
 }
 
 fn path(points: &[[f64; 2]], ground: f64) -> String {
@@ -75,12 +101,14 @@ mod tests {
     fn every_stick_has_all_instants_and_marks_pass_by() {
         let points = vec![vec![[0.0, 0.0], [0.0, 1.0]], vec![[0.1, 0.0], [0.0, 1.0]]];
         let sticks = vec![MovingStick { kind: SeriesKind::Line, points }];
-        let figure = MovingFigure { gait: "short".into(), cycle_s: 0.62, sticks, advance: vec![0.0, 1.0] };
+        let head = Some(MovingHead { radius: 0.125, centres: vec![[0.0, 1.5], [0.25, 1.5]] });
+        let figure = MovingFigure { gait: "short".into(), cycle_s: 0.62, sticks, head, advance: vec![0.0, 1.0] };
         let svg = moving_picture(&figure, "short");
         assert!(
             svg.contains("dur=\"0.620s\"") && svg.contains("M85.0 226.0L85.0 114.0;M96.2 226.0L85.0 114.0"),
             "{svg}"
         );
+        assert!(svg.contains("<circle cx=\"85.0\" cy=\"58.0\" r=\"14.0\"") && svg.contains("\"85.0;113.0\""), "{svg}");
         assert!(svg.contains("0.0 0;-112.0 0") || svg.contains("-0.0 0;-112.0 0"), "{svg}");
     }
 }

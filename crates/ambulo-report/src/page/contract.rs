@@ -72,6 +72,8 @@ pub struct Session {
     pub cycles: Vec<PageCycle>,
     /// Grids of panels, in the order to be shown.
     pub groups: Vec<Group>,
+    /// The state machines of a synthetic walk, parents before children; empty for recordings and scenes.
+    pub machines: Vec<PageMachine>,
     /// Time and distance, extracted values, symmetry.
     pub tables: Vec<Table>,
     /// How far the numbers can be trusted.
@@ -168,6 +170,30 @@ pub struct PageEvent {
     pub strike: bool,
     /// When [s].
     pub time_s: f64,
+}
+
+/// A state machine and when it was in which state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct PageMachine {
+    /// Its name: `left knee`.
+    pub name: String,
+    /// Names of its states, in the order in which they were entered first.
+    pub states: Vec<String>,
+    /// Times in its states, without gaps.
+    pub periods: Vec<PagePeriod>,
+}
+
+/// A time in which a machine was in one state.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct PagePeriod {
+    /// Place in `states`.
+    pub state: usize,
+    /// From [s].
+    pub from_s: f64,
+    /// To [s].
+    pub to_s: f64,
 }
 
 /// A gait cycle: strike to next strike of the same foot.
@@ -595,6 +621,8 @@ mod tests {
             PageVerdict::decl(&config),
             TimeAxis::decl(&config),
             PageEvent::decl(&config),
+            PageMachine::decl(&config),
+            PagePeriod::decl(&config),
             PageCycle::decl(&config),
             Group::decl(&config),
             Panel::decl(&config),

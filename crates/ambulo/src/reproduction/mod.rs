@@ -42,7 +42,7 @@ pub use figures::{PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws
 pub use ground_force::{MEASURED_FOOT_OFF, VERTICAL_EVERY_4_PERCENT, measured_vertical};
 pub use harmonics::torque_series;
 pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk, paper_walk_with};
-pub use moving::{MovingFigure, MovingStick, moving_figure};
+pub use moving::{MovingFigure, MovingHead, MovingStick, moving_figure};
 pub use muscles::{MuscleRow, PHASES, muscle_table};
 pub use paper_human::{HEIGHT, MASS, paper_human};
 pub use paper_settings::PaperSettings;

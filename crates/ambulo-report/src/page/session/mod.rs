@@ -11,6 +11,7 @@ mod feasibility;
 mod glance;
 mod groups;
 mod header;
+mod machines;
 mod missing;
 mod pace;
 mod peaks;
@@ -24,7 +25,7 @@ mod time_distance;
 mod words;
 
 use super::block::Block;
-use super::contract::{DataQuality, PageQuality, Session};
+use super::contract::{DataQuality, PageMachine, PageQuality, Session};
 use super::view::{Viewed, view};
 use ambulo::study::{Quality, QualityState};
 use ambulo_results::{Folder, ResultsError, RunSummary};
@@ -39,13 +40,19 @@ pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session,
         RunSummary::Motion(summary) => {
             // The figure comes first, because its errors report all causes of a broken body.
             let viewed = view(folder, block)?;
-            recording(Results::read(folder, *summary)?, viewed, block)
+            let machines = machines::machines(&folder.states()?);
+            recording(Results::read(folder, *summary)?, viewed, machines, block)
         }
     }
 }
 
 /// The session of a recording or a synthetic walk.
-fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Session, ResultsError> {
+fn recording(
+    results: Results,
+    viewed: Viewed,
+    machines: Vec<PageMachine>,
+    block: &mut Block,
+) -> Result<Session, ResultsError> {
     let mut missing = viewed.missing;
     let quantities = groups::quantities(&results);
     let (shown, still) = still::divided(&results, &quantities);
@@ -72,6 +79,7 @@ fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Sess
         source: results.source,
         time: results.time(),
         groups,
+        machines,
         tables: vec![
             time_distance::table(&results, &size),
             extracted::table(&values),

@@ -44,6 +44,7 @@ pub(super) fn session(folder: &Folder<'_>, summary: &SceneSummary, block: &mut B
         events: Vec::new(),
         cycles: Vec::new(),
         groups,
+        machines: Vec::new(),
         tables: vec![peaks::peaks(&summary.peaks)],
         quality: Quality {
             facts: facts::quality(summary),
