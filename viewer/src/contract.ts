@@ -155,7 +155,7 @@ export type PageMachine = {
  */
 name: string, 
 /**
- * Names of its states, in the order in which they were entered first.
+ * Names of its states, sorted.
  */
 states: Array<string>, 
 /**

@@ -4,7 +4,7 @@ import { element } from "./element";
 
 /** Number of colours of states; a machine with more states uses them again. */
 const COLOURS = 6;
-/** A state that takes at least this part of the band has its name in it [%]. */
+/** A state that takes at least this part of the band has its name in it, if not for a short name [%]. */
 const NAMED_PERCENT = 7;
 /** Largest number of marks of the time axis. */
 const MARKS = 8;
@@ -70,7 +70,8 @@ function bar(context: Context, machine: PageMachine, { state, from_s, to_s }: Pa
   });
   made.style.left = `${from.toFixed(2)}%`;
   made.style.width = `${(to - from).toFixed(2)}%`;
-  made.append(to - from >= NAMED_PERCENT ? name : "");
+  // A letter takes about 1.3 % of a band on a narrow screen.
+  made.append(to - from >= Math.min(NAMED_PERCENT, 2 + 1.3 * name.length) ? name : "");
   return made;
 }
 

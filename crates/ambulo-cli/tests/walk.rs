@@ -183,6 +183,22 @@ fn machines_of_a_gait_file_drive_the_walk_and_their_states_are_written() {
         "line 4, `machine[1].state[1].file`",
         "none.sto",
     ]);
+    // An angle that jumps cannot be followed.
+    let row = |k: u32| {
+        format!("{:.2}\t{}\n", 0.01 * f64::from(k), f64::from(k).mul_add(0.1, if k < 20 { 0.0 } else { 40.0 }))
+    };
+    let rows: String = (0..40).map(row).collect();
+    bench.write(
+        "jump.sto",
+        format!("nod\nversion=1\nnRows=40\nnColumns=2\ninDegrees=yes\nendheader\ntime\tlean\n{rows}"),
+    );
+    bench.write("jump.toml", "[[machine]]\nname = \"nod\"\ndrives = \"trunk\"\nstate = [{ name = \"on\", activity = \"recording\", file = \"jump.sto\", column = \"lean\" }]\n");
+    bench.run(&["walk", "--gait", "jump.toml", "-o", "nod"]).refused(&[
+        "line 4, `machine[1].state[1].file`",
+        "jump.sto",
+        "line 28, column `lean`",
+        "40.1 deg at 0.2000 s",
+    ]);
     // A recording next to the gait file is followed.
     bench.edit("nod.toml", "none.sto", "limp/kinematics.mot");
     bench.edit("nod.toml", "\"x\"", "\"arm_flex_r\"");

@@ -275,8 +275,7 @@ fn read_torques(path: &Path, gait: &str) -> Result<Vec<TorqueSeries>> {
 fn recorded_angle(path: &Path, column: &str, findings: &mut Findings) -> Result<NaturalSpline> {
     let name = path.display().to_string();
     let table = RecordedTable::read(&files::read(path)?, &name, findings).with_context(|| name.clone())?;
-    let (values, _) = table.column(column, true, findings).with_context(|| name.clone())?;
-    Ok(values)
+    table.angle(column, findings).with_context(|| name)
 }
 
 /// Built-in gaits of style 1997 have zero acceleration at their knots; to be corrected, they take style knots unless the user chose a

@@ -178,7 +178,7 @@ pub struct PageEvent {
 pub struct PageMachine {
     /// Its name: `left knee`.
     pub name: String,
-    /// Names of its states, in the order in which they were entered first.
+    /// Names of its states, sorted.
     pub states: Vec<String>,
     /// Times in its states, without gaps.
     pub periods: Vec<PagePeriod>,

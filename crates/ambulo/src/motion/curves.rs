@@ -4,9 +4,10 @@
 
 use super::gaps::{fill_gaps, spline_through};
 use super::import::{coordinates_from_table, rows_with_rising_time};
+use super::jumps;
 use super::recording::MotionError;
 use super::time_grid::TimeGrid;
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Findings, and_more_times};
 use crate::model::{CoordinateId, Model};
 use crate::numerics::NaturalSpline;
 use ambulo_formats::table::Table;
@@ -36,6 +37,22 @@ pub enum CurveError {
         /// The columns of the table.
         found: String,
     },
+    /// An angle changes suddenly between two rows.
+    #[error(
+        "line {line}, column `{column}`: found a jump by {change_deg:.1} deg at {time_s:.4} s{more}; expected an angle that a joint can follow. hint: correct these rows, or use the part before or after them"
+    )]
+    Jump {
+        /// Name of the column.
+        column: String,
+        /// Line of the row after the jump, counted from 1.
+        line: usize,
+        /// Time of this row [s].
+        time_s: f64,
+        /// Change from the row before [deg].
+        change_deg: f64,
+        /// How many more jumps there are, in words.
+        more: String,
+    },
 }
 
 /// Splines of the coordinates of a model.
@@ -45,6 +62,15 @@ pub struct CoordinateCurves {
     pub span_s: [f64; 2],
     /// One entry per coordinate of the model; `None` if not recorded [rad or m].
     pub columns: Vec<Option<NaturalSpline>>,
+}
+
+/// The samples of a column.
+struct Samples {
+    /// Times [s].
+    times: Vec<f64>,
+    values: Vec<f64>,
+    /// The rows of the table that they come from.
+    rows: Vec<usize>,
 }
 
 impl RecordedTable {
@@ -93,6 +119,43 @@ impl RecordedTable {
         turns: bool,
         findings: &mut Findings,
     ) -> Result<(NaturalSpline, [f64; 2]), CurveError> {
+        let Samples { times, values, .. } = self.values(name, turns, findings)?;
+        Ok((through(name, &times, &values, findings)?, span(&times)))
+    }
+
+    /// Spline of an angle that a joint is to follow [rad]. Whole turns are removed.
+    ///
+    /// # Errors
+    /// As for [`RecordedTable::column`], and an angle that jumps.
+    pub fn angle(&self, name: &str, findings: &mut Findings) -> Result<NaturalSpline, CurveError> {
+        let Samples { times, mut values, rows } = self.values(name, true, findings)?;
+        let turns = jumps::unwrapped(&mut values);
+        if let [first, ..] = turns[..] {
+            let (line, more) = (self.line(rows[first]), and_more_times(turns.len()));
+            let message =
+                format!("{}, line {line}: `{name}` jumps by a whole turn{more}; the turns were removed", self.origin);
+            findings.report(Code::MotionUnwrapped, message);
+        }
+        let sudden = jumps::jumps_of_angle(&times, &values);
+        if let [first, ..] = sudden[..] {
+            return Err(CurveError::Jump {
+                column: name.to_owned(),
+                line: self.line(rows[first]),
+                time_s: times[first],
+                change_deg: (values[first] - values[first - 1]).to_degrees(),
+                more: and_more_times(sudden.len()),
+            });
+        }
+        Ok(through(name, &times, &values, findings)?)
+    }
+
+    /// Line of a row in the file, counted from 1.
+    fn line(&self, row: usize) -> usize {
+        self.table.line_of_row(row).unwrap_or(row + 1)
+    }
+
+    /// The samples of a column.
+    fn values(&self, name: &str, turns: bool, findings: &mut Findings) -> Result<Samples, CurveError> {
         let Some(values) = self.table.column(name) else {
             let found = self.table.names().join(", ");
             return Err(CurveError::NoColumn { column: name.to_owned(), found });
@@ -106,7 +169,7 @@ impl RecordedTable {
         let clock = self.table.times().unwrap_or_default();
         let times = even(&kept.iter().map(|&row| clock[row]).collect::<Vec<_>>());
         let values: Vec<f64> = kept.iter().map(|&row| values[row] * unit).collect();
-        Ok((through(name, &times, &values, findings)?, span(&times)))
+        Ok(Samples { times, values, rows: kept })
     }
 }
 

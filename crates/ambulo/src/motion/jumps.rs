@@ -23,6 +23,8 @@ struct Limits {
     bounds: [f64; 2],
 }
 
+const ROTATION: Limits = Limits { fastest: 30.0, bounds: [0.1, 0.3] };
+
 /// Removes changes of angles by whole turns, with a note for each column.
 pub(super) fn without_whole_turns(model: &Model, motion: &mut Motion, findings: &mut Findings) {
     for (coordinate, column) in model.coordinates().iter().zip(&mut motion.columns) {
@@ -52,7 +54,7 @@ pub(crate) struct Jumps {
 pub(crate) fn jumps(model: &Model, motion: &Motion) -> Vec<Jumps> {
     let of_coordinate = |coordinate: CoordinateId| {
         let limits = match model.coordinates()[coordinate.index()].kind {
-            CoordinateKind::Rotation => Limits { fastest: 30.0, bounds: [0.1, 0.3] },
+            CoordinateKind::Rotation => ROTATION,
             CoordinateKind::Translation => Limits { fastest: 10.0, bounds: [0.03, 0.1] },
             CoordinateKind::Coupled => return None,
         };
@@ -89,7 +91,7 @@ fn place(times: &[f64], frame: usize) -> String {
 }
 
 /// Removes whole turns; returns the frames where they began. Most of the angles keep their values.
-fn unwrapped(column: &mut [f64]) -> Vec<usize> {
+pub(super) fn unwrapped(column: &mut [f64]) -> Vec<usize> {
     let mut found = Vec::new();
     let (mut turns, mut last) = (0.0, f64::NAN);
     let mut removed = Vec::with_capacity(column.len());
@@ -109,6 +111,11 @@ fn unwrapped(column: &mut [f64]) -> Vec<usize> {
     let usual = median(removed).unwrap_or(0.0).round();
     column.iter_mut().for_each(|x| *x += usual * TAU);
     found
+}
+
+/// The frames after sudden changes of an angle [rad].
+pub(super) fn jumps_of_angle(times: &[f64], angles: &[f64]) -> Vec<usize> {
+    jumps_of_column(times, angles, &ROTATION)
 }
 
 /// The frames after sudden changes.

@@ -18,7 +18,19 @@ pub(super) fn machines(periods: &[StatePeriod]) -> Vec<PageMachine> {
         });
         own.periods.push(PagePeriod { state, from_s: *from_s, to_s: *to_s });
     }
+    machines.iter_mut().for_each(sort_states);
     machines
+}
+
+/// Sorts the states by name, so that the left and the right side number theirs alike.
+fn sort_states(machine: &mut PageMachine) {
+    let mut sorted = machine.states.clone();
+    sorted.sort_unstable();
+    for period in &mut machine.periods {
+        let name = &machine.states[period.state];
+        period.state = sorted.iter().position(|own| own == name).unwrap_or(period.state);
+    }
+    machine.states = sorted;
 }
 
 #[cfg(test)]
@@ -40,8 +52,8 @@ mod tests {
             period("arm", "rest", [0.0, 1.0]),
         ]);
         assert_eq!(made.len(), 2);
-        assert_eq!(made[0].states, ["swing", "stance"]);
-        assert_eq!(made[0].periods.iter().map(|period| period.state).collect::<Vec<_>>(), [0, 1, 0]);
+        assert_eq!(made[0].states, ["stance", "swing"]);
+        assert_eq!(made[0].periods.iter().map(|period| period.state).collect::<Vec<_>>(), [1, 0, 1]);
         assert_eq!(made[1].periods, [PagePeriod { state: 0, from_s: 0.0, to_s: 1.0 }]);
     }
 }

@@ -116,8 +116,7 @@ fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -
             let text = sources.text(place, path)?;
             let mut load = |file: &str, column: &str| {
                 let table = sources.table(place, file).map_err(|e| e.to_string())?;
-                let read = table.column(column, true, sources.findings);
-                read.map(|(spline, _)| spline).map_err(|e| format!("{file}: {}", chain(&e)))
+                table.angle(column, sources.findings).map_err(|e| format!("{file}: {}", chain(&e)))
             };
             Gait::from_toml_with(&text, &mut load).map_err(|e| place.error(format!("{path}: {}", chain(&e))))?
         }
