@@ -183,6 +183,16 @@ fn machines_of_a_gait_file_drive_the_walk_and_their_states_are_written() {
         "line 4, `machine[1].state[1].file`",
         "none.sto",
     ]);
+    // Errors that depend on the figure name the file too.
+    bench.write("wrist.toml", "[[machine]]\nname = \"w\"\ndrives = \"wrist_flex_r\"\nstate = [{ name = \"on\", activity = \"constant\", angle_deg = 3 }]\n");
+    bench
+        .run(&["walk", "--gait", "wrist.toml", "-o", "wrist"])
+        .refused(&["wrist.toml", "the machine `w` drives the coordinate `wrist_flex_r`"]);
+    bench.run(&["walk", "--gait", "wrist.toml", "--states"]).refused(&["wrist.toml", "the machine `w`"]);
+    bench.write("empty.toml", "[[machine]]\nname = \"w\"\nstate = []\n");
+    bench
+        .run(&["walk", "--gait", "empty.toml", "-o", "empty"])
+        .refused(&["line 3, `machine[1].state`", "expected at least one state"]);
     // An angle that jumps cannot be followed.
     let row = |k: u32| {
         format!("{:.2}\t{}\n", 0.01 * f64::from(k), f64::from(k).mul_add(0.1, if k < 20 { 0.0 } else { 40.0 }))

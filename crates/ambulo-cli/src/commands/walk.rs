@@ -13,7 +13,7 @@ use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::RecordedTable;
 use ambulo::numerics::NaturalSpline;
 use ambulo::simulation::synthetic::{
-    SyntheticMode, SyntheticWalk, SyntheticWalkSettings, replay, run_of_states, synthesise,
+    SyntheticError, SyntheticMode, SyntheticWalk, SyntheticWalkSettings, replay, run_of_states, synthesise,
 };
 use ambulo::simulation::walking::TorqueSeries;
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
@@ -28,6 +28,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let mut findings = Findings::default();
     let name = args.gait.gait.as_deref().unwrap_or(if args.torques.is_some() { "standard" } else { "free" });
     let (gait, mut read) = gait(name, &args.gait, &mut findings)?;
+    let described_in = read.first().cloned();
     let build = build(&args.figure)?;
     let by_gait = || if gait.is_symmetric() { SyntheticMode::Corrected } else { SyntheticMode::Paper };
     if args.states {
@@ -50,9 +51,10 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let gait = if mode == SyntheticMode::Corrected { style_for_correction(gait, name, &args.gait) } else { gait };
     let walk_settings = shaped(&gait, build, mode, args);
     let walk = match &torques {
-        Some(torques) => replay(&walk_settings, torques, &mut findings)?,
-        None => synthesise(&walk_settings, &mut findings)?,
+        Some(torques) => replay(&walk_settings, torques, &mut findings),
+        None => synthesise(&walk_settings, &mut findings),
     };
+    let walk = in_file(walk, described_in.as_ref())?;
     clock.lap("walk");
     let run = SyntheticRun {
         walk: &walk,
@@ -72,6 +74,14 @@ fn shaped<'a>(gait: &'a Gait, build: Build, mode: SyntheticMode, args: &WalkArgs
     SyntheticWalkSettings { gait, build, mode, cycles: args.cycles, rate_hz: args.rate }
 }
 
+/// Names the gait file in errors of its machines.
+fn in_file<T>(result: Result<T, SyntheticError>, file: Option<&PathBuf>) -> Result<T> {
+    match (&result, file) {
+        (Err(SyntheticError::Walking(_)), Some(file)) => result.with_context(|| file.display().to_string()),
+        _ => Ok(result?),
+    }
+}
+
 /// Prints the machines of the gait and the run of their states; draws the gait if a folder is given.
 fn states(
     args: &WalkArgs,
@@ -82,7 +92,7 @@ fn states(
     let human = settings.build.human()?;
     let walk = Walk::new(settings.gait, human.dimensions.leg_length, &mut findings)?;
     // The same remarks would be made about the same gait.
-    let changes = run_of_states(settings, &mut Findings::default())?;
+    let changes = in_file(run_of_states(settings, &mut Findings::default()), read.first())?;
     if let Some(output) = &args.output {
         let file = gait_file(&walk)?;
         let path = output.join(&file.name);

@@ -98,7 +98,8 @@ fn read_machine(table: &Table<'_>, load: &mut ReadColumn<'_>) -> Result<MachineS
         states.push(state);
     }
     if states.is_empty() {
-        return Err(table.missing("state", "at least one state, under the header [[machine.state]]"));
+        const EXPECTED: &str = "at least one state, under the header [[machine.state]]";
+        return Err(table.get("state").map_or_else(|| table.missing("state", EXPECTED), |value| value.wrong(EXPECTED)));
     }
     let transitions = table.tables("transition")?;
     let transitions = transitions.iter().map(|entry| read_transition(entry, &states));
