@@ -3,7 +3,7 @@
 
 use crate::common;
 use crate::common::random::Random;
-use ambulo::contact::{ContactPoint, HuntCrossley, Shape, candidate_pairs, contacts};
+use ambulo::contact::{ContactPoint, FrictionCurve, HuntCrossley, Shape, candidate_pairs, contacts};
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3};
 use parry3d_f64::math::{Matrix, Pose as GenericPose, Rotation, Vector};
 use parry3d_f64::query;
@@ -792,4 +792,43 @@ fn parameters_that_the_law_cannot_have_are_errors() {
     let text = set.checked().map(|_| ()).unwrap_err_text();
     assert_eq!(text, "the stiffness is -1 N/m²; expected a finite number, zero or more");
     assert_eq!(HuntCrossley::SCONE_HUMAN_0914.checked(), Ok(HuntCrossley::SCONE_HUMAN_0914));
+}
+
+#[test]
+fn slopes_of_the_compliant_force_are_its_differences() {
+    let smooth = HuntCrossley { friction_curve: FrictionCurve::Smooth, ..HuntCrossley::MOCO_2D_GAIT };
+    let mut random = crate::common::random::Random::new(5);
+    for law in [smooth, HuntCrossley::FALISSE_2022, HuntCrossley::SCONE_HUMAN_0914] {
+        for _ in 0..200 {
+            let (depth, rate) = (random.between(1e-4, 0.02), random.within(0.5));
+            let slip = Vec3::new(random.within(0.3), 0.0, random.within(0.3));
+            let force = |depth: f64, rate: f64, slip: Vec3| {
+                let (normal, friction) = law.force(0.03, depth, rate, slip);
+                friction + Vec3::y() * normal
+            };
+            let found = law.force_with_slopes(0.03, depth, rate, slip);
+            assert!((found.force - force(depth, rate, slip)).norm() < 1e-9);
+            let h = 1e-7;
+            let central = |plus: Vec3, minus: Vec3| (plus - minus) / (2.0 * h);
+            let pairs = [
+                (found.by_depth, central(force(depth + h, rate, slip), force(depth - h, rate, slip))),
+                (found.by_rate, central(force(depth, rate + h, slip), force(depth, rate - h, slip))),
+                (
+                    found.by_slip[0],
+                    central(force(depth, rate, slip + Vec3::x() * h), force(depth, rate, slip - Vec3::x() * h)),
+                ),
+                (
+                    found.by_slip[1],
+                    central(force(depth, rate, slip + Vec3::z() * h), force(depth, rate, slip - Vec3::z() * h)),
+                ),
+            ];
+            for (slope, difference) in pairs {
+                let size = difference.norm().max(1.0);
+                assert!(
+                    (slope - difference).norm() < 1e-5 * size,
+                    "{law:?} at {depth} m, {rate} m/s, {slip:?}: {slope:?}, {difference:?}"
+                );
+            }
+        }
+    }
 }

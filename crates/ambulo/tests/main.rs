@@ -60,6 +60,7 @@ mod ground_predict;
 mod ground_stream;
 mod identities;
 mod independent;
+mod inverse_derivatives;
 mod laboratory;
 mod laboratory_files;
 mod laboratory_gaps;

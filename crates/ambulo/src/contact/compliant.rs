@@ -146,34 +146,93 @@ impl HuntCrossley {
         if normal_force <= 0.0 || speed <= 0.0 {
             return (normal_force, Vec3::zeros());
         }
-        (normal_force, slip * (-normal_force * self.friction_coefficient(speed) / speed))
+        (normal_force, slip * (-normal_force * self.friction_per_slip(speed)[0]))
     }
 
     fn normal_force(&self, radius: f64, depth: f64, depth_rate: f64) -> f64 {
-        if depth <= 0.0 {
-            return 0.0;
-        }
-        let k = 0.5 * self.stiffness.powf(2.0 / 3.0);
-        let hertz = 4.0 / 3.0 * k * (radius * k).sqrt() * (depth * depth + self.depth_offset).powf(0.75);
-        let c = 1.5 * self.dissipation;
-        // Without dissipation, the force does not vanish at any speed of separation.
-        let separation = if c > 0.0 { step(self.rate_slope * (depth_rate + 1.0 / c)) } else { 1.0 };
-        (hertz * (1.0 + c * depth_rate) * separation * step(self.depth_slope * depth)).max(0.0)
+        self.normal_with_slopes(radius, depth, depth_rate)[0]
     }
 
-    /// |F_t| / F_n.
-    fn friction_coefficient(&self, speed: f64) -> f64 {
-        let v = speed / self.transition_velocity;
+    /// The normal force, and its derivatives by depth and by rate of depth.
+    fn normal_with_slopes(&self, radius: f64, depth: f64, depth_rate: f64) -> [f64; 3] {
+        if depth <= 0.0 {
+            return [0.0; 3];
+        }
+        let k = 0.5 * self.stiffness.powf(2.0 / 3.0);
+        let square = depth * depth + self.depth_offset;
+        let hertz = 4.0 / 3.0 * k * (radius * k).sqrt() * square.powf(0.75);
+        let hertz_slope = hertz * 1.5 * depth / square;
+        let c = 1.5 * self.dissipation;
+        let damping = 1.0 + c * depth_rate;
+        // Without dissipation, the force does not vanish at any speed of separation.
+        let (separation, separation_slope) =
+            if c > 0.0 { step(self.rate_slope * (depth_rate + 1.0 / c)) } else { (1.0, 0.0) };
+        let (rise, rise_slope) = step(self.depth_slope * depth);
+        let force = hertz * damping * separation * rise;
+        if force <= 0.0 {
+            return [0.0; 3];
+        }
+        let by_depth = damping * separation * (hertz_slope * rise + hertz * rise_slope * self.depth_slope);
+        let by_rate = hertz * rise * (c * separation + damping * separation_slope * self.rate_slope);
+        [force, by_depth, by_rate]
+    }
+
+    /// |F_t| / (F_n v), the friction coefficient over the slip speed v [s/m], and its derivative by v over v [s³/m³].
+    fn friction_per_slip(&self, speed: f64) -> [f64; 2] {
+        let v_t = self.transition_velocity;
+        let v = speed / v_t;
         let (mu_s, mu_d) = (self.static_friction, self.dynamic_friction);
-        let dry = match self.friction_curve {
-            FrictionCurve::Stribeck => v.min(1.0) * (mu_d + 2.0 * (mu_s - mu_d) / (1.0 + v * v)),
-            FrictionCurve::Smooth => mu_d * v / (1.0 + v * v).sqrt(),
+        let (dry, slope) = match self.friction_curve {
+            FrictionCurve::Stribeck => {
+                let fading = 2.0 * (mu_s - mu_d) / (1.0 + v * v);
+                let fading_slope = -2.0 * fading / (1.0 + v * v);
+                if v <= 1.0 {
+                    (mu_d + fading, fading_slope)
+                } else {
+                    ((mu_d + fading) / v, (fading_slope - (mu_d + fading) / (v * v)) / v)
+                }
+            }
+            FrictionCurve::Smooth => {
+                let root = (1.0 + v * v).sqrt();
+                (mu_d / root, -mu_d / (root * root * root))
+            }
         };
-        dry + self.viscous_friction * speed
+        [dry / v_t + self.viscous_friction, slope / (v_t * v_t * v_t)]
+    }
+
+    /// Force on the sphere as [`HuntCrossley::force`] gives it, with its derivatives, which are exact except at the corner of
+    /// [`FrictionCurve::Stribeck`]. The normal of the plane is +y.
+    #[must_use]
+    pub fn force_with_slopes(&self, radius: f64, depth: f64, depth_rate: f64, slip: Vec3) -> ContactSlopes {
+        let [normal, by_depth, by_rate] = self.normal_with_slopes(radius, depth, depth_rate);
+        let slip = Vec3::new(slip.x, 0.0, slip.z);
+        let [ratio, bend] = self.friction_per_slip(slip.norm());
+        let per_newton = Vec3::y() - slip * ratio;
+        let by_slip = [Vec3::x(), Vec3::z()].map(|e| (e * ratio + slip * (bend * slip.dot(&e))) * -normal);
+        ContactSlopes {
+            force: per_newton * normal,
+            by_depth: per_newton * by_depth,
+            by_rate: per_newton * by_rate,
+            by_slip,
+        }
     }
 }
 
-/// From 0 to 1 around x = 0.
-fn step(x: f64) -> f64 {
-    0.5 * x.tanh() + 0.5
+/// Force of a contact and its derivatives; y is up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSlopes {
+    /// On the sphere [N].
+    pub force: Vec3,
+    /// By depth [N/m].
+    pub by_depth: Vec3,
+    /// By rate of depth [N.s/m].
+    pub by_rate: Vec3,
+    /// By slip along x and along z [N.s/m].
+    pub by_slip: [Vec3; 2],
+}
+
+/// From 0 to 1 around x = 0, with the derivative.
+fn step(x: f64) -> (f64, f64) {
+    let tanh = x.tanh();
+    (0.5 * tanh + 0.5, 0.5 - 0.5 * tanh * tanh)
 }

@@ -5,6 +5,7 @@
 //! changes a recorded motion so that it agrees with measured ground forces.
 
 mod inverse;
+mod inverse_derivatives;
 mod roots;
 
 mod block;
@@ -41,6 +42,7 @@ pub use inverse::{
     BodyLoad, Forces, FrameForces, JointReaction, LoadSeries, ReactionReader, Workspace, inverse, inverse_frame,
     inverse_frames, inverse_with_residual, project_wrenches,
 };
+pub use inverse_derivatives::{CurvedJointError, InverseDerivatives, inverse_derivatives};
 pub use problem::{Method, SolverSettings};
 pub(crate) use roots::Roots;
 pub use solve::{GraphWorkspace, solve_graph, undetermined_rows};

@@ -1,0 +1,428 @@
+//! Derivatives of inverse dynamics with respect to positions, rates and accelerations, exact, for several frames side by side.
+//!
+//! Every coordinate becomes a chain of massless links of one axis each, as spatial vectors (moment or angular part first) at the
+//! origin of the world. With λ the link before link j, gravity as the acceleration a = -g of the ground, and C marking sums over a link and
+//! everything it carries:
+//!
+//!   v_j = v_λ + S_j q̇_j          Ψ̇_j = v_λ × S_j
+//!   a_j = a_λ + S_j q̈_j + Ψ̇_j q̇_j    Ψ̈_j = a_λ × S_j + v_λ × Ψ̇_j
+//!   f   = I a + v ×* I v           B = ½ [(v ×*) I - I (v ×) + (I v) ×̄*]
+//!
+//! and for i = j or any link i that carries j
+//!
+//!   ∂τ_i/∂q̈_j = S_iᵀ I_jᶜ S_j                                    ∂τ_j/∂q̈_i = the same
+//!   ∂τ_i/∂q̇_j = 2 S_iᵀ (B_jᶜ S_j + I_jᶜ Ψ̇_j)                      ∂τ_j/∂q̇_i = 2 S_jᵀ (B_jᶜ S_i + I_jᶜ Ψ̇_i)
+//!   ∂τ_i/∂q_j = S_iᵀ (2 B_jᶜ Ψ̇_j + I_jᶜ Ψ̈_j + S_j ×* f_jᶜ)         ∂τ_j/∂q_i = S_jᵀ (2 B_jᶜ Ψ̇_i + I_jᶜ Ψ̈_i)     (i ≠ j)
+//!
+//! With the momentum (n, p) of a body and its inertia (m, h = m c, J) at the origin, B acts on the angular part alone:
+//! B (ω, u) = (T ω, ω × p) with T = ½ (ω_b × J - J ω_b × - v × h × - h × v × - n ×).
+//!
+//! Source: S. Singh, R. P. Russell, P. M. Wensing, "Efficient analytical derivatives of rigid-body dynamics using spatial vector
+//! algebra", IEEE Robotics and Automation Letters 7 (2022), arXiv 2105.05102 (unverified equations; the tests are differences and an
+//! independent recursion). The form of B is ours.
+//! Cost: one pass over all pairs of links that carry each other.
+//! Not handled: ball-like joints and axes that follow a curve of their coordinate.
+//! Pinned by: tests/inverse_derivatives.rs
+
+use crate::kinematics::Posture;
+use crate::kinematics::lanes::{Lanes, M3, V3};
+use crate::kinematics::plan::{Plan, Source};
+use crate::kinematics::sweep::{self, Scratch};
+use crate::model::Model;
+use crate::spatial::Vec3;
+use nalgebra::DMatrix;
+use pulp::{Arch, Simd, WithSimd};
+use std::array;
+
+/// A joint whose derivatives are not handled.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "joint `{joint}` of the model is ball-like, or follows a curve of its coordinate; derivatives of inverse dynamics need hinges and slides"
+)]
+pub struct CurvedJointError {
+    /// Its name.
+    pub joint: String,
+}
+
+/// Generalised forces of one posture, and how they change with it. Rows are forces, columns are coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InverseDerivatives {
+    /// τ [N.m or N].
+    pub forces: Vec<f64>,
+    /// ∂τ/∂q.
+    pub by_position: DMatrix<f64>,
+    /// ∂τ/∂q̇.
+    pub by_rate: DMatrix<f64>,
+    /// ∂τ/∂q̈: the mass matrix.
+    pub by_acceleration: DMatrix<f64>,
+}
+
+/// Generalised forces without loads, and their derivatives with respect to positions, rates and accelerations.
+///
+/// The mass matrix of a person has the body mass where the path of the pelvis meets itself:
+///
+/// ```
+/// use ambulo::dynamics::inverse_derivatives;
+/// use ambulo::kinematics::Posture;
+/// use ambulo::model::anthropometry::{Build, SegmentTable};
+/// use ambulo::model::full_body::full_body;
+///
+/// let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+/// let model = full_body(&build)?.model;
+/// let still = vec![0.0; model.coordinates().len()];
+/// let found = inverse_derivatives(&model, Posture { q: &still, qd: &still, qdd: &still })?;
+/// let height = model.coordinate("pelvis_ty").ok_or("no such coordinate")?.index();
+/// assert!((found.by_acceleration[(height, height)] - 75.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// If the model has a ball-like joint, or one that follows a curve.
+///
+/// # Panics
+/// If the length of a slice of `posture` differs from the number of coordinates.
+pub fn inverse_derivatives(model: &Model, posture: Posture<'_>) -> Result<InverseDerivatives, CurvedJointError> {
+    let mut kernel = DerivativeKernel::<1>::new(model)?;
+    kernel.scratch.load_posture(posture);
+    kernel.evaluate();
+    let count = kernel.coordinates();
+    let matrix = |of: &[Lanes<1>]| DMatrix::from_fn(count, count, |i, j| of[i * count + j].0[0]);
+    Ok(InverseDerivatives {
+        forces: kernel.forces.iter().map(|x| x.0[0]).collect(),
+        by_position: matrix(&kernel.slopes[0]),
+        by_rate: matrix(&kernel.slopes[1]),
+        by_acceleration: matrix(&kernel.slopes[2]),
+    })
+}
+
+/// A spatial vector at the origin of the world: a motion (angular, linear), or a force (moment, force).
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Spatial<const N: usize> {
+    pub(crate) angular: V3<N>,
+    pub(crate) linear: V3<N>,
+}
+
+impl<const N: usize> Spatial<N> {
+    pub(crate) const ZERO: Spatial<N> = Spatial { angular: V3::ZERO, linear: V3::ZERO };
+
+    #[inline(always)]
+    fn plus(self, other: Spatial<N>) -> Spatial<N> {
+        Spatial { angular: self.angular + other.angular, linear: self.linear + other.linear }
+    }
+
+    #[inline(always)]
+    fn times(self, factor: Lanes<N>) -> Spatial<N> {
+        Spatial { angular: self.angular * factor, linear: self.linear * factor }
+    }
+
+    /// Self × other, both motions.
+    #[inline(always)]
+    pub(crate) fn cross(self, other: Spatial<N>) -> Spatial<N> {
+        Spatial {
+            angular: self.angular.cross(other.angular),
+            linear: self.angular.cross(other.linear) + self.linear.cross(other.angular),
+        }
+    }
+
+    /// Self ×* force.
+    #[inline(always)]
+    fn cross_force(self, force: Spatial<N>) -> Spatial<N> {
+        Spatial {
+            angular: self.angular.cross(force.angular) + self.linear.cross(force.linear),
+            linear: self.angular.cross(force.linear),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn dot(self, other: Spatial<N>) -> Lanes<N> {
+        self.angular.dot(other.angular) + self.linear.dot(other.linear)
+    }
+}
+
+/// One axis of a joint that a coordinate moves.
+#[derive(Debug, Clone)]
+pub(crate) struct MovingLink {
+    pub(crate) coordinate: usize,
+    /// The link that carries it.
+    pub(crate) before: Option<usize>,
+    axis: usize,
+    segment: usize,
+    turns: bool,
+    slope: f64,
+}
+
+/// Sums over a link and everything it carries.
+#[derive(Debug, Clone, Copy)]
+struct Composite<const N: usize> {
+    mass: f64,
+    /// m c [kg.m].
+    first_moment: V3<N>,
+    /// About the origin of the world [kg.m²].
+    inertia: M3<N>,
+    /// T of the equations, and the linear momentum p.
+    coriolis: M3<N>,
+    momentum: V3<N>,
+    force: Spatial<N>,
+}
+
+/// All scratch and results of N frames.
+#[derive(Debug, Clone)]
+pub(crate) struct DerivativeKernel<const N: usize> {
+    plan: Plan,
+    arch: Arch,
+    pub(crate) scratch: Scratch<N>,
+    pub(crate) links: Vec<MovingLink>,
+    /// The last link that moves each body.
+    pub(crate) link_of_body: Vec<Option<usize>>,
+    /// S, v of the links, and v of the link before.
+    pub(crate) axes: Vec<Spatial<N>>,
+    pub(crate) velocities: Vec<Spatial<N>>,
+    accelerations: Vec<Spatial<N>>,
+    axis_rates: Vec<Spatial<N>>,
+    axis_accelerations: Vec<Spatial<N>>,
+    composites: Vec<Composite<N>>,
+    /// τ of the coordinates.
+    pub(crate) forces: Vec<Lanes<N>>,
+    /// ∂τ/∂q, ∂τ/∂q̇, ∂τ/∂q̈, row after row.
+    pub(crate) slopes: [Vec<Lanes<N>>; 3],
+}
+
+impl<const N: usize> DerivativeKernel<N> {
+    pub(crate) fn new(model: &Model) -> Result<DerivativeKernel<N>, CurvedJointError> {
+        let plan = Plan::new(model);
+        let (links, link_of_body) = links(model, &plan)?;
+        let (count, coordinates) = (links.len(), plan.coordinates);
+        let none = Composite {
+            mass: 0.0,
+            first_moment: V3::ZERO,
+            inertia: M3([V3::ZERO; 3]),
+            coriolis: M3([V3::ZERO; 3]),
+            momentum: V3::ZERO,
+            force: Spatial::ZERO,
+        };
+        Ok(DerivativeKernel {
+            scratch: Scratch::new(&plan),
+            arch: Arch::new(),
+            axes: vec![Spatial::ZERO; count],
+            velocities: vec![Spatial::ZERO; count],
+            accelerations: vec![Spatial::ZERO; count],
+            axis_rates: vec![Spatial::ZERO; count],
+            axis_accelerations: vec![Spatial::ZERO; count],
+            composites: vec![none; count],
+            forces: vec![Lanes::ZERO; coordinates],
+            slopes: array::from_fn(|_| vec![Lanes::ZERO; coordinates * coordinates]),
+            plan,
+            links,
+            link_of_body,
+        })
+    }
+
+    pub(crate) fn coordinates(&self) -> usize {
+        self.plan.coordinates
+    }
+
+    /// Computes forces and slopes from the coordinates in `scratch`.
+    pub(crate) fn evaluate(&mut self) {
+        let arch = self.arch;
+        arch.dispatch(Evaluate(self));
+    }
+
+    #[inline(always)]
+    fn forward(&mut self) {
+        sweep::forward(&self.plan, &mut self.scratch);
+        let ground = Spatial { angular: V3::ZERO, linear: V3::splat(-self.plan.gravity) };
+        for (k, link) in self.links.iter().enumerate() {
+            let state = &self.scratch.states[link.segment + 1];
+            let direction = self.scratch.axes.direction[link.axis] * Lanes::splat(link.slope);
+            let axis = if link.turns {
+                Spatial { angular: direction, linear: (state.center - state.to_center).cross(direction) }
+            } else {
+                Spatial { angular: V3::ZERO, linear: direction }
+            };
+            let rate = Lanes(self.scratch.qd[link.coordinate]);
+            let acceleration = Lanes(self.scratch.qdd[link.coordinate]);
+            let (v, a) = match link.before {
+                None => (Spatial::ZERO, ground),
+                Some(before) => (self.velocities[before], self.accelerations[before]),
+            };
+            let axis_rate = v.cross(axis);
+            self.axes[k] = axis;
+            self.axis_rates[k] = axis_rate;
+            self.axis_accelerations[k] = a.cross(axis).plus(v.cross(axis_rate));
+            self.velocities[k] = v.plus(axis.times(rate));
+            self.accelerations[k] = a.plus(axis.times(acceleration)).plus(axis_rate.times(rate));
+        }
+    }
+
+    /// Inertia, momentum and force of the bodies that each link moves directly.
+    #[inline(always)]
+    fn load_bodies(&mut self) {
+        for composite in &mut self.composites {
+            *composite = Composite {
+                mass: 0.0,
+                first_moment: V3::ZERO,
+                inertia: M3([V3::ZERO; 3]),
+                coriolis: M3([V3::ZERO; 3]),
+                momentum: V3::ZERO,
+                force: Spatial::ZERO,
+            };
+        }
+        for (body, segment) in self.plan.segments.iter().enumerate() {
+            let Some(link) = self.link_of_body[body] else { continue };
+            let state = &self.scratch.states[body + 1];
+            let (center, mass) = (state.center, Lanes::splat(segment.mass));
+            let square = center.dot(center);
+            let inertia = M3(array::from_fn(|j| {
+                // R I Rᵀ e_j + m (|c|² e_j - c c_j)
+                let unit = V3::splat(Vec3::ith(j, 1.0));
+                let about_center = state.rotation.turn(fixed(&segment.inertia, state.rotation.turn_back(unit)));
+                about_center + (unit * square - center * center.0[j]) * mass
+            }));
+            let (v, a) = (self.velocities[link], self.accelerations[link]);
+            let one = Composite::of_body(segment.mass, center * mass, inertia, v, a);
+            self.composites[link].add(&one);
+        }
+    }
+
+    #[inline(always)]
+    fn backward(&mut self) {
+        let count = self.plan.coordinates;
+        self.forces.fill(Lanes::ZERO);
+        for slopes in &mut self.slopes {
+            slopes.fill(Lanes::ZERO);
+        }
+        for j in (0..self.links.len()).rev() {
+            let composite = self.composites[j];
+            let (axis, rate, acceleration) = (self.axes[j], self.axis_rates[j], self.axis_accelerations[j]);
+            let column = self.links[j].coordinate;
+            self.forces[column] += axis.dot(composite.force);
+            let two = Lanes::splat(2.0);
+            let by_acceleration = composite.momentum_of(axis);
+            let by_rate = composite.coriolis_on(axis).plus(composite.momentum_of(rate)).times(two);
+            let by_position = composite
+                .coriolis_on(rate)
+                .times(two)
+                .plus(composite.momentum_of(acceleration))
+                .plus(axis.cross_force(composite.force));
+            // 2 Bᵀ S, whose linear part is zero.
+            let turned = (composite.coriolis.turn_back(axis.angular) + composite.momentum.cross(axis.linear)) * two;
+            let mut other = Some(j);
+            while let Some(i) = other {
+                let (carrier, carrier_rate) = (self.axes[i], self.axis_rates[i]);
+                let row = self.links[i].coordinate;
+                let (above, below) = (row * count + column, column * count + row);
+                let mass = carrier.dot(by_acceleration);
+                self.slopes[2][above] += mass;
+                self.slopes[1][above] += carrier.dot(by_rate);
+                self.slopes[0][above] += carrier.dot(by_position);
+                if i != j {
+                    self.slopes[2][below] += mass;
+                    self.slopes[1][below] += turned.dot(carrier.angular) + by_acceleration.dot(carrier_rate) * 2.0;
+                    self.slopes[0][below] +=
+                        turned.dot(carrier_rate.angular) + by_acceleration.dot(self.axis_accelerations[i]);
+                }
+                other = self.links[i].before;
+            }
+            if let Some(before) = self.links[j].before {
+                self.composites[before].add(&composite);
+            }
+        }
+    }
+}
+
+/// The moving axes of a model, carriers first, and the last one that moves each body.
+fn links(model: &Model, plan: &Plan) -> Result<(Vec<MovingLink>, Vec<Option<usize>>), CurvedJointError> {
+    let (mut links, mut link_of_body): (Vec<MovingLink>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
+    for (index, (segment, body)) in plan.segments.iter().zip(model.bodies()).enumerate() {
+        let curved = || CurvedJointError { joint: body.joint.name.clone() };
+        if segment.spherical.is_some() {
+            return Err(curved());
+        }
+        let mut last = segment.parent.checked_sub(1).and_then(|parent| link_of_body[parent]);
+        let translations = segment.translations.clone().map(|axis| (axis, false));
+        for (axis, turns) in translations.chain(segment.rotations.clone().map(|axis| (axis, true))) {
+            match plan.axes[axis].source {
+                Source::Fixed(_) => {}
+                Source::Curve { .. } => return Err(curved()),
+                Source::Line { coordinate, slope, .. } => {
+                    links.push(MovingLink { coordinate, before: last, axis, segment: index, turns, slope });
+                    last = Some(links.len() - 1);
+                }
+            }
+        }
+        link_of_body.push(last);
+    }
+    Ok((links, link_of_body))
+}
+
+/// M v for a matrix that is the same in all frames.
+#[inline(always)]
+fn fixed<const N: usize>(matrix: &crate::spatial::Mat3, v: V3<N>) -> V3<N> {
+    M3::splat(matrix).turn(v)
+}
+
+impl<const N: usize> Composite<N> {
+    #[inline(always)]
+    fn of_body(mass: f64, first_moment: V3<N>, inertia: M3<N>, v: Spatial<N>, a: Spatial<N>) -> Composite<N> {
+        let mut body = Composite {
+            mass,
+            first_moment,
+            inertia,
+            coriolis: M3([V3::ZERO; 3]),
+            momentum: V3::ZERO,
+            force: Spatial::ZERO,
+        };
+        let momentum = body.momentum_of(v);
+        body.momentum = momentum.linear;
+        body.force = body.momentum_of(a).plus(v.cross_force(momentum));
+        let half = Lanes::splat(0.5);
+        body.coriolis = M3(array::from_fn(|j| {
+            let unit = V3::splat(Vec3::ith(j, 1.0));
+            let turning = v.angular.cross(inertia.turn(unit)) - inertia.turn(v.angular.cross(unit));
+            let moving = v.linear.cross(first_moment.cross(unit)) + first_moment.cross(v.linear.cross(unit));
+            (turning - moving - momentum.angular.cross(unit)) * half
+        }));
+        body
+    }
+
+    /// I (ω, u) = (J ω + h × u, m u + ω × h).
+    #[inline(always)]
+    fn momentum_of(&self, v: Spatial<N>) -> Spatial<N> {
+        Spatial {
+            angular: self.inertia.turn(v.angular) + self.first_moment.cross(v.linear),
+            linear: v.linear * Lanes::splat(self.mass) + v.angular.cross(self.first_moment),
+        }
+    }
+
+    /// B (ω, u) = (T ω, ω × p).
+    #[inline(always)]
+    fn coriolis_on(&self, v: Spatial<N>) -> Spatial<N> {
+        Spatial { angular: self.coriolis.turn(v.angular), linear: v.angular.cross(self.momentum) }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, other: &Composite<N>) {
+        self.mass += other.mass;
+        self.first_moment += other.first_moment;
+        self.momentum += other.momentum;
+        for j in 0..3 {
+            self.inertia.0[j] += other.inertia.0[j];
+            self.coriolis.0[j] += other.coriolis.0[j];
+        }
+        self.force = self.force.plus(other.force);
+    }
+}
+
+/// The two sweeps, compiled for each generation of vector instructions and selected at run time.
+struct Evaluate<'a, const N: usize>(&'a mut DerivativeKernel<N>);
+
+impl<const N: usize> WithSimd for Evaluate<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.forward();
+        self.0.load_bodies();
+        self.0.backward();
+    }
+}
