@@ -94,6 +94,8 @@ pub mod dynamics;
 
 pub mod simulation;
 
+pub mod optimal;
+
 pub mod ground;
 
 pub mod analysis;

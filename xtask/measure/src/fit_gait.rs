@@ -56,6 +56,22 @@ const FIT_1997: &str = "\
 # Thorstensson, Halbertsma 1985, which could not be had.
 ";
 
+const FIT_PLANES: &str = "\
+# Fit: mean and first eight harmonics (the step from 100 % to 0 % taken out as a line), a quadratic of V* each. Pelvis and trunk have odd
+# harmonics alone and no mean, because people who walk straight ahead do on the left what they did on the right.
+";
+/// Angles outside the sagittal plane: key, quantity of the table, and whether half a cycle later it is the opposite.
+const OTHER_PLANES: [(&str, &str, bool); 6] = [
+    ("pelvis_obliquity", "Pelvic Up/Down Obliquity", true),
+    ("pelvis_rotation", "Pelvic Int/External Rotation", true),
+    ("trunk_obliquity", "Trunk Up/Down Obliquity", true),
+    ("trunk_rotation", "Trunk Int/External Rotation", true),
+    ("hip_adduction", "Hip Ad/Abduction", false),
+    ("hip_rotation", "Hip Int/External Rotation", false),
+];
+/// Harmonics of an angle outside the sagittal plane.
+const PLANE_ORDERS: usize = 8;
+
 /// Fits, writes and prints.
 #[expect(clippy::print_stdout, reason = "the errors are the command's result")]
 pub(crate) fn run() -> Result<(), String> {
@@ -70,7 +86,20 @@ pub(crate) fn run() -> Result<(), String> {
     let errors = forces.errors()?;
     fs::write(&path, forces.file_text(&errors)).map_err(|e| format!("{}: {e}", path.display()))?;
     println!("written: {}\n{errors}", path.display());
+    let path = workspace::root().join(FOLDER).join("other_planes.toml");
+    fs::write(&path, other_planes_text()?).map_err(|e| format!("{}: {e}", path.display()))?;
+    println!("written: {}", path.display());
     Ok(())
+}
+
+/// The file of angles outside the sagittal plane.
+fn other_planes_text() -> Result<String, String> {
+    let mut text = format!("{SOURCE}#\n{FIT_PLANES}");
+    for (name, quantity, opposite) in OTHER_PLANES {
+        let orders: Vec<usize> = (1..=PLANE_ORDERS).filter(|order| !opposite || order % 2 == 1).collect();
+        write_wave(&mut text, name, quantity, !opposite, &orders)?;
+    }
+    Ok(text)
 }
 
 /// File with the laws of a style.
@@ -105,8 +134,8 @@ fn style_text(style: Style, tables: &[Curves], used: &[usize]) -> Result<String,
         write!(text, "\n[range]\nslowest = {}\nfastest = {}\nbelow = {below}\nabove = {above}\n", SPEEDS[0], SPEEDS[4]);
     if style == Style::Knots {
         write_support(&mut text)?;
-        write_wave(&mut text, "pelvis_tilt", "Pelvic Ant/Posterior Tilt", true)?;
-        write_wave(&mut text, "trunk_lean", "Trunk Ant/Posterior Tilt", false)?;
+        write_wave(&mut text, "pelvis_tilt", "Pelvic Ant/Posterior Tilt", true, &SHARED)?;
+        write_wave(&mut text, "trunk_lean", "Trunk Ant/Posterior Tilt", false, &SHARED)?;
     }
     for (recipe, curves) in RECIPES.iter().zip(tables) {
         match style {
@@ -130,8 +159,11 @@ fn write_support(text: &mut String) -> Result<(), String> {
     Ok(())
 }
 
-/// Mean and the two even harmonics that both steps share, as quadratics of speed.
-fn write_wave(text: &mut String, name: &str, quantity: &str, with_mean: bool) -> Result<(), String> {
+/// Orders of the harmonics that both steps share.
+const SHARED: [usize; 2] = [2, 4];
+
+/// Mean and some harmonics, as quadratics of speed.
+fn write_wave(text: &mut String, name: &str, quantity: &str, with_mean: bool, orders: &[usize]) -> Result<(), String> {
     let waves: Vec<Harmonics> =
         normative::curves(Sheet::Angles, quantity)?.iter().map(|curve| Harmonics::of(curve)).collect();
     let law = |part: &dyn Fn(&Harmonics) -> f64| {
@@ -139,7 +171,7 @@ fn write_wave(text: &mut String, name: &str, quantity: &str, with_mean: bool) ->
     };
     let mean = if with_mean { law(&|wave| wave.mean) } else { "0.0".into() };
     let _ = write!(text, "\n[{name}]\nmean_deg = {mean}\n");
-    for order in [2, 4] {
+    for &order in orders {
         let [cos, sin] = [0, 1].map(|i| law(&move |wave: &Harmonics| wave.factors[order - 1][i]));
         let _ = write!(text, "[[{name}.harmonic]]\norder = {order}\ncos_deg = {cos}\nsin_deg = {sin}\n");
     }

@@ -29,7 +29,7 @@ use crate::kinematics::lanes::{Lanes, M3, V3};
 use crate::kinematics::plan::{Plan, Source};
 use crate::kinematics::sweep::{self, Scratch};
 use crate::model::Model;
-use crate::spatial::Vec3;
+use crate::spatial::{Pose, Vec3};
 use nalgebra::DMatrix;
 use pulp::{Arch, Simd, WithSimd};
 use std::array;
@@ -219,6 +219,14 @@ impl<const N: usize> DerivativeKernel<N> {
 
     pub(crate) fn coordinates(&self) -> usize {
         self.plan.coordinates
+    }
+
+    /// Pose of a body's own frame in one frame of the block.
+    pub(crate) fn pose(&self, body: usize, lane: usize) -> Pose {
+        let state = &self.scratch.states[body + 1];
+        let joint =
+            Pose { rotation: state.rotation.lane(lane), translation: (state.center - state.to_center).lane(lane) };
+        joint * self.plan.segments[body].joint_from_body
     }
 
     /// Computes forces and slopes from the coordinates in `scratch`.

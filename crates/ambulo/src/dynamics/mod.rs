@@ -42,6 +42,7 @@ pub use inverse::{
     BodyLoad, Forces, FrameForces, JointReaction, LoadSeries, ReactionReader, Workspace, inverse, inverse_frame,
     inverse_frames, inverse_with_residual, project_wrenches,
 };
+pub(crate) use inverse_derivatives::{DerivativeKernel, Spatial};
 pub use inverse_derivatives::{CurvedJointError, InverseDerivatives, inverse_derivatives};
 pub use problem::{Method, SolverSettings};
 pub(crate) use roots::Roots;

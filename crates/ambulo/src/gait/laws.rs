@@ -167,7 +167,7 @@ pub(super) struct WaveKeys {
     pub(super) unit: f64,
 }
 
-const ANGLE: WaveKeys = WaveKeys { mean: "mean_deg", cos: "cos_deg", sin: "sin_deg", unit: DEGREE };
+pub(super) const ANGLE: WaveKeys = WaveKeys { mean: "mean_deg", cos: "cos_deg", sin: "sin_deg", unit: DEGREE };
 
 pub(super) fn read_wave(root: &Table<'_>, key: &str, keys: &WaveKeys) -> Result<Wave, TomlError> {
     let table = root.need(key, "mean and harmonics")?.table("a table with mean and harmonics")?;

@@ -49,20 +49,27 @@ impl PeriodicSplines {
         let rate = self.count as f64;
         let place = (phase - phase.floor()) * rate;
         let interval = place.floor();
-        let u = place - interval;
-        let cubic = cardinal::<3>(u);
-        let quartic = raised::<4>(&cubic, u);
-        let quintic = raised::<5>(&quartic, u);
-        let below = |w: &[f64; OVERLAP], j: usize, back: usize| if j >= back { w[j - back] } else { 0.0 };
-        let mut values = [quintic, [0.0; OVERLAP], [0.0; OVERLAP]];
-        for j in 0..OVERLAP {
-            values[1][j] = rate * (below(&quartic, j, 1) - quartic[j]);
-            values[2][j] = rate * rate * (below(&cubic, j, 2) - 2.0 * below(&cubic, j, 1) + cubic[j]);
-        }
+        let values = quintic_splines(place - interval, rate);
         // A phase just below a whole number may round up to the end of the ring.
         let first = interval as usize + self.count - DEGREE;
         SplineValues { numbers: std::array::from_fn(|j| (first + j) % self.count), values }
     }
+}
+
+/// Value, first and second derivative of the six cardinal quintic splines that are not zero at position `u` (0 to 1) of a knot
+/// interval; derivatives are by a quantity of which `rate` knot intervals make one unit.
+#[must_use]
+pub fn quintic_splines(u: f64, rate: f64) -> [[f64; OVERLAP]; 3] {
+    let cubic = cardinal::<3>(u);
+    let quartic = raised::<4>(&cubic, u);
+    let quintic = raised::<5>(&quartic, u);
+    let below = |w: &[f64; OVERLAP], j: usize, back: usize| if j >= back { w[j - back] } else { 0.0 };
+    let mut values = [quintic, [0.0; OVERLAP], [0.0; OVERLAP]];
+    for j in 0..OVERLAP {
+        values[1][j] = rate * (below(&quartic, j, 1) - quartic[j]);
+        values[2][j] = rate * rate * (below(&cubic, j, 2) - 2.0 * below(&cubic, j, 1) + cubic[j]);
+    }
+    values
 }
 
 /// w_d(0), ..., w_d(d), then zeros.

@@ -1,0 +1,266 @@
+//! Forces of one instant of a motion: contact of the soles with flat ground, inverse dynamics under it, and all derivatives.
+//!
+//! With the spatial wrench W of the ground on a foot and the axes S of the links that carry it (as in
+//! [`crate::dynamics::inverse_derivatives`]), the ground changes the generalised forces by
+//!
+//!   τ_j = ... - S_jᵀ W        ∂τ_j/∂q_k = ... - S_jᵀ ∂W/∂q_k - (S_k × S_j)ᵀ W  if k carries j        ∂τ_j/∂q̇_k = ... - S_jᵀ ∂W/∂q̇_k
+//!
+//! A sphere of radius r with centre p touches at c = (p_x, (p_y - r)/2, p_z), midway between both surfaces as in the simulator, with the
+//! velocity u = v + ω × c of its body. A link k moves the centre by ∂p/∂q_k, its own velocity field at p, and changes the velocity of the body by
+//! ∂V/∂q_k = S_k × (V - V_k).
+
+use crate::contact::HuntCrossley;
+use crate::dynamics::{CurvedJointError, DerivativeKernel, Spatial};
+use crate::model::Model;
+use crate::model::anthropometry::ContactSphere;
+use crate::spatial::Vec3;
+
+/// Instants that are evaluated side by side.
+pub(super) const SIDE_BY_SIDE: usize = 8;
+
+/// Value, rate and acceleration of every coordinate.
+pub(super) type Posture = [Vec<f64>; 3];
+
+/// Quantities of a contact: force on the foot along x, y, z [N], height of the sphere over the ground [m], slip along x and z [m/s].
+pub(super) const CONTACT: usize = 6;
+/// Offsets of height and slip.
+pub(super) const HEIGHT: usize = 3;
+pub(super) const SLIP: usize = 4;
+
+/// Forces of one instant, and their derivatives.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Instant {
+    pub(super) posture: Posture,
+    /// Generalised forces [N.m or N].
+    pub(super) forces: Vec<f64>,
+    /// Their derivatives, one row per force: by all positions, then rates, then accelerations.
+    pub(super) slopes: Vec<f64>,
+    pub(super) contacts: Vec<Contact>,
+}
+
+/// One sphere under a foot.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Contact {
+    pub(super) values: [f64; CONTACT],
+    /// Coordinate and derivatives of the values by its position and by its rate, for every link that carries the foot.
+    pub(super) slopes: Vec<(usize, [[f64; CONTACT]; 2])>,
+}
+
+/// Computes instants of a figure on soft shoes.
+#[derive(Debug)]
+pub(super) struct Evaluator {
+    kernel: DerivativeKernel<SIDE_BY_SIDE>,
+    soles: Vec<ContactSphere>,
+    /// Links that carry each body, itself first.
+    chains: Vec<Vec<usize>>,
+}
+
+/// A spatial vector of one instant.
+#[derive(Debug, Clone, Copy)]
+struct One {
+    angular: Vec3,
+    linear: Vec3,
+}
+
+impl One {
+    fn of(from: &Spatial<SIDE_BY_SIDE>, lane: usize) -> One {
+        One { angular: from.angular.lane(lane), linear: from.linear.lane(lane) }
+    }
+
+    fn cross(self, other: One) -> One {
+        One {
+            angular: self.angular.cross(&other.angular),
+            linear: self.angular.cross(&other.linear) + self.linear.cross(&other.angular),
+        }
+    }
+
+    /// Velocity of the point of this motion that is at `place`.
+    fn at(self, place: Vec3) -> Vec3 {
+        self.linear + self.angular.cross(&place)
+    }
+
+    fn dot(self, other: One) -> f64 {
+        self.angular.dot(&other.angular) + self.linear.dot(&other.linear)
+    }
+}
+
+/// Change of the wrench of the ground on a foot by the coordinate of a link.
+#[derive(Debug, Clone, Copy)]
+struct WrenchSlopes {
+    by_position: One,
+    by_rate: One,
+}
+
+const NO_WRENCH: One = One { angular: Vec3::new(0.0, 0.0, 0.0), linear: Vec3::new(0.0, 0.0, 0.0) };
+
+impl Evaluator {
+    pub(super) fn new(model: &Model, soles: &[ContactSphere]) -> Result<Evaluator, CurvedJointError> {
+        let kernel = DerivativeKernel::new(model)?;
+        let chain = |mut last: Option<usize>| {
+            let mut chain = Vec::new();
+            while let Some(link) = last {
+                chain.push(link);
+                last = kernel.links[link].before;
+            }
+            chain
+        };
+        let chains = kernel.link_of_body.iter().map(|&last| chain(last)).collect();
+        Ok(Evaluator { kernel, soles: soles.to_vec(), chains })
+    }
+
+    /// Fills in everything but the postures, which are given.
+    pub(super) fn evaluate(&mut self, law: &HuntCrossley, instants: &mut [Instant]) {
+        for block in instants.chunks_mut(SIDE_BY_SIDE) {
+            for lane in 0..SIDE_BY_SIDE {
+                let [q, qd, qdd] = &block[lane.min(block.len() - 1)].posture;
+                let scratch = &mut self.kernel.scratch;
+                for (all, values) in [(&mut scratch.q, q), (&mut scratch.qd, qd), (&mut scratch.qdd, qdd)] {
+                    for (lanes, value) in all.iter_mut().zip(values) {
+                        lanes[lane] = *value;
+                    }
+                }
+            }
+            self.kernel.evaluate();
+            for (lane, instant) in block.iter_mut().enumerate() {
+                self.take_forces(lane, instant);
+                self.add_ground(law, lane, instant);
+            }
+        }
+    }
+
+    fn take_forces(&self, lane: usize, instant: &mut Instant) {
+        let count = self.kernel.coordinates();
+        instant.forces.clear();
+        instant.forces.extend(self.kernel.forces.iter().map(|force| force.0[lane]));
+        instant.slopes.clear();
+        for row in 0..count {
+            for slopes in &self.kernel.slopes {
+                instant.slopes.extend(slopes[row * count..(row + 1) * count].iter().map(|slope| slope.0[lane]));
+            }
+        }
+    }
+
+    /// Contacts of all spheres, and what they change in the forces.
+    fn add_ground(&self, law: &HuntCrossley, lane: usize, instant: &mut Instant) {
+        instant.contacts.resize_with(self.soles.len(), Contact::default);
+        for k in 0..self.soles.len() {
+            let chain = &self.chains[self.soles[k].body.index()];
+            let (wrench, slopes) = self.touch(law, lane, k, &mut instant.contacts[k]);
+            if instant.contacts[k].values[1] <= 0.0 {
+                continue;
+            }
+            let links: Vec<(usize, One)> = chain
+                .iter()
+                .map(|&link| (self.kernel.links[link].coordinate, One::of(&self.kernel.axes[link], lane)))
+                .collect();
+            let width = 3 * self.kernel.coordinates();
+            for (j, (row, axis)) in links.iter().enumerate() {
+                instant.forces[*row] -= axis.dot(wrench);
+                let row = &mut instant.slopes[row * width..(row + 1) * width];
+                for (i, ((column, carrier), slope)) in links.iter().zip(&slopes).enumerate() {
+                    let turned = if i > j { carrier.cross(*axis).dot(wrench) } else { 0.0 };
+                    row[*column] -= axis.dot(slope.by_position) + turned;
+                    row[self.kernel.coordinates() + column] -= axis.dot(slope.by_rate);
+                }
+            }
+        }
+    }
+
+    /// The contact of one sphere; its wrench at the origin of the world, and the change of it by every link of the chain.
+    fn touch(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> (One, Vec<WrenchSlopes>) {
+        let sole = &self.soles[sphere];
+        let body = sole.body.index();
+        let pose = self.kernel.pose(body, lane);
+        let center = pose.rotation * sole.center + pose.translation;
+        let height = center.y - sole.radius;
+        let place = Vec3::new(center.x, 0.5 * height, center.z);
+        let chain = &self.chains[body];
+        let motion = chain.first().map_or(NO_WRENCH, |&link| One::of(&self.kernel.velocities[link], lane));
+        let velocity = motion.at(place);
+        let found = law.force_with_slopes(sole.radius, -height, -velocity.y, velocity);
+        let force = found.force;
+        contact.values = [force.x, force.y, force.z, height, velocity.x, velocity.z];
+        contact.slopes.clear();
+        let mut wrenches = Vec::with_capacity(chain.len());
+        for &link in chain {
+            let axis = One::of(&self.kernel.axes[link], lane);
+            let moved = axis.at(center);
+            let shifted = Vec3::new(moved.x, 0.5 * moved.y, moved.z);
+            let turned = axis.cross(motion.minus(One::of(&self.kernel.velocities[link], lane)));
+            let velocity_slopes = [turned.at(place) + motion.angular.cross(&shifted), axis.at(place)];
+            let depth_slopes = [-moved.y, 0.0];
+            let mut slopes = [[0.0; CONTACT]; 2];
+            let mut wrench = [NO_WRENCH; 2];
+            for part in 0..2 {
+                let v = velocity_slopes[part];
+                let f = found.by_depth * depth_slopes[part] - found.by_rate * v.y
+                    + found.by_slip[0] * v.x
+                    + found.by_slip[1] * v.z;
+                slopes[part] = [f.x, f.y, f.z, -depth_slopes[part], v.x, v.z];
+                let arm = if part == 0 { shifted.cross(&force) } else { Vec3::zeros() };
+                wrench[part] = One { angular: arm + place.cross(&f), linear: f };
+            }
+            contact.slopes.push((self.kernel.links[link].coordinate, slopes));
+            wrenches.push(WrenchSlopes { by_position: wrench[0], by_rate: wrench[1] });
+        }
+        (One { angular: place.cross(&force), linear: force }, wrenches)
+    }
+}
+
+impl One {
+    fn minus(self, other: One) -> One {
+        One { angular: self.angular - other.angular, linear: self.linear - other.linear }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::FrictionCurve;
+    use crate::model::anthropometry::{Build, SegmentTable};
+    use crate::model::full_body::full_body;
+
+    /// A figure that stands on, or falls through, the ground in no particular posture.
+    fn instant(seed: f64, count: usize, height: f64) -> Instant {
+        let wave = |k: usize, size: f64, shift: f64| size * (seed + 1.7 * k as f64 + shift).sin();
+        let mut posture = [0.05, 0.5, 5.0].map(|size| (0..count).map(|k| wave(k, size, 9.0 * size)).collect::<Vec<f64>>());
+        posture[0][4] = height;
+        Instant { posture, ..Instant::default() }
+    }
+
+    #[test]
+    fn derivatives_of_forces_on_the_ground_are_their_differences() {
+        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+        let human = full_body(&build).unwrap();
+        let law = HuntCrossley { friction_curve: FrictionCurve::Smooth, ..HuntCrossley::MOCO_2D_GAIT };
+        let mut evaluator = Evaluator::new(&human.model, &human.soles).unwrap();
+        let count = human.model.coordinates().len();
+        let (mut touching, mut checked) = (0, 0);
+        for seed in 0..6 {
+            let mut at = [instant(f64::from(seed), count, 0.98 * human.dimensions.leg_length)];
+            evaluator.evaluate(&law, &mut at);
+            let [at] = at;
+            touching += at.contacts.iter().filter(|c| c.values[1] > 0.0).count();
+            let size = at.slopes.iter().fold(1.0_f64, |a, x| a.max(x.abs()));
+            for part in 0..3 {
+                for column in 0..count {
+                    let step = [1e-7, 1e-6, 1e-3][part];
+                    let mut pair = [at.clone(), at.clone()];
+                    pair[0].posture[part][column] += step;
+                    pair[1].posture[part][column] -= step;
+                    evaluator.evaluate(&law, &mut pair);
+                    for row in 0..count {
+                        let expected = (pair[0].forces[row] - pair[1].forces[row]) / (2.0 * step);
+                        let found = at.slopes[(3 * row + part) * count + column];
+                        assert!(
+                            (found - expected).abs() < 1e-6 * size + 1e-5 * expected.abs(),
+                            "seed {seed}, force {row} by part {part} of coordinate {column}: {found}, difference {expected}"
+                        );
+                        checked += 1;
+                    }
+                }
+            }
+        }
+        assert!(touching > 6 && checked > 10_000, "{touching} contacts, {checked} slopes");
+    }
+}

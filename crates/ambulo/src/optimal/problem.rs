@@ -1,0 +1,353 @@
+//! A problem of optimal motion: a body on soft shoes, a span of time, an objective; and its transcription.
+//!
+//! Unknown are the spline coefficients x of all coordinates ([`Layout`]). With instants t_p, p = 0 .. P, the motion minimises
+//!
+//!   1/P Σ_p Σ_terms ((quantity - target) / deviation)²     subject to     c_p = τ_root(t_p) / scale = 0
+//!
+//! where τ_root are the forces that neither joints nor ground supply. The augmented Lagrangian adds 1/P Σ |c_p + m_p|² / s² with the multipliers m and the
+//! slack s; after each minimisation m grows by c (Hestenes 1969, Powell 1969; unverified).
+
+use super::instant::{Evaluator, Instant};
+use super::layout::{Layout, Span, Weights};
+use super::normal::{InstantSums, NormalEquations, empty_matrix};
+use super::objective::{Row, Term};
+use crate::contact::HuntCrossley;
+use crate::dynamics::CurvedJointError;
+use crate::model::anthropometry::ContactSphere;
+use crate::model::{CoordinateId, CoordinateKind, Model};
+
+/// A body that moves by its own forces, and what its motion should be like.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// The body. The coordinates of its root are driven by nothing.
+    pub model: Model,
+    /// Spheres under its feet.
+    pub soles: Vec<ContactSphere>,
+    /// Law of contact between them and the ground, y = 0.
+    pub shoes: HuntCrossley,
+    /// How the motion goes on after its end.
+    pub span: Span,
+    /// Duration of the span [s].
+    pub duration_s: f64,
+    /// Distance by which a coordinate grows over the span, apart from the splines: forward motion.
+    pub travel: Option<(CoordinateId, f64)>,
+    /// Knot intervals of the splines.
+    pub knots: usize,
+    /// Instants of each knot interval.
+    pub instants_per_knot: usize,
+    /// A length of the body, which makes moments of the root comparable to forces [m].
+    pub length_m: f64,
+    /// The objective.
+    pub terms: Vec<Term>,
+}
+
+/// Properties of the problem that change from stage to stage of the solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stage {
+    pub(super) shoes: HuntCrossley,
+    /// Slack s of the forces at the root [body weights, body weights × length].
+    pub(super) slack: f64,
+}
+
+/// A problem made ready for solution.
+pub(super) struct Transcription<'a> {
+    problem: &'a Problem,
+    pub(super) layout: Layout,
+    evaluator: Evaluator,
+    pub(super) stage: Stage,
+    /// Coordinates of the root, and the scale of their forces.
+    root: Vec<(usize, f64)>,
+    /// One per instant and coordinate of the root.
+    multipliers: Vec<f64>,
+    instants: Vec<Instant>,
+    sums: InstantSums,
+    rows: Rows,
+}
+
+/// Full rows of an instant, with their residuals.
+#[derive(Debug, Default)]
+struct Rows {
+    residuals: Vec<f64>,
+    slopes: Vec<f64>,
+}
+
+impl Problem {
+    /// Number of instants at which terms have targets, both ends of the span included.
+    #[must_use]
+    pub fn instants(&self) -> usize {
+        self.layout().instants()
+    }
+
+    /// Share of the span of each instant.
+    #[must_use]
+    pub fn shares(&self) -> Vec<f64> {
+        let layout = self.layout();
+        (0..layout.instants()).map(|index| layout.instant(index).0).collect()
+    }
+
+    /// The unknowns of a motion that is nearest to given coordinates at all instants (without travel).
+    #[must_use]
+    pub fn fitted(&self, coordinates: &[Vec<f64>]) -> Vec<f64> {
+        let layout = self.layout();
+        let mut normal = NormalEquations::new(&layout);
+        let mut sums = InstantSums::new(layout.width);
+        for (index, values) in coordinates.iter().enumerate() {
+            let (share, interval) = layout.instant(index);
+            sums.clear();
+            for (c, value) in values.iter().enumerate() {
+                sums.add_entries(-value, &[(c, 1.0)]);
+                // Splines without instants of their own lie on a straight line.
+                sums.add_entries(0.0, &[(2 * layout.width + c, 1e-6)]);
+            }
+            normal.add_instant(&layout.weights(share, interval), &mut sums);
+        }
+        let mut matrix = empty_matrix(&layout);
+        let mut unknowns = vec![0.0; layout.blocks() * layout.width];
+        normal.fold(&layout, &mut matrix, &mut unknowns);
+        matrix.raise_diagonal(0.0, 1e-12);
+        if let Some(factor) = matrix.factor() {
+            factor.solve(&mut unknowns);
+        }
+        for x in &mut unknowns {
+            *x = -*x;
+        }
+        unknowns
+    }
+
+    pub(super) fn layout(&self) -> Layout {
+        Layout::new(&self.model, self.span, self.knots, self.instants_per_knot)
+    }
+
+    pub(super) fn weight_n(&self) -> f64 {
+        self.model.mass() * self.model.gravity().norm()
+    }
+
+    /// Adds what the splines do not have: forward motion.
+    pub(super) fn add_travel(&self, share: f64, posture: &mut [Vec<f64>; 3]) {
+        if let Some((id, distance)) = self.travel {
+            posture[0][id.index()] += distance * share;
+            posture[1][id.index()] += distance / self.duration_s;
+        }
+    }
+}
+
+impl<'a> Transcription<'a> {
+    pub(super) fn new(problem: &'a Problem) -> Result<Transcription<'a>, CurvedJointError> {
+        let layout = problem.layout();
+        let weight = problem.weight_n();
+        let model = &problem.model;
+        let roots = model.bodies().iter().filter(|body| body.joint.parent.is_none());
+        let root: Vec<(usize, f64)> = roots
+            .flat_map(|body| body.joint.coordinates())
+            .map(|id| match model.coordinates()[id.index()].kind {
+                CoordinateKind::Rotation => (id.index(), weight * problem.length_m),
+                _ => (id.index(), weight),
+            })
+            .collect();
+        Ok(Transcription {
+            evaluator: Evaluator::new(model, &problem.soles)?,
+            stage: Stage { shoes: problem.shoes, slack: 1.0 },
+            multipliers: vec![0.0; layout.instants() * root.len()],
+            instants: vec![Instant::default(); layout.instants()],
+            sums: InstantSums::new(layout.width),
+            rows: Rows::default(),
+            root,
+            layout,
+            problem,
+        })
+    }
+
+    /// Evaluates all instants.
+    pub(super) fn evaluate(&mut self, unknowns: &[f64]) {
+        let extended = self.layout.extended(unknowns);
+        for index in 0..self.instants.len() {
+            let (share, first) = self.layout.instant(index);
+            let weights = self.weights(index);
+            let posture = &mut self.instants[index].posture;
+            for (values, weights) in posture.iter_mut().zip(&weights.values) {
+                values.clear();
+                values.resize(self.layout.width, 0.0);
+                for (weight, block) in weights.iter().zip(extended.chunks(self.layout.width).skip(first)) {
+                    for (value, coefficient) in values.iter_mut().zip(block) {
+                        *value += weight * coefficient;
+                    }
+                }
+            }
+            self.problem.add_travel(share, posture);
+        }
+        self.evaluator.evaluate(&self.stage.shoes, &mut self.instants);
+    }
+
+    /// Weights of an instant, with derivatives by time.
+    fn weights(&self, index: usize) -> Weights {
+        let (share, interval) = self.layout.instant(index);
+        self.timed(self.layout.weights(share, interval))
+    }
+
+    fn timed(&self, mut weights: Weights) -> Weights {
+        let rate = 1.0 / self.problem.duration_s;
+        for (values, factor) in weights.values.iter_mut().zip([1.0, rate, rate * rate]) {
+            for value in values {
+                *value *= factor;
+            }
+        }
+        weights
+    }
+
+    /// Instants that count; of a repeated motion the last one is the first one again.
+    fn counted(&self) -> usize {
+        self.instants.len() - usize::from(self.layout.span != Span::Single)
+    }
+
+    /// Square root of the weight of an instant in the mean over the span.
+    fn share(&self) -> f64 {
+        (1.0 / (self.instants.len() - 1) as f64).sqrt()
+    }
+
+    /// The sum of squares at the instants that were evaluated.
+    pub(super) fn cost(&self) -> f64 {
+        let share = self.share();
+        let mut cost = 0.0;
+        for index in 0..self.counted() {
+            let at = &self.instants[index];
+            for term in self.problem.terms.iter().filter(|term| term.quantity.is_rate_of_force().is_none()) {
+                cost += term.residual(index, term.quantity.value(at)).map_or(0.0, |r| (r * share).powi(2));
+            }
+            for k in 0..self.root.len() {
+                cost += (self.root_residual(index, k) * share).powi(2);
+            }
+        }
+        for (id, term) in self.rates() {
+            for index in 0..self.instants.len() - 1 {
+                cost += self.rate_residual(id, term, index).map_or(0.0, |r| (r * share).powi(2));
+            }
+        }
+        cost
+    }
+
+    fn rates(&self) -> impl Iterator<Item = (CoordinateId, &'a Term)> + use<'a> {
+        self.problem.terms.iter().filter_map(|term| Some((term.quantity.is_rate_of_force()?, term)))
+    }
+
+    fn rate_residual(&self, id: CoordinateId, term: &Term, index: usize) -> Option<f64> {
+        let [here, there] = [index, index + 1].map(|i| self.instants[i].forces[id.index()]);
+        term.residual(index, (there - here) * self.per_second())
+    }
+
+    fn per_second(&self) -> f64 {
+        (self.instants.len() - 1) as f64 / self.problem.duration_s
+    }
+
+    fn root_residual(&self, index: usize, k: usize) -> f64 {
+        let (coordinate, scale) = self.root[k];
+        (self.instants[index].forces[coordinate] / scale + self.multipliers[index * self.root.len() + k])
+            / self.stage.slack
+    }
+
+    /// Forces at the root over the span [body weights, body weights × length]: root mean square and largest.
+    pub(super) fn root_forces(&self) -> (f64, f64) {
+        let all = (0..self.counted()).flat_map(|index| {
+            self.root.iter().map(move |(coordinate, scale)| (self.instants[index].forces[*coordinate] / scale).abs())
+        });
+        let (mut sum, mut count, mut largest) = (0.0, 0.0, 0.0_f64);
+        for value in all {
+            sum += value * value;
+            count += 1.0;
+            largest = largest.max(value);
+        }
+        ((sum / count).sqrt(), largest)
+    }
+
+    /// Mean force of the ground on all feet [N].
+    pub(super) fn mean_load(&self) -> f64 {
+        let load = |at: &Instant| at.contacts.iter().map(|contact| contact.values[1]).sum::<f64>();
+        self.instants[..self.counted()].iter().map(load).sum::<f64>() / self.counted() as f64
+    }
+
+    /// The multipliers take over what is left of the constraints.
+    pub(super) fn update_multipliers(&mut self) {
+        for index in 0..self.counted() {
+            for (k, (coordinate, scale)) in self.root.iter().enumerate() {
+                self.multipliers[index * self.root.len() + k] += self.instants[index].forces[*coordinate] / scale;
+            }
+        }
+    }
+
+    pub(super) fn clear_multipliers(&mut self) {
+        self.multipliers.fill(0.0);
+    }
+
+    /// Normal equations at the instants that were evaluated.
+    pub(super) fn linearise(&mut self, normal: &mut NormalEquations) {
+        normal.clear();
+        for index in 0..self.counted() {
+            self.instant_rows(index, normal);
+            let weights = self.weights(index);
+            normal.add_instant(&weights, &mut self.sums);
+        }
+        self.rate_rows(normal);
+    }
+
+    fn instant_rows(&mut self, index: usize, normal: &NormalEquations) {
+        let share = self.share();
+        self.sums.clear();
+        self.rows.residuals.clear();
+        self.rows.slopes.clear();
+        for term in self.problem.terms.iter().filter(|term| term.quantity.is_rate_of_force().is_none()) {
+            let at = &self.instants[index];
+            let Some(residual) = term.residual(index, term.quantity.value(at)) else { continue };
+            match term.quantity.row(at, term.deviation / share, &mut self.rows.slopes) {
+                Row::Entries(_, mut entries) => {
+                    entries.sort_unstable_by_key(|(place, _)| *place);
+                    self.sums.add_entries(residual * share, &entries);
+                }
+                Row::Full(_) => self.rows.residuals.push(residual * share),
+            }
+        }
+        let width = 3 * self.layout.width;
+        for (k, (coordinate, scale)) in self.root.iter().enumerate() {
+            let scale = scale * self.stage.slack / share;
+            self.rows.residuals.push(self.root_residual(index, k) * share);
+            let slopes = &self.instants[index].slopes[coordinate * width..(coordinate + 1) * width];
+            self.rows.slopes.extend(slopes.iter().map(|slope| slope / scale));
+        }
+        normal.add_rows(&mut self.sums, &self.rows.residuals, &self.rows.slopes);
+    }
+
+    /// Rows of the rates of forces, each between two instants of one interval.
+    fn rate_rows(&mut self, normal: &mut NormalEquations) {
+        let (width, share, per_second) = (3 * self.layout.width, self.share(), self.per_second());
+        let mut cross = vec![0.0; width * width];
+        let rates: Vec<(CoordinateId, &Term)> = self.rates().collect();
+        if rates.is_empty() {
+            return;
+        }
+        for index in 0..self.instants.len() - 1 {
+            let (first, interval) = self.layout.instant(index);
+            let (second, _) = self.layout.instant(index + 1);
+            let mut residuals = Vec::new();
+            let mut slopes = [Vec::new(), Vec::new()];
+            for (id, term) in &rates {
+                let Some(residual) = self.rate_residual(*id, term, index) else { continue };
+                residuals.push(residual * share);
+                let factor = share * per_second / term.deviation;
+                for (k, sign) in [(0, -1.0), (1, 1.0)] {
+                    let row = &self.instants[index + k].slopes[id.index() * width..(id.index() + 1) * width];
+                    slopes[k].extend(row.iter().map(|slope| slope * sign * factor));
+                }
+            }
+            let ends = [first, second].map(|at| self.timed(self.layout.weights(at, interval)));
+            for k in 0..2 {
+                self.sums.clear();
+                normal.add_rows(&mut self.sums, &residuals, &slopes[k]);
+                normal.add_instant(&ends[k], &mut self.sums);
+            }
+            normal.cross(&slopes[0], &slopes[1], width, &mut cross);
+            normal.add_pair(&ends[0], &ends[1], &cross);
+        }
+    }
+
+    pub(super) fn instants(&self) -> &[Instant] {
+        &self.instants
+    }
+}

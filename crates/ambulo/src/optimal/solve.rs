@@ -1,0 +1,162 @@
+//! The solution: Levenberg and Marquardt's method inside an augmented Lagrangian.
+//!
+//! A step solves (A + λ diag A) Δ = -b with the normal equations A, b of the residuals; λ falls when the cost does and grows when it does not.
+
+use super::normal::{NormalEquations, empty_matrix};
+use super::problem::{Problem, Stage, Transcription};
+use super::solution::Solution;
+use crate::contact::HuntCrossley;
+use crate::dynamics::CurvedJointError;
+use crate::model::CoordinateId;
+
+/// One stage of a solution: an easier problem whose solution starts the next one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Continuation {
+    /// Factor of the stiffness of the shoes.
+    pub stiffness: f64,
+    /// Factor of the speed at which their friction sets in.
+    pub creep: f64,
+    /// Force at the root that costs one [body weights, body weights × length].
+    pub slack: f64,
+    /// Updates of the multipliers.
+    pub updates: usize,
+    /// Largest number of steps before each update.
+    pub steps: usize,
+}
+
+/// Course of a solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Steps of the method.
+    pub steps: usize,
+    /// Sum of squares at the end, that of the constraints included.
+    pub cost: f64,
+    /// Forces at the root, root mean square and largest [body weights, body weights × length].
+    pub root: (f64, f64),
+}
+
+/// A relative gain below this ends a stage.
+const SMALL_GAIN: f64 = 1e-4;
+const FIRST_DAMPING: f64 = 1e-3;
+const LEAST_DAMPING: f64 = 1e-9;
+/// Attempts per step to lower the cost.
+const TRIES: usize = 12;
+/// Accuracy of the first height over the ground, a share of the length of the body.
+const SETTLED: f64 = 1e-7;
+
+impl Problem {
+    /// Solves the problem from a first guess, stage by stage.
+    ///
+    /// # Errors
+    /// If the model has joints that are not hinges or slides.
+    pub fn solve(&self, guess: &[f64], stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
+        let mut method = Method::new(self)?;
+        let mut unknowns = guess.to_vec();
+        let mut progress = Vec::new();
+        for stage in stages {
+            method.transcription.stage = Stage {
+                shoes: HuntCrossley {
+                    stiffness: self.shoes.stiffness * stage.stiffness,
+                    transition_velocity: self.shoes.transition_velocity * stage.creep,
+                    ..self.shoes
+                },
+                slack: stage.slack,
+            };
+            method.transcription.clear_multipliers();
+            let mut steps = 0;
+            for update in 0..=stage.updates {
+                if update > 0 {
+                    method.transcription.update_multipliers();
+                }
+                steps += method.minimise(&mut unknowns, stage.steps);
+            }
+            let (cost, root) = (method.transcription.cost(), method.transcription.root_forces());
+            progress.push(Progress { steps, cost, root });
+        }
+        let instants = method.transcription.instants().to_vec();
+        Ok(Solution::new(self, unknowns, instants, progress))
+    }
+}
+
+impl Problem {
+    /// Moves a coordinate, the height of the body, until the ground carries the body's weight on average.
+    ///
+    /// # Errors
+    /// If the model has joints that are not hinges or slides.
+    pub fn settle(&self, unknowns: &mut [f64], height: CoordinateId) -> Result<(), CurvedJointError> {
+        let mut transcription = Transcription::new(self)?;
+        let width = self.model.coordinates().len();
+        let (mut low, mut high) = (-0.2 * self.length_m, 0.2 * self.length_m);
+        let start: Vec<f64> = unknowns.to_vec();
+        while high - low > SETTLED * self.length_m {
+            let middle = 0.5 * (low + high);
+            for (x, from) in unknowns.iter_mut().zip(&start).skip(height.index()).step_by(width) {
+                *x = from + middle;
+            }
+            transcription.evaluate(unknowns);
+            if transcription.mean_load() > self.weight_n() { low = middle } else { high = middle }
+        }
+        Ok(())
+    }
+}
+
+struct Method<'a> {
+    transcription: Transcription<'a>,
+    normal: NormalEquations,
+    damping: f64,
+}
+
+impl<'a> Method<'a> {
+    fn new(problem: &'a Problem) -> Result<Method<'a>, CurvedJointError> {
+        let transcription = Transcription::new(problem)?;
+        let normal = NormalEquations::new(&transcription.layout);
+        Ok(Method { transcription, normal, damping: FIRST_DAMPING })
+    }
+
+    fn cost(&mut self, unknowns: &[f64]) -> f64 {
+        self.transcription.evaluate(unknowns);
+        self.transcription.cost()
+    }
+
+    /// Improves the unknowns; the number of steps taken. The instants are those of the last unknowns.
+    fn minimise(&mut self, unknowns: &mut [f64], steps: usize) -> usize {
+        self.damping = self.damping.min(FIRST_DAMPING);
+        let mut cost = self.cost(unknowns);
+        for step in 0..steps {
+            let Some(after) = self.step(unknowns, cost) else { return step };
+            let gain = cost - after;
+            cost = after;
+            if gain < SMALL_GAIN * cost {
+                return step + 1;
+            }
+        }
+        steps
+    }
+
+    /// A step that lowers the cost, and the lower cost.
+    fn step(&mut self, unknowns: &mut [f64], cost: f64) -> Option<f64> {
+        let layout = self.transcription.layout.clone();
+        self.transcription.linearise(&mut self.normal);
+        let mut matrix = empty_matrix(&layout);
+        let mut right = vec![0.0; unknowns.len()];
+        self.normal.fold(&layout, &mut matrix, &mut right);
+        for _ in 0..TRIES {
+            let mut damped = matrix.clone();
+            damped.raise_diagonal(self.damping, f64::EPSILON);
+            if let Some(factor) = damped.factor() {
+                let mut change = right.clone();
+                factor.solve(&mut change);
+                let next: Vec<f64> = unknowns.iter().zip(&change).map(|(x, d)| x - d).collect();
+                let after = self.cost(&next);
+                if after < cost {
+                    self.damping = (self.damping / 5.0).max(LEAST_DAMPING);
+                    unknowns.copy_from_slice(&next);
+                    return Some(after);
+                }
+            }
+            self.damping *= 6.0;
+        }
+        self.transcription.evaluate(unknowns);
+        None
+    }
+}

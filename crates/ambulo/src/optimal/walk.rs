@@ -1,0 +1,345 @@
+//! The problem of walking: a figure walks at a speed, near the curves of people, with little effort.
+
+use super::layout::Span;
+use super::objective::{Bound, Quantity, Term};
+use super::problem::Problem;
+use super::solution::Solution;
+use super::solve::Continuation;
+use crate::contact::HuntCrossley;
+use crate::gait::machine::WalkMachine;
+use crate::gait::{GroundForceLaws, Jet, OtherPlaneLaws, Walk, WalkCoordinates};
+use crate::model::anthropometry::{ContactSphere, Human};
+use crate::model::{CoordinateId, Model, Movement, Side};
+use crate::spatial::Vec3;
+use crate::toml_reader::TomlError;
+
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+/// A figure that walks.
+#[derive(Debug, Clone)]
+pub struct WalkProblem {
+    /// The problem of optimal motion.
+    pub problem: Problem,
+    /// The walk whose curves are followed, as a first guess.
+    pub guess: Vec<f64>,
+}
+
+/// The spheres under the feet of a figure in three dimensions: every sphere of the planar figure becomes two, beside each other.
+///
+/// The outer edges of the forefoot's spheres are the foot's width apart, those of the heel 0.7 of it (the heel of Gait2392's foot is
+/// that much narrower than its ball; our choice).
+#[must_use]
+pub fn soles_with_width(human: &Human) -> Vec<ContactSphere> {
+    let width = human.dimensions.foot_width;
+    human
+        .soles
+        .iter()
+        .flat_map(|sole| {
+            let breadth = if sole.name.starts_with("heel") { 0.7 * width } else { width };
+            let aside = (0.5 * breadth - sole.radius).max(0.2 * breadth);
+            [("medial", -1.0), ("lateral", 1.0)].map(|(place, sign)| {
+                let outwards = if sole.side == Side::Right { sign } else { -sign };
+                let center = sole.center + Vec3::new(0.0, 0.0, outwards * aside);
+                ContactSphere { name: format!("{}_{place}", sole.name), center, ..sole.clone() }
+            })
+        })
+        .collect()
+}
+
+/// Resolution and costs of a walk.
+#[derive(Debug, Clone, Copy)]
+pub struct WalkCosts {
+    /// Knot intervals of half a cycle, and instants of each.
+    pub knots: usize,
+    pub per_knot: usize,
+    pub hip: f64,
+    pub knee: f64,
+    pub ankle: f64,
+    pub acceleration: f64,
+    pub plane: f64,
+    pub force: [f64; 3],
+    pub moment_rate: f64,
+    pub slip: f64,
+}
+
+impl Default for WalkCosts {
+    fn default() -> WalkCosts {
+        WalkCosts {
+            knots: 24,
+            per_knot: 3,
+            hip: 2.0 * DEGREE,
+            knee: 3.0 * DEGREE,
+            ankle: 2.0 * DEGREE,
+            acceleration: 30.0,
+            plane: 1.0 * DEGREE,
+            force: [0.01, 0.02, 0.02],
+            moment_rate: 3.0,
+            slip: 0.005,
+        }
+    }
+}
+
+/// Stages of the solution: shoes get stiffer, friction steeper, and forces at the root dearer.
+pub const STAGES: [Continuation; 6] = [
+    Continuation { stiffness: 0.25, creep: 50.0, slack: 0.05, updates: 0, steps: 20 },
+    Continuation { stiffness: 0.5, creep: 20.0, slack: 0.02, updates: 0, steps: 20 },
+    Continuation { stiffness: 1.0, creep: 8.0, slack: 0.01, updates: 0, steps: 20 },
+    Continuation { stiffness: 1.0, creep: 4.0, slack: 0.005, updates: 0, steps: 20 },
+    Continuation { stiffness: 1.0, creep: 2.0, slack: 0.002, updates: 0, steps: 30 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.002, updates: 3, steps: 30 },
+];
+
+/// The foot is in swing from this share of the cycle after foot off to this share before the next strike, at heel, ball and toes.
+const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]];
+/// Largest extension of the toes in the first guess [rad].
+const TOES_LIMIT: f64 = 0.8;
+/// Smallest height of a swinging sole [m].
+const CLEARANCE: f64 = 0.008;
+
+/// One instant of the walk that is followed.
+struct Target {
+    posture: [Vec<f64>; 3],
+    /// Force of the right and of the left foot: forward, up [body weights].
+    forces: [[f64; 2]; 2],
+    /// Angle of the toes, right and left [rad].
+    toes: [f64; 2],
+    /// Whether heel, ball and toes must be clear of the ground; right, left.
+    swing: [[bool; 3]; 2],
+}
+
+struct Builder<'a> {
+    model: &'a Model,
+    targets: Vec<Target>,
+    terms: Vec<Term>,
+}
+
+impl WalkProblem {
+    /// The problem of a figure that walks in a gait.
+    ///
+    /// # Errors
+    /// None of the built-in laws; a test reads them.
+    pub fn new(
+        human: &Human,
+        soles: &[ContactSphere],
+        shoes: HuntCrossley,
+        walk: &Walk,
+        costs: &WalkCosts,
+    ) -> Result<WalkProblem, TomlError> {
+        let model = &human.model;
+        let forward = model.anatomy().coordinate(Movement::PelvisForward, None).map(|(id, _)| id);
+        let half = 0.5 * walk.cycle_s();
+        let mut problem = Problem {
+            model: model.clone(),
+            soles: soles.to_vec(),
+            shoes,
+            span: Span::MirroredHalfCycle,
+            duration_s: half,
+            travel: forward.map(|id| (id, walk.speed() * half)),
+            knots: costs.knots,
+            instants_per_knot: costs.per_knot,
+            length_m: human.dimensions.leg_length,
+            terms: Vec::new(),
+        };
+        let targets = targets(human, walk, &problem.shares())?;
+        let mut builder = Builder { model, targets, terms: Vec::new() };
+        builder.posture(costs);
+        builder.forces(&problem, walk, costs);
+        builder.feet(&problem, costs);
+        let Builder { targets, terms, .. } = builder;
+        problem.terms = terms;
+        let mut guess = problem.fitted(&targets.iter().map(|target| target.posture[0].clone()).collect::<Vec<_>>());
+        if let Some((height, _)) = model.anatomy().coordinate(Movement::PelvisUp, None) {
+            let _ = problem.settle(&mut guess, height);
+        }
+        Ok(WalkProblem { problem, guess })
+    }
+
+    /// Solves the problem.
+    ///
+    /// # Errors
+    /// If the figure has joints that are not hinges or slides.
+    pub fn solve(&self, stages: &[Continuation]) -> Result<Solution, crate::dynamics::CurvedJointError> {
+        self.problem.solve(&self.guess, stages)
+    }
+}
+
+fn targets(human: &Human, walk: &Walk, shares: &[f64]) -> Result<Vec<Target>, TomlError> {
+    let (forces, planes) = (GroundForceLaws::built_in()?, OtherPlaneLaws::built_in()?);
+    let model = &human.model;
+    let coordinates = WalkCoordinates::of(model);
+    let mut machine = WalkMachine::new(walk);
+    let count = model.coordinates().len();
+    let speed = walk.curve_speed(&walk.clock(0.0)).value;
+    let target = |&share: &f64| {
+        let phase = 0.5 * share;
+        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        let [q, qd, qdd] = &mut posture;
+        let at = machine.step(phase * walk.cycle_s());
+        coordinates.write(&at, q, qd, qdd);
+        let rate = 1.0 / walk.cycle_s();
+        let moving = Jet { value: phase, rate, acceleration: 0.0 };
+        write_planes(model, &planes.at(moving, Jet::constant(speed)), &mut posture);
+        if let Some((id, _)) = model.anatomy().coordinate(Movement::PelvisUp, None) {
+            posture[0][id.index()] = human.dimensions.leg_length;
+        }
+        let mut of_side = [(&at.right, 0.0), (&at.left, 0.5)].into_iter().map(|(leg, ahead)| {
+            let place = (phase + ahead) % 1.0;
+            let pitch = leg.hip.value - at.pelvis_tilt.value - leg.knee.value + leg.ankle.value;
+            let stands = place < at.phases.foot_off;
+            let toes = if stands { (-pitch).clamp(0.0, TOES_LIMIT) } else { 0.0 };
+            let [up, fore] = forces.at(place, speed);
+            let swings = |[after, before]: [f64; 2]| place > at.phases.foot_off + after && place < 1.0 - before;
+            ([fore, up], toes, SWING_MARGINS.map(swings))
+        });
+        let (right, left) = (of_side.next(), of_side.next());
+        let ((a, b, c), (d, e, f)) = (right.unwrap_or_default(), left.unwrap_or_default());
+        Target { posture, forces: [a, d], toes: [b, e], swing: [c, f] }
+    };
+    Ok(shares.iter().map(target).collect())
+}
+
+/// Writes pelvis, trunk and hips outside the sagittal plane.
+fn write_planes(model: &Model, planes: &crate::gait::OtherPlanes, posture: &mut [Vec<f64>; 3]) {
+    let anatomy = model.anatomy();
+    let mut put = |movement: Movement, side: Option<Side>, angle: Jet| {
+        if let Some((id, sign)) = anatomy.coordinate(movement, side) {
+            for (values, part) in posture.iter_mut().zip([angle.value, angle.rate, angle.acceleration]) {
+                values[id.index()] = sign * part;
+            }
+        }
+    };
+    let [obliquity, rotation] = planes.pelvis;
+    put(Movement::PelvicObliquity, None, obliquity);
+    put(Movement::PelvicRotation, None, rotation);
+    put(Movement::TrunkObliquity, None, planes.trunk[0] - obliquity);
+    put(Movement::TrunkRotation, None, planes.trunk[1] - rotation);
+    for (side, [adduction, rotation]) in Side::BOTH.into_iter().zip(planes.hips) {
+        put(Movement::HipAdduction, Some(side), adduction);
+        put(Movement::HipRotation, Some(side), rotation);
+    }
+}
+
+impl Builder<'_> {
+    fn add(&mut self, name: &str, quantity: Quantity, targets: Vec<Option<f64>>, deviation: f64, bound: Bound) {
+        self.terms.push(Term { name: name.to_owned(), quantity, targets, deviation, bound });
+    }
+
+    fn constant(&self, value: f64) -> Vec<Option<f64>> {
+        vec![Some(value); self.targets.len()]
+    }
+
+    /// Angle and acceleration of a coordinate near those of the walk.
+    fn follow(&mut self, id: CoordinateId, angle: f64, acceleration: f64) {
+        let name = self.model.coordinates()[id.index()].name.clone();
+        let part = |d: usize| self.targets.iter().map(|t| Some(t.posture[d][id.index()])).collect::<Vec<_>>();
+        let (angles, accelerations) = (part(0), part(2));
+        self.add(&name, Quantity::Position(vec![(id, 1.0)]), angles, angle, Bound::Near);
+        self.add(&name, Quantity::Acceleration(vec![(id, 1.0)]), accelerations, acceleration, Bound::Near);
+    }
+
+    fn posture(&mut self, costs: &WalkCosts) {
+        let model = self.model;
+        let anatomy = model.anatomy();
+        for id in model.coordinate_ids() {
+            let meaning = anatomy.meaning(id);
+            let name = model.coordinates()[id.index()].name.clone();
+            match meaning.map(|meaning| meaning.movement) {
+                Some(Movement::HipFlexion) => self.follow(id, costs.hip, costs.acceleration),
+                Some(Movement::KneeFlexion) => {
+                    self.follow(id, costs.knee, costs.acceleration);
+                    let sign = meaning.map_or(1.0, |m| m.sign);
+                    let flexion = Quantity::Position(vec![(id, sign)]);
+                    self.add(&name, flexion, self.constant(1.5 * DEGREE), 0.5 * DEGREE, Bound::AtLeast);
+                }
+                Some(Movement::AnkleDorsiflexion) => self.follow(id, costs.ankle, costs.acceleration),
+                Some(Movement::ToeExtension) => {
+                    let side = usize::from(meaning.and_then(|m| m.side) == Some(Side::Left));
+                    let toes = self.targets.iter().map(|t| Some(t.toes[side])).collect();
+                    self.add(&name, Quantity::Position(vec![(id, 1.0)]), toes, 8.0 * DEGREE, Bound::Near);
+                    let still = self.constant(0.0);
+                    self.add(&name, Quantity::Acceleration(vec![(id, 1.0)]), still, 90.0, Bound::Near);
+                }
+                Some(Movement::PelvisForward | Movement::PelvisUp | Movement::PelvisRight) => {
+                    let still = self.constant(0.0);
+                    self.add(&name, Quantity::Acceleration(vec![(id, 1.0)]), still, 20.0, Bound::Near);
+                }
+                Some(Movement::PelvicTilt) => self.follow(id, DEGREE, 3.0),
+                Some(Movement::PelvicObliquity | Movement::PelvicRotation) => {
+                    self.follow(id, costs.plane, 10.0);
+                }
+                Some(Movement::HipAdduction | Movement::HipRotation) => self.follow(id, costs.plane, 20.0),
+                Some(Movement::SubtalarInversion) => self.follow(id, 3.0 * DEGREE, 30.0),
+                Some(Movement::TrunkLean) => self.trunk(id),
+                Some(Movement::TrunkObliquity | Movement::TrunkRotation) => self.follow(id, costs.plane, 10.0),
+                _ => self.follow(id, 3.0 * DEGREE, 10.0),
+            }
+        }
+        if let Some((id, _)) = anatomy.coordinate(Movement::PelvisForward, None) {
+            let mut at_start = vec![None; self.targets.len()];
+            at_start[0] = Some(0.0);
+            self.add("place", Quantity::Position(vec![(id, 1.0)]), at_start, 1e-3, Bound::Near);
+        }
+    }
+
+    /// The trunk's lean in the world, which is the sum of pelvis and lumbar joint.
+    fn trunk(&mut self, lumbar: CoordinateId) {
+        let Some((tilt, _)) = self.model.anatomy().coordinate(Movement::PelvicTilt, None) else { return };
+        let both = vec![(tilt, 1.0), (lumbar, 1.0)];
+        let sum = |d: usize| -> Vec<Option<f64>> {
+            self.targets.iter().map(|t| Some(t.posture[d][tilt.index()] + t.posture[d][lumbar.index()])).collect()
+        };
+        let (angles, accelerations) = (sum(0), sum(2));
+        self.add("trunk", Quantity::Position(both.clone()), angles, DEGREE, Bound::Near);
+        self.add("trunk", Quantity::Acceleration(both), accelerations, 3.0, Bound::Near);
+    }
+
+    fn forces(&mut self, problem: &Problem, walk: &Walk, costs: &WalkCosts) {
+        let weight = problem.weight_n();
+        for (k, side) in Side::BOTH.into_iter().enumerate() {
+            let spheres = spheres_of(problem, side, "");
+            for axis in 0..2 {
+                let targets = self.targets.iter().map(|t| Some(t.forces[k][axis] * weight)).collect();
+                let deviation = costs.force[axis] * weight;
+                self.add("ground force", Quantity::GroundForce(spheres.clone(), axis), targets, deviation, Bound::Near);
+            }
+            let toes = Quantity::GroundForce(spheres_of(problem, side, "toe"), 1);
+            self.add("force under the toes", toes, self.constant(0.0), 0.15 * weight, Bound::Near);
+        }
+        let rate = costs.moment_rate * self.model.mass() / walk.cycle_s();
+        for id in self.model.coordinate_ids() {
+            let Some(meaning) = self.model.anatomy().meaning(id) else { continue };
+            let moves = matches!(
+                meaning.movement,
+                Movement::HipFlexion
+                    | Movement::HipAdduction
+                    | Movement::HipRotation
+                    | Movement::KneeFlexion
+                    | Movement::AnkleDorsiflexion
+                    | Movement::SubtalarInversion
+            );
+            if moves {
+                self.add("moment rate", Quantity::ForceRate(id), self.constant(0.0), rate, Bound::Near);
+            }
+        }
+    }
+
+    fn feet(&mut self, problem: &Problem, costs: &WalkCosts) {
+        let light_n = 0.05 * problem.weight_n();
+        for (sphere, sole) in problem.soles.iter().enumerate() {
+            let side = usize::from(sole.side == Side::Left);
+            let part = ["heel", "ball", "toe"].iter().position(|name| sole.name.starts_with(name)).unwrap_or(0);
+            for axis in 0..2 {
+                let slip = Quantity::Slip { sphere, axis, light_n };
+                self.add("slip", slip, self.constant(0.0), costs.slip, Bound::Near);
+            }
+            let clear = self.targets.iter().map(|t| t.swing[side][part].then_some(CLEARANCE)).collect();
+            self.add("clearance", Quantity::Height(sphere), clear, 0.002, Bound::AtLeast);
+        }
+    }
+}
+
+/// Numbers of the spheres of a side whose names begin so.
+fn spheres_of(problem: &Problem, side: Side, name: &str) -> Vec<usize> {
+    let is_it = |sole: &ContactSphere| sole.side == side && sole.name.starts_with(name);
+    (0..problem.soles.len()).filter(|&k| is_it(&problem.soles[k])).collect()
+}
