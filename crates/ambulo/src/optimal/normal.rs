@@ -96,6 +96,23 @@ impl NormalEquations {
         self.right.fill(0.0);
     }
 
+    pub(super) fn clear_right(&mut self) {
+        self.right.fill(0.0);
+    }
+
+    /// The right-hand side of the unknowns alone.
+    pub(super) fn fold_right(&self, layout: &Layout) -> Vec<f64> {
+        let n = self.width;
+        let mut right = vec![0.0; layout.blocks() * n];
+        for block in 0..layout.extended_blocks() {
+            for a in 0..n {
+                let (to, to_a, sign) = layout.origin(block, a);
+                right[to * n + to_a] += sign * self.right[block * n + a];
+            }
+        }
+        right
+    }
+
     /// Adds residuals with rows in z to the sums of an instant.
     pub(super) fn add_rows(&self, sums: &mut InstantSums, residuals: &[f64], rows: &[f64]) {
         self.arch.dispatch(AddRows { sums, residuals, rows });

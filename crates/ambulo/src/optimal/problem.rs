@@ -60,6 +60,8 @@ pub(super) struct Transcription<'a> {
     /// One per instant and coordinate of the root.
     multipliers: Vec<f64>,
     instants: Vec<Instant>,
+    /// The instants at which the normal equations were made.
+    base: Vec<Instant>,
     sums: InstantSums,
     rows: Rows,
 }
@@ -149,6 +151,7 @@ impl<'a> Transcription<'a> {
             stage: Stage { shoes: problem.shoes, slack: 1.0 },
             multipliers: vec![0.0; layout.instants() * root.len()],
             instants: vec![Instant::default(); layout.instants()],
+            base: vec![Instant::default(); layout.instants()],
             sums: InstantSums::new(layout.width),
             rows: Rows::default(),
             root,
@@ -286,6 +289,41 @@ impl<'a> Transcription<'a> {
             normal.add_instant(&weights, &mut self.sums);
         }
         self.rate_rows(normal);
+    }
+
+    /// Keeps the instants at which the normal equations were made; those of a trial take their place.
+    pub(super) fn exchange_base(&mut self) {
+        std::mem::swap(&mut self.instants, &mut self.base);
+    }
+
+    /// Right-hand side of what the forces at the root are now beyond what the base and its derivatives foretold for a change of the unknowns.
+    pub(super) fn curvature_of_root(&self, change: &[f64], normal: &mut NormalEquations) {
+        let (n, width) = (self.layout.width, 3 * self.layout.width);
+        let extended = self.layout.extended(change);
+        let factor = (self.share() / self.stage.slack).powi(2);
+        normal.clear_right();
+        for index in 0..self.counted() {
+            let weights = self.weights(index);
+            let (base, now) = (&self.base[index], &self.instants[index]);
+            let mut moved = vec![0.0; width];
+            for (part, values) in weights.values.iter().enumerate() {
+                for (weight, block) in values.iter().zip(extended.chunks(n).skip(weights.first)) {
+                    for (sum, value) in moved[part * n..(part + 1) * n].iter_mut().zip(block) {
+                        *sum += weight * value;
+                    }
+                }
+            }
+            let mut right = vec![0.0; width];
+            for (coordinate, scale) in &self.root {
+                let row = &base.slopes[coordinate * width..(coordinate + 1) * width];
+                let foretold: f64 = row.iter().zip(&moved).map(|(a, b)| a * b).sum();
+                let beyond = now.forces[*coordinate] - base.forces[*coordinate] - foretold;
+                for (sum, slope) in right.iter_mut().zip(row) {
+                    *sum += slope * beyond * factor / (scale * scale);
+                }
+            }
+            normal.add_right(&weights, &right);
+        }
     }
 
     fn instant_rows(&mut self, index: usize, normal: &NormalEquations) {

@@ -2,8 +2,9 @@
 
 use super::instant::Instant;
 use super::layout::Layout;
-use super::problem::Problem;
+use super::problem::{Problem, Transcription};
 use super::solve::Progress;
+use crate::dynamics::CurvedJointError;
 
 /// A motion that solves a problem.
 #[derive(Debug, Clone)]
@@ -58,6 +59,18 @@ impl Solution {
             }
         }
         self.problem.add_travel(whole + share, posture);
+    }
+
+    /// Forces at the root that nothing supplies, at `per_knot` instants of each knot interval: root mean square and largest
+    /// [body weights, body weights × length]. With more instants than the problem has, this is what is left between them.
+    ///
+    /// # Errors
+    /// None for a problem that was solved.
+    pub fn root_forces(&self, per_knot: usize) -> Result<(f64, f64), CurvedJointError> {
+        let finer = Problem { instants_per_knot: per_knot, terms: Vec::new(), ..self.problem.clone() };
+        let mut transcription = Transcription::new(&finer)?;
+        transcription.evaluate(&self.unknowns);
+        Ok(transcription.root_forces())
     }
 
     /// Generalised forces at the instants of the problem [N.m or N].

@@ -140,15 +140,31 @@ impl<'a> Method<'a> {
         let mut matrix = empty_matrix(&layout);
         let mut right = vec![0.0; unknowns.len()];
         self.normal.fold(&layout, &mut matrix, &mut right);
+        self.transcription.exchange_base();
         for _ in 0..TRIES {
             let mut damped = matrix.clone();
             damped.raise_diagonal(self.damping, f64::EPSILON);
             if let Some(factor) = damped.factor() {
                 let mut change = right.clone();
                 factor.solve(&mut change);
-                let next: Vec<f64> = unknowns.iter().zip(&change).map(|(x, d)| x - d).collect();
-                let after = self.cost(&next);
+                let moved = |change: &[f64]| -> Vec<f64> { unknowns.iter().zip(change).map(|(x, d)| x - d).collect() };
+                let plain = moved(&change);
+                let plain_cost = self.cost(&plain);
+                // The forces at the root bend along the step; a second step takes them back.
+                let negative: Vec<f64> = change.iter().map(|d| -d).collect();
+                self.transcription.curvature_of_root(&negative, &mut self.normal);
+                let mut bend = self.normal.fold_right(&layout);
+                factor.solve(&mut bend);
+                for (d, b) in change.iter_mut().zip(&bend) {
+                    *d += b;
+                }
+                let bent = moved(&change);
+                let bent_cost = self.cost(&bent);
+                let (next, after) = if bent_cost <= plain_cost { (bent, bent_cost) } else { (plain, plain_cost) };
                 if after < cost {
+                    if bent_cost > plain_cost {
+                        self.transcription.evaluate(&next);
+                    }
                     self.damping = (self.damping / 5.0).max(LEAST_DAMPING);
                     unknowns.copy_from_slice(&next);
                     return Some(after);
