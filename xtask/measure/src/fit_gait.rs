@@ -13,8 +13,10 @@ mod write;
 
 use crate::harmonics::Harmonics;
 use crate::normative::{self, CADENCES, Curves, SPEEDS, Sheet};
+use crate::walk_bands::child_leg;
 use crate::workspace;
 use ambulo::gait::{Laws, LegJoint, Style};
+use ambulo::spatial::STANDARD_GRAVITY;
 use errors::CurveError;
 use ground_forces::Forces;
 use recipe::RECIPES;
@@ -48,8 +50,9 @@ const SOURCE: &str = "\
 const FIT: &str = "\
 # Fit: each curve as its first 12 harmonics (the step from 100 % to 0 % taken out as a line). Times of the knots: looked for on the
 # five curves, a quadratic of V* by least squares. Angle, slope and curvature: read from the curves at those times, a quadratic each.
-# Pelvis and trunk: mean, 2nd and 4th harmonic, a quadratic each; the trunk's mean of 16 to 23 degrees is one of its markers' frame and
-# left out. Support: duration of support against duration of the cycle, both in leg times sqrt(L/g), a line through five speeds.
+# Pelvis and trunk: mean, 2nd and 4th harmonic, a quadratic each. The tables' trunk is relative to the pelvis (its third harmonics in the
+# frontal and the transverse plane are the opposite of the pelvis's; their sum is smooth), so the trunk's lean is the sum of both; its mean is
+# one of its markers' frame and left out. Support: duration of support against duration of the cycle, both in leg times sqrt(L/g), a line through five speeds.
 ";
 const FIT_1997: &str = "\
 # Fit: as knots.toml, at the extremes alone, every law a line (the paper: \"we use linear laws\"). Replaces the tables of Nilsson,
@@ -72,6 +75,20 @@ const OTHER_PLANES: [(&str, &str, bool); 6] = [
 /// Harmonics of an angle outside the sagittal plane.
 const PLANE_ORDERS: usize = 8;
 
+const FIT_MOMENTS: &str = "\
+# Fit: mean and first ten harmonics (the step from 100 % to 0 % taken out as a line), a quadratic of V* each. Moments are shares of body
+# weight times leg length, with the children's leg of docs/measured/WALK_BANDS.md.
+";
+/// Moments of the muscles at the joints: key and quantity of the table.
+const MOMENTS: [(&str, &str); 4] = [
+    ("hip_extension", "Hip Ext/Flexion"),
+    ("knee_extension", "Knee Ext/Flexion"),
+    ("plantarflexion", "Ankle Dorsi/Plantarflexion"),
+    ("hip_abduction", "Hip Ab/Adduction"),
+];
+/// Harmonics of a moment.
+const MOMENT_ORDERS: usize = 10;
+
 /// Fits, writes and prints.
 #[expect(clippy::print_stdout, reason = "the errors are the command's result")]
 pub(crate) fn run() -> Result<(), String> {
@@ -89,7 +106,23 @@ pub(crate) fn run() -> Result<(), String> {
     let path = workspace::root().join(FOLDER).join("other_planes.toml");
     fs::write(&path, other_planes_text()?).map_err(|e| format!("{}: {e}", path.display()))?;
     println!("written: {}", path.display());
+    let path = workspace::root().join(FOLDER).join("joint_moments.toml");
+    fs::write(&path, joint_moments_text()?).map_err(|e| format!("{}: {e}", path.display()))?;
+    println!("written: {}", path.display());
     Ok(())
+}
+
+/// The file of joint moments.
+fn joint_moments_text() -> Result<String, String> {
+    let mut text = format!("{SOURCE}#\n{FIT_MOMENTS}");
+    let weight_times_leg = STANDARD_GRAVITY * child_leg::legs()?[0].mean();
+    let orders: Vec<usize> = (1..=MOMENT_ORDERS).collect();
+    for (name, quantity) in MOMENTS {
+        let curves = normative::curves(Sheet::Moments, quantity)?;
+        let shares = curves.map(|curve| curve.iter().map(|moment| moment / weight_times_leg).collect());
+        write_wave(&mut text, name, &shares, Form { unit: "", digits: 5, with_mean: true }, &orders);
+    }
+    Ok(text)
 }
 
 /// The file of angles outside the sagittal plane.
@@ -97,7 +130,7 @@ fn other_planes_text() -> Result<String, String> {
     let mut text = format!("{SOURCE}#\n{FIT_PLANES}");
     for (name, quantity, opposite) in OTHER_PLANES {
         let orders: Vec<usize> = (1..=PLANE_ORDERS).filter(|order| !opposite || order % 2 == 1).collect();
-        write_wave(&mut text, name, quantity, !opposite, &orders)?;
+        write_wave(&mut text, name, &normative::curves(Sheet::Angles, quantity)?, Form::angle(!opposite), &orders);
     }
     Ok(text)
 }
@@ -134,8 +167,11 @@ fn style_text(style: Style, tables: &[Curves], used: &[usize]) -> Result<String,
         write!(text, "\n[range]\nslowest = {}\nfastest = {}\nbelow = {below}\nabove = {above}\n", SPEEDS[0], SPEEDS[4]);
     if style == Style::Knots {
         write_support(&mut text)?;
-        write_wave(&mut text, "pelvis_tilt", "Pelvic Ant/Posterior Tilt", true, &SHARED)?;
-        write_wave(&mut text, "trunk_lean", "Trunk Ant/Posterior Tilt", false, &SHARED)?;
+        let pelvis = normative::curves(Sheet::Angles, "Pelvic Ant/Posterior Tilt")?;
+        let trunk = normative::curves(Sheet::Angles, "Trunk Ant/Posterior Tilt")?;
+        let lean: Curves = std::array::from_fn(|i| trunk[i].iter().zip(&pelvis[i]).map(|(a, b)| a + b).collect());
+        write_wave(&mut text, "pelvis_tilt", &pelvis, Form::angle(true), &SHARED);
+        write_wave(&mut text, "trunk_lean", &lean, Form::angle(false), &SHARED);
     }
     for (recipe, curves) in RECIPES.iter().zip(tables) {
         match style {
@@ -162,20 +198,35 @@ fn write_support(text: &mut String) -> Result<(), String> {
 /// Orders of the harmonics that both steps share.
 const SHARED: [usize; 2] = [2, 4];
 
+/// How a wave is written.
+#[derive(Debug, Clone, Copy)]
+struct Form {
+    /// End of the keys: `_deg` for angles.
+    unit: &'static str,
+    digits: usize,
+    /// Without it, the mean is zero.
+    with_mean: bool,
+}
+
+impl Form {
+    fn angle(with_mean: bool) -> Form {
+        Form { unit: "_deg", digits: 3, with_mean }
+    }
+}
+
 /// Mean and some harmonics, as quadratics of speed.
-fn write_wave(text: &mut String, name: &str, quantity: &str, with_mean: bool, orders: &[usize]) -> Result<(), String> {
-    let waves: Vec<Harmonics> =
-        normative::curves(Sheet::Angles, quantity)?.iter().map(|curve| Harmonics::of(curve)).collect();
+fn write_wave(text: &mut String, name: &str, curves: &Curves, form: Form, orders: &[usize]) {
+    let waves: Vec<Harmonics> = curves.iter().map(|curve| Harmonics::of(curve)).collect();
     let law = |part: &dyn Fn(&Harmonics) -> f64| {
-        write::law(&polynomial::fit(&SPEEDS, &waves.iter().map(part).collect::<Vec<f64>>(), 2), 3)
+        write::law(&polynomial::fit(&SPEEDS, &waves.iter().map(part).collect::<Vec<f64>>(), 2), form.digits)
     };
-    let mean = if with_mean { law(&|wave| wave.mean) } else { "0.0".into() };
-    let _ = write!(text, "\n[{name}]\nmean_deg = {mean}\n");
+    let unit = form.unit;
+    let mean = if form.with_mean { law(&|wave| wave.mean) } else { "0.0".into() };
+    let _ = write!(text, "\n[{name}]\nmean{unit} = {mean}\n");
     for &order in orders {
         let [cos, sin] = [0, 1].map(|i| law(&move |wave: &Harmonics| wave.factors[order - 1][i]));
-        let _ = write!(text, "[[{name}.harmonic]]\norder = {order}\ncos_deg = {cos}\nsin_deg = {sin}\n");
+        let _ = write!(text, "[[{name}.harmonic]]\norder = {order}\ncos{unit} = {cos}\nsin{unit} = {sin}\n");
     }
-    Ok(())
 }
 
 /// Errors of a style at each speed: of laws from all speeds, and from the other four.
@@ -229,6 +280,13 @@ mod tests {
             let errors = error_table(style, &tables).unwrap();
             let expected = file_text(style, &tables, &errors).unwrap();
             assert_eq!(fs::read_to_string(path(style)).unwrap(), expected, "{style:?}: run `cargo xtask fit-gait`");
+        }
+        let folder = workspace::root().join(FOLDER);
+        for (name, expected) in
+            [("other_planes.toml", other_planes_text()), ("joint_moments.toml", joint_moments_text())]
+        {
+            let found = fs::read_to_string(folder.join(name)).unwrap();
+            assert_eq!(found, expected.unwrap(), "{name}: run `cargo xtask fit-gait`");
         }
         let forces = Forces::read().unwrap();
         let expected = forces.file_text(&forces.errors().unwrap());

@@ -7,6 +7,7 @@ mod fit_gait;
 mod fit_ground;
 mod harmonics;
 mod normative;
+mod optimal_walk;
 mod normative_bands;
 mod npz;
 mod oracle_c3d;
@@ -44,6 +45,7 @@ fn main() -> ExitCode {
         ("twins", _) => twins::run(rest),
         ("validate", _) => validate::run(rest),
         ("walk-bands", _) => walk_bands::run(rest),
+        ("optimal-walk", _) => optimal_walk::run(rest),
         _ => {
             eprintln!("error: unknown command `{}`\nhint: `cargo xtask help` lists the commands", words.join(" "));
             return ExitCode::from(MISUSED);

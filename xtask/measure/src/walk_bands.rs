@@ -5,7 +5,7 @@
 //! criterion is listed as missed and is no error. With `--write` the page goes to docs/measured/WALK_BANDS.md, its picture to docs/images.
 
 mod adjustment;
-mod child_leg;
+pub(crate) mod child_leg;
 mod criteria;
 mod curve;
 mod cycle;

@@ -31,6 +31,7 @@ mod ground_force;
 mod other_planes;
 mod jet;
 mod joint;
+mod joint_moments;
 mod laws;
 mod quintic;
 mod speed_law;
@@ -55,6 +56,7 @@ pub use gait_settings::{Gait, JointChange, KnotChange, Pace, Pelvis, Speed, Styl
 pub use ground_force::GroundForceLaws;
 pub use other_planes::{OtherPlaneLaws, OtherPlanes};
 pub use jet::Jet;
+pub use joint_moments::{JointMomentLaws, JointMoments};
 pub use joint::{LegJoint, STANDING_TILT, WalkPart};
 pub use laws::{Laws, LegCurves, SupportLaw};
 pub use pace_plan::{Clock, PaceChange};

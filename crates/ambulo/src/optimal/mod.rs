@@ -24,6 +24,6 @@ mod walk;
 pub use layout::Span;
 pub use objective::{Bound, Quantity, Term};
 pub use problem::Problem;
-pub use solution::Solution;
+pub use solution::{Sample, Solution, SoleContact};
 pub use solve::{Continuation, Progress};
 pub use walk::{STAGES, WalkCosts, WalkProblem, soles_with_width};

@@ -1,10 +1,43 @@
 //! The motion that was found.
 
-use super::instant::Instant;
+use super::instant::{Evaluator, HEIGHT, Instant, SLIP};
 use super::layout::Layout;
 use super::problem::{Problem, Transcription};
 use super::solve::Progress;
 use crate::dynamics::CurvedJointError;
+use crate::spatial::Vec3;
+
+/// One instant of a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample {
+    /// Time from the start of the span [s].
+    pub time_s: f64,
+    /// Coordinates [rad or m], their rates and their accelerations.
+    pub posture: [Vec<f64>; 3],
+    /// Generalised force of every coordinate [N.m or N]; those of the root are what nothing supplies.
+    pub forces: Vec<f64>,
+    /// Contact of every sphere of the problem with the ground.
+    pub contacts: Vec<SoleContact>,
+}
+
+/// Contact of one sphere with the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SoleContact {
+    /// Force of the ground on the foot [N].
+    pub force: Vec3,
+    /// Height of the sphere's lowest point [m].
+    pub height_m: f64,
+    /// Velocity of the contact point along x and z [m/s].
+    pub slip: [f64; 2],
+}
+
+impl Sample {
+    /// Force of the ground on some spheres together [N].
+    #[must_use]
+    pub fn ground_force(&self, spheres: &[usize]) -> Vec3 {
+        spheres.iter().fold(Vec3::zeros(), |sum, &s| sum + self.contacts[s].force)
+    }
+}
 
 /// A motion that solves a problem.
 #[derive(Debug, Clone)]
@@ -71,6 +104,33 @@ impl Solution {
         let mut transcription = Transcription::new(&finer)?;
         transcription.evaluate(&self.unknowns);
         Ok(transcription.root_forces())
+    }
+
+    /// Motion and forces at given times [s].
+    ///
+    /// # Errors
+    /// None for a problem that was solved.
+    pub fn samples(&self, times_s: &[f64]) -> Result<Vec<Sample>, CurvedJointError> {
+        let empty = || [vec![0.0; self.layout.width], vec![0.0; self.layout.width], vec![0.0; self.layout.width]];
+        let mut instants: Vec<Instant> = times_s
+            .iter()
+            .map(|&time_s| {
+                let mut posture = empty();
+                self.write(time_s, &mut posture);
+                Instant { posture, ..Instant::default() }
+            })
+            .collect();
+        Evaluator::new(&self.problem.model, &self.problem.soles)?.evaluate(&self.problem.shoes, &mut instants);
+        let sample = |(at, &time_s): (Instant, &f64)| {
+            let contact = |c: &super::instant::Contact| SoleContact {
+                force: Vec3::new(c.values[0], c.values[1], c.values[2]),
+                height_m: c.values[HEIGHT],
+                slip: [c.values[SLIP], c.values[SLIP + 1]],
+            };
+            let contacts = at.contacts.iter().map(contact).collect();
+            Sample { time_s, posture: at.posture, forces: at.forces, contacts }
+        };
+        Ok(instants.into_iter().zip(times_s).map(sample).collect())
     }
 
     /// Generalised forces at the instants of the problem [N.m or N].

@@ -7,7 +7,7 @@ use super::solution::Solution;
 use super::solve::Continuation;
 use crate::contact::HuntCrossley;
 use crate::gait::machine::WalkMachine;
-use crate::gait::{GroundForceLaws, Jet, OtherPlaneLaws, Walk, WalkCoordinates};
+use crate::gait::{GroundForceLaws, Jet, JointMomentLaws, JointMoments, OtherPlaneLaws, Walk, WalkCoordinates};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, Model, Movement, Side};
 use crate::spatial::Vec3;
@@ -58,6 +58,7 @@ pub struct WalkCosts {
     pub acceleration: f64,
     pub plane: f64,
     pub force: [f64; 3],
+    pub moment: f64,
     pub moment_rate: f64,
     pub slip: f64,
 }
@@ -73,6 +74,7 @@ impl Default for WalkCosts {
             acceleration: 30.0,
             plane: 1.0 * DEGREE,
             force: [0.01, 0.02, 0.02],
+            moment: 0.008,
             moment_rate: 3.0,
             slip: 0.005,
         }
@@ -101,6 +103,8 @@ struct Target {
     posture: [Vec<f64>; 3],
     /// Force of the right and of the left foot: forward, up [body weights].
     forces: [[f64; 2]; 2],
+    /// Moments at the joints of the right and of the left leg.
+    moments: [JointMoments; 2],
     /// Angle of the toes, right and left [rad].
     toes: [f64; 2],
     /// Whether heel, ball and toes must be clear of the ground; right, left.
@@ -165,6 +169,7 @@ impl WalkProblem {
 
 fn targets(human: &Human, walk: &Walk, shares: &[f64]) -> Result<Vec<Target>, TomlError> {
     let (forces, planes) = (GroundForceLaws::built_in()?, OtherPlaneLaws::built_in()?);
+    let moments = JointMomentLaws::built_in()?;
     let model = &human.model;
     let coordinates = WalkCoordinates::of(model);
     let mut machine = WalkMachine::new(walk);
@@ -193,7 +198,8 @@ fn targets(human: &Human, walk: &Walk, shares: &[f64]) -> Result<Vec<Target>, To
         });
         let (right, left) = (of_side.next(), of_side.next());
         let ((a, b, c), (d, e, f)) = (right.unwrap_or_default(), left.unwrap_or_default());
-        Target { posture, forces: [a, d], toes: [b, e], swing: [c, f] }
+        let moments = [0.0, 0.5].map(|ahead| moments.at((phase + ahead) % 1.0, speed));
+        Target { posture, forces: [a, d], moments, toes: [b, e], swing: [c, f] }
     };
     Ok(shares.iter().map(target).collect())
 }
@@ -211,8 +217,8 @@ fn write_planes(model: &Model, planes: &crate::gait::OtherPlanes, posture: &mut 
     let [obliquity, rotation] = planes.pelvis;
     put(Movement::PelvicObliquity, None, obliquity);
     put(Movement::PelvicRotation, None, rotation);
-    put(Movement::TrunkObliquity, None, planes.trunk[0] - obliquity);
-    put(Movement::TrunkRotation, None, planes.trunk[1] - rotation);
+    put(Movement::TrunkObliquity, None, planes.trunk[0]);
+    put(Movement::TrunkRotation, None, planes.trunk[1]);
     for (side, [adduction, rotation]) in Side::BOTH.into_iter().zip(planes.hips) {
         put(Movement::HipAdduction, Some(side), adduction);
         put(Movement::HipRotation, Some(side), rotation);
@@ -305,6 +311,7 @@ impl Builder<'_> {
             let toes = Quantity::GroundForce(spheres_of(problem, side, "toe"), 1);
             self.add("force under the toes", toes, self.constant(0.0), 0.15 * weight, Bound::Near);
         }
+        self.moments(problem, costs);
         let rate = costs.moment_rate * self.model.mass() / walk.cycle_s();
         for id in self.model.coordinate_ids() {
             let Some(meaning) = self.model.anatomy().meaning(id) else { continue };
@@ -319,6 +326,26 @@ impl Builder<'_> {
             );
             if moves {
                 self.add("moment rate", Quantity::ForceRate(id), self.constant(0.0), rate, Bound::Near);
+            }
+        }
+    }
+
+    fn moments(&mut self, problem: &Problem, costs: &WalkCosts) {
+        let weight_times_leg = problem.weight_n() * problem.length_m;
+        type Part = fn(&JointMoments) -> f64;
+        let parts: [(Movement, Part); 4] = [
+            (Movement::HipFlexion, |m| -m.hip_extension),
+            (Movement::KneeFlexion, |m| -m.knee_extension),
+            (Movement::AnkleDorsiflexion, |m| -m.plantarflexion),
+            (Movement::HipAdduction, |m| -m.hip_abduction),
+        ];
+        for (k, side) in Side::BOTH.into_iter().enumerate() {
+            for (movement, part) in parts {
+                let Some((id, sign)) = self.model.anatomy().coordinate(movement, Some(side)) else { continue };
+                let target = |t: &Target| Some(sign * part(&t.moments[k]) * weight_times_leg);
+                let targets = self.targets.iter().map(target).collect();
+                let deviation = costs.moment * weight_times_leg;
+                self.add("moment", Quantity::Force(id), targets, deviation, Bound::Near);
             }
         }
     }

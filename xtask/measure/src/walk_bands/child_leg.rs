@@ -19,22 +19,22 @@ use ambulo::spatial::STANDARD_GRAVITY;
 
 /// The leg length from one joint.
 #[derive(Debug, Clone)]
-pub(super) struct FromJoint {
-    pub(super) joint: &'static str,
+pub(crate) struct FromJoint {
+    pub(crate) joint: &'static str,
     /// At five speeds [m].
-    pub(super) legs: [f64; 5],
+    pub(crate) legs: [f64; 5],
     /// Correlation of power with moment times angular velocity at five speeds.
-    pub(super) correlations: [f64; 5],
+    pub(crate) correlations: [f64; 5],
 }
 
 impl FromJoint {
     /// Mean over the speeds [m].
-    pub(super) fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.legs.iter().sum::<f64>() / self.legs.len() as f64
     }
 
     /// Shortest and longest [m].
-    pub(super) fn range(&self) -> [f64; 2] {
+    pub(crate) fn range(&self) -> [f64; 2] {
         self.legs.iter().fold([f64::INFINITY, 0.0], |[least, most], leg| [leg.min(least), leg.max(most)])
     }
 }
@@ -47,7 +47,7 @@ const JOINTS: [(&str, &str, &str); 3] = [
 ];
 
 /// Knee, hip and ankle; the first is the one to use.
-pub(super) fn legs() -> Result<[FromJoint; 3], String> {
+pub(crate) fn legs() -> Result<[FromJoint; 3], String> {
     let read = |(power, angle, moment)| {
         let curves = [(Sheet::Powers, power), (Sheet::Angles, angle), (Sheet::Moments, moment)];
         let [powers, angles, moments] = curves.map(|(sheet, name)| normative::curves(sheet, name));
