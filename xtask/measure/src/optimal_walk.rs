@@ -60,6 +60,9 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         let last = solution.progress.last().ok_or("no stages")?;
         let finer = solution.root_forces(10).map_err(|e| e.to_string())?;
         println!("\n{} {:.2} m/s: {seconds:.2} s, {steps} steps, cost {:.3}, root {:.1e} {:.1e}, between {:.1e} {:.1e}", NAMES[i], walk.speed(), last.cost, last.root.0, last.root.1, finer.0, finer.1);
+        let start = ThreadTime::now();
+        let drift = [1e-3, 5e-4, 2e-4].map(|h| solution.forward(walk.cycle_s(), h).unwrap());
+        println!("drift {:?} {:.2} s", drift.map(|d| (1e3 * d.place_m, d.angle_rad.to_degrees())), start.elapsed().as_secs_f64());
         let cycle = Cycle::of(&human, &walk, &problem, &solution)?;
         for (k, quantity) in QUANTITIES.iter().enumerate() {
             let (ours, band) = (&cycle.curves[k], &people[i][k]);

@@ -16,11 +16,13 @@ mod objective;
 
 mod normal;
 mod problem;
+mod forward;
 mod solution;
 mod solve;
 
 mod walk;
 
+pub use forward::Drift;
 pub use layout::Span;
 pub use objective::{Bound, Quantity, Term};
 pub use problem::Problem;

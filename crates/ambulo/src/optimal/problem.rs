@@ -120,6 +120,13 @@ impl Problem {
         Layout::new(&self.model, self.span, self.knots, self.instants_per_knot)
     }
 
+    /// Coordinates of the root, and whether they turn it.
+    pub(super) fn root(&self) -> Vec<(CoordinateId, bool)> {
+        let roots = self.model.bodies().iter().filter(|body| body.joint.parent.is_none());
+        let turns = |id: CoordinateId| self.model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
+        roots.flat_map(|body| body.joint.coordinates()).map(|id| (id, turns(id))).collect()
+    }
+
     pub(super) fn weight_n(&self) -> f64 {
         self.model.mass() * self.model.gravity().norm()
     }
@@ -138,14 +145,9 @@ impl<'a> Transcription<'a> {
         let layout = problem.layout();
         let weight = problem.weight_n();
         let model = &problem.model;
-        let roots = model.bodies().iter().filter(|body| body.joint.parent.is_none());
-        let root: Vec<(usize, f64)> = roots
-            .flat_map(|body| body.joint.coordinates())
-            .map(|id| match model.coordinates()[id.index()].kind {
-                CoordinateKind::Rotation => (id.index(), weight * problem.length_m),
-                _ => (id.index(), weight),
-            })
-            .collect();
+        let scale = |turns: bool| if turns { weight * problem.length_m } else { weight };
+        let root: Vec<(usize, f64)> =
+            problem.root().into_iter().map(|(id, turns)| (id.index(), scale(turns))).collect();
         Ok(Transcription {
             evaluator: Evaluator::new(model, &problem.soles)?,
             stage: Stage { shoes: problem.shoes, slack: 1.0 },

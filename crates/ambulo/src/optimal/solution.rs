@@ -94,6 +94,14 @@ impl Solution {
         self.problem.add_travel(whole + share, posture);
     }
 
+    /// The posture at a time, without forces.
+    pub(super) fn instant(&self, time_s: f64) -> Instant {
+        let empty = || vec![0.0; self.layout.width];
+        let mut posture = [empty(), empty(), empty()];
+        self.write(time_s, &mut posture);
+        Instant { posture, ..Instant::default() }
+    }
+
     /// Forces at the root that nothing supplies, at `per_knot` instants of each knot interval: root mean square and largest
     /// [body weights, body weights × length]. With more instants than the problem has, this is what is left between them.
     ///
@@ -111,15 +119,7 @@ impl Solution {
     /// # Errors
     /// None for a problem that was solved.
     pub fn samples(&self, times_s: &[f64]) -> Result<Vec<Sample>, CurvedJointError> {
-        let empty = || [vec![0.0; self.layout.width], vec![0.0; self.layout.width], vec![0.0; self.layout.width]];
-        let mut instants: Vec<Instant> = times_s
-            .iter()
-            .map(|&time_s| {
-                let mut posture = empty();
-                self.write(time_s, &mut posture);
-                Instant { posture, ..Instant::default() }
-            })
-            .collect();
+        let mut instants: Vec<Instant> = times_s.iter().map(|&time_s| self.instant(time_s)).collect();
         Evaluator::new(&self.problem.model, &self.problem.soles)?.evaluate(&self.problem.shoes, &mut instants);
         let sample = |(at, &time_s): (Instant, &f64)| {
             let contact = |c: &super::instant::Contact| SoleContact {

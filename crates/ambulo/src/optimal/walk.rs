@@ -57,7 +57,7 @@ pub struct WalkCosts {
     pub ankle: f64,
     pub acceleration: f64,
     pub plane: f64,
-    pub force: [f64; 3],
+    pub force: [f64; 2],
     pub moment: f64,
     pub moment_rate: f64,
     pub slip: f64,
@@ -66,29 +66,31 @@ pub struct WalkCosts {
 impl Default for WalkCosts {
     fn default() -> WalkCosts {
         WalkCosts {
-            knots: 24,
-            per_knot: 3,
+            knots: 32,
+            per_knot: 2,
             hip: 2.0 * DEGREE,
-            knee: 3.0 * DEGREE,
-            ankle: 2.0 * DEGREE,
+            knee: 2.0 * DEGREE,
+            ankle: 1.25 * DEGREE,
             acceleration: 30.0,
             plane: 1.0 * DEGREE,
-            force: [0.01, 0.02, 0.02],
+            force: [0.02, 0.04],
             moment: 0.008,
             moment_rate: 3.0,
-            slip: 0.005,
+            slip: 0.03,
         }
     }
 }
 
 /// Stages of the solution: shoes get stiffer, friction steeper, and forces at the root dearer.
-pub const STAGES: [Continuation; 6] = [
+pub const STAGES: [Continuation; 8] = [
     Continuation { stiffness: 0.25, creep: 50.0, slack: 0.05, updates: 0, steps: 20 },
     Continuation { stiffness: 0.5, creep: 20.0, slack: 0.02, updates: 0, steps: 20 },
     Continuation { stiffness: 1.0, creep: 8.0, slack: 0.01, updates: 0, steps: 20 },
     Continuation { stiffness: 1.0, creep: 4.0, slack: 0.005, updates: 0, steps: 20 },
     Continuation { stiffness: 1.0, creep: 2.0, slack: 0.002, updates: 0, steps: 30 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.002, updates: 3, steps: 30 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.002, updates: 1, steps: 30 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0002, updates: 2, steps: 30 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.00001, updates: 2, steps: 30 },
 ];
 
 /// The foot is in swing from this share of the cycle after foot off to this share before the next strike, at heel, ball and toes.
