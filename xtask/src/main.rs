@@ -42,6 +42,7 @@ usage: cargo xtask <command>
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
   twins             judge recordings of people, and twins of them that no person could make  [--only NAME]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
+  optimal-walk      compare optimal walks in three dimensions with people  [--write: docs/measured/OPTIMAL_WALK.md]
   walk-bands        compare corrected walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
   help              print this text
 
@@ -55,7 +56,7 @@ environment:
 const OWN: [&str; 6] = ["check", "house", "build-time", "measured", "mutants", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 15] = [
+const MEASUREMENTS: [&str; 16] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -70,6 +71,7 @@ const MEASUREMENTS: [&str; 15] = [
     "normative-bands",
     "twins",
     "validate",
+    "optimal-walk",
     "walk-bands",
 ];
 

@@ -45,7 +45,7 @@ const FORCES: &[&str] = &[
     "xtask/measure/src/validate/recording.rs",
 ];
 
-const PAGES: [Page; 7] = [
+const PAGES: [Page; 8] = [
     Page { name: "VALIDATION", command: "validate", inputs: FORCES },
     Page { name: "GROUND_FIT", command: "fit-ground", inputs: FORCES },
     Page {
@@ -60,6 +60,20 @@ const PAGES: [Page; 7] = [
             "crates/ambulo/src/model",
             "crates/ambulo/src/numerics",
             "crates/ambulo/src/simulation",
+            "crates/ambulo/src/spatial",
+        ],
+    },
+    Page {
+        name: "OPTIMAL_WALK",
+        command: "optimal-walk",
+        inputs: &[
+            "crates/ambulo/data/gait",
+            "crates/ambulo/src/contact",
+            "crates/ambulo/src/dynamics",
+            "crates/ambulo/src/gait",
+            "crates/ambulo/src/model",
+            "crates/ambulo/src/numerics",
+            "crates/ambulo/src/optimal",
             "crates/ambulo/src/spatial",
         ],
     },

@@ -20,6 +20,7 @@
 //! | a motion that arrives frame by frame | [`ground::stream`] |
 //! | markers, and no body yet | [`kinematics::calibration`], [`kinematics::marker_fit`] |
 //! | a walking speed, and no recording | [`simulation::synthetic`] |
+//! | a body, and what its motion should be like | [`optimal`] |
 //! | a scene of bodies, joints and contacts | [`simulation::scene`] |
 //!
 //! This crate opens no file, reads no clock, starts no thread and prints nothing: it takes bytes and numbers and returns values. What
@@ -92,9 +93,9 @@ pub mod contact;
 
 pub mod dynamics;
 
-pub mod simulation;
-
 pub mod optimal;
+
+pub mod simulation;
 
 pub mod ground;
 

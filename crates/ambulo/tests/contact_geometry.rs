@@ -797,7 +797,7 @@ fn parameters_that_the_law_cannot_have_are_errors() {
 #[test]
 fn slopes_of_the_compliant_force_are_its_differences() {
     let smooth = HuntCrossley { friction_curve: FrictionCurve::Smooth, ..HuntCrossley::MOCO_2D_GAIT };
-    let mut random = crate::common::random::Random::new(5);
+    let mut random = Random::new(5);
     for law in [smooth, HuntCrossley::FALISSE_2022, HuntCrossley::SCONE_HUMAN_0914] {
         for _ in 0..200 {
             let (depth, rate) = (random.between(1e-4, 0.02), random.within(0.5));

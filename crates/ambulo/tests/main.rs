@@ -77,6 +77,7 @@ mod marker_sets;
 mod marker_smoothing;
 mod mujoco_parity;
 mod opensim_parity;
+mod optimal;
 mod osim_export;
 mod osim_import;
 mod plug_in_gait;

@@ -50,9 +50,8 @@ const SOURCE: &str = "\
 const FIT: &str = "\
 # Fit: each curve as its first 12 harmonics (the step from 100 % to 0 % taken out as a line). Times of the knots: looked for on the
 # five curves, a quadratic of V* by least squares. Angle, slope and curvature: read from the curves at those times, a quadratic each.
-# Pelvis and trunk: mean, 2nd and 4th harmonic, a quadratic each. The tables' trunk is relative to the pelvis (its third harmonics in the
-# frontal and the transverse plane are the opposite of the pelvis's; their sum is smooth), so the trunk's lean is the sum of both; its mean is
-# one of its markers' frame and left out. Support: duration of support against duration of the cycle, both in leg times sqrt(L/g), a line through five speeds.
+# Pelvis and trunk: mean, 2nd and 4th harmonic, a quadratic each; the trunk's mean of 16 to 23 degrees is one of its markers' frame and
+# left out. Support: duration of support against duration of the cycle, both in leg times sqrt(L/g), a line through five speeds.
 ";
 const FIT_1997: &str = "\
 # Fit: as knots.toml, at the extremes alone, every law a line (the paper: \"we use linear laws\"). Replaces the tables of Nilsson,
@@ -61,7 +60,8 @@ const FIT_1997: &str = "\
 
 const FIT_PLANES: &str = "\
 # Fit: mean and first eight harmonics (the step from 100 % to 0 % taken out as a line), a quadratic of V* each. Pelvis and trunk have odd
-# harmonics alone and no mean, because people who walk straight ahead do on the left what they did on the right.
+# harmonics alone and no mean, because people who walk straight ahead do on the left what they did on the right. The trunk is relative to
+# the pelvis: its third harmonics are the opposite of the pelvis's, and the sum of both is smooth.
 ";
 /// Angles outside the sagittal plane: key, quantity of the table, and whether half a cycle later it is the opposite.
 const OTHER_PLANES: [(&str, &str, bool); 6] = [
@@ -167,11 +167,9 @@ fn style_text(style: Style, tables: &[Curves], used: &[usize]) -> Result<String,
         write!(text, "\n[range]\nslowest = {}\nfastest = {}\nbelow = {below}\nabove = {above}\n", SPEEDS[0], SPEEDS[4]);
     if style == Style::Knots {
         write_support(&mut text)?;
-        let pelvis = normative::curves(Sheet::Angles, "Pelvic Ant/Posterior Tilt")?;
-        let trunk = normative::curves(Sheet::Angles, "Trunk Ant/Posterior Tilt")?;
-        let lean: Curves = std::array::from_fn(|i| trunk[i].iter().zip(&pelvis[i]).map(|(a, b)| a + b).collect());
-        write_wave(&mut text, "pelvis_tilt", &pelvis, Form::angle(true), &SHARED);
-        write_wave(&mut text, "trunk_lean", &lean, Form::angle(false), &SHARED);
+        let curves = |quantity: &str| normative::curves(Sheet::Angles, quantity);
+        write_wave(&mut text, "pelvis_tilt", &curves("Pelvic Ant/Posterior Tilt")?, Form::angle(true), &SHARED);
+        write_wave(&mut text, "trunk_lean", &curves("Trunk Ant/Posterior Tilt")?, Form::angle(false), &SHARED);
     }
     for (recipe, curves) in RECIPES.iter().zip(tables) {
         match style {

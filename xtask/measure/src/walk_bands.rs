@@ -11,6 +11,7 @@ mod curve;
 mod cycle;
 mod figure;
 mod page;
+pub(crate) use page::build_name;
 mod second_laboratory;
 mod trend;
 
@@ -112,7 +113,7 @@ fn measure() -> Result<Results, String> {
     }
     let mut others = Vec::new();
     for build in BUILDS {
-        eprintln!("{}", page::build_name(&build));
+        eprintln!("{}", build_name(&build));
         let walked = cycle::walk(&build, SPEEDS[FREE]).and_then(|cycle| {
             let [_, _, free, _, _] = curve::people(cycle.walk.leg_length, their_leg)?;
             Ok((cycle, free))

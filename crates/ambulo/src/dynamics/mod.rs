@@ -42,8 +42,8 @@ pub use inverse::{
     BodyLoad, Forces, FrameForces, JointReaction, LoadSeries, ReactionReader, Workspace, inverse, inverse_frame,
     inverse_frames, inverse_with_residual, project_wrenches,
 };
-pub(crate) use inverse_derivatives::{DerivativeKernel, Spatial};
 pub use inverse_derivatives::{CurvedJointError, InverseDerivatives, inverse_derivatives};
+pub(crate) use inverse_derivatives::{DerivativeKernel, Spatial};
 pub use problem::{Method, SolverSettings};
 pub(crate) use roots::Roots;
 pub use solve::{GraphWorkspace, solve_graph, undetermined_rows};

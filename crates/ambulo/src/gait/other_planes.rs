@@ -19,9 +19,9 @@ pub struct OtherPlaneLaws {
     pub pelvis_obliquity: Wave,
     /// Right side of the pelvis forward.
     pub pelvis_rotation: Wave,
-    /// Right side of the trunk up, relative to the world.
+    /// Right side of the trunk up, relative to the pelvis.
     pub trunk_obliquity: Wave,
-    /// Right side of the trunk forward, relative to the world.
+    /// Right side of the trunk forward, relative to the pelvis.
     pub trunk_rotation: Wave,
     /// Adduction of the hip of the foot whose phase it is.
     pub hip_adduction: Wave,
@@ -34,7 +34,7 @@ pub struct OtherPlaneLaws {
 pub struct OtherPlanes {
     /// Obliquity and rotation of the pelvis.
     pub pelvis: [Jet; 2],
-    /// Obliquity and rotation of the trunk.
+    /// Obliquity and rotation of the trunk relative to the pelvis.
     pub trunk: [Jet; 2],
     /// Adduction and internal rotation of the right and of the left hip.
     pub hips: [[Jet; 2]; 2],
@@ -73,8 +73,7 @@ impl OtherPlaneLaws {
     /// # Errors
     /// None; a test reads the file.
     pub fn built_in() -> Result<OtherPlaneLaws, TomlError> {
-        static LAWS: LazyLock<Result<OtherPlaneLaws, TomlError>> =
-            LazyLock::new(|| OtherPlaneLaws::from_toml(PLANES));
+        static LAWS: LazyLock<Result<OtherPlaneLaws, TomlError>> = LazyLock::new(|| OtherPlaneLaws::from_toml(PLANES));
         LAWS.clone()
     }
 

@@ -41,6 +41,8 @@ pub(super) struct Instant {
 /// One sphere under a foot.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Contact {
+    /// Where it is [m].
+    pub(super) place: Vec3,
     pub(super) values: [f64; CONTACT],
     /// Coordinate and derivatives of the values by its position and by its rate, for every link that carries the foot.
     pub(super) slopes: Vec<(usize, [[f64; CONTACT]; 2])>,
@@ -179,6 +181,7 @@ impl Evaluator {
         let velocity = motion.at(place);
         let found = law.force_with_slopes(sole.radius, -height, -velocity.y, velocity);
         let force = found.force;
+        contact.place = place;
         contact.values = [force.x, force.y, force.z, height, velocity.x, velocity.z];
         contact.slopes.clear();
         let mut wrenches = Vec::with_capacity(chain.len());
@@ -223,7 +226,8 @@ mod tests {
     /// A figure that stands on, or falls through, the ground in no particular posture.
     fn instant(seed: f64, count: usize, height: f64) -> Instant {
         let wave = |k: usize, size: f64, shift: f64| size * (seed + 1.7 * k as f64 + shift).sin();
-        let mut posture = [0.05, 0.5, 5.0].map(|size| (0..count).map(|k| wave(k, size, 9.0 * size)).collect::<Vec<f64>>());
+        let mut posture =
+            [0.05, 0.5, 5.0].map(|size| (0..count).map(|k| wave(k, size, 9.0 * size)).collect::<Vec<f64>>());
         posture[0][4] = height;
         Instant { posture, ..Instant::default() }
     }

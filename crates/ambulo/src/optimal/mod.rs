@@ -4,6 +4,11 @@
 //! inverse dynamics under the contact forces of each posture gives the forces, so that neither forces nor velocities are unknown. The
 //! forces at the root, which nothing supplies, must vanish at all instants.
 //!
+//! ```text
+//! WalkProblem ──> Problem ──> Transcription ──> NormalEquations ──> steps ──> Solution
+//! laws of people   terms       instants          band with border    solve     samples, forward simulation
+//! ```
+//!
 //! Cost: per step one inverse dynamics with derivatives for each instant, and one factorisation of a band with a border.
 //! Not handled: obstacles, slopes, durations that are unknown.
 //! Pinned by: tests/optimal.rs
@@ -14,9 +19,9 @@ mod instant;
 
 mod objective;
 
+mod forward;
 mod normal;
 mod problem;
-mod forward;
 mod solution;
 mod solve;
 
@@ -26,6 +31,6 @@ pub use forward::Drift;
 pub use layout::Span;
 pub use objective::{Bound, Quantity, Term};
 pub use problem::Problem;
-pub use solution::{Sample, Solution, SoleContact};
-pub use solve::{Continuation, Progress};
+pub use solution::{Progress, Sample, SoleContact, Solution};
+pub use solve::Continuation;
 pub use walk::{STAGES, WalkCosts, WalkProblem, soles_with_width};

@@ -57,12 +57,12 @@ pub struct Term {
     pub bound: Bound,
 }
 
-/// Value of a quantity and its derivatives in z = (q, q̇, q̈).
+/// Derivatives of a quantity in z = (q, q̇, q̈).
 pub(super) enum Row {
     /// Few entries: number and slope.
-    Entries(f64, Vec<(usize, f64)>),
+    Entries(Vec<(usize, f64)>),
     /// A row of all entries was appended to the buffer.
-    Full(f64),
+    Full,
 }
 
 impl Term {
@@ -105,12 +105,11 @@ impl Quantity {
         }
     }
 
-    /// Value and derivatives at an instant; a full row is appended to `full`, divided by `scale`.
+    /// Derivatives at an instant; a full row is appended to `full`, divided by `scale`.
     pub(super) fn row(&self, at: &Instant, scale: f64, full: &mut Vec<f64>) -> Row {
         let n = at.posture[0].len();
-        let value = self.value(at);
         let entries = |part: usize, of: &[(CoordinateId, f64)]| {
-            Row::Entries(value, of.iter().map(|(id, factor)| (part * n + id.index(), factor / scale)).collect())
+            Row::Entries(of.iter().map(|(id, factor)| (part * n + id.index(), factor / scale)).collect())
         };
         let contact = |spheres: &[usize], slope: &dyn Fn(usize, &[f64; CONTACT]) -> f64| {
             let mut row: Vec<(usize, f64)> = Vec::new();
@@ -125,7 +124,7 @@ impl Quantity {
                     }
                 }
             }
-            Row::Entries(value, row)
+            Row::Entries(row)
         };
         match self {
             Quantity::Position(of) => entries(0, of),
@@ -133,7 +132,7 @@ impl Quantity {
             Quantity::Acceleration(of) => entries(2, of),
             Quantity::Force(id) | Quantity::ForceRate(id) => {
                 full.extend(at.slopes[id.index() * 3 * n..(id.index() + 1) * 3 * n].iter().map(|slope| slope / scale));
-                Row::Full(value)
+                Row::Full
             }
             Quantity::GroundForce(spheres, axis) => contact(spheres, &|_, slopes| slopes[*axis]),
             Quantity::Height(sphere) => contact(&[*sphere], &|_, slopes| slopes[HEIGHT]),

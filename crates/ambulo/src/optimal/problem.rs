@@ -337,11 +337,11 @@ impl<'a> Transcription<'a> {
             let at = &self.instants[index];
             let Some(residual) = term.residual(index, term.quantity.value(at)) else { continue };
             match term.quantity.row(at, term.deviation / share, &mut self.rows.slopes) {
-                Row::Entries(_, mut entries) => {
+                Row::Entries(mut entries) => {
                     entries.sort_unstable_by_key(|(place, _)| *place);
                     self.sums.add_entries(residual * share, &entries);
                 }
-                Row::Full(_) => self.rows.residuals.push(residual * share),
+                Row::Full => self.rows.residuals.push(residual * share),
             }
         }
         let width = 3 * self.layout.width;

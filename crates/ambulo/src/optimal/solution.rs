@@ -3,9 +3,19 @@
 use super::instant::{Evaluator, HEIGHT, Instant, SLIP};
 use super::layout::Layout;
 use super::problem::{Problem, Transcription};
-use super::solve::Progress;
 use crate::dynamics::CurvedJointError;
 use crate::spatial::Vec3;
+
+/// Course of a solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Steps of the method.
+    pub steps: usize,
+    /// Sum of squares at the end, that of the constraints included.
+    pub cost: f64,
+    /// Forces at the root, root mean square and largest [body weights, body weights × length].
+    pub root: (f64, f64),
+}
 
 /// One instant of a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +33,8 @@ pub struct Sample {
 /// Contact of one sphere with the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoleContact {
+    /// Place of the contact [m].
+    pub place: Vec3,
     /// Force of the ground on the foot [N].
     pub force: Vec3,
     /// Height of the sphere's lowest point [m].
@@ -123,6 +135,7 @@ impl Solution {
         Evaluator::new(&self.problem.model, &self.problem.soles)?.evaluate(&self.problem.shoes, &mut instants);
         let sample = |(at, &time_s): (Instant, &f64)| {
             let contact = |c: &super::instant::Contact| SoleContact {
+                place: c.place,
                 force: Vec3::new(c.values[0], c.values[1], c.values[2]),
                 height_m: c.values[HEIGHT],
                 slip: [c.values[SLIP], c.values[SLIP + 1]],
@@ -140,8 +153,8 @@ impl Solution {
 
     /// Force of the ground on some spheres together at the instants of the problem, along x, y, z [N].
     pub fn ground_force<'a>(&'a self, spheres: &'a [usize]) -> impl Iterator<Item = [f64; 3]> + 'a {
-        self.instants.iter().map(|instant| {
-            [0, 1, 2].map(|axis| spheres.iter().map(|&s| instant.contacts[s].values[axis]).sum())
-        })
+        self.instants
+            .iter()
+            .map(|instant| [0, 1, 2].map(|axis| spheres.iter().map(|&s| instant.contacts[s].values[axis]).sum()))
     }
 }

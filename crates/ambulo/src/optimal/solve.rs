@@ -4,7 +4,7 @@
 
 use super::normal::{NormalEquations, empty_matrix};
 use super::problem::{Problem, Stage, Transcription};
-use super::solution::Solution;
+use super::solution::{Progress, Solution};
 use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;
 use crate::model::CoordinateId;
@@ -22,17 +22,6 @@ pub struct Continuation {
     pub updates: usize,
     /// Largest number of steps before each update.
     pub steps: usize,
-}
-
-/// Course of a solution.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Progress {
-    /// Steps of the method.
-    pub steps: usize,
-    /// Sum of squares at the end, that of the constraints included.
-    pub cost: f64,
-    /// Forces at the root, root mean square and largest [body weights, body weights × length].
-    pub root: (f64, f64),
 }
 
 /// A relative gain below this ends a stage.

@@ -49,17 +49,27 @@ pub fn soles_with_width(human: &Human) -> Vec<ContactSphere> {
 /// Resolution and costs of a walk.
 #[derive(Debug, Clone, Copy)]
 pub struct WalkCosts {
-    /// Knot intervals of half a cycle, and instants of each.
+    /// Knot intervals of half a cycle.
     pub knots: usize,
+    /// Instants of each knot interval.
     pub per_knot: usize,
+    /// Deviation of hip flexion from the curve that costs one [rad].
     pub hip: f64,
+    /// The same of the knee [rad].
     pub knee: f64,
+    /// The same of the ankle [rad].
     pub ankle: f64,
+    /// Deviation of the angular acceleration of these joints [rad/s²].
     pub acceleration: f64,
+    /// Deviation of angles of pelvis, trunk and hips in the frontal and the transverse plane [rad].
     pub plane: f64,
+    /// Deviation of the ground force of a foot, forward and up [body weights].
     pub force: [f64; 2],
+    /// Deviation of the joint moments that the laws have [body weight × leg length].
     pub moment: f64,
+    /// Rate of a joint moment that costs one [N.m/kg per cycle].
     pub moment_rate: f64,
+    /// Slip of a loaded sole that costs one [m/s].
     pub slip: f64,
 }
 
@@ -74,9 +84,9 @@ impl Default for WalkCosts {
             acceleration: 30.0,
             plane: 1.0 * DEGREE,
             force: [0.02, 0.04],
-            moment: 0.008,
+            moment: 0.006,
             moment_rate: 3.0,
-            slip: 0.03,
+            slip: 0.02,
         }
     }
 }
@@ -185,6 +195,7 @@ fn targets(human: &Human, walk: &Walk, shares: &[f64]) -> Result<Vec<Target>, To
         coordinates.write(&at, q, qd, qdd);
         let rate = 1.0 / walk.cycle_s();
         let moving = Jet { value: phase, rate, acceleration: 0.0 };
+        trunk_with_pelvis(model, &mut posture);
         write_planes(model, &planes.at(moving, Jet::constant(speed)), &mut posture);
         if let Some((id, _)) = model.anatomy().coordinate(Movement::PelvisUp, None) {
             posture[0][id.index()] = human.dimensions.leg_length;
@@ -204,6 +215,17 @@ fn targets(human: &Human, walk: &Walk, shares: &[f64]) -> Result<Vec<Target>, To
         Target { posture, forces: [a, d], moments, toes: [b, e], swing: [c, f] }
     };
     Ok(shares.iter().map(target).collect())
+}
+
+/// The gait's laws take the trunk's lean of the tables for one in the world. It is relative to the pelvis, as in the other planes, where its third
+/// harmonics are the opposite of the pelvis's and their sum is smooth.
+fn trunk_with_pelvis(model: &Model, posture: &mut [Vec<f64>; 3]) {
+    let of = |movement: Movement| model.anatomy().coordinate(movement, None).map(|(id, _)| id.index());
+    if let (Some(tilt), Some(lumbar)) = (of(Movement::PelvicTilt), of(Movement::TrunkLean)) {
+        for values in posture {
+            values[lumbar] += values[tilt];
+        }
+    }
 }
 
 /// Writes pelvis, trunk and hips outside the sagittal plane.

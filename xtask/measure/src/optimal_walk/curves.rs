@@ -28,11 +28,23 @@ enum Reading {
     Force(usize),
 }
 
-const fn angle(name: &'static str, table: &'static str, second: &'static str, coordinate: &'static str, sign: f64) -> Quantity {
+const fn angle(
+    name: &'static str,
+    table: &'static str,
+    second: &'static str,
+    coordinate: &'static str,
+    sign: f64,
+) -> Quantity {
     Quantity { name, sheet: Sheet::Angles, table, second: Some(second), reading: Reading::Angle(coordinate, sign) }
 }
 
-const fn moment(name: &'static str, table: &'static str, second: &'static str, coordinate: &'static str, sign: f64) -> Quantity {
+const fn moment(
+    name: &'static str,
+    table: &'static str,
+    second: &'static str,
+    coordinate: &'static str,
+    sign: f64,
+) -> Quantity {
     Quantity { name, sheet: Sheet::Moments, table, second: Some(second), reading: Reading::Moment(coordinate, sign) }
 }
 
@@ -95,59 +107,76 @@ pub(super) fn people(leg_length: f64, their_leg: f64) -> Result<[Vec<Band>; 5], 
     Ok(people)
 }
 
-/// A cycle of the right foot, at the samples of the tables.
+/// Samples per cycle of what is not in the tables; a multiple of theirs.
+const FINE: usize = 1000;
+/// A foot stands above this share of the body weight.
+const LOADED: f64 = 0.03;
+
+/// A cycle of the right foot.
 #[derive(Debug, Clone)]
 pub(super) struct Cycle {
-    /// In the order of [`QUANTITIES`].
+    /// At the samples of the tables, in the order of [`QUANTITIES`].
     pub(super) curves: Vec<Vec<f64>>,
-    /// Sideways force on the right foot [body weights], to the left.
+    /// Sideways force on the right foot over its stance, to the left [body weights].
     pub(super) sideways: Vec<f64>,
-    pub(super) extra: Vec<(&'static str, Vec<f64>)>,
+    /// Distance of the mean centres of pressure of both feet [m].
+    pub(super) step_width: f64,
+    /// Least flexion of the knee [deg].
+    pub(super) least_knee: f64,
+    /// Range of the slip of the most loaded sphere over the stance [m].
+    pub(super) slip: f64,
+    /// Mean vertical force of both feet, and mean fore-aft force [body weights].
+    pub(super) mean_force: [f64; 2],
 }
 
 impl Cycle {
     pub(super) fn of(human: &Human, walk: &Walk, problem: &WalkProblem, solution: &Solution) -> Result<Cycle, String> {
-        let times: Vec<f64> = (0..SAMPLES).map(|k| walk.cycle_s() * k as f64 / (SAMPLES - 1) as f64).collect();
+        let times: Vec<f64> = (0..=FINE).map(|k| walk.cycle_s() * k as f64 / FINE as f64).collect();
         let samples = solution.samples(&times).map_err(|e| e.to_string())?;
         let soles = &problem.problem.soles;
         let of = |side: Side| (0..soles.len()).filter(|&k| soles[k].side == side).collect::<Vec<usize>>();
-        let right = of(Side::Right);
+        let (right, left) = (of(Side::Right), of(Side::Left));
         let model = &human.model;
-        let curve = |quantity: Quantity| samples.iter().map(|at| quantity.value(model, walk, &right, at)).collect();
         let weight = model.mass() * model.gravity().norm();
+        let coarse = || samples.iter().step_by(FINE / (SAMPLES - 1));
+        let curve = |quantity: Quantity| coarse().map(|at| quantity.value(model, walk, &right, at)).collect();
+        let loaded = |at: &&Sample| at.ground_force(&right).y > LOADED * weight;
+        let stance: Vec<&Sample> = samples.iter().filter(loaded).collect();
+        let sideways: Vec<f64> = stance.iter().map(|at| -at.ground_force(&right).z / weight).collect();
+        let both: Vec<usize> = (0..soles.len()).collect();
+        let mean = |axis: usize| {
+            samples[..FINE].iter().map(|at| at.ground_force(&both)[axis]).sum::<f64>() / (FINE as f64 * weight)
+        };
+        let knee = model.coordinate("knee_angle_r").map_or(0, |id| id.index());
+        let step_s = walk.cycle_s() / FINE as f64;
         Ok(Cycle {
             curves: QUANTITIES.into_iter().map(curve).collect(),
-            sideways: samples.iter().map(|at| -at.ground_force(&right).z / weight).collect(),
-            extra: extras(human, &right, &samples, soles),
+            sideways: super::sideways::resampled(&sideways),
+            step_width: mean_place(&samples, &right) - mean_place(&samples, &left),
+            least_knee: samples.iter().map(|at| -at.posture[0][knee].to_degrees()).fold(f64::INFINITY, f64::min),
+            slip: slip(&stance, &right, step_s),
+            mean_force: [mean(1), mean(0)],
         })
     }
 }
 
-fn extras(human: &Human, right: &[usize], samples: &[Sample], soles: &[ambulo::model::anthropometry::ContactSphere]) -> Vec<(&'static str, Vec<f64>)> {
-    use ambulo::kinematics::{body_motion, Posture};
-    let model = &human.model;
-    let body = |name: &str| model.bodies().iter().position(|b| b.name == name).unwrap_or(0);
-    let mut out: Vec<(&'static str, Vec<f64>)> = ["com z cm", "cop z cm", "cop x cm", "ankle z cm", "pelvis z cm", "foot prog", "trunk list", "lumbar bend", "subtalar deg", "subtalar Nm/kg", "hip rot Nm/kg", "medial share", "list resid"].map(|n| (n, Vec::new())).into();
-    for at in samples {
-        let motion = body_motion(model, Posture { q: &at.posture[0], qd: &at.posture[1], qdd: &at.posture[2] });
-        let com = motion.iter().zip(model.bodies()).fold(ambulo::spatial::Vec3::zeros(), |s, (p, b)| s + p.center * b.inertia.mass()) * (1.0 / model.mass());
-        let poses: Vec<_> = motion.iter().map(|m| m.pose).collect();
-        let mut cop = ambulo::spatial::Vec3::zeros();
-        let (mut load, mut medial) = (1e-9, 0.0);
-        for &k in right {
-            let p = &poses[soles[k].body.index()];
-            let c = p.rotation * soles[k].center + p.translation;
-            cop = cop + c * at.contacts[k].force.y; load += at.contacts[k].force.y;
-            if soles[k].name.contains("medial") { medial += at.contacts[k].force.y; }
-        }
-        let foot = &poses[soles[right[0]].body.index()];
-        let f = foot.rotation * ambulo::spatial::Vec3::new(1.0, 0.0, 0.0);
-        let trunk = &poses[body("torso")];
-        let t = trunk.rotation * ambulo::spatial::Vec3::new(0.0, 0.0, 1.0);
-        let id = |n: &str| model.coordinate(n).map_or(0, |i| i.index());
-        let q = |n: &str| at.posture[0][id(n)];
-        let vals = [100.0 * com.z, if load > 20.0 { 100.0 * cop.z / load } else { f64::NAN }, if load > 20.0 { 100.0 * (cop.x / load - com.x) } else { f64::NAN }, 100.0 * foot.translation.z, 100.0 * q("pelvis_tz"), f.z.atan2(f.x).to_degrees(), t.y.asin().to_degrees(), q("lumbar_bending").to_degrees(), q("subtalar_angle_r").to_degrees(), at.forces[id("subtalar_angle_r")] / model.mass(), at.forces[id("hip_rotation_r")] / model.mass(), medial / load, at.forces[id("pelvis_list")]];
-        for (o, v) in out.iter_mut().zip(vals) { o.1.push(v); }
+/// Mean place across, weighted with the load [m].
+fn mean_place(samples: &[Sample], spheres: &[usize]) -> f64 {
+    let (mut place, mut load) = (0.0, 0.0);
+    for contact in samples.iter().flat_map(|at| spheres.iter().map(|&s| &at.contacts[s])) {
+        place += contact.place.z * contact.force.y;
+        load += contact.force.y;
     }
-    out
+    place / load
+}
+
+/// Range of the summed forward slip of the most loaded sphere over a stance [m].
+fn slip(stance: &[&Sample], spheres: &[usize], step_s: f64) -> f64 {
+    let (mut slipped, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for at in stance {
+        let heaviest = spheres.iter().map(|&s| &at.contacts[s]).max_by(|a, b| a.force.y.total_cmp(&b.force.y));
+        slipped += heaviest.map_or(0.0, |contact| contact.slip[0]) * step_s;
+        (least, most) = (least.min(slipped), most.max(slipped));
+    }
+    most - least
 }

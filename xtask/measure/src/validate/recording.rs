@@ -122,6 +122,28 @@ pub(crate) fn all() -> Vec<Recording> {
     ]
 }
 
+/// Straight walking of eight people with plates, one trial each.
+pub(crate) fn straight() -> Vec<Recording> {
+    let child = |label, folder, markers, standing, mass, height| Recording {
+        label,
+        subject: label,
+        group: Group::Walking,
+        folder,
+        kind: Kind::Markers { markers, standing, mass, height },
+        grf: None,
+    };
+    let known = all().into_iter().filter(|r| ["HC032A03", "HC002D06", "PiG_Motion3"].contains(&r.label));
+    known
+        .chain([
+            child("HC030A05", "biomechzoo-HC030A", "HC030A05.c3d", "HC030A01.c3d", 45.8, 1.48),
+            child("HC031A06", "biomechzoo-HC031A", "HC031A06.c3d", "HC031A01.c3d", 27.7, 1.33),
+            child("HC033A10", "biomechzoo-HC033A", "HC033A10.c3d", "HC033A01.c3d", 51.5, 1.605),
+            child("HC036A10", "biomechzoo-HC036A", "HC036A10.c3d", "HC036A01.c3d", 33.0, 1.34),
+            child("HC055A09", "biomechzoo-HC055A", "HC055A09.c3d", "HC055A01.c3d", 32.0, 1.44),
+        ])
+        .collect()
+}
+
 impl Recording {
     /// The prediction from its motion and its comparison with the plates, as `ambulo forces --predict` computes them. `prescribed` replaces
     /// estimates by truths.

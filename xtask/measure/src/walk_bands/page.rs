@@ -77,7 +77,7 @@ pub(super) fn text(results: &Results) -> String {
 }
 
 /// `de-leva-male, 75 kg, 1.75 m, toe joint`.
-pub(super) fn build_name(build: &Build) -> String {
+pub(crate) fn build_name(build: &Build) -> String {
     let toes = if build.toe_joint { "toe joint" } else { "stiff foot" };
     format!("{}, {} kg, {:.2} m, {toes}", build.table, build.mass, build.height)
 }

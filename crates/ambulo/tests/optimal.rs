@@ -1,0 +1,165 @@
+//! Optimal motion: the forces at the root vanish, a forward simulation follows the plan, sides are mirrored, momentum is kept.
+
+use ambulo::findings::Findings;
+use ambulo::gait::{Gait, Walk};
+use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::model::full_body::full_body;
+use ambulo::optimal::{Quantity, STAGES, Solution, Span, WalkCosts, WalkProblem, soles_with_width};
+use ambulo::simulation::consistent_walk::SOFT_SHOES;
+use std::sync::LazyLock;
+
+const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+/// Largest force and moment at the root that count as none [body weights, body weights × leg length].
+const NO_FORCE: f64 = 1e-4;
+
+struct Case {
+    human: Human,
+    walk: Walk,
+    problem: WalkProblem,
+    solution: Solution,
+}
+
+fn case(human: Human, wide: bool) -> Case {
+    let gait = Gait::named("free").unwrap();
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
+    let soles = if wide { soles_with_width(&human) } else { human.soles.clone() };
+    let costs = WalkCosts { knots: 24, ..WalkCosts::default() };
+    let problem = WalkProblem::new(&human, &soles, SOFT_SHOES, &walk, &costs).unwrap();
+    let solution = problem.solve(&STAGES).unwrap();
+    Case { human, walk, problem, solution }
+}
+
+static PLANAR: LazyLock<Case> = LazyLock::new(|| case(MAN.human().unwrap(), false));
+static SPATIAL: LazyLock<Case> = LazyLock::new(|| case(full_body(&MAN).unwrap(), true));
+
+fn both() -> [&'static Case; 2] {
+    [&PLANAR, &SPATIAL]
+}
+
+#[test]
+fn nothing_but_joints_and_ground_moves_an_optimal_walk() {
+    for case in both() {
+        let last = case.solution.progress.last().unwrap();
+        assert!(last.root.1 < NO_FORCE, "{:?}", case.solution.progress);
+        let drift = case.solution.forward(case.walk.cycle_s(), 5e-4).unwrap();
+        assert!(drift.place_m < 0.01 && drift.angle_rad < 2_f64.to_radians(), "{drift:?}");
+    }
+}
+
+#[test]
+fn a_first_guess_does_not_pass_as_a_walk() {
+    let Case { problem, walk, .. } = &*PLANAR;
+    let guess = problem.solve(&[]).unwrap();
+    assert!(guess.root_forces(4).unwrap().1 > 100.0 * NO_FORCE);
+    let drift = guess.forward(walk.cycle_s(), 5e-4).unwrap();
+    assert!(drift.place_m > 0.01 || drift.angle_rad > 2_f64.to_radians(), "{drift:?}");
+}
+
+#[test]
+fn the_ground_carries_the_weight_and_takes_no_momentum() {
+    for case in both() {
+        const SAMPLES: usize = 400;
+        let times: Vec<f64> = (0..SAMPLES).map(|k| case.walk.cycle_s() * k as f64 / SAMPLES as f64).collect();
+        let all: Vec<usize> = (0..case.problem.problem.soles.len()).collect();
+        let weight = case.human.model.mass() * case.human.model.gravity().norm();
+        let samples = case.solution.samples(&times).unwrap();
+        for (axis, expected) in [(0, 0.0), (1, 1.0), (2, 0.0)] {
+            let mean = samples.iter().map(|s| s.ground_force(&all)[axis]).sum::<f64>() / (SAMPLES as f64 * weight);
+            assert!((mean - expected).abs() < 2e-3, "axis {axis}: {mean} body weights");
+        }
+        assert!(samples.iter().all(|s| s.contacts.iter().all(|c| c.force.y >= 0.0)));
+    }
+}
+
+#[test]
+fn left_does_half_a_cycle_later_what_right_did() {
+    let Case { human, walk, solution, .. } = &*SPATIAL;
+    let model = &human.model;
+    let count = model.coordinates().len();
+    let at = |time_s: f64| {
+        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        solution.write(time_s, &mut posture);
+        posture
+    };
+    let half = 0.5 * walk.cycle_s();
+    let id = |name: &str| model.coordinate(name).unwrap().index();
+    for k in 0..20 {
+        let time_s = 0.07 * f64::from(k);
+        let (now, later) = (at(time_s), at(time_s + half));
+        for part in 0..3 {
+            for (name, other, sign) in [
+                ("hip_flexion_r", "hip_flexion_l", 1.0),
+                ("hip_adduction_r", "hip_adduction_l", 1.0),
+                ("knee_angle_r", "knee_angle_l", 1.0),
+                ("pelvis_list", "pelvis_list", -1.0),
+                ("pelvis_rotation", "pelvis_rotation", -1.0),
+                ("pelvis_tilt", "pelvis_tilt", 1.0),
+            ] {
+                let (a, b) = (now[part][id(name)], sign * later[part][id(other)]);
+                assert!((a - b).abs() < 1e-9 * (1.0 + a.abs()), "{name}, derivative {part}, at {time_s} s: {a}, {b}");
+            }
+        }
+        let forward = at(time_s + 2.0 * half)[0][id("pelvis_tx")] - now[0][id("pelvis_tx")];
+        assert!((forward - walk.speed() * walk.cycle_s()).abs() < 1e-9, "{forward} m in a cycle");
+    }
+}
+
+#[test]
+fn position_rate_and_acceleration_belong_together_across_the_seam() {
+    let Case { human, walk, solution, .. } = &*SPATIAL;
+    let count = human.model.coordinates().len();
+    let at = |time_s: f64| {
+        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        solution.write(time_s, &mut posture);
+        posture
+    };
+    let (half, step) = (0.5 * walk.cycle_s(), 1e-5);
+    for time_s in [0.3 * half, half, 1.4 * half, 2.0 * half] {
+        let (before, now, after) = (at(time_s - step), at(time_s), at(time_s + step));
+        for part in 0..2 {
+            for c in 0..count {
+                let slope = (after[part][c] - before[part][c]) / (2.0 * step);
+                let size = 1.0 + now[part + 1][c].abs();
+                let apart = (slope - now[part + 1][c]).abs();
+                assert!(apart < 2e-5 * size, "coordinate {c}, derivative {part}, {time_s} s: {apart}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_solution_starts_the_next_problem() {
+    let Case { problem, solution, .. } = &*PLANAR;
+    let again = problem.problem.solve(solution.unknowns(), &STAGES[5..]).unwrap();
+    let steps = |s: &Solution| s.progress.iter().map(|p| p.steps).sum::<usize>();
+    assert!(steps(&again) < steps(solution), "{} and {} steps", steps(&again), steps(solution));
+    assert!(again.progress.last().unwrap().root.1 < NO_FORCE);
+}
+
+#[test]
+fn an_objective_of_ones_own_is_followed() {
+    let Case { human, problem, solution, .. } = &*PLANAR;
+    let mut own = problem.problem.clone();
+    let knee = human.model.coordinate("knee_angle_r").unwrap();
+    for term in &mut own.terms {
+        if term.quantity == Quantity::Position(vec![(knee, 1.0)]) {
+            term.deviation *= 0.25;
+            for target in term.targets.iter_mut().flatten() {
+                *target -= 0.05;
+            }
+        }
+    }
+    assert_eq!(own.span, Span::MirroredHalfCycle);
+    let bent = own.solve(solution.unknowns(), &STAGES[5..]).unwrap();
+    let mean = |s: &Solution| {
+        let count = human.model.coordinates().len();
+        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        let mut sum = 0.0;
+        for k in 0..50 {
+            s.write(own.duration_s * f64::from(k) / 50.0, &mut posture);
+            sum += posture[0][knee.index()] / 50.0;
+        }
+        sum
+    };
+    assert!(mean(&bent) < mean(solution) - 0.005, "{} and {} rad", mean(&bent), mean(solution));
+}
