@@ -24,7 +24,7 @@ drift, which is that of a forward simulation with driven joints and a free root.
 - **What the walk follows**: the laws of these same tables (data/gait), quadratics of speed: angles in three planes, vertical and fore-aft
   force, and four joint moments. So the rows of angles, forces and moments say how near a body without outside forces can come to people,
   and are no independent test.
-- **What it does not follow**: sideways force, step width, slip, and everything of the second laboratory.
+- **What it does not follow**: sideways force, step width, and everything of the second laboratory. Slip of loaded soles has a cost.
 - **Weights** were set by hand on the main figure at very slow, free and very fast walking. The deviations of slip
   and of moments were then lowered by a third and a quarter after all five speeds and the other figures had been seen, so nothing here but the second
   laboratory and the sideways forces is held out; these were looked at, but set nothing.
