@@ -60,8 +60,7 @@ const FIT_1997: &str = "\
 
 const FIT_PLANES: &str = "\
 # Fit: mean and first eight harmonics (the step from 100 % to 0 % taken out as a line), a quadratic of V* each. Pelvis and trunk have odd
-# harmonics alone and no mean, because people who walk straight ahead do on the left what they did on the right. The trunk is relative to
-# the pelvis: its third harmonics are the opposite of the pelvis's, and the sum of both is smooth.
+# harmonics alone and no mean, because people who walk straight ahead do on the left what they did on the right.
 ";
 /// Angles outside the sagittal plane: key, quantity of the table, and whether half a cycle later it is the opposite.
 const OTHER_PLANES: [(&str, &str, bool); 6] = [
