@@ -51,6 +51,7 @@ mod gait_curves;
 mod gait_file;
 mod gait_machine;
 mod gait_machine_files;
+mod gait_people_laws;
 mod gait_speed;
 mod gait_style_1997;
 mod gait_walk;

@@ -2,10 +2,12 @@
 
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
+use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::optimal::{Quantity, STAGES, Solution, Span, WalkCosts, WalkProblem, soles_with_width};
 use ambulo::simulation::consistent_walk::SOFT_SHOES;
+use ambulo::spatial::{Pose, Vec3};
 use std::sync::LazyLock;
 
 const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
@@ -101,6 +103,76 @@ fn left_does_half_a_cycle_later_what_right_did() {
         }
         let forward = at(time_s + 2.0 * half)[0][id("pelvis_tx")] - now[0][id("pelvis_tx")];
         assert!((forward - walk.speed() * walk.cycle_s()).abs() < 1e-9, "{forward} m in a cycle");
+    }
+}
+
+/// Pose of a body of the three-dimensional walk, with the phase of the right foot.
+fn pose(body: &str, phase: f64) -> Pose {
+    let Case { human, walk, solution, .. } = &*SPATIAL;
+    let at = solution.samples(&[phase * walk.cycle_s()]).unwrap().remove(0);
+    let [q, qd, qdd] = &at.posture;
+    let number = human.model.bodies().iter().position(|b| b.name == body).unwrap();
+    body_motion(&human.model, Posture { q, qd, qdd })[number].pose
+}
+
+/// Mean of a quantity from one phase of the right foot to another.
+fn mean(from: f64, to: f64, quantity: impl Fn(f64) -> f64) -> f64 {
+    (0..=10).map(|k| quantity(from + (to - from) * f64::from(k) / 10.0)).sum::<f64>() / 11.0
+}
+
+/// From the left to the right hip centre [m].
+fn hips(phase: f64) -> Vec3 {
+    pose("femur_r", phase).translation - pose("femur_l", phase).translation
+}
+
+#[test]
+fn pelvis_and_thighs_move_out_of_plane_as_in_people() {
+    // Obliquity: up on the stance side in early stance. Rotation: forward on the side of the foot strike.
+    assert!(mean(0.10, 0.22, |phase| hips(phase).y) > 0.004, "{}", mean(0.10, 0.22, |phase| hips(phase).y));
+    assert!(mean(0.60, 0.72, |phase| hips(phase).y) < -0.004);
+    assert!(mean(0.0, 0.10, |phase| hips(phase).x) > 0.004, "{}", mean(0.0, 0.10, |phase| hips(phase).x));
+    assert!(mean(0.50, 0.60, |phase| hips(phase).x) < -0.004);
+    // Adduction: in the pelvis, the knee is medial of the hip in stance and lateral of it in early swing. Lateral is +z on the right.
+    for (side, right, later) in [("r", 1.0, 0.0), ("l", -1.0, 0.5)] {
+        let knee_beyond_hip = |phase: f64| {
+            let [knee, hip] = ["tibia", "femur"].map(|body| pose(&format!("{body}_{side}"), phase).translation);
+            right * (pose("pelvis", phase).rotation.transpose() * (knee - hip)).z
+        };
+        let (stance, swing) =
+            (mean(0.15 + later, 0.40 + later, knee_beyond_hip), mean(0.62 + later, 0.75 + later, knee_beyond_hip));
+        assert!(stance < -0.01 && swing > 0.02, "{side}: knee {stance} m and {swing} m lateral of the hip");
+    }
+}
+
+#[test]
+fn the_trunk_turns_against_the_pelvis() {
+    // Right side of the trunk in axes of the pelvis: forward and up.
+    let right = |phase: f64| pose("pelvis", phase).rotation.transpose() * (pose("torso", phase).rotation * Vec3::z());
+    assert!(mean(0.06, 0.22, |phase| right(phase).y) < -0.05, "{}", mean(0.06, 0.22, |phase| right(phase).y));
+    assert!(mean(0.56, 0.72, |phase| right(phase).y) > 0.05);
+    assert!(mean(0.0, 0.08, |phase| right(phase).x) < -0.03, "{}", mean(0.0, 0.08, |phase| right(phase).x));
+    assert!(mean(0.50, 0.58, |phase| right(phase).x) > 0.03);
+}
+
+#[test]
+fn joint_moments_of_an_optimal_walk_have_the_signs_of_peoples() {
+    let Case { human, walk, solution, .. } = &*SPATIAL;
+    for (side, later) in [("r", 0.0), ("l", 0.5)] {
+        // Mean moment that flexes, dorsiflexes or adducts, but extends the knee [N.m/kg].
+        let moment = |joint: &str, from: f64, to: f64| {
+            let id = human.model.coordinate(&format!("{joint}_{side}")).unwrap().index();
+            let at = |phase: f64| solution.samples(&[(phase + later) * walk.cycle_s()]).unwrap()[0].forces[id];
+            mean(from, to, at) / human.model.mass()
+        };
+        let extends_at_loading = moment("hip_flexion", 0.04, 0.16);
+        let flexes_before_foot_off = moment("hip_flexion", 0.44, 0.56);
+        assert!(extends_at_loading < -0.2 && flexes_before_foot_off > 0.2, "hip {side}");
+        let (loading, terminal) = (moment("knee_angle", 0.10, 0.18), moment("knee_angle", 0.34, 0.44));
+        assert!(loading > 0.15 && terminal < -0.05, "knee {side}: {loading} and {terminal}");
+        assert!(moment("ankle_angle", 0.40, 0.52) < -0.8, "ankle {side}");
+        for (from, to) in [(0.14, 0.22), (0.26, 0.36), (0.40, 0.48)] {
+            assert!(moment("hip_adduction", from, to) < -0.2, "hip abduction {side}, {from} to {to}");
+        }
     }
 }
 
