@@ -29,6 +29,7 @@ export function makePages(folder) {
   const figure = ["--model", join(input, "figure.osim")];
   ambulo("walk", "--cycles", "9", "-o", at("long"));
   ambulo("walk", "--gait", "goose", "--mode", "paper", "-o", at("infeasible"));
+  ambulo("walk", "--gait", join(repository, "examples/gaits/limp.toml"), "-o", at("limp"));
   ambulo(
     "forces",
     join(recording, "walk.mot"),

@@ -4,12 +4,10 @@ import { element } from "./element";
 
 /** Number of colours of states; a machine with more states uses them again. */
 const COLOURS = 6;
-/** A state that takes at least this part of the band has its name in it, if not for a short name [%]. */
-const NAMED_PERCENT = 7;
 /** Largest number of marks of the time axis. */
 const MARKS = 8;
 
-/** The states of all machines over time: one band for each machine. The pointer sets the clock, and the clock shows the states. */
+/** The states of all machines over time: one band per machine. Pointing at a band sets the clock; the state at the clock's time is shown. */
 export function machines(context: Context): HTMLElement[] {
   const all = context.first.machines;
   if (all.length === 0) {
@@ -17,8 +15,8 @@ export function machines(context: Context): HTMLElement[] {
   }
   const heading = "group-machines";
   const note =
-    "Which machine of the gait is in which state, over time. Point at a band, or tap it, to see the states at that instant.";
-  const several = context.page.sessions.length > 1 ? ` Of ${context.first.name}.` : "";
+    "State of each state machine of the gait over time. Point at a band, or tap it, to show the states at that time.";
+  const several = context.page.sessions.length > 1 ? ` These are the machines of ${context.first.name}.` : "";
   const rows = all.map((machine) => row(context, machine));
   return [
     element(
@@ -64,14 +62,11 @@ function row(context: Context, machine: PageMachine): HTMLElement {
 function bar(context: Context, machine: PageMachine, { state, from_s, to_s }: PagePeriod): HTMLElement {
   const [from, to] = [percent(context, from_s), percent(context, to_s)];
   const name = machine.states[state] ?? "";
-  const made = element("span", {
-    class: `period ${colourOf(state)}`,
-    title: `${machine.name}: ${name}, ${from_s.toFixed(2)} to ${to_s.toFixed(2)} s`,
-  });
+  const title = `${machine.name}: ${name}, ${from_s.toFixed(2)} to ${to_s.toFixed(2)} s`;
+  // The style sheet hides a name that does not fit.
+  const made = element("span", { class: `period ${colourOf(state)}`, title }, element("span", {}, name));
   made.style.left = `${from.toFixed(2)}%`;
   made.style.width = `${(to - from).toFixed(2)}%`;
-  // A letter takes about 1.3 % of a band on a narrow screen.
-  made.append(to - from >= Math.min(NAMED_PERCENT, 2 + 1.3 * name.length) ? name : "");
   return made;
 }
 
@@ -90,7 +85,7 @@ function axis(context: Context): HTMLElement {
   return element("div", { class: "machine-axis", "aria-hidden": "true" }, ...marks);
 }
 
-/** Lets the pointer set the clock as in a panel: by hovering while playback is paused, by pressing and dragging always. */
+/** The pointer sets the clock as in a panel: when it presses or drags, and when it hovers while playback is paused. */
 function seekByPointer({ clock }: Context, band: HTMLElement): void {
   const seek = (event: PointerEvent): void => {
     const box = band.getBoundingClientRect();

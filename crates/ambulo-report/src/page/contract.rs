@@ -172,7 +172,7 @@ pub struct PageEvent {
     pub time_s: f64,
 }
 
-/// A state machine and when it was in which state.
+/// A state machine and its states over time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct PageMachine {
@@ -184,7 +184,7 @@ pub struct PageMachine {
     pub periods: Vec<PagePeriod>,
 }
 
-/// A time in which a machine was in one state.
+/// A period of time in which a machine is in one state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct PagePeriod {

@@ -1,4 +1,4 @@
-//! The state machines of a synthetic walk, with the times in their states.
+//! The state machines of a synthetic walk, with their states over time.
 
 use crate::page::contract::{PageMachine, PagePeriod};
 use ambulo::gait::machine::StatePeriod;
@@ -22,7 +22,7 @@ pub(super) fn machines(periods: &[StatePeriod]) -> Vec<PageMachine> {
     machines
 }
 
-/// Sorts the states by name, so that the left and the right side number theirs alike.
+/// Sorts the states by name, so that left and right machines have the same numbers and colours.
 fn sort_states(machine: &mut PageMachine) {
     let mut sorted = machine.states.clone();
     sorted.sort_unstable();

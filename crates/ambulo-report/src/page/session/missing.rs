@@ -2,7 +2,7 @@
 
 use super::curves::over_time;
 use super::results::{DEVIATIONS, MOMENTS, POWERS, Results};
-use super::size::{BodySize, Turn};
+use super::size::{BodySize, NO_DOUBLE_SUPPORT, Turn};
 use super::still;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
 use crate::page::contract::PageSource;
@@ -120,7 +120,7 @@ fn turning(turn: Turn) -> String {
 
 fn bands(size: &BodySize) -> String {
     let why = match () {
-        () if size.runs => "they apply to walking, and this is running",
+        () if size.runs => NO_DOUBLE_SUPPORT,
         () if size.leg.is_none() => "the leg length is not known",
         () => "the speed is not known",
     };

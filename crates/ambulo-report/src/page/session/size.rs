@@ -20,12 +20,15 @@ pub(super) struct BodySize {
     pub(super) leg: Option<SourcedLength>,
     /// V / sqrt(g L).
     pub(super) speed_dimensionless: Option<f64>,
-    /// Whether there is no double support: normative data apply to walking only.
+    /// Whether stance is too short for double support, as in running: normative data do not apply.
     pub(super) runs: bool,
     /// Turn of the path: normative data apply to straight walking only.
     pub(super) turn: Option<Turn>,
 }
 
+/// Reason why normative data do not apply to running, and to walks without double support.
+pub(super) const NO_DOUBLE_SUPPORT: &str =
+    "they apply to walking with double support, and stance lasts less than half of the cycle";
 /// With a shorter stance a foot leaves the ground before the other one strikes [% of the cycle].
 const RUNNING_STANCE: f64 = 50.0;
 /// A path whose strides differ by more in direction is not straight [deg].
@@ -62,7 +65,7 @@ impl BodySize {
     pub(super) fn why_no_norm(&self) -> Option<&'static str> {
         match self.walking_speed() {
             Some(_) => None,
-            None if self.runs => Some("they apply to walking, and this is running"),
+            None if self.runs => Some(NO_DOUBLE_SUPPORT),
             None if self.turn.is_some() => Some("they apply to straight walking, and the path turns"),
             None => Some("the speed or the leg length is not known"),
         }
