@@ -6,7 +6,7 @@ use super::{
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
-use ambulo::study::{MassState, Quality};
+use ambulo::study::{MassState, MassWitness, Quality};
 use ambulo_results::{
     FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Summary, WalkSummary,
 };
@@ -56,7 +56,11 @@ fn print_mass(summary: &Summary) -> Result<()> {
         }
         _ => String::new(),
     };
-    print_line(&format!("  mass      {:.2} kg ({}, {}{plates})", mass.kg, mass.source.words(), mass.state.word()))
+    let state = match (mass.source, mass.state) {
+        (MassWitness::Stated, MassState::Stated) => "not weighed",
+        (_, state) => state.word(),
+    };
+    print_line(&format!("  mass      {:.2} kg ({}, {state}{plates})", mass.kg, mass.source.words()))
 }
 
 /// The numbers that tell whether a run is the expected one.
