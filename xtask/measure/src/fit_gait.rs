@@ -102,12 +102,8 @@ pub(crate) fn run() -> Result<(), String> {
     let errors = forces.errors()?;
     fs::write(&path, forces.file_text(&errors)).map_err(|e| format!("{}: {e}", path.display()))?;
     println!("written: {}\n{errors}", path.display());
-    let path = workspace::root().join(FOLDER).join("other_planes.toml");
-    fs::write(&path, other_planes_text()?).map_err(|e| format!("{}: {e}", path.display()))?;
-    println!("written: {}", path.display());
-    let path = workspace::root().join(FOLDER).join("joint_moments.toml");
-    fs::write(&path, joint_moments_text()?).map_err(|e| format!("{}: {e}", path.display()))?;
-    println!("written: {}", path.display());
+    workspace::save(&format!("{FOLDER}/other_planes.toml"), &other_planes_text()?)?;
+    workspace::save(&format!("{FOLDER}/joint_moments.toml"), &joint_moments_text()?)?;
     Ok(())
 }
 

@@ -1,6 +1,6 @@
-//! Walks in three dimensions, found by optimal motion, next to people: `cargo xtask optimal-walk [--write]`.
+//! Compares optimal walks in three dimensions with healthy people: `cargo xtask optimal-walk [--write]`.
 //!
-//! Walks of a figure at the five speeds of Schwartz, Rozumalski, Trost 2008 (equal V/√(gL)) are found from a cold start and compared with
+//! Walks of a figure at the five speeds of Schwartz, Rozumalski, Trost 2008 (equal V/√(gL)) are solved from the first guess and compared with
 //! their tables, with a second laboratory, and with the sideways forces of the recordings. A failed criterion is listed as missed and is no
 //! error. With `--write` the page goes to docs/measured/OPTIMAL_WALK.md.
 
@@ -20,7 +20,6 @@ use ambulo::optimal::{Drift, STAGES, Solution, WalkCosts, WalkProblem, soles_wit
 use ambulo::simulation::consistent_walk::SOFT_SHOES;
 use cpu_time::ThreadTime;
 use curves::Cycle;
-use std::fs;
 
 /// Index of free walking among the speeds.
 const FREE: usize = 2;
@@ -35,18 +34,18 @@ const BUILDS: [Build; 4] = [
 ];
 /// Step of the forward simulation [s].
 const STEP_S: f64 = 5e-4;
-/// Stages that are left out when the solution of a near problem is the start.
+/// Number of stages left out when the solver starts from the solution of a similar problem.
 const NEAR: usize = 5;
 
-/// A walk that was found.
+/// A solved walk.
 struct Found {
     speed: f64,
     cycle: Cycle,
     leg_length: f64,
-    /// CPU time of the solution [s], and steps of the solver.
+    /// CPU time of the solver [s].
     seconds: f64,
     steps: usize,
-    /// Forces at the root at the instants of the problem, and between them: root mean square and largest.
+    /// Residual forces at the root at the instants of the problem, and also between them: root mean square and maximum.
     root: (f64, f64),
     between: (f64, f64),
     drift: Drift,
@@ -58,32 +57,24 @@ struct Results {
     machine: String,
     /// Bands for the leg length of the main figure, at five speeds.
     people: [Vec<Band>; 5],
-    /// Sideways force of people over stance, and their number.
+    /// Mean sideways force of people over stance, and number of people.
     sideways: (Vec<f64>, usize),
     man: Vec<Found>,
-    /// CPU time of fast walking from the solution of free walking [s], and steps of the solver.
+    /// Fast walking from the solution of free walking: CPU time [s] and steps of the solver.
     next_speed: (f64, usize),
-    /// The planar figure at free speed.
+    /// The planar figure at free speed: CPU time [s], steps, largest residual force at the root.
     planar: (f64, usize, f64),
     others: Vec<(Build, Found, Vec<Band>)>,
 }
 
 /// Runs the command.
-#[expect(clippy::print_stdout, clippy::print_stderr, reason = "the page is the command's result")]
+#[expect(clippy::print_stdout, reason = "the page is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
-    let mut write = false;
-    for word in words {
-        match word.as_str() {
-            "--write" => write = true,
-            _ => return Err(format!("unknown option `{word}`, expected --write")),
-        }
-    }
+    let write = workspace::write_option(words)?;
     let page = page::text(&measure()?)?;
     println!("{page}");
     if write {
-        let path = workspace::root().join("docs/measured/OPTIMAL_WALK.md");
-        fs::write(&path, &page).map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
-        eprintln!("written: {}", path.display());
+        workspace::save("docs/measured/OPTIMAL_WALK.md", &page)?;
     }
     Ok(())
 }
@@ -119,7 +110,7 @@ fn spatial(build: &Build) -> Result<Human, String> {
     full_body(build).map_err(|e| e.to_string())
 }
 
-/// The walk of a figure at a dimensionless speed, from the laws or from unknowns of a near walk.
+/// Solves the walk of a figure at a dimensionless speed, from the first guess or from the unknowns of a similar walk.
 fn find(human: &Human, speed: f64, start: Option<&[f64]>) -> Result<Found, String> {
     let mut gait = Gait::named("free").map_err(|e| e.to_string())?;
     gait.pace.speed = Some(Speed::Dimensionless(speed));

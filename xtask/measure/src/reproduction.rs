@@ -19,11 +19,7 @@ const SHARES: &str = "crates/ambulo/data/reproduction/shares.csv";
 /// Runs the command.
 #[expect(clippy::print_stdout, reason = "the page is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
-    let write = match words {
-        [] => false,
-        [word] if word == "--write" => true,
-        _ => return Err("expected `cargo xtask reproduction [--write]`".to_owned()),
-    };
+    let write = workspace::write_option(words)?;
     let start = Instant::now();
     let clock = move || start.elapsed().as_secs_f64();
     let mut mode = |trial: &TrialSettings<'_>| paper_walk(trial);
@@ -38,7 +34,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let page = text(&claims, &sensitivities().map_err(|e| e.to_string())?, &read_shares(&stored));
     println!("{page}");
     if write {
-        fs::write(workspace::root().join(PAGE), page).map_err(|e| format!("{PAGE}: cannot write: {e}"))?;
+        workspace::save(PAGE, &page)?;
     }
     Ok(())
 }

@@ -11,20 +11,13 @@ pub(crate) mod trial;
 
 use crate::workspace;
 use serde_json::{Value, json};
-use std::fs;
 use std::process::Command;
 use trial::Trial;
 
 /// Runs the command.
-#[expect(clippy::print_stdout, clippy::print_stderr, reason = "the page is the command's result")]
+#[expect(clippy::print_stdout, reason = "the page is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
-    let mut write = false;
-    for word in words {
-        match word.as_str() {
-            "--write" => write = true,
-            _ => return Err(format!("unknown option `{word}`, expected --write")),
-        }
-    }
+    let write = workspace::write_option(words)?;
     let data = workspace::data().join("data");
     if !data.is_dir() {
         println!("skipped: no data");
@@ -40,19 +33,11 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let commit = commit();
     let page = page::text(&trials);
     println!("{page}");
-    save("target/validation.json", &format!("{:#}\n", json(&trials, &commit)))?;
+    workspace::save("target/validation.json", &format!("{:#}\n", json(&trials, &commit)))?;
     if write {
-        save("docs/measured/VALIDATION.md", &page)?;
-        eprintln!("written: docs/measured/VALIDATION.md");
+        workspace::save("docs/measured/VALIDATION.md", &page)?;
     }
     Ok(())
-}
-
-fn save(name: &str, text: &str) -> Result<(), String> {
-    let path = workspace::root().join(name);
-    let folder = path.parent().unwrap_or(&path);
-    fs::create_dir_all(folder).map_err(|e| format!("{}: cannot make this folder: {e}", folder.display()))?;
-    fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))
 }
 
 /// The commit that the numbers come from, with a word where files differ from it.

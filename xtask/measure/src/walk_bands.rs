@@ -20,7 +20,6 @@ use crate::workspace;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use child_leg::FromJoint;
 use cycle::Cycle;
-use std::fs;
 
 /// Index of free walking among the speeds.
 const FREE: usize = 2;
@@ -61,27 +60,16 @@ struct Results {
 }
 
 /// Runs the command.
-#[expect(clippy::print_stdout, clippy::print_stderr, reason = "the page is the command's result")]
+#[expect(clippy::print_stdout, reason = "the page is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
-    let mut write = false;
-    for word in words {
-        match word.as_str() {
-            "--write" => write = true,
-            _ => return Err(format!("unknown option `{word}`, expected --write")),
-        }
-    }
+    let write = workspace::write_option(words)?;
     let results = measure()?;
     let page = page::text(&results);
     println!("{page}");
     if write {
-        let folder = workspace::root().join("docs/measured");
-        let save = |name: &str, text: &str| {
-            let path = folder.join(name);
-            fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))
-        };
-        save("../images/walk_bands_free.svg", &figure::free(&results.man[FREE], &results.people[FREE])?)?;
-        save("WALK_BANDS.md", &page)?;
-        eprintln!("written: {}", folder.join("WALK_BANDS.md").display());
+        let picture = figure::free(&results.man[FREE], &results.people[FREE])?;
+        workspace::save("docs/images/walk_bands_free.svg", &picture)?;
+        workspace::save("docs/measured/WALK_BANDS.md", &page)?;
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
-//! Finds the workspace, the recordings next to it and the `ambulo` command.
+//! Finds the workspace, the recordings next to it and the `ambulo` command; writes results into the workspace.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -19,6 +20,25 @@ pub(crate) fn root() -> PathBuf {
 /// The folder that holds `data` and `reference`.
 pub(crate) fn data() -> PathBuf {
     std::env::var_os(DATA_VARIABLE).map_or_else(|| root().join(DATA), PathBuf::from)
+}
+
+/// Whether the words of a command that has only the option `--write` contain it.
+pub(crate) fn write_option(words: &[String]) -> Result<bool, String> {
+    match words.iter().find(|word| *word != "--write") {
+        Some(word) => Err(format!("unknown option `{word}`, expected --write")),
+        None => Ok(!words.is_empty()),
+    }
+}
+
+/// Writes a file of the workspace, with its folder, and reports it.
+#[expect(clippy::print_stderr, reason = "the page itself goes to standard output")]
+pub(crate) fn save(name: &str, text: &str) -> Result<(), String> {
+    let path = root().join(name);
+    let folder = path.parent().unwrap_or(&path);
+    fs::create_dir_all(folder).map_err(|e| format!("{}: cannot make this folder: {e}", folder.display()))?;
+    fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
+    eprintln!("written: {name}");
+    Ok(())
 }
 
 /// The same cargo that runs this program, in the workspace root.

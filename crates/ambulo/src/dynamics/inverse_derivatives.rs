@@ -1,26 +1,26 @@
-//! Derivatives of inverse dynamics with respect to positions, rates and accelerations, exact, for several frames side by side.
+//! Exact derivatives of inverse dynamics by positions, rates and accelerations, for several frames side by side.
 //!
-//! Every coordinate becomes a chain of massless links of one axis each, as spatial vectors (moment or angular part first) at the
-//! origin of the world. With λ the link before link j, gravity as the acceleration a = -g of the ground, and C marking sums over a link and
-//! everything it carries:
+//! Every joint becomes a chain of massless links with one axis each. Spatial vectors (angular part or moment first) are at the
+//! origin of the world. λ is the link before link j, gravity is the acceleration a = -g of the ground, and the superscript c marks sums over
+//! a link and all bodies that it carries:
 //!
 //!   v_j = v_λ + S_j q̇_j          Ψ̇_j = v_λ × S_j
 //!   a_j = a_λ + S_j q̈_j + Ψ̇_j q̇_j    Ψ̈_j = a_λ × S_j + v_λ × Ψ̇_j
 //!   f   = I a + v ×* I v           B = ½ [(v ×*) I - I (v ×) + (I v) ×̄*]
 //!
-//! and for i = j or any link i that carries j
+//! and for i = j, or any link i that carries j,
 //!
 //!   ∂τ_i/∂q̈_j = S_iᵀ I_jᶜ S_j                                    ∂τ_j/∂q̈_i = the same
 //!   ∂τ_i/∂q̇_j = 2 S_iᵀ (B_jᶜ S_j + I_jᶜ Ψ̇_j)                      ∂τ_j/∂q̇_i = 2 S_jᵀ (B_jᶜ S_i + I_jᶜ Ψ̇_i)
 //!   ∂τ_i/∂q_j = S_iᵀ (2 B_jᶜ Ψ̇_j + I_jᶜ Ψ̈_j + S_j ×* f_jᶜ)         ∂τ_j/∂q_i = S_jᵀ (2 B_jᶜ Ψ̇_i + I_jᶜ Ψ̈_i)     (i ≠ j)
 //!
-//! With the momentum (n, p) of a body and its inertia (m, h = m c, J) at the origin, B acts on the angular part alone:
+//! With the momentum (n, p) of a body and its inertia (m, h = m c, J) at the origin, B depends on the angular part only:
 //! B (ω, u) = (T ω, ω × p) with T = ½ (ω_b × J - J ω_b × - v × h × - h × v × - n ×).
 //!
 //! Source: S. Singh, R. P. Russell, P. M. Wensing, "Efficient analytical derivatives of rigid-body dynamics using spatial vector
-//! algebra", IEEE Robotics and Automation Letters 7 (2022), arXiv 2105.05102 (unverified equations; the tests are differences and an
-//! independent recursion). The form of B is ours.
-//! Cost: one pass over all pairs of links that carry each other.
+//! algebra", IEEE Robotics and Automation Letters 7 (2022), arXiv 2105.05102 (equations unverified; the tests compare with finite
+//! differences and an independent recursion). The form of B is ours.
+//! Cost: one pass over all pairs of links of which one carries the other.
 //! Not handled: ball-like joints and axes that follow a curve of their coordinate.
 //! Pinned by: tests/inverse_derivatives.rs
 
@@ -34,17 +34,17 @@ use nalgebra::DMatrix;
 use pulp::{Arch, Simd, WithSimd};
 use std::array;
 
-/// A joint whose derivatives are not handled.
+/// A joint for which derivatives are not computed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "joint `{joint}` of the model is ball-like, or follows a curve of its coordinate; derivatives of inverse dynamics need hinges and slides"
 )]
 pub struct CurvedJointError {
-    /// Its name.
+    /// Name of the joint.
     pub joint: String,
 }
 
-/// Generalised forces of one posture, and how they change with it. Rows are forces, columns are coordinates.
+/// Generalised forces of one posture and their derivatives. Rows are forces, columns are coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseDerivatives {
     /// τ [N.m or N].
@@ -57,9 +57,9 @@ pub struct InverseDerivatives {
     pub by_acceleration: DMatrix<f64>,
 }
 
-/// Generalised forces without loads, and their derivatives with respect to positions, rates and accelerations.
+/// Computes the generalised forces without external loads, and their derivatives by positions, rates and accelerations.
 ///
-/// The mass matrix of a person has the body mass where the path of the pelvis meets itself:
+/// In the mass matrix, the diagonal entry of the height of the pelvis is the body mass:
 ///
 /// ```
 /// use ambulo::dynamics::inverse_derivatives;
@@ -77,7 +77,7 @@ pub struct InverseDerivatives {
 /// ```
 ///
 /// # Errors
-/// If the model has a ball-like joint, or one that follows a curve.
+/// If the model has a ball-like joint, or a joint that follows a curve of its coordinate.
 ///
 /// # Panics
 /// If the length of a slice of `posture` differs from the number of coordinates.
@@ -143,7 +143,7 @@ impl<const N: usize> Spatial<N> {
 #[derive(Debug, Clone)]
 pub(crate) struct MovingLink {
     pub(crate) coordinate: usize,
-    /// The link that carries it.
+    /// The link that carries this one; `None` for the first link of a root.
     pub(crate) before: Option<usize>,
     axis: usize,
     segment: usize,
@@ -151,7 +151,7 @@ pub(crate) struct MovingLink {
     slope: f64,
 }
 
-/// Sums over a link and everything it carries.
+/// Sums over a link and all bodies that it carries.
 #[derive(Debug, Clone, Copy)]
 struct Composite<const N: usize> {
     mass: f64,
@@ -165,7 +165,7 @@ struct Composite<const N: usize> {
     force: Spatial<N>,
 }
 
-/// All scratch and results of N frames.
+/// Scratch and results for N frames.
 #[derive(Debug, Clone)]
 pub(crate) struct DerivativeKernel<const N: usize> {
     plan: Plan,
@@ -174,11 +174,15 @@ pub(crate) struct DerivativeKernel<const N: usize> {
     pub(crate) links: Vec<MovingLink>,
     /// The last link that moves each body.
     pub(crate) link_of_body: Vec<Option<usize>>,
-    /// S, v of the links, and v of the link before.
+    /// S of the links.
     pub(crate) axes: Vec<Spatial<N>>,
+    /// v of the links.
     pub(crate) velocities: Vec<Spatial<N>>,
+    /// a of the links.
     accelerations: Vec<Spatial<N>>,
+    /// Ψ̇ of the links.
     axis_rates: Vec<Spatial<N>>,
+    /// Ψ̈ of the links.
     axis_accelerations: Vec<Spatial<N>>,
     composites: Vec<Composite<N>>,
     /// τ of the coordinates.
@@ -192,14 +196,6 @@ impl<const N: usize> DerivativeKernel<N> {
         let plan = Plan::new(model);
         let (links, link_of_body) = links(model, &plan)?;
         let (count, coordinates) = (links.len(), plan.coordinates);
-        let none = Composite {
-            mass: 0.0,
-            first_moment: V3::ZERO,
-            inertia: M3([V3::ZERO; 3]),
-            coriolis: M3([V3::ZERO; 3]),
-            momentum: V3::ZERO,
-            force: Spatial::ZERO,
-        };
         Ok(DerivativeKernel {
             scratch: Scratch::new(&plan),
             arch: Arch::new(),
@@ -208,7 +204,7 @@ impl<const N: usize> DerivativeKernel<N> {
             accelerations: vec![Spatial::ZERO; count],
             axis_rates: vec![Spatial::ZERO; count],
             axis_accelerations: vec![Spatial::ZERO; count],
-            composites: vec![none; count],
+            composites: vec![Composite::ZERO; count],
             forces: vec![Lanes::ZERO; coordinates],
             slopes: array::from_fn(|_| vec![Lanes::ZERO; coordinates * coordinates]),
             plan,
@@ -221,7 +217,7 @@ impl<const N: usize> DerivativeKernel<N> {
         self.plan.coordinates
     }
 
-    /// Pose of a body's own frame in one frame of the block.
+    /// Pose of a body in one lane.
     pub(crate) fn pose(&self, body: usize, lane: usize) -> Pose {
         let state = &self.scratch.states[body + 1];
         let joint =
@@ -265,16 +261,7 @@ impl<const N: usize> DerivativeKernel<N> {
     /// Inertia, momentum and force of the bodies that each link moves directly.
     #[inline(always)]
     fn load_bodies(&mut self) {
-        for composite in &mut self.composites {
-            *composite = Composite {
-                mass: 0.0,
-                first_moment: V3::ZERO,
-                inertia: M3([V3::ZERO; 3]),
-                coriolis: M3([V3::ZERO; 3]),
-                momentum: V3::ZERO,
-                force: Spatial::ZERO,
-            };
-        }
+        self.composites.fill(Composite::ZERO);
         for (body, segment) in self.plan.segments.iter().enumerate() {
             let Some(link) = self.link_of_body[body] else { continue };
             let state = &self.scratch.states[body + 1];
@@ -363,23 +350,25 @@ fn links(model: &Model, plan: &Plan) -> Result<(Vec<MovingLink>, Vec<Option<usiz
     Ok((links, link_of_body))
 }
 
-/// M v for a matrix that is the same in all frames.
+/// M v for a matrix that is the same in all lanes.
 #[inline(always)]
 fn fixed<const N: usize>(matrix: &crate::spatial::Mat3, v: V3<N>) -> V3<N> {
     M3::splat(matrix).turn(v)
 }
 
 impl<const N: usize> Composite<N> {
+    const ZERO: Composite<N> = Composite {
+        mass: 0.0,
+        first_moment: V3::ZERO,
+        inertia: M3([V3::ZERO; 3]),
+        coriolis: M3([V3::ZERO; 3]),
+        momentum: V3::ZERO,
+        force: Spatial::ZERO,
+    };
+
     #[inline(always)]
     fn of_body(mass: f64, first_moment: V3<N>, inertia: M3<N>, v: Spatial<N>, a: Spatial<N>) -> Composite<N> {
-        let mut body = Composite {
-            mass,
-            first_moment,
-            inertia,
-            coriolis: M3([V3::ZERO; 3]),
-            momentum: V3::ZERO,
-            force: Spatial::ZERO,
-        };
+        let mut body = Composite { mass, first_moment, inertia, ..Composite::ZERO };
         let momentum = body.momentum_of(v);
         body.momentum = momentum.linear;
         body.force = body.momentum_of(a).plus(v.cross_force(momentum));

@@ -5,13 +5,12 @@
 //! fit-gait`; the header of the file gives source, licence and errors.
 
 use super::jet::Jet;
-use super::laws::{DOCUMENT, WaveKeys, read_wave};
+use super::laws::{RATIO, read_waves};
 use super::wave::Wave;
-use crate::toml_reader::{Source, Table, TomlError};
+use crate::toml_reader::TomlError;
 use std::sync::LazyLock;
 
 const FORCES: &str = include_str!("../../data/gait/ground_forces.toml");
-const FORCE: WaveKeys = WaveKeys { mean: "mean", cos: "cos", sin: "sin", unit: 1.0 };
 
 /// Mean ground force of a foot.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,20 +27,15 @@ impl GroundForceLaws {
     /// # Errors
     /// Anything that differs from docs/GAITS.md, with line and key.
     pub fn from_toml(text: &str) -> Result<GroundForceLaws, TomlError> {
-        let source = Source::new(text, DOCUMENT);
-        let parsed = source.parse()?;
-        let root = Table::root(&source, &parsed);
-        root.only(&[&["vertical", "fore_aft"]])?;
-        Ok(GroundForceLaws {
-            vertical: read_wave(&root, "vertical", &FORCE)?,
-            fore_aft: read_wave(&root, "fore_aft", &FORCE)?,
+        read_waves(text, &["vertical", "fore_aft"], &RATIO, |wave| {
+            Ok(GroundForceLaws { vertical: wave("vertical")?, fore_aft: wave("fore_aft")? })
         })
     }
 
     /// The built-in laws.
     ///
     /// # Errors
-    /// None; a test reads the file.
+    /// Does not fail: a test reads the file.
     pub fn built_in() -> Result<GroundForceLaws, TomlError> {
         static LAWS: LazyLock<Result<GroundForceLaws, TomlError>> =
             LazyLock::new(|| GroundForceLaws::from_toml(FORCES));

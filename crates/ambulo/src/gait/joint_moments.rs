@@ -1,18 +1,17 @@
-//! Mean joint moments of people against speed, for one leg over its cycle.
+//! Mean joint moments of healthy people as functions of speed, for one leg over its cycle.
 //!
 //! Optimal walks ([`crate::optimal`]) use them as targets. Made by `cargo xtask fit-gait`; the header of the file gives source, licence
 //! and fit.
 
 use super::jet::Jet;
-use super::laws::{DOCUMENT, WaveKeys, read_wave};
+use super::laws::{RATIO, read_waves};
 use super::wave::Wave;
-use crate::toml_reader::{Source, Table, TomlError};
+use crate::toml_reader::TomlError;
 use std::sync::LazyLock;
 
 const MOMENTS: &str = include_str!("../../data/gait/joint_moments.toml");
-const MOMENT: WaveKeys = WaveKeys { mean: "mean", cos: "cos", sin: "sin", unit: 1.0 };
 
-/// Mean moments of the muscles at the joints of a leg, as shares of body weight times leg length.
+/// Mean internal joint moments of a leg [body weight × leg length].
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointMomentLaws {
     /// Extension of the hip.
@@ -25,7 +24,7 @@ pub struct JointMomentLaws {
     pub hip_abduction: Wave,
 }
 
-/// Moments of one leg at one instant, as shares of body weight times leg length.
+/// Internal joint moments of a leg at one instant [body weight × leg length].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointMoments {
     /// Extension of the hip.
@@ -44,23 +43,20 @@ impl JointMomentLaws {
     /// # Errors
     /// Anything that differs from docs/GAITS.md, with line and key.
     pub fn from_toml(text: &str) -> Result<JointMomentLaws, TomlError> {
-        let source = Source::new(text, DOCUMENT);
-        let parsed = source.parse()?;
-        let root = Table::root(&source, &parsed);
-        root.only(&[&["hip_extension", "knee_extension", "plantarflexion", "hip_abduction"]])?;
-        let wave = |key: &str| read_wave(&root, key, &MOMENT);
-        Ok(JointMomentLaws {
-            hip_extension: wave("hip_extension")?,
-            knee_extension: wave("knee_extension")?,
-            plantarflexion: wave("plantarflexion")?,
-            hip_abduction: wave("hip_abduction")?,
+        read_waves(text, &["hip_extension", "knee_extension", "plantarflexion", "hip_abduction"], &RATIO, |wave| {
+            Ok(JointMomentLaws {
+                hip_extension: wave("hip_extension")?,
+                knee_extension: wave("knee_extension")?,
+                plantarflexion: wave("plantarflexion")?,
+                hip_abduction: wave("hip_abduction")?,
+            })
         })
     }
 
     /// The built-in laws.
     ///
     /// # Errors
-    /// None; a test reads the file.
+    /// Does not fail: a test reads the file.
     pub fn built_in() -> Result<JointMomentLaws, TomlError> {
         static LAWS: LazyLock<Result<JointMomentLaws, TomlError>> =
             LazyLock::new(|| JointMomentLaws::from_toml(MOMENTS));

@@ -168,6 +168,22 @@ pub(super) struct WaveKeys {
 }
 
 pub(super) const ANGLE: WaveKeys = WaveKeys { mean: "mean_deg", cos: "cos_deg", sin: "sin_deg", unit: DEGREE };
+/// Forces and moments without units.
+pub(super) const RATIO: WaveKeys = WaveKeys { mean: "mean", cos: "cos", sin: "sin", unit: 1.0 };
+
+/// Reads laws from a file whose only keys are `keys`, each a wave; `make` takes the wave of each key.
+pub(super) fn read_waves<T>(
+    text: &str,
+    keys: &[&str],
+    units: &WaveKeys,
+    make: impl FnOnce(&dyn Fn(&str) -> Result<Wave, TomlError>) -> Result<T, TomlError>,
+) -> Result<T, TomlError> {
+    let source = Source::new(text, DOCUMENT);
+    let parsed = source.parse()?;
+    let root = Table::root(&source, &parsed);
+    root.only(&[keys])?;
+    make(&|key| read_wave(&root, key, units))
+}
 
 pub(super) fn read_wave(root: &Table<'_>, key: &str, keys: &WaveKeys) -> Result<Wave, TomlError> {
     let table = root.need(key, "mean and harmonics")?.table("a table with mean and harmonics")?;

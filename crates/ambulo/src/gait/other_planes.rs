@@ -1,31 +1,31 @@
-//! Mean motion of people outside the sagittal plane against speed: pelvis, trunk and hips in the frontal and the transverse plane.
+//! Mean angles of healthy people in the frontal and the transverse plane as functions of speed: pelvis, trunk and hips.
 //!
 //! Walks in three dimensions ([`crate::optimal`]) use them as targets. Made by `cargo xtask fit-gait`; the header of the file gives
 //! source, licence and fit.
 
 use super::jet::Jet;
-use super::laws::{ANGLE, DOCUMENT, read_wave};
+use super::laws::{ANGLE, read_waves};
 use super::wave::Wave;
-use crate::toml_reader::{Source, Table, TomlError};
+use crate::toml_reader::TomlError;
 use std::sync::LazyLock;
 
 const PLANES: &str = include_str!("../../data/gait/other_planes.toml");
 
-/// Angles against phase of the right foot and dimensionless speed. Those of pelvis and trunk have odd harmonics alone: half a cycle later they
-/// are the opposite.
+/// Angles as functions of phase and dimensionless speed. Angles of pelvis and trunk use the phase of the right foot and have odd harmonics
+/// only: half a cycle later they have the opposite sign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OtherPlaneLaws {
-    /// Right side of the pelvis up.
+    /// Pelvic obliquity, right side up.
     pub pelvis_obliquity: Wave,
-    /// Right side of the pelvis forward.
+    /// Pelvic rotation, right side forward.
     pub pelvis_rotation: Wave,
-    /// Right side of the trunk up, relative to the pelvis.
+    /// Trunk obliquity relative to the pelvis, right side up.
     pub trunk_obliquity: Wave,
-    /// Right side of the trunk forward, relative to the pelvis.
+    /// Trunk rotation relative to the pelvis, right side forward.
     pub trunk_rotation: Wave,
-    /// Adduction of the hip of the foot whose phase it is.
+    /// Hip adduction, by the phase of the foot of the same side.
     pub hip_adduction: Wave,
-    /// Internal rotation of that hip.
+    /// Internal hip rotation, by the phase of the foot of the same side.
     pub hip_rotation: Wave,
 }
 
@@ -46,32 +46,30 @@ impl OtherPlaneLaws {
     /// # Errors
     /// Anything that differs from docs/GAITS.md, with line and key.
     pub fn from_toml(text: &str) -> Result<OtherPlaneLaws, TomlError> {
-        let source = Source::new(text, DOCUMENT);
-        let parsed = source.parse()?;
-        let root = Table::root(&source, &parsed);
-        let wave = |key: &str| read_wave(&root, key, &ANGLE);
-        root.only(&[&[
+        let keys = [
             "pelvis_obliquity",
             "pelvis_rotation",
             "trunk_obliquity",
             "trunk_rotation",
             "hip_adduction",
             "hip_rotation",
-        ]])?;
-        Ok(OtherPlaneLaws {
-            pelvis_obliquity: wave("pelvis_obliquity")?,
-            pelvis_rotation: wave("pelvis_rotation")?,
-            trunk_obliquity: wave("trunk_obliquity")?,
-            trunk_rotation: wave("trunk_rotation")?,
-            hip_adduction: wave("hip_adduction")?,
-            hip_rotation: wave("hip_rotation")?,
+        ];
+        read_waves(text, &keys, &ANGLE, |wave| {
+            Ok(OtherPlaneLaws {
+                pelvis_obliquity: wave("pelvis_obliquity")?,
+                pelvis_rotation: wave("pelvis_rotation")?,
+                trunk_obliquity: wave("trunk_obliquity")?,
+                trunk_rotation: wave("trunk_rotation")?,
+                hip_adduction: wave("hip_adduction")?,
+                hip_rotation: wave("hip_rotation")?,
+            })
         })
     }
 
     /// The built-in laws.
     ///
     /// # Errors
-    /// None; a test reads the file.
+    /// Does not fail: a test reads the file.
     pub fn built_in() -> Result<OtherPlaneLaws, TomlError> {
         static LAWS: LazyLock<Result<OtherPlaneLaws, TomlError>> = LazyLock::new(|| OtherPlaneLaws::from_toml(PLANES));
         LAWS.clone()

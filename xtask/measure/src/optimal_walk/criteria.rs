@@ -1,11 +1,11 @@
-//! What is asked of an optimal walk at one speed.
+//! Criteria for an optimal walk at one speed.
 
 use super::Found;
 use super::curves::{QUANTITIES, Quantity};
 use crate::normative::{Band, Sheet};
 use ambulo::reproduction::{correlation, extremes};
 
-/// One line of the page: what is judged, what is asked, the result at one speed, and whether it is met.
+/// One line of the page: quantity, limit, result at one speed, and whether the limit is met.
 pub(super) struct Criterion {
     pub(super) what: String,
     pub(super) limit: &'static str,
@@ -13,7 +13,7 @@ pub(super) struct Criterion {
     pub(super) met: bool,
 }
 
-/// Walking slower than freely: the first two of the five speeds.
+/// Number of the speeds that are slower than free walking.
 const SLOW: usize = 2;
 
 /// All criteria at one of the five speeds.
@@ -34,16 +34,16 @@ pub(super) fn all(found: &Found, bands: &[Band], speed: usize, sideways: &[f64])
     let mean = 100.0 * middle.iter().sum::<f64>() / middle.len() as f64;
     add("sideways force in mid-stance [%BW, medial]", "2 to 6", format!("{mean:.1}"), (2.0..=6.0).contains(&mean));
     let strike = 100.0 * extremes(&cycle.sideways[..10]).0;
-    add("least sideways force after the strike [%BW]", "lateral (< 0)", format!("{strike:.1}"), strike < 0.0);
+    add("smallest sideways force after the strike [%BW]", "lateral (< 0)", format!("{strike:.1}"), strike < 0.0);
     let width = cycle.step_width * 0.93 / found.leg_length;
     add("step width x 0.93 m / leg [m]", "0.08 to 0.15", format!("{width:.3}"), (0.08..=0.15).contains(&width));
-    add("least flexion of the knee [deg]", ">= 0", format!("{:.1}", cycle.least_knee), cycle.least_knee >= 0.0);
+    add("smallest flexion of the knee [deg]", ">= 0", format!("{:.1}", cycle.least_knee), cycle.least_knee >= 0.0);
     add("slip of a stance [mm]", "< 3", format!("{:.1}", 1e3 * cycle.slip), cycle.slip < 3e-3);
     let [up, net] = cycle.mean_force;
     let balanced = (up - 1.0).abs() <= 0.005 && net.abs() <= 0.01;
     add("mean vertical / fore-aft force [BW]", "1 +- 0.005 / 0 +- 0.01", format!("{up:.4} / {net:.4}"), balanced);
     let small = found.root.1 <= 1e-4;
-    add("largest force at the root [BW, BW x leg]", "<= 1e-4", format!("{:.0e}", found.root.1), small);
+    add("largest residual force at the root [BW, BW x leg]", "<= 1e-4", format!("{:.0e}", found.root.1), small);
     let between = format!("{:.0e} / {:.0e}", found.between.0, found.between.1);
     add("the same between the instants, RMS / largest", "", between, true);
     let drift = (1e3 * found.drift.place_m, found.drift.angle_rad.to_degrees());
@@ -59,7 +59,7 @@ pub(super) fn all(found: &Found, bands: &[Band], speed: usize, sideways: &[f64])
     lines
 }
 
-/// Correlation, share inside the band, and where it is asked the range or the difference.
+/// Correlation and share inside the band; for some curves also range or RMS difference.
 fn curve(quantity: Quantity, ours: &[f64], band: &Band, speed: usize) -> Criterion {
     let r = correlation(ours, &band.mean);
     let inside = inside(ours, band);
@@ -104,7 +104,7 @@ fn inside(ours: &[f64], band: &Band) -> f64 {
     within.count() as f64 / ours.len() as f64
 }
 
-/// The two humps of the hip's abduction moment, as shares of people's: the largest before and after a quarter of the cycle.
+/// The two peaks of the hip abduction moment, before and after a quarter of the cycle, relative to those of people.
 fn peaks(ours: &[f64], band: &Band) -> Criterion {
     let humps = |curve: &[f64]| {
         let quarter = curve.len() / 4 + 2;
@@ -113,7 +113,7 @@ fn peaks(ours: &[f64], band: &Band) -> Criterion {
     let [first, second] = [0, 1].map(|k| humps(ours)[k] / humps(&band.mean)[k]);
     let met = [first, second].iter().all(|share| (share - 1.0).abs() <= 0.2);
     Criterion {
-        what: "peaks of the hip abduction moment, share of people's".to_owned(),
+        what: "peaks of the hip abduction moment, relative to people".to_owned(),
         limit: "0.8 to 1.2",
         result: format!("{first:.2} / {second:.2}"),
         met,

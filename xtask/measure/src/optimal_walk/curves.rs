@@ -1,12 +1,13 @@
-//! Curves of a walk in three dimensions over the cycle of the right foot, next to those of people.
+//! Curves of a walk in three dimensions over the cycle of the right foot, and those of people.
 
 use crate::normative::{self, Band, SAMPLES, Sheet};
+use Reading::{Angle, Force, Moment};
 use ambulo::gait::Walk;
 use ambulo::model::anthropometry::Human;
 use ambulo::model::{Model, Side};
 use ambulo::optimal::{Sample, Solution, WalkProblem};
 
-/// One curve: how it is read from a walk, and its place in the tables of people.
+/// One curve, with its names in the tables of people.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Quantity {
     pub(super) name: &'static str,
@@ -18,6 +19,7 @@ pub(super) struct Quantity {
     reading: Reading,
 }
 
+/// How a curve is read from a walk.
 #[derive(Debug, Clone, Copy)]
 enum Reading {
     /// Coordinate and its sign [deg].
@@ -28,49 +30,39 @@ enum Reading {
     Force(usize),
 }
 
-const fn angle(
-    name: &'static str,
-    table: &'static str,
-    second: &'static str,
-    coordinate: &'static str,
-    sign: f64,
-) -> Quantity {
-    Quantity { name, sheet: Sheet::Angles, table, second: Some(second), reading: Reading::Angle(coordinate, sign) }
-}
-
-const fn moment(
-    name: &'static str,
-    table: &'static str,
-    second: &'static str,
-    coordinate: &'static str,
-    sign: f64,
-) -> Quantity {
-    Quantity { name, sheet: Sheet::Moments, table, second: Some(second), reading: Reading::Moment(coordinate, sign) }
-}
-
-const fn force(name: &'static str, table: &'static str, axis: usize) -> Quantity {
-    Quantity { name, sheet: Sheet::Forces, table, second: None, reading: Reading::Force(axis) }
+const fn quantity(name: &'static str, table: &'static str, second: Option<&'static str>, reading: Reading) -> Quantity {
+    let sheet = match reading {
+        Angle(..) => Sheet::Angles,
+        Moment(..) => Sheet::Moments,
+        Force(_) => Sheet::Forces,
+    };
+    Quantity { name, sheet, table, second, reading }
 }
 
 /// Everything that is compared.
 pub(super) const QUANTITIES: [Quantity; 13] = [
-    angle("hip flexion", "Hip Flex/Extension", "Hip Flx/Ext", "hip_flexion_r", 1.0),
-    angle("knee flexion", "Knee Flex/Extension", "Knee Flx/Ext", "knee_angle_r", -1.0),
-    angle("ankle dorsiflexion", "Ankle Dorsi/Plantarflexion", "Ankle Dor/Pla", "ankle_angle_r", 1.0),
-    angle("pelvic obliquity", "Pelvic Up/Down Obliquity", "Pelvic Up/Dn", "pelvis_list", -1.0),
-    angle("pelvic rotation", "Pelvic Int/External Rotation", "Pelvic Int/Ext", "pelvis_rotation", 1.0),
-    angle("hip adduction", "Hip Ad/Abduction", "Hip Add/Abd", "hip_adduction_r", 1.0),
-    angle("hip rotation", "Hip Int/External Rotation", "Hip Int/Ext", "hip_rotation_r", 1.0),
-    moment("hip extension moment", "Hip Ext/Flexion", "Hip Extensor Moment", "hip_flexion_r", -1.0),
-    moment("knee extension moment", "Knee Ext/Flexion", "Knee Extensor Moment", "knee_angle_r", 1.0),
-    moment("plantarflexion moment", "Ankle Dorsi/Plantarflexion", "Plantarflexor Moment", "ankle_angle_r", -1.0),
-    moment("hip abduction moment", "Hip Ab/Adduction", "Hip Abductor Moment", "hip_adduction_r", -1.0),
-    force("vertical force", "Vertical", 1),
-    force("fore-aft force", "Anterior/Posterior", 0),
+    quantity("hip flexion", "Hip Flex/Extension", Some("Hip Flx/Ext"), Angle("hip_flexion_r", 1.0)),
+    quantity("knee flexion", "Knee Flex/Extension", Some("Knee Flx/Ext"), Angle("knee_angle_r", -1.0)),
+    quantity("ankle dorsiflexion", "Ankle Dorsi/Plantarflexion", Some("Ankle Dor/Pla"), Angle("ankle_angle_r", 1.0)),
+    quantity("pelvic obliquity", "Pelvic Up/Down Obliquity", Some("Pelvic Up/Dn"), Angle("pelvis_list", -1.0)),
+    quantity("pelvic rotation", "Pelvic Int/External Rotation", Some("Pelvic Int/Ext"), Angle("pelvis_rotation", 1.0)),
+    quantity("hip adduction", "Hip Ad/Abduction", Some("Hip Add/Abd"), Angle("hip_adduction_r", 1.0)),
+    quantity("hip rotation", "Hip Int/External Rotation", Some("Hip Int/Ext"), Angle("hip_rotation_r", 1.0)),
+    quantity("hip extension moment", "Hip Ext/Flexion", Some("Hip Extensor Moment"), Moment("hip_flexion_r", -1.0)),
+    quantity("knee extension moment", "Knee Ext/Flexion", Some("Knee Extensor Moment"), Moment("knee_angle_r", 1.0)),
+    quantity(
+        "plantarflexion moment",
+        "Ankle Dorsi/Plantarflexion",
+        Some("Plantarflexor Moment"),
+        Moment("ankle_angle_r", -1.0),
+    ),
+    quantity("hip abduction moment", "Hip Ab/Adduction", Some("Hip Abductor Moment"), Moment("hip_adduction_r", -1.0)),
+    quantity("vertical force", "Vertical", None, Force(1)),
+    quantity("fore-aft force", "Anterior/Posterior", None, Force(0)),
 ];
 
 impl Quantity {
-    /// Least standard deviation of a band, in the unit of the table.
+    /// Smallest standard deviation of a band, in the unit of the table.
     fn least_sd(self) -> f64 {
         match self.sheet {
             Sheet::Angles => 2.0,
@@ -82,13 +74,13 @@ impl Quantity {
     fn value(self, model: &Model, walk: &Walk, right: &[usize], at: &Sample) -> f64 {
         let id = |name: &str| model.coordinate(name).map_or(0, |id| id.index());
         match self.reading {
-            Reading::Angle(name, sign) => {
-                // Clinical hip flexion is counted from the pelvis, whose tilt in upright standing is no zero.
+            Angle(name, sign) => {
+                // Clinical hip flexion is relative to the pelvis, whose tilt in upright standing is not zero.
                 let standing = if name == "hip_flexion_r" { walk.standing_tilt() } else { 0.0 };
                 (sign * at.posture[0][id(name)] + standing).to_degrees()
             }
-            Reading::Moment(name, sign) => sign * at.forces[id(name)] / model.mass(),
-            Reading::Force(axis) => at.ground_force(right)[axis] / (model.mass() * model.gravity().norm()),
+            Moment(name, sign) => sign * at.forces[id(name)] / model.mass(),
+            Force(axis) => at.ground_force(right)[axis] / (model.mass() * model.gravity().norm()),
         }
     }
 }
@@ -107,9 +99,9 @@ pub(super) fn people(leg_length: f64, their_leg: f64) -> Result<[Vec<Band>; 5], 
     Ok(people)
 }
 
-/// Samples per cycle of what is not in the tables; a multiple of theirs.
+/// Samples per cycle of quantities that the tables do not have; a multiple of the number in the tables.
 const FINE: usize = 1000;
-/// A foot stands above this share of the body weight.
+/// A foot is in stance above this share of body weight.
 const LOADED: f64 = 0.03;
 
 /// A cycle of the right foot.
@@ -117,13 +109,13 @@ const LOADED: f64 = 0.03;
 pub(super) struct Cycle {
     /// At the samples of the tables, in the order of [`QUANTITIES`].
     pub(super) curves: Vec<Vec<f64>>,
-    /// Sideways force on the right foot over its stance, to the left [body weights].
+    /// Sideways force on the right foot over stance, positive to the left [body weights].
     pub(super) sideways: Vec<f64>,
-    /// Distance of the mean centres of pressure of both feet [m].
+    /// Sideways distance between the mean centres of pressure of both feet [m].
     pub(super) step_width: f64,
-    /// Least flexion of the knee [deg].
+    /// Smallest flexion of the knee [deg].
     pub(super) least_knee: f64,
-    /// Range of the slip of the most loaded sphere over the stance [m].
+    /// Range of the forward slip over stance, summed from the most loaded sphere at each instant [m].
     pub(super) slip: f64,
     /// Mean vertical force of both feet, and mean fore-aft force [body weights].
     pub(super) mean_force: [f64; 2],
@@ -160,7 +152,7 @@ impl Cycle {
     }
 }
 
-/// Mean place across, weighted with the load [m].
+/// Mean sideways position of the contacts, weighted by vertical force [m].
 fn mean_place(samples: &[Sample], spheres: &[usize]) -> f64 {
     let (mut place, mut load) = (0.0, 0.0);
     for contact in samples.iter().flat_map(|at| spheres.iter().map(|&s| &at.contacts[s])) {
@@ -170,7 +162,7 @@ fn mean_place(samples: &[Sample], spheres: &[usize]) -> f64 {
     place / load
 }
 
-/// Range of the summed forward slip of the most loaded sphere over a stance [m].
+/// Range of the forward slip over a stance, summed from the most loaded sphere at each instant [m].
 fn slip(stance: &[&Sample], spheres: &[usize], step_s: f64) -> f64 {
     let (mut slipped, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
     for at in stance {

