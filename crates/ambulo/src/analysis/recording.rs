@@ -35,7 +35,7 @@ pub struct AnalysisSettings {
 }
 
 impl AnalysisSettings {
-    /// Whether ground forces are predicted from the very motion that is analysed: the whole recording, with the low-pass filter that was used
+    /// Whether ground forces are predicted from the same motion that is analysed: the whole recording, with the low-pass filter that was used
     /// to fit the parameters of the estimator ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md).
     pub(crate) fn filters_as_the_prediction(&self) -> bool {
         self.smoother == Smoother::Butterworth(LowPass::MOTION) && self.window == Window::default()

@@ -200,7 +200,7 @@ impl HuntCrossley {
         [dry / v_t + self.viscous_friction, slope / (v_t * v_t * v_t)]
     }
 
-    /// Force on the sphere as [`HuntCrossley::force`] gives it, with its derivatives, which are exact except at the corner of
+    /// Force on the sphere as from [`HuntCrossley::force`], with its derivatives. They are exact except at the corner of
     /// [`FrictionCurve::Stribeck`]. The normal of the plane is +y.
     #[must_use]
     pub fn force_with_slopes(&self, radius: f64, depth: f64, depth_rate: f64, slip: Vec3) -> ContactSlopes {
@@ -221,17 +221,17 @@ impl HuntCrossley {
 /// Force of a contact and its derivatives; y is up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactSlopes {
-    /// On the sphere [N].
+    /// Force on the sphere [N].
     pub force: Vec3,
-    /// By depth [N/m].
+    /// Derivative by depth [N/m].
     pub by_depth: Vec3,
-    /// By rate of depth [N.s/m].
+    /// Derivative by rate of depth [N.s/m].
     pub by_rate: Vec3,
-    /// By slip along x and along z [N.s/m].
+    /// Derivatives by slip along x and along z [N.s/m].
     pub by_slip: [Vec3; 2],
 }
 
-/// From 0 to 1 around x = 0, with the derivative.
+/// A smooth step from 0 to 1 around x = 0, with its derivative.
 fn step(x: f64) -> (f64, f64) {
     let tanh = x.tanh();
     (0.5 * tanh + 0.5, 0.5 - 0.5 * tanh * tanh)

@@ -123,10 +123,10 @@ impl RecordedTable {
         Ok((through(name, &times, &values, findings)?, span(&times)))
     }
 
-    /// Spline of an angle that a joint is to follow [rad]. Whole turns are removed.
+    /// Spline of an angle for a joint to follow [rad]. Whole turns are removed.
     ///
     /// # Errors
-    /// As for [`RecordedTable::column`], and an angle that jumps.
+    /// Those of [`RecordedTable::column`], and an angle that jumps.
     pub fn angle(&self, name: &str, findings: &mut Findings) -> Result<NaturalSpline, CurveError> {
         let Samples { times, mut values, rows } = self.values(name, true, findings)?;
         let turns = jumps::unwrapped(&mut values);

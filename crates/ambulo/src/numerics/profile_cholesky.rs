@@ -1,7 +1,7 @@
 //! Cholesky factors of symmetric positive definite matrices whose rows begin at any column.
 //!
-//! A = L Lᵀ, where row i of L begins where row i of A does, so nothing fills in before it. Bands, and bands with a border of full rows,
-//! are such matrices.
+//! A = L Lᵀ, where row i of L begins in the same column as row i of A. Examples are band matrices, and band matrices with a border of full
+//! rows.
 //!
 //!   L_ij = (A_ij - Σ_k L_ik L_jk) / L_jj        L_ii = √(A_ii - Σ_k L_ik²)        k from the later of both beginnings to j - 1
 //!
@@ -14,7 +14,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// A symmetric matrix; of row i the entries from column `first[i]` to the diagonal are stored.
+/// A symmetric matrix. Row i stores the entries from column `first[i]` to the diagonal.
 #[derive(Debug, Clone)]
 pub struct ProfileMatrix {
     first: Vec<usize>,

@@ -1,35 +1,35 @@
-//! Forward simulation of a solution: the joints follow the plan, the root goes where the forces take it.
+//! Forward simulation of a solution: joints follow the planned motion, and the root moves freely under the resulting forces.
 //!
-//! With the forces τ_r at the root for the planned accelerations, the root's accelerations change by a with
+//! With the residual forces τ_r at the root for the planned accelerations, the accelerations of the root change by a, where
 //!
 //!   M_rr a = -τ_r        M_rr = ∂τ_r/∂q̈_r
 //!
-//! and are integrated by Runge and Kutta's method of fourth order. Nothing corrects the root, so what the plan leaves of forces at the root, and
-//! what its instants do not see, shows as drift.
+//! They are integrated by the Runge-Kutta method of order 4. Nothing corrects the root, so residual forces, both at the instants of the
+//! problem and between them, appear as drift.
 
 use super::instant::{Evaluator, Instant};
 use super::solution::Solution;
 use crate::dynamics::CurvedJointError;
 use crate::numerics::ProfileMatrix;
 
-/// Difference of a forward simulation from its plan, largest over the duration.
+/// Maximum difference between a forward simulation and the planned motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Drift {
-    /// Of the root's place, in any direction [m].
+    /// Distance of the root from its planned position [m].
     pub place_m: f64,
-    /// Of the root's angles [rad].
+    /// Difference of an angle of the root [rad].
     pub angle_rad: f64,
 }
 
-/// Place and velocity of the root, one entry per coordinate.
+/// Positions and velocities of the root, one entry per coordinate.
 type RootState = [Vec<f64>; 2];
 
 impl Solution {
-    /// Simulates the motion from its first state on for a duration, in steps of `step_s`, with driven joints and a free root; the largest
-    /// difference from the plan.
+    /// Simulates the motion from its first state for a duration, in steps of `step_s`, with driven joints and a free root. Returns the
+    /// maximum difference from the planned motion.
     ///
     /// # Errors
-    /// None for a problem that was solved.
+    /// Does not fail for a solved problem.
     pub fn forward(&self, duration_s: f64, step_s: f64) -> Result<Drift, CurvedJointError> {
         let problem = self.problem();
         let root = problem.root();

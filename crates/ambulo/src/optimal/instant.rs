@@ -1,13 +1,13 @@
-//! Forces of one instant of a motion: contact of the soles with flat ground, inverse dynamics under it, and all derivatives.
+//! Forces at one instant of a motion: contact forces of the soles on flat ground, inverse dynamics with these, and all derivatives.
 //!
 //! With the spatial wrench W of the ground on a foot and the axes S of the links that carry it (as in
-//! [`crate::dynamics::inverse_derivatives`]), the ground changes the generalised forces by
+//! [`crate::dynamics::inverse_derivatives`]), the ground force adds to the generalised forces and their derivatives
 //!
 //!   τ_j = ... - S_jᵀ W        ∂τ_j/∂q_k = ... - S_jᵀ ∂W/∂q_k - (S_k × S_j)ᵀ W  if k carries j        ∂τ_j/∂q̇_k = ... - S_jᵀ ∂W/∂q̇_k
 //!
-//! A sphere of radius r with centre p touches at c = (p_x, (p_y - r)/2, p_z), midway between both surfaces as in the simulator, with the
-//! velocity u = v + ω × c of its body. A link k moves the centre by ∂p/∂q_k, its own velocity field at p, and changes the velocity of the body by
-//! ∂V/∂q_k = S_k × (V - V_k).
+//! The contact point of a sphere with radius r and centre p is c = (p_x, (p_y - r)/2, p_z), midway between both surfaces as in the
+//! simulator; its velocity is u = v + ω × c, that of the body. Coordinate q_k of link k moves the centre by ∂p/∂q_k, the velocity of S_k at p,
+//! and changes the velocity of the body by ∂V/∂q_k = S_k × (V - V_k).
 
 use crate::contact::HuntCrossley;
 use crate::dynamics::{CurvedJointError, DerivativeKernel, Spatial};
@@ -21,7 +21,7 @@ pub(super) const SIDE_BY_SIDE: usize = 8;
 /// Value, rate and acceleration of every coordinate.
 pub(super) type Posture = [Vec<f64>; 3];
 
-/// Quantities of a contact: force on the foot along x, y, z [N], height of the sphere over the ground [m], slip along x and z [m/s].
+/// Number of quantities of a contact: force on the foot along x, y, z [N], height of the sphere above the ground [m], slip along x and z [m/s].
 pub(super) const CONTACT: usize = 6;
 /// Offsets of height and slip.
 pub(super) const HEIGHT: usize = 3;
@@ -41,19 +41,19 @@ pub(super) struct Instant {
 /// One sphere under a foot.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Contact {
-    /// Where it is [m].
+    /// Position of the contact point [m].
     pub(super) place: Vec3,
     pub(super) values: [f64; CONTACT],
-    /// Coordinate and derivatives of the values by its position and by its rate, for every link that carries the foot.
+    /// Per link that carries the foot: its coordinate, and the derivatives of the values by position and by rate of the coordinate.
     pub(super) slopes: Vec<(usize, [[f64; CONTACT]; 2])>,
 }
 
-/// Computes instants of a figure on soft shoes.
+/// Computes forces and derivatives for the postures of instants.
 #[derive(Debug)]
 pub(super) struct Evaluator {
     kernel: DerivativeKernel<SIDE_BY_SIDE>,
     soles: Vec<ContactSphere>,
-    /// Links that carry each body, itself first.
+    /// Links that carry each body, the one that moves the body directly first.
     chains: Vec<Vec<usize>>,
 }
 
@@ -76,7 +76,7 @@ impl One {
         }
     }
 
-    /// Velocity of the point of this motion that is at `place`.
+    /// Velocity at the point `place`.
     fn at(self, place: Vec3) -> Vec3 {
         self.linear + self.angular.cross(&place)
     }
@@ -86,7 +86,7 @@ impl One {
     }
 }
 
-/// Change of the wrench of the ground on a foot by the coordinate of a link.
+/// Derivatives of the wrench of the ground on a foot by the coordinate of a link.
 #[derive(Debug, Clone, Copy)]
 struct WrenchSlopes {
     by_position: One,
@@ -110,7 +110,7 @@ impl Evaluator {
         Ok(Evaluator { kernel, soles: soles.to_vec(), chains })
     }
 
-    /// Fills in everything but the postures, which are given.
+    /// Computes forces, contacts and derivatives of all instants from their postures.
     pub(super) fn evaluate(&mut self, law: &HuntCrossley, instants: &mut [Instant]) {
         for block in instants.chunks_mut(SIDE_BY_SIDE) {
             for lane in 0..SIDE_BY_SIDE {
@@ -142,7 +142,7 @@ impl Evaluator {
         }
     }
 
-    /// Contacts of all spheres, and what they change in the forces.
+    /// Adds the contacts of all spheres to forces and derivatives.
     fn add_ground(&self, law: &HuntCrossley, lane: usize, instant: &mut Instant) {
         instant.contacts.resize_with(self.soles.len(), Contact::default);
         for k in 0..self.soles.len() {
@@ -168,7 +168,7 @@ impl Evaluator {
         }
     }
 
-    /// The contact of one sphere; its wrench at the origin of the world, and the change of it by every link of the chain.
+    /// Computes the contact of one sphere. Returns its wrench at the origin of the world, with derivatives per link of the chain.
     fn touch(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> (One, Vec<WrenchSlopes>) {
         let sole = &self.soles[sphere];
         let body = sole.body.index();
@@ -223,7 +223,7 @@ mod tests {
     use crate::model::anthropometry::{Build, SegmentTable};
     use crate::model::full_body::full_body;
 
-    /// A figure that stands on, or falls through, the ground in no particular posture.
+    /// An arbitrary posture and motion near the ground.
     fn instant(seed: f64, count: usize, height: f64) -> Instant {
         let wave = |k: usize, size: f64, shift: f64| size * (seed + 1.7 * k as f64 + shift).sin();
         let mut posture =

@@ -1,20 +1,20 @@
-//! The unknowns: quintic B-splines of every coordinate over a span of time, and how the motion goes on beyond it.
+//! The unknowns: coefficients of quintic B-splines of every coordinate over a span of time, and the continuation beyond the span.
 //!
 //! Knots are uniform. Over knot interval i, coordinate c is q_c(s) = Σ_j w_j(u) x_{i+j, c}, j = 0..5, with the cardinal splines w_j
-//! of [`crate::numerics::PeriodicSplines`] and u the position in the interval; so block k of the unknowns has coefficient k of every
-//! coordinate. Blocks beyond the last knot are those of the start again: as they are, or mirrored.
+//! of [`crate::numerics::PeriodicSplines`] and u the position in the interval. Block k of the unknowns has coefficient k of every
+//! coordinate. In a repeated motion, blocks beyond the last knot equal those of the start, or their mirror images.
 
 use crate::model::{CoordinateId, Model, Movement, Side};
 use crate::numerics::{OVERLAP, quintic_splines};
 
-/// How a motion goes on after its span of time.
+/// How a motion continues after its span of time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Span {
-    /// The span is half a cycle; in the other half, left and right have exchanged their motion.
+    /// The span is half a cycle; in the other half, left and right are exchanged.
     MirroredHalfCycle,
-    /// The span is a cycle that is repeated.
+    /// The span is one cycle, which repeats.
     Cycle,
-    /// A single movement from one posture to another.
+    /// The motion does not repeat.
     Single,
 }
 
@@ -22,22 +22,22 @@ pub enum Span {
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     pub(super) span: Span,
-    /// Coordinates, which is the size of a block.
+    /// Number of coordinates, the size of a block.
     pub(super) width: usize,
-    /// Knot intervals.
+    /// Number of knot intervals.
     pub(super) knots: usize,
-    /// Instants of each interval.
+    /// Instants per knot interval.
     pub(super) per_knot: usize,
-    /// Coordinate with the same place on the other side, and its sign.
+    /// Coordinate on the other side (the same one in the middle of the body), and its sign, per coordinate.
     mirror: Vec<(usize, f64)>,
 }
 
-/// Dependence of the coordinates at one instant on the blocks of unknowns.
+/// Weights of the blocks of unknowns in the coordinates at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Weights {
-    /// The first of the blocks.
+    /// The first of the blocks that have weights.
     pub(super) first: usize,
-    /// Contribution of each block to value, and first and second derivative by the share of the span.
+    /// Weight of each block in the value and in its first and second derivative by the share of the span.
     pub(super) values: [[f64; OVERLAP]; 3],
 }
 
@@ -46,22 +46,22 @@ impl Layout {
         Layout { span, width: model.coordinates().len(), knots: knots.max(OVERLAP), per_knot, mirror: mirror(model) }
     }
 
-    /// Blocks with all those beyond the last knot.
+    /// Number of blocks, including those beyond the last knot.
     pub(super) fn extended_blocks(&self) -> usize {
         self.knots + OVERLAP - 1
     }
 
-    /// Blocks that are unknown.
+    /// Number of unknown blocks.
     pub(super) fn blocks(&self) -> usize {
         if self.span == Span::Single { self.extended_blocks() } else { self.knots }
     }
 
-    /// Instants, with both ends.
+    /// Number of instants, including both ends.
     pub(super) fn instants(&self) -> usize {
         self.knots * self.per_knot + 1
     }
 
-    /// The block, coordinate and sign of an unknown that stands at (`block`, `coordinate`) of the extended blocks.
+    /// Block, coordinate and sign of the unknown at (`block`, `coordinate`) of the extended blocks.
     pub(super) fn origin(&self, block: usize, coordinate: usize) -> (usize, usize, f64) {
         if block < self.blocks() {
             return (block, coordinate, 1.0);
@@ -82,7 +82,7 @@ impl Layout {
         (0..self.extended_blocks()).flat_map(|block| (0..self.width).map(move |c| place(block, c))).collect()
     }
 
-    /// Weights at a share of the span (0 to 1), in the interval that holds it; both intervals hold a knot, `interval` says which one.
+    /// Weights at a share of the span (0 to 1) in knot interval `interval`. A knot belongs to the intervals on both of its sides.
     pub(super) fn weights(&self, share: f64, interval: usize) -> Weights {
         let place = share * self.knots as f64 - interval as f64;
         Weights { first: interval, values: quintic_splines(place, self.knots as f64) }
@@ -100,7 +100,7 @@ impl Layout {
     }
 }
 
-/// The coordinate on the other side and its sign. Motion out of the sagittal plane of what lies in the middle changes its sign.
+/// Per coordinate: the coordinate on the other side, and its sign. Coordinates of pelvis and trunk outside the sagittal plane change sign.
 fn mirror(model: &Model) -> Vec<(usize, f64)> {
     let anatomy = model.anatomy();
     let sign = |id: CoordinateId| anatomy.meaning(id).map_or(1.0, |meaning| meaning.sign);

@@ -1,16 +1,16 @@
-//! Optimal motion: the motion of a body on the ground that is best by a given measure, with forces from its own joints alone.
+//! Optimal motion: computes the motion of a body on the ground that minimises an objective, without residual forces.
 //!
-//! A [`Problem`] has a body on soft shoes, a span of time and an objective. Its unknowns are splines of all coordinates, those of the root included;
-//! inverse dynamics under the contact forces of each posture gives the forces, so that neither forces nor velocities are unknown. The
-//! forces at the root, which nothing supplies, must vanish at all instants.
+//! A [`Problem`] has a body on soft shoes, a span of time and an objective. Its unknowns are splines of all coordinates, including those of
+//! the root. Each posture determines its contact forces, and inverse dynamics computes the joint forces from both, so neither forces nor
+//! velocities are unknown. The residual forces at the root must be zero at all instants.
 //!
 //! ```text
 //! WalkProblem ──> Problem ──> Transcription ──> NormalEquations ──> steps ──> Solution
-//! laws of people   terms       instants          band with border    solve     samples, forward simulation
+//! targets         terms       instants          band with border    solve     samples, forward simulation
 //! ```
 //!
-//! Cost: per step one inverse dynamics with derivatives for each instant, and one factorisation of a band with a border.
-//! Not handled: obstacles, slopes, durations that are unknown.
+//! Cost: one inverse dynamics with derivatives per step and instant, and one factorisation of a band with a border per step.
+//! Not handled: obstacles, slopes, unknown durations.
 //! Pinned by: tests/optimal.rs
 
 mod layout;

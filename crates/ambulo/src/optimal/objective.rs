@@ -1,4 +1,4 @@
-//! What a motion should be like: a sum of squares of deviations.
+//! The objective of a motion: a sum of squared deviations of quantities from their targets.
 
 use super::instant::{CONTACT, HEIGHT, Instant, SLIP};
 use crate::model::CoordinateId;
@@ -16,57 +16,57 @@ pub enum Quantity {
     Force(CoordinateId),
     /// Rate of a generalised force [N.m/s or N/s].
     ForceRate(CoordinateId),
-    /// Force of the ground on some spheres together along x (0), y (1) or z (2) [N]. Spheres are numbered as in the problem.
+    /// Sum of the ground forces on some spheres along x (0), y (1) or z (2) [N]. Spheres are numbered as in the problem.
     GroundForce(Vec<usize>, usize),
-    /// Height of a sphere over the ground [m].
+    /// Height of a sphere above the ground [m].
     Height(usize),
-    /// Slip of a sphere along x (0) or z (1) [m/s], weighted with its load N as N / (N + `light_n`).
+    /// Slip velocity of a sphere along x (0) or z (1) [m/s], multiplied by N / (N + `light_n`), where N is the vertical force on it [N].
     Slip {
         /// Number of the sphere.
         sphere: usize,
-        /// Direction.
+        /// Direction: x (0) or z (1).
         axis: usize,
-        /// Load with half the weight [N].
+        /// Vertical force at which the slip counts half [N].
         light_n: f64,
     },
 }
 
-/// The side of the target on which deviations count.
+/// The deviations from the target that count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bound {
-    /// Both sides.
+    /// All.
     Near,
-    /// Only values below the target.
+    /// Only those of values below the target.
     AtLeast,
-    /// Only values above the target.
+    /// Only those of values above the target.
     AtMost,
 }
 
 /// One part of the objective: ((quantity - target) / deviation)², averaged over the span.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Term {
-    /// What is meant, for messages.
+    /// Name of the term. It need not be unique.
     pub name: String,
     /// The quantity.
     pub quantity: Quantity,
-    /// Target of each instant, in its unit; `None` where there is none.
+    /// Target per instant, in the unit of the quantity; `None` at instants that do not count.
     pub targets: Vec<Option<f64>>,
-    /// The deviation that costs one.
+    /// The deviation at which an instant costs 1, in the unit of the quantity.
     pub deviation: f64,
-    /// The side on which deviations count.
+    /// The deviations that count.
     pub bound: Bound,
 }
 
-/// Derivatives of a quantity in z = (q, q̇, q̈).
+/// Derivatives of a quantity by z = (q, q̇, q̈).
 pub(super) enum Row {
-    /// Few entries: number and slope.
+    /// The entries that are not zero: index in z and derivative.
     Entries(Vec<(usize, f64)>),
-    /// A row of all entries was appended to the buffer.
+    /// All entries; they were appended to the buffer.
     Full,
 }
 
 impl Term {
-    /// Deviation of a value from the target of an instant, in units of the deviation, if it counts.
+    /// (value - target) / deviation at an instant; `None` if it does not count.
     pub(super) fn residual(&self, instant: usize, value: f64) -> Option<f64> {
         let residual = (value - self.targets[instant]?) / self.deviation;
         match self.bound {
@@ -78,7 +78,7 @@ impl Term {
 }
 
 impl Quantity {
-    /// Whether the quantity belongs to two instants.
+    /// The coordinate of a rate of force, which is a difference between two instants; otherwise `None`.
     pub(super) fn is_rate_of_force(&self) -> Option<CoordinateId> {
         match self {
             Quantity::ForceRate(id) => Some(*id),
@@ -105,7 +105,7 @@ impl Quantity {
         }
     }
 
-    /// Derivatives at an instant; a full row is appended to `full`, divided by `scale`.
+    /// Derivatives at an instant divided by `scale`; a full row is appended to `full`.
     pub(super) fn row(&self, at: &Instant, scale: f64, full: &mut Vec<f64>) -> Row {
         let n = at.posture[0].len();
         let entries = |part: usize, of: &[(CoordinateId, f64)]| {

@@ -1,10 +1,10 @@
 //! A problem of optimal motion: a body on soft shoes, a span of time, an objective; and its transcription.
 //!
-//! Unknown are the spline coefficients x of all coordinates ([`Layout`]). With instants t_p, p = 0 .. P, the motion minimises
+//! The unknowns are the spline coefficients x of all coordinates ([`Layout`]). With instants t_p, p = 0 .. P, the motion minimises
 //!
 //!   1/P Σ_p Σ_terms ((quantity - target) / deviation)²     subject to     c_p = τ_root(t_p) / scale = 0
 //!
-//! where τ_root are the forces that neither joints nor ground supply. The augmented Lagrangian adds 1/P Σ |c_p + m_p|² / s² with the multipliers m and the
+//! where τ_root are the residual forces at the root. The augmented Lagrangian adds 1/P Σ |c_p + m_p|² / s² with the multipliers m and the
 //! slack s; after each minimisation m grows by c (Hestenes 1969, Powell 1969; unverified).
 
 use super::instant::{Evaluator, Instant};
@@ -16,26 +16,26 @@ use crate::dynamics::CurvedJointError;
 use crate::model::anthropometry::ContactSphere;
 use crate::model::{CoordinateId, CoordinateKind, Model};
 
-/// A body that moves by its own forces, and what its motion should be like.
+/// A body with contacts, a span of time, and the objective of its motion.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    /// The body. The coordinates of its root are driven by nothing.
+    /// The body. No force drives the coordinates of its root.
     pub model: Model,
     /// Spheres under its feet.
     pub soles: Vec<ContactSphere>,
-    /// Law of contact between them and the ground, y = 0.
+    /// Contact law between the spheres and the ground, y = 0.
     pub shoes: HuntCrossley,
-    /// How the motion goes on after its end.
+    /// How the motion continues after the span.
     pub span: Span,
     /// Duration of the span [s].
     pub duration_s: f64,
-    /// Distance by which a coordinate grows over the span, apart from the splines: forward motion.
+    /// Coordinate of forward motion and its increase over the span [m]. A constant velocity is added to its spline.
     pub travel: Option<(CoordinateId, f64)>,
     /// Knot intervals of the splines.
     pub knots: usize,
     /// Instants of each knot interval.
     pub instants_per_knot: usize,
-    /// A length of the body, which makes moments of the root comparable to forces [m].
+    /// Length by which residual moments are divided, to compare them with residual forces [m].
     pub length_m: f64,
     /// The objective.
     pub terms: Vec<Term>,
@@ -45,11 +45,11 @@ pub struct Problem {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stage {
     pub(super) shoes: HuntCrossley,
-    /// Slack s of the forces at the root [body weights, body weights × length].
+    /// Slack s of the residual forces at the root [body weights, body weights × length]: the residual at which an instant costs 1.
     pub(super) slack: f64,
 }
 
-/// A problem made ready for solution.
+/// A problem as residuals and normal equations at its instants.
 pub(super) struct Transcription<'a> {
     problem: &'a Problem,
     pub(super) layout: Layout,
@@ -60,7 +60,7 @@ pub(super) struct Transcription<'a> {
     /// One per instant and coordinate of the root.
     multipliers: Vec<f64>,
     instants: Vec<Instant>,
-    /// The instants at which the normal equations were made.
+    /// The instants at which the normal equations were computed.
     base: Vec<Instant>,
     sums: InstantSums,
     rows: Rows,
@@ -74,20 +74,20 @@ struct Rows {
 }
 
 impl Problem {
-    /// Number of instants at which terms have targets, both ends of the span included.
+    /// Number of instants at which terms have targets, including both ends of the span.
     #[must_use]
     pub fn instants(&self) -> usize {
         self.layout().instants()
     }
 
-    /// Share of the span of each instant.
+    /// Instants as shares of the span, from 0 to 1.
     #[must_use]
     pub fn shares(&self) -> Vec<f64> {
         let layout = self.layout();
         (0..layout.instants()).map(|index| layout.instant(index).0).collect()
     }
 
-    /// The unknowns of a motion that is nearest to given coordinates at all instants (without travel).
+    /// Unknowns of the least-squares fit to coordinates that are given at all instants, without forward motion.
     #[must_use]
     pub fn fitted(&self, coordinates: &[Vec<f64>]) -> Vec<f64> {
         let layout = self.layout();
@@ -98,7 +98,7 @@ impl Problem {
             sums.clear();
             for (c, value) in values.iter().enumerate() {
                 sums.add_entries(-value, &[(c, 1.0)]);
-                // Splines without instants of their own lie on a straight line.
+                // Keeps splines without own instants on a straight line.
                 sums.add_entries(0.0, &[(2 * layout.width + c, 1e-6)]);
             }
             normal.add_instant(&layout.weights(share, interval), &mut sums);
@@ -120,7 +120,7 @@ impl Problem {
         Layout::new(&self.model, self.span, self.knots, self.instants_per_knot)
     }
 
-    /// Coordinates of the root, and whether they turn it.
+    /// Coordinates of the root, and whether they are rotations.
     pub(super) fn root(&self) -> Vec<(CoordinateId, bool)> {
         let roots = self.model.bodies().iter().filter(|body| body.joint.parent.is_none());
         let turns = |id: CoordinateId| self.model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
@@ -131,7 +131,7 @@ impl Problem {
         self.model.mass() * self.model.gravity().norm()
     }
 
-    /// Adds what the splines do not have: forward motion.
+    /// Adds forward motion, which the splines do not include.
     pub(super) fn add_travel(&self, share: f64, posture: &mut [Vec<f64>; 3]) {
         if let Some((id, distance)) = self.travel {
             posture[0][id.index()] += distance * share;
@@ -199,7 +199,7 @@ impl<'a> Transcription<'a> {
         weights
     }
 
-    /// Instants that count; of a repeated motion the last one is the first one again.
+    /// Number of instants in the sums. In a repeated motion the last instant equals the first one and is left out.
     fn counted(&self) -> usize {
         self.instants.len() - usize::from(self.layout.span != Span::Single)
     }
@@ -249,7 +249,7 @@ impl<'a> Transcription<'a> {
             / self.stage.slack
     }
 
-    /// Forces at the root over the span [body weights, body weights × length]: root mean square and largest.
+    /// Residual forces at the root over the span [body weights, body weights × length]: root mean square and maximum.
     pub(super) fn root_forces(&self) -> (f64, f64) {
         let all = (0..self.counted()).flat_map(|index| {
             self.root.iter().map(move |(coordinate, scale)| (self.instants[index].forces[*coordinate] / scale).abs())
@@ -269,7 +269,7 @@ impl<'a> Transcription<'a> {
         self.instants[..self.counted()].iter().map(load).sum::<f64>() / self.counted() as f64
     }
 
-    /// The multipliers take over what is left of the constraints.
+    /// Adds the residual forces at the root to the multipliers.
     pub(super) fn update_multipliers(&mut self) {
         for index in 0..self.counted() {
             for (k, (coordinate, scale)) in self.root.iter().enumerate() {
@@ -293,12 +293,13 @@ impl<'a> Transcription<'a> {
         self.rate_rows(normal);
     }
 
-    /// Keeps the instants at which the normal equations were made; those of a trial take their place.
+    /// Exchanges the evaluated instants with those at which the normal equations were computed, so that a trial does not overwrite these.
     pub(super) fn exchange_base(&mut self) {
         std::mem::swap(&mut self.instants, &mut self.base);
     }
 
-    /// Right-hand side of what the forces at the root are now beyond what the base and its derivatives foretold for a change of the unknowns.
+    /// Sets the right-hand side to the second-order part of the residual forces at the root: their values now, minus the linear prediction from
+    /// the base for a change of the unknowns.
     pub(super) fn curvature_of_root(&self, change: &[f64], normal: &mut NormalEquations) {
         let (n, width) = (self.layout.width, 3 * self.layout.width);
         let extended = self.layout.extended(change);
@@ -318,8 +319,8 @@ impl<'a> Transcription<'a> {
             let mut right = vec![0.0; width];
             for (coordinate, scale) in &self.root {
                 let row = &base.slopes[coordinate * width..(coordinate + 1) * width];
-                let foretold: f64 = row.iter().zip(&moved).map(|(a, b)| a * b).sum();
-                let beyond = now.forces[*coordinate] - base.forces[*coordinate] - foretold;
+                let predicted: f64 = row.iter().zip(&moved).map(|(a, b)| a * b).sum();
+                let beyond = now.forces[*coordinate] - base.forces[*coordinate] - predicted;
                 for (sum, slope) in right.iter_mut().zip(row) {
                     *sum += slope * beyond * factor / (scale * scale);
                 }

@@ -1,4 +1,4 @@
-//! The motion that was found.
+//! The solution of a problem: motion, forces and contacts at any time.
 
 use super::instant::{Evaluator, HEIGHT, Instant, SLIP};
 use super::layout::Layout;
@@ -6,14 +6,14 @@ use super::problem::{Problem, Transcription};
 use crate::dynamics::CurvedJointError;
 use crate::spatial::Vec3;
 
-/// Course of a solution.
+/// State of the solver at the end of a stage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
-    /// Steps of the method.
+    /// Steps of the solver.
     pub steps: usize,
-    /// Sum of squares at the end, that of the constraints included.
+    /// Sum of squares, including that of the constraints.
     pub cost: f64,
-    /// Forces at the root, root mean square and largest [body weights, body weights × length].
+    /// Residual forces at the root: root mean square and maximum [body weights, body weights × length].
     pub root: (f64, f64),
 }
 
@@ -24,16 +24,16 @@ pub struct Sample {
     pub time_s: f64,
     /// Coordinates [rad or m], their rates and their accelerations.
     pub posture: [Vec<f64>; 3],
-    /// Generalised force of every coordinate [N.m or N]; those of the root are what nothing supplies.
+    /// Generalised force per coordinate [N.m or N]; those of the root are residual forces.
     pub forces: Vec<f64>,
-    /// Contact of every sphere of the problem with the ground.
+    /// Contact with the ground per sphere of the problem.
     pub contacts: Vec<SoleContact>,
 }
 
 /// Contact of one sphere with the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoleContact {
-    /// Place of the contact [m].
+    /// Position of the contact point [m].
     pub place: Vec3,
     /// Force of the ground on the foot [N].
     pub force: Vec3,
@@ -44,7 +44,7 @@ pub struct SoleContact {
 }
 
 impl Sample {
-    /// Force of the ground on some spheres together [N].
+    /// Sum of the ground forces on some spheres [N].
     #[must_use]
     pub fn ground_force(&self, spheres: &[usize]) -> Vec3 {
         spheres.iter().fold(Vec3::zeros(), |sum, &s| sum + self.contacts[s].force)
@@ -59,7 +59,7 @@ pub struct Solution {
     unknowns: Vec<f64>,
     extended: Vec<f64>,
     instants: Vec<Instant>,
-    /// Course of the solution, one entry per stage.
+    /// State of the solver after each stage.
     pub progress: Vec<Progress>,
 }
 
@@ -81,13 +81,13 @@ impl Solution {
         &self.problem
     }
 
-    /// The unknowns, for the start of a similar problem.
+    /// The unknowns; a similar problem can start from them.
     #[must_use]
     pub fn unknowns(&self) -> &[f64] {
         &self.unknowns
     }
 
-    /// Writes coordinates, rates and accelerations at a time [s]; a repeated motion goes on for ever.
+    /// Writes coordinates, rates and accelerations at a time [s]. A repeated motion has no end.
     pub fn write(&self, time_s: f64, posture: &mut [Vec<f64>; 3]) {
         let spans = time_s / self.problem.duration_s;
         let whole = if self.layout.span == super::Span::Single { 0.0 } else { spans.floor() };
@@ -114,11 +114,11 @@ impl Solution {
         Instant { posture, ..Instant::default() }
     }
 
-    /// Forces at the root that nothing supplies, at `per_knot` instants of each knot interval: root mean square and largest
-    /// [body weights, body weights × length]. With more instants than the problem has, this is what is left between them.
+    /// Residual forces at the root at `per_knot` instants per knot interval: root mean square and maximum
+    /// [body weights, body weights × length]. With more instants than the problem has, this includes the residual between its instants.
     ///
     /// # Errors
-    /// None for a problem that was solved.
+    /// Does not fail for a solved problem.
     pub fn root_forces(&self, per_knot: usize) -> Result<(f64, f64), CurvedJointError> {
         let finer = Problem { instants_per_knot: per_knot, terms: Vec::new(), ..self.problem.clone() };
         let mut transcription = Transcription::new(&finer)?;
@@ -129,7 +129,7 @@ impl Solution {
     /// Motion and forces at given times [s].
     ///
     /// # Errors
-    /// None for a problem that was solved.
+    /// Does not fail for a solved problem.
     pub fn samples(&self, times_s: &[f64]) -> Result<Vec<Sample>, CurvedJointError> {
         let mut instants: Vec<Instant> = times_s.iter().map(|&time_s| self.instant(time_s)).collect();
         Evaluator::new(&self.problem.model, &self.problem.soles)?.evaluate(&self.problem.shoes, &mut instants);
@@ -151,7 +151,7 @@ impl Solution {
         self.instants.iter().map(|instant| instant.forces.as_slice())
     }
 
-    /// Force of the ground on some spheres together at the instants of the problem, along x, y, z [N].
+    /// Sum of the ground forces on some spheres at the instants of the problem, along x, y, z [N].
     pub fn ground_force<'a>(&'a self, spheres: &'a [usize]) -> impl Iterator<Item = [f64; 3]> + 'a {
         self.instants
             .iter()

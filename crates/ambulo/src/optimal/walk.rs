@@ -1,4 +1,4 @@
-//! The problem of walking: a figure walks at a speed, near the curves of people, with little effort.
+//! The problem of walking: a figure walks at a given speed with mean curves of healthy people as targets.
 
 use super::layout::Span;
 use super::objective::{Bound, Quantity, Term};
@@ -15,19 +15,19 @@ use crate::toml_reader::TomlError;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// A figure that walks.
+/// The walk of a figure as a problem of optimal motion, with its first guess.
 #[derive(Debug, Clone)]
 pub struct WalkProblem {
     /// The problem of optimal motion.
     pub problem: Problem,
-    /// The walk whose curves are followed, as a first guess.
+    /// Unknowns of the target motion, the first guess.
     pub guess: Vec<f64>,
 }
 
-/// The spheres under the feet of a figure in three dimensions: every sphere of the planar figure becomes two, beside each other.
+/// Contact spheres of a figure in three dimensions: each sphere of the planar figure is replaced by a medial and a lateral one.
 ///
-/// The outer edges of the forefoot's spheres are the foot's width apart, those of the heel 0.7 of it (the heel of Gait2392's foot is
-/// that much narrower than its ball; our choice).
+/// Under ball and toes, each pair is as wide as the foot, measured between its outer edges; under the heel, 0.7 times as wide (our
+/// choice, after the ratio of heel to ball in Gait2392's foot).
 #[must_use]
 pub fn soles_with_width(human: &Human) -> Vec<ContactSphere> {
     let width = human.dimensions.foot_width;
@@ -49,27 +49,27 @@ pub fn soles_with_width(human: &Human) -> Vec<ContactSphere> {
 /// Resolution and costs of a walk.
 #[derive(Debug, Clone, Copy)]
 pub struct WalkCosts {
-    /// Knot intervals of half a cycle.
+    /// Knot intervals per half cycle.
     pub knots: usize,
-    /// Instants of each knot interval.
+    /// Instants per knot interval.
     pub per_knot: usize,
-    /// Deviation of hip flexion from the curve that costs one [rad].
+    /// Deviation of hip flexion from its target that costs 1 [rad].
     pub hip: f64,
-    /// The same of the knee [rad].
+    /// The same for the knee [rad].
     pub knee: f64,
-    /// The same of the ankle [rad].
+    /// The same for the ankle [rad].
     pub ankle: f64,
-    /// Deviation of the angular acceleration of these joints [rad/s²].
+    /// The same for the angular accelerations of these joints [rad/s²].
     pub acceleration: f64,
-    /// Deviation of angles of pelvis, trunk and hips in the frontal and the transverse plane [rad].
+    /// The same for pelvis, trunk and hips in the frontal and the transverse plane [rad].
     pub plane: f64,
-    /// Deviation of the ground force of a foot, forward and up [body weights].
+    /// The same for the ground force of a foot, forward and up [body weights].
     pub force: [f64; 2],
-    /// Deviation of the joint moments that the laws have [body weight × leg length].
+    /// The same for the joint moments of [`JointMomentLaws`] [body weight × leg length].
     pub moment: f64,
-    /// Rate of a joint moment that costs one [N.m/kg per cycle].
+    /// Rate of a joint moment that costs 1 [N.m/kg per cycle].
     pub moment_rate: f64,
-    /// Slip of a loaded sole that costs one [m/s].
+    /// Slip velocity of a loaded sphere that costs 1 [m/s].
     pub slip: f64,
 }
 
@@ -91,7 +91,7 @@ impl Default for WalkCosts {
     }
 }
 
-/// Stages of the solution: shoes get stiffer, friction steeper, and forces at the root dearer.
+/// Stages of the solution: shoes become stiffer, friction steeper, and residual forces at the root more expensive.
 pub const STAGES: [Continuation; 8] = [
     Continuation { stiffness: 0.25, creep: 50.0, slack: 0.05, updates: 0, steps: 20 },
     Continuation { stiffness: 0.5, creep: 20.0, slack: 0.02, updates: 0, steps: 20 },
@@ -103,23 +103,23 @@ pub const STAGES: [Continuation; 8] = [
     Continuation { stiffness: 1.0, creep: 1.0, slack: 0.00001, updates: 2, steps: 30 },
 ];
 
-/// The foot is in swing from this share of the cycle after foot off to this share before the next strike, at heel, ball and toes.
+/// Clearance is required from the first share of the cycle after foot off until the second share before the next foot strike: heel, ball, toes.
 const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]];
 /// Largest extension of the toes in the first guess [rad].
 const TOES_LIMIT: f64 = 0.8;
 /// Smallest height of a swinging sole [m].
 const CLEARANCE: f64 = 0.008;
 
-/// One instant of the walk that is followed.
+/// Targets at one instant.
 struct Target {
     posture: [Vec<f64>; 3],
-    /// Force of the right and of the left foot: forward, up [body weights].
+    /// Ground force of the right and of the left foot: forward, up [body weights].
     forces: [[f64; 2]; 2],
     /// Moments at the joints of the right and of the left leg.
     moments: [JointMoments; 2],
-    /// Angle of the toes, right and left [rad].
+    /// Extension of the toes, right and left [rad].
     toes: [f64; 2],
-    /// Whether heel, ball and toes must be clear of the ground; right, left.
+    /// Whether heel, ball and toes of the right and of the left foot must be clear of the ground.
     swing: [[bool; 3]; 2],
 }
 
@@ -133,7 +133,7 @@ impl WalkProblem {
     /// The problem of a figure that walks in a gait.
     ///
     /// # Errors
-    /// None of the built-in laws; a test reads them.
+    /// Does not fail: a test reads the built-in laws.
     pub fn new(
         human: &Human,
         soles: &[ContactSphere],
@@ -217,8 +217,9 @@ fn targets(human: &Human, walk: &Walk, shares: &[f64]) -> Result<Vec<Target>, To
     Ok(shares.iter().map(target).collect())
 }
 
-/// The gait's laws take the trunk's lean of the tables for one in the world. It is relative to the pelvis, as in the other planes, where its third
-/// harmonics are the opposite of the pelvis's and their sum is smooth.
+/// Adds the tilt of the pelvis to the target of the lumbar joint, because the trunk angles of the tables are relative to the pelvis, while the
+/// gait takes trunk lean as relative to the world. (In the other two planes, the third harmonics of trunk and pelvis cancel, as they do if the
+/// trunk is relative to the pelvis.)
 fn trunk_with_pelvis(model: &Model, posture: &mut [Vec<f64>; 3]) {
     let of = |movement: Movement| model.anatomy().coordinate(movement, None).map(|(id, _)| id.index());
     if let (Some(tilt), Some(lumbar)) = (of(Movement::PelvicTilt), of(Movement::TrunkLean)) {
@@ -228,7 +229,7 @@ fn trunk_with_pelvis(model: &Model, posture: &mut [Vec<f64>; 3]) {
     }
 }
 
-/// Writes pelvis, trunk and hips outside the sagittal plane.
+/// Writes the angles of pelvis, trunk and hips outside the sagittal plane.
 fn write_planes(model: &Model, planes: &crate::gait::OtherPlanes, posture: &mut [Vec<f64>; 3]) {
     let anatomy = model.anatomy();
     let mut put = |movement: Movement, side: Option<Side>, angle: Jet| {
@@ -258,7 +259,7 @@ impl Builder<'_> {
         vec![Some(value); self.targets.len()]
     }
 
-    /// Angle and acceleration of a coordinate near those of the walk.
+    /// Adds terms for angle and acceleration of a coordinate, with those of the walk as targets.
     fn follow(&mut self, id: CoordinateId, angle: f64, acceleration: f64) {
         let name = self.model.coordinates()[id.index()].name.clone();
         let part = |d: usize| self.targets.iter().map(|t| Some(t.posture[d][id.index()])).collect::<Vec<_>>();
@@ -311,7 +312,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The trunk's lean in the world, which is the sum of pelvis and lumbar joint.
+    /// Adds terms for the lean of the trunk in the world, the sum of pelvic tilt and lumbar angle.
     fn trunk(&mut self, lumbar: CoordinateId) {
         let Some((tilt, _)) = self.model.anatomy().coordinate(Movement::PelvicTilt, None) else { return };
         let both = vec![(tilt, 1.0), (lumbar, 1.0)];
@@ -389,7 +390,7 @@ impl Builder<'_> {
     }
 }
 
-/// Numbers of the spheres of a side whose names begin so.
+/// Numbers of the spheres of a side whose names start with `name`.
 fn spheres_of(problem: &Problem, side: Side, name: &str) -> Vec<usize> {
     let is_it = |sole: &ContactSphere| sole.side == side && sole.name.starts_with(name);
     (0..problem.soles.len()).filter(|&k| is_it(&problem.soles[k])).collect()

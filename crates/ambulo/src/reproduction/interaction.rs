@@ -1,5 +1,5 @@
 //! Claims about other bodies and figures: loops cost from linear to quadratic time, obstacles move, a gripper grasps, two people walk hand in
-//! hand. They are simulated once, in the scenes of `data/scenes`, which are examples too, and do not depend on the mode of walking.
+//! hand. They are simulated once, in the scenes of `data/scenes`, and do not depend on the mode of walking.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::Scope;

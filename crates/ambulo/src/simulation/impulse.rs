@@ -192,9 +192,9 @@ impl StepWorkspace {
         }
     }
 
-    /// Whether a drive is stopped by another body that it presses on, as the finger of a gripper is: contacts with bodies that it does
-    /// not carry bear at least half of its effort. The limit of such a drive is the force that it is meant to press with. Obstacles
-    /// do not count, so that a leg too weak for the ground under it is still reported.
+    /// Whether a drive presses on another body, as the finger of a gripper does: contacts with bodies that the drive does not carry bear
+    /// at least half of its effort. The limit of such a drive is its intended force and is not reported. Obstacles do not count, so that a
+    /// leg that is too weak on the ground is still reported.
     fn presses_on_a_body(&self, world: &World, state: &WorldState, number: usize, coordinate: usize) -> bool {
         let child = world.joints[number].child;
         let carried = world.carried_by(child);

@@ -9,8 +9,8 @@ pub(super) const FEWEST: usize = 3;
 /// Share of the frames in which all markers of the core are visible.
 const SHARE_COMPLETE: f64 = 0.5;
 
-/// Per frame and marker: whether it is used, and from which path; per frame: posture and result of the fit. What most frames of a good
-/// recording do not have takes no memory there.
+/// Per frame and marker: whether the marker is used, and from which path. Per frame: posture and result of the fit. Swapped labels and
+/// offsets of missing markers take memory only in frames that have them.
 #[derive(Debug, Clone)]
 pub(super) struct Frames {
     markers: usize,
@@ -19,9 +19,9 @@ pub(super) struct Frames {
     seen: Vec<bool>,
     /// Recorded and not an outlier.
     used: Vec<bool>,
-    /// Index of the path that belongs to each marker, of the frames in which labels are swapped.
+    /// Index of the path of each marker, for frames with swapped labels.
     swapped: Vec<Option<Box<[usize]>>>,
-    /// The same in all other frames: 0, 1, 2 ...
+    /// The same for all other frames: 0, 1, 2 ...
     own: Box<[usize]>,
     postures: Vec<f64>,
     pub(super) outcomes: Vec<Option<Outcome>>,
@@ -29,9 +29,9 @@ pub(super) struct Frames {
     pub(super) core: Vec<bool>,
     /// From the marker of the model to the recorded one, in body axes at the posture of the frame [m].
     offsets: Vec<Vec3>,
-    /// The offsets used in the fit of a frame, of the frames that lack markers [m].
+    /// The offsets used in the fit of a frame, for frames that lack markers [m].
     targets: Vec<Option<Box<[Vec3]>>>,
-    /// The same of all other frames: not a number.
+    /// The same for all other frames: NaN.
     no_targets: Box<[Vec3]>,
     /// Whether the frame was fitted to the markers of the model, without offsets.
     plain: Vec<bool>,

@@ -102,7 +102,7 @@ pub fn fit_markers(
     Ok(MarkerFit { followed: Some(followed), ..fit })
 }
 
-/// As [`fit_markers`], without a copy of a recording that is not needed any more; gives the corrected recording beside the result.
+/// [`fit_markers`] without a copy of the recording, for callers that do not need the original. Returns the result and the corrected recording.
 pub(crate) fn fit_own_markers(
     model: &Model,
     markers: MarkerRecording,

@@ -13,7 +13,7 @@ use crate::spatial::Vec3;
 /// Maximum number of time spans in a message.
 const MOST_SPANS: usize = 6;
 
-/// The result of a fit, without the recording that it follows.
+/// The result of a fit, with corrections instead of a corrected recording.
 pub(super) struct Fitted {
     motion: Motion,
     errors: Vec<MarkerResidual>,
@@ -24,7 +24,7 @@ pub(super) struct Fitted {
     corrections: Vec<Correction>,
 }
 
-/// A position that differs from the recorded one: marker of the recording, frame and position [m].
+/// A corrected position [m] of a marker of the recording in a frame; NaN removes the marker there.
 struct Correction {
     marker: usize,
     frame: usize,
@@ -32,7 +32,7 @@ struct Correction {
 }
 
 impl Fitted {
-    /// The result, and the recording after correction.
+    /// Returns the result and the corrected recording.
     pub(super) fn following(self, mut recording: MarkerRecording) -> (MarkerFit, MarkerRecording) {
         for Correction { marker, frame, position } in self.corrections {
             recording.markers[marker].positions[frame] = position;
@@ -148,8 +148,8 @@ impl Distances {
     }
 }
 
-/// What corrects the recording: swapped labels are swapped back, outliers are removed, and missing markers are where the fitted body
-/// has them at their offsets, if the posture is known. Events and plates are detected from these markers, so that a foot is not lost
+/// Corrections of the recording: swapped labels are swapped back, outliers are removed, and missing markers get the positions that follow
+/// from the fitted posture and their offsets, if the posture is known. Events and plates are detected from these markers, so that a foot is not lost
 /// with its toe marker. Markers that the model does not have are kept.
 fn corrections(
     recording: &MarkerRecording,

@@ -11,8 +11,8 @@ pub struct MarkerFit {
     pub errors: Vec<MarkerResidual>,
     /// RMS distance of the markers used in each frame [m]; NaN if none was visible.
     pub rms_m: Vec<f64>,
-    /// The recording after correction: swapped labels are swapped back, outliers are removed, and missing markers are where the
-    /// fitted body has them, as far as its posture is known. Events and plates are detected from these markers; `None` where that is done.
+    /// The recording after correction: swapped labels are swapped back, outliers are removed, and missing markers get the positions that
+    /// follow from the fitted posture, if it is known. Events and plates are detected from these markers; `None` after that.
     pub followed: Option<MarkerRecording>,
     /// Iterations in each frame.
     pub iterations: Vec<usize>,
