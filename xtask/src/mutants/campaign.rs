@@ -104,6 +104,25 @@ impl Place {
         Ok(String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect())
     }
 
+    /// Writes a difference that adds the lines of these mutants, as if all others had been there before. `cargo mutants` 27.1.0 runs
+    /// mutants that delete a field of a struct whatever pattern of names it is given, but leaves out those of unchanged lines.
+    fn write_lines(&self, names: &[String]) -> Result<PathBuf, String> {
+        let mut lines = BTreeMap::<&str, BTreeSet<usize>>::new();
+        for name in names {
+            let (file, line) = line_of(name).ok_or_else(|| format!("`{name}` has no file and line"))?;
+            lines.entry(file).or_default().insert(line);
+        }
+        let mut text = String::new();
+        for (file, lines) in lines {
+            let path = self.tree.join(file);
+            let source = fs::read_to_string(&path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
+            text += &added(file, &source, &lines);
+        }
+        let path = self.output.join("lines.diff");
+        fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
+        Ok(path)
+    }
+
     /// Runs mutants with some tests.
     fn run(&self, module: &Module, names: &[String], tests: &mut Tests) -> Result<Outcomes, String> {
         let mut command = self.mutants(module);
@@ -112,6 +131,7 @@ impl Place {
         command.args(["--baseline", if tests.passed { "skip" } else { "run" }]);
         command.arg("--timeout").arg(tests.limit_s.to_string()).arg("--output").arg(&self.output);
         command.args(names.iter().flat_map(|name| ["--re".to_owned(), format!("^{}$", escaped(name))]));
+        command.arg("--in-diff").arg(self.write_lines(names)?);
         command.args(["--", "--"]).args(&tests.named).args(tests.skipped.iter().flat_map(|name| ["--skip", name]));
         let status = command.status().map_err(|e| format!("cargo mutants: cannot start: {e}"))?;
         tests.passed = true;
@@ -123,7 +143,8 @@ impl Place {
         for (file, outcome) in FILES {
             let path = folder.join(file);
             let text = fs::read_to_string(&path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
-            outcomes.extend(text.lines().map(|line| (line.to_owned(), outcome)));
+            let wanted = text.lines().filter(|line| names.iter().any(|name| name == line));
+            outcomes.extend(wanted.map(|line| (line.to_owned(), outcome)));
         }
         match names.iter().find(|name| !outcomes.contains_key(*name)) {
             Some(name) => Err(format!("`{name}` was not run")),
@@ -211,6 +232,24 @@ fn draw(mut names: Vec<String>, count: usize, seed: u64) -> Vec<String> {
     names
 }
 
+/// File and line of a mutant, from its name.
+fn line_of(name: &str) -> Option<(&str, usize)> {
+    let (file, place) = name.split_once(':')?;
+    let (line, _) = place.split_once(':')?;
+    Some((file, line.parse().ok()?))
+}
+
+/// A unified difference without context that adds some lines of a file.
+fn added(file: &str, source: &str, lines: &BTreeSet<usize>) -> String {
+    let mut text = format!("--- a/{file}\n+++ b/{file}\n");
+    for (earlier, &line) in lines.iter().enumerate() {
+        // Without the lines that are added before it, this one follows line `line - 1 - earlier`.
+        let content = source.lines().nth(line - 1).unwrap_or_default();
+        text += &format!("@@ -{},0 +{line} @@\n+{content}\n", line - 1 - earlier);
+    }
+    text
+}
+
 /// A name as a regular expression that matches it alone.
 fn escaped(name: &str) -> String {
     let mut pattern = String::new();
@@ -255,6 +294,14 @@ mod tests {
             // Six standard deviations of a binomial share: 6 sqrt(0.1 0.9 / 3000) = 0.033.
             assert!((share - 0.1).abs() < 0.033, "{name}: {share}");
         }
+    }
+
+    #[test]
+    fn a_difference_adds_the_lines_of_mutants() {
+        assert_eq!(line_of("a/b.rs:12:7: replace + with - in f"), Some(("a/b.rs", 12)));
+        assert_eq!(line_of("no place"), None);
+        let text = added("b.rs", "one\ntwo\nthree\nfour\n", &BTreeSet::from([2, 4]));
+        assert_eq!(text, "--- a/b.rs\n+++ b/b.rs\n@@ -1,0 +2 @@\n+two\n@@ -2,0 +4 @@\n+four\n");
     }
 
     #[test]

@@ -54,7 +54,7 @@ pub(super) const LONG: [&str; 8] = [
 /// Tests of the simulator that take less than a second each.
 const SIMULATOR: &[&str] = &["simulation_closed_form", "simulation_contact", "simulation_smooth"];
 
-pub(super) const MODULES: [Module; 7] = [
+pub(super) const MODULES: [Module; 8] = [
     Module {
         name: "inverse",
         files: "crates/ambulo/src/dynamics/inverse.rs",
@@ -153,6 +153,14 @@ pub(super) const MODULES: [Module; 7] = [
             "events",
             "walking",
         ],
+        unit: true,
+    },
+    Module {
+        name: "optimal",
+        files: "crates/ambulo/src/optimal/**",
+        sample: Some(40),
+        quick: &["optimal"],
+        wide: &["inverse_derivatives", "consistent_walk", "feasibility"],
         unit: true,
     },
 ];
