@@ -42,6 +42,7 @@ usage: cargo xtask <command>
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
   twins             judge recordings of people, and twins of them that no person could make  [--only NAME]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
+  walk-plans        solve the walks of the built-in figures: crates/ambulo/data/walks
   optimal-walk      compare optimal walks in three dimensions with people  [--write: docs/measured/OPTIMAL_WALK.md]
   walk-bands        compare corrected walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
   help              print this text
@@ -72,6 +73,7 @@ const MEASUREMENTS: [&str; 16] = [
     "twins",
     "validate",
     "optimal-walk",
+    "walk-plans",
     "walk-bands",
 ];
 

@@ -62,7 +62,7 @@ fn info_describes_a_recording() {
         "marker set: plug-in-gait, 46 of 46 markers",
         "axes: lab z up, mm, walking +y -> world x forward, y up, z right, m",
         "next: ambulo forces demo/input/walk.c3d --static STANDING -o out",
-        "  0.223 s Right Foot Strike",
+        "  0.232 s Right Foot Strike",
     ] {
         assert!(text.contains(line), "`{line}` is missing in {text}");
     }
@@ -164,7 +164,7 @@ fn events_of_plates_motion_and_file_agree() {
         }
     }
     let csv = bench.text("events.csv");
-    assert!(csv.starts_with("side,event,time,source\n") && csv.contains("\nr,strike,0.22"), "{csv}");
+    assert!(csv.starts_with("side,event,time,source\n") && csv.contains("\nr,strike,0.23"), "{csv}");
     let forces = bench.run(&["events", "demo/input/walk_grf.mot"]).done();
     assert!(forces.stdout.starts_with("ground forces (20 N): 16\n"), "{}", forces.stdout);
     for file in ["demo/input/walk.trc", "demo/input/walk.bvh"] {

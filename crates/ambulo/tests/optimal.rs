@@ -1,18 +1,19 @@
 //! Optimal motion: the forces at the root vanish, a forward simulation follows the plan, sides are mirrored, momentum is kept.
 
+use ambulo::contact::HuntCrossley;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
-use ambulo::optimal::{Quantity, STAGES, Solution, Span, WalkCosts, WalkProblem, soles_with_width};
-use ambulo::simulation::consistent_walk::SOFT_SHOES;
+use ambulo::optimal::{
+    NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Quantity, STAGES, Solution, Span, WalkCosts, WalkPlan, WalkProblem,
+    soles_with_width,
+};
 use ambulo::spatial::{Pose, Vec3};
 use std::sync::LazyLock;
 
 const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
-/// Largest force and moment at the root that count as none [body weights, body weights × leg length].
-const NO_FORCE: f64 = 1e-4;
 
 struct Case {
     human: Human,
@@ -26,7 +27,7 @@ fn case(human: Human, wide: bool) -> Case {
     let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
     let soles = if wide { soles_with_width(&human) } else { human.soles.clone() };
     let costs = WalkCosts { knots: 24, ..WalkCosts::default() };
-    let problem = WalkProblem::new(&human, &soles, SOFT_SHOES, &walk, &costs).unwrap();
+    let problem = WalkProblem::new(&human, &soles, HuntCrossley::SOFT_SHOES, &walk, &costs).unwrap();
     let solution = problem.solve(&STAGES).unwrap();
     Case { human, walk, problem, solution }
 }
@@ -42,7 +43,7 @@ fn both() -> [&'static Case; 2] {
 fn nothing_but_joints_and_ground_moves_an_optimal_walk() {
     for case in both() {
         let last = case.solution.progress.last().unwrap();
-        assert!(last.root.1 < NO_FORCE, "{:?}", case.solution.progress);
+        assert!(last.root.1 < NO_ROOT_FORCE, "{:?}", case.solution.progress);
         let drift = case.solution.forward(case.walk.cycle_s(), 5e-4).unwrap();
         assert!(drift.place_m < 0.01 && drift.angle_rad < 2_f64.to_radians(), "{drift:?}");
     }
@@ -52,7 +53,7 @@ fn nothing_but_joints_and_ground_moves_an_optimal_walk() {
 fn a_first_guess_does_not_pass_as_a_walk() {
     let Case { problem, walk, .. } = &*PLANAR;
     let guess = problem.solve(&[]).unwrap();
-    assert!(guess.root_forces(4).unwrap().1 > 100.0 * NO_FORCE);
+    assert!(guess.root_forces(4).unwrap().1 > 100.0 * NO_ROOT_FORCE);
     let drift = guess.forward(walk.cycle_s(), 5e-4).unwrap();
     assert!(drift.place_m > 0.01 || drift.angle_rad > 2_f64.to_radians(), "{drift:?}");
 }
@@ -205,7 +206,7 @@ fn a_solution_starts_the_next_problem() {
     let again = problem.problem.solve(solution.unknowns(), &STAGES[5..]).unwrap();
     let steps = |s: &Solution| s.progress.iter().map(|p| p.steps).sum::<usize>();
     assert!(steps(&again) < steps(solution), "{} and {} steps", steps(&again), steps(solution));
-    assert!(again.progress.last().unwrap().root.1 < NO_FORCE);
+    assert!(again.progress.last().unwrap().root.1 < NO_ROOT_FORCE);
 }
 
 #[test]
@@ -234,4 +235,92 @@ fn an_objective_of_ones_own_is_followed() {
         sum
     };
     assert!(mean(&bent) < mean(solution) - 0.005, "{} and {} rad", mean(&bent), mean(solution));
+}
+
+/// Walks of the usual figures at slow, free and fast speed.
+fn shipped() -> impl Iterator<Item = (Build, Walk)> {
+    SegmentTable::ALL.into_iter().flat_map(|table| {
+        let build = Build::usual(table);
+        let leg_length = build.human().unwrap().dimensions.leg_length;
+        ["slow", "free", "fast"].map(|name| {
+            let gait = Gait::named(name).unwrap();
+            (build, Walk::new(&gait, leg_length, &mut Findings::default()).unwrap())
+        })
+    })
+}
+
+#[test]
+fn shipped_plans_solve_the_present_problem() {
+    for (build, walk) in shipped() {
+        let plan = WalkPlan::of(&build, &walk).unwrap();
+        let plan = plan.unwrap_or_else(|| panic!("no plan of {} at {}", build.table, walk.name()));
+        // Without stages nothing is solved: what is found is the plan.
+        let found = OptimalWalk::find_with(&build, &walk, &[], Some(&plan)).unwrap();
+        assert_eq!(found.solution.unknowns(), plan.coefficients, "{} {}", build.table, walk.name());
+        let root = found.solution.progress[0].root.1;
+        println!("{} {}: {root:.1e}", build.table, walk.name());
+        assert!(root < 2.0 * NO_ROOT_FORCE, "{} {}: {root:.1e}", build.table, walk.name());
+        let names: Vec<&str> = found.human.model.coordinates().iter().map(|c| c.name.as_str()).collect();
+        assert_eq!(plan.coordinates, names);
+        let text = plan.to_toml();
+        assert_eq!(WalkPlan::from_toml(&text).unwrap(), plan);
+    }
+}
+
+#[test]
+fn a_shipped_plan_is_the_best_motion() {
+    let (build, walk) = shipped().find(|(build, walk)| build.table == MAN.table && walk.name() == "free").unwrap();
+    let found = OptimalWalk::find(&build, &walk).unwrap();
+    let problem = &found.problem.problem;
+    let again = problem.solve(found.solution.unknowns(), &STAGES[STAGES.len() - 1..]).unwrap();
+    let apart = again.unknowns().iter().zip(found.solution.unknowns()).map(|(a, b)| (a - b).abs());
+    let (apart, cost) = (apart.fold(0.0, f64::max), |s: &Solution| s.progress.last().unwrap().cost);
+    println!("solved again: coefficients move by {apart:.1e}; cost {} and {}", cost(&found.solution), cost(&again));
+    assert!(apart < 0.02, "{apart} rad or m");
+    assert!(cost(&again) > 0.9 * cost(&found.solution), "{} and {}", cost(&found.solution), cost(&again));
+}
+
+#[test]
+fn a_plan_belongs_to_its_figure_speed_and_cadence_alone() {
+    let (build, walk) = shipped().next().unwrap();
+    assert!(WalkPlan::of(&build, &walk).unwrap().is_some());
+    assert!(WalkPlan::of(&Build { mass: build.mass + 1.0, ..build }, &walk).unwrap().is_none());
+    let other = |change: &dyn Fn(&mut Gait)| {
+        let mut gait = walk.gait().clone();
+        change(&mut gait);
+        let walk = Walk::new(&gait, walk.leg_length(), &mut Findings::default()).unwrap();
+        WalkPlan::of(&build, &walk).unwrap()
+    };
+    assert!(other(&|_| ()).is_some());
+    assert!(other(&|gait| gait.step_height = 1.2).is_none());
+    assert!(other(&|gait| gait.pace = gait.pace.with(Some(walk.speed() + 0.01), None, None)).is_none());
+    let (speed, steps) = (Some(walk.speed()), Some(2.1 / walk.cycle_s()));
+    assert!(other(&|gait| gait.pace = gait.pace.with(speed, None, steps)).is_none());
+}
+
+#[test]
+fn what_is_not_found_is_said_with_place_and_size() {
+    let (build, walk) = shipped().next().unwrap();
+    let found = OptimalWalk::find_with(&build, &walk, &[], None);
+    let Err(OptimalWalkError::NotConverged { worst, .. }) = &found else { panic!("{found:?}") };
+    assert!(worst.force.abs() > worst.allowed && worst.coordinate.starts_with("pelvis"), "{worst:?}");
+    let message = found.unwrap_err().to_string();
+    for part in ["no walk at 1.", "steps/min", " s `pelvis_", "; expected at most"] {
+        assert!(message.contains(part), "{message}");
+    }
+}
+
+#[test]
+fn a_plan_file_that_is_wrong_is_refused_with_its_line() {
+    let (build, walk) = shipped().next().unwrap();
+    let text = WalkPlan::of(&build, &walk).unwrap().unwrap().to_toml();
+    for (from, to, expected) in [
+        ("figure = \"faure-1997\"", "figure = \"nobody\"", "line 2"),
+        ("speed = ", "pace = ", "pace"),
+        ("  [", "  [0.5, ", "one list of numbers per knot"),
+        ("cycle_s = ", "cycle_s = -", "cycle_s"),
+    ] {
+        let message = WalkPlan::from_toml(&text.replacen(from, to, 1)).unwrap_err().to_string();
+        assert!(message.contains(expected), "{message}");
+    }
 }

@@ -68,6 +68,102 @@ fn inverse_dynamics_gives_the_efforts_of_the_simulator() {
 }
 
 #[test]
+fn inverse_dynamics_gives_the_moments_of_an_optimal_walk() {
+    let (walk, findings) = made("free", MAN, SyntheticMode::Optimal);
+    assert!(findings.as_slice().is_empty(), "{findings:?}");
+    let analysis = analysed(&walk);
+    let (worst, name) = worst_moment(&walk, &analysis);
+    let residual = analysis.residual.unwrap();
+    println!("moments differ by {worst:.4} N.m at most, {name}; root: {residual:?}");
+    // Forces are sampled each millisecond and interpolated between: half a step of 1.3 mm/ms under the body's weight.
+    assert!(worst < 0.6, "{name}: {worst} N.m");
+    // Between the instants of the problem a little remains (docs/measured/OPTIMAL_WALK.md).
+    assert!(residual.force_rms_n < 5.0 && residual.moment_rms_nm < 3.0, "{residual:?}");
+    let bare = SyntheticWalk { loads: Vec::new(), ..walk };
+    assert!(analysed(&bare).residual.unwrap().force_peak_n > 700.0);
+}
+
+#[test]
+fn an_optimal_walk_repeats_itself_in_three_dimensions() {
+    let (walk, _) = made("free", MAN, SyntheticMode::Optimal);
+    let analysis = analysed(&walk);
+    let whole = |side: Side| analysis.cycles.iter().filter(|cycle| cycle.side == side).count();
+    assert_eq!(Side::BOTH.map(whole), [2, 2]);
+    for cycle in &analysis.cycles {
+        assert!((cycle.end_s - cycle.start_s - walk.walk.cycle_s()).abs() < 2e-3 && cycle.foot_off_s.is_some());
+    }
+    let report = &walk.report;
+    assert!(report.slip.is_some_and(|slip| slip.excursion < 0.006), "{:?}", report.slip);
+    assert!((report.flight_s, report.impacts.0, report.unsolved_steps) == (0.0, 0, 0), "{report:?}");
+    let [force, moment] = report.correction.as_ref().unwrap().residual;
+    assert!(force.rms < 5.0 && moment.rms < 3.0, "{force:?}, {moment:?}");
+    let range = |name: &str| {
+        let values = walk.trajectory.values(walk.human.model.coordinate(name).unwrap());
+        let (low, high) = values.iter().fold((f64::MAX, f64::MIN), |(a, b), &x| (a.min(x), b.max(x)));
+        high - low
+    };
+    // A figure on two rails has none of these.
+    for (name, least) in
+        [("pelvis_list", 0.08), ("pelvis_rotation", 0.08), ("pelvis_tz", 0.01), ("hip_adduction_r", 0.1)]
+    {
+        assert!(range(name) > least, "{name}: {} rad or m", range(name));
+    }
+}
+
+#[test]
+fn cycles_and_rate_do_not_change_an_optimal_walk() {
+    let gait = Gait::named("free").unwrap();
+    let make = |cycles, rate_hz| {
+        let order = SyntheticWalkSettings { rate_hz, cycles, ..order(&gait, MAN, SyntheticMode::Optimal) };
+        synthesise(&order, &mut Findings::default()).unwrap()
+    };
+    let (short, long) = (make(1, 100.0), make(3, 200.0));
+    let ankle = short.human.model.coordinate("ankle_angle_r").unwrap();
+    for frame in 0..short.trajectory.grid().frames {
+        let (a, b) = (short.trajectory.values(ankle)[frame], long.trajectory.values(ankle)[2 * frame]);
+        assert!((a - b).abs() < 1e-12, "frame {frame}: {a} and {b} rad");
+    }
+    let (a, b) = (&short.loads[0], &long.loads[0]);
+    let one_cycle = (short.walk.cycle_s() / (a.times[1] - a.times[0])).round() as usize;
+    let stride = short.walk.speed() * short.walk.cycle_s();
+    for row in 0..one_cycle {
+        assert!((a.force[row] - b.force[row]).norm() < 1e-9);
+        // A cycle later the same force acts a stride further on.
+        let moved = a.moment[row] + ambulo::spatial::Vec3::new(stride, 0.0, 0.0).cross(&a.force[row]);
+        assert!((b.moment[row + one_cycle] - moved).norm() < 1e-6, "row {row}");
+    }
+}
+
+#[test]
+fn gaits_take_the_mode_that_can_compute_them() {
+    let leg_length = MAN.human().unwrap().dimensions.leg_length;
+    let mode = |change: &dyn Fn(&mut Gait, &mut Build)| {
+        let (mut gait, mut build) = (Gait::named("free").unwrap(), MAN);
+        change(&mut gait, &mut build);
+        SyntheticMode::of(&gait, &build, leg_length)
+    };
+    assert_eq!(mode(&|_, _| ()), SyntheticMode::Optimal);
+    assert_eq!(mode(&|gait, _| gait.pace = gait.pace.with(Some(1.0), None, None)), SyntheticMode::Optimal);
+    assert_eq!(mode(&|gait, _| gait.pace = gait.pace.with(Some(0.1), None, None)), SyntheticMode::Corrected);
+    assert_eq!(mode(&|_, build| build.toe_joint = false), SyntheticMode::Corrected);
+    assert_eq!(mode(&|gait, _| *gait = Gait::named("standard").unwrap()), SyntheticMode::Corrected);
+    let limp = "base = \"free\"\n[[joint]]\njoint = \"right knee\"\nangle_deg = 3\n";
+    assert_eq!(mode(&|gait, _| *gait = Gait::from_toml(limp).unwrap()), SyntheticMode::Paper);
+}
+
+#[test]
+fn what_an_optimal_walk_cannot_do_is_refused() {
+    let refused = |gait: &Gait, build: Build| {
+        let order = order(gait, build, SyntheticMode::Optimal);
+        synthesise(&order, &mut Findings::default()).unwrap_err().to_string()
+    };
+    let limp = Gait::from_toml("base = \"free\"\n[[joint]]\njoint = \"right knee\"\nangle_deg = 3\n").unwrap();
+    assert!(refused(&limp, MAN).contains("sides half a cycle apart"));
+    let free = Gait::named("free").unwrap();
+    assert!(refused(&free, Build { toe_joint: false, ..MAN }).contains("expected toe joints"));
+}
+
+#[test]
 fn the_agreement_grows_with_the_rate_of_the_simulator() {
     let gait = Gait::named("free").unwrap();
     let worst = [1000.0, 4000.0].map(|rate_hz| {

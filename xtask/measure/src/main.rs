@@ -18,6 +18,7 @@ mod table;
 mod twins;
 mod validate;
 mod walk_bands;
+mod walk_plans;
 mod workspace;
 
 use std::process::ExitCode;
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         ("twins", _) => twins::run(rest),
         ("validate", _) => validate::run(rest),
         ("walk-bands", _) => walk_bands::run(rest),
+        ("walk-plans", []) => walk_plans::run(),
         ("optimal-walk", _) => optimal_walk::run(rest),
         _ => {
             eprintln!("error: unknown command `{}`\nhint: `cargo xtask help` lists the commands", words.join(" "));

@@ -12,12 +12,12 @@ mod sideways;
 use crate::normative::{Band, SPEEDS};
 use crate::walk_bands::child_leg;
 use crate::workspace;
+use ambulo::contact::HuntCrossley;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::optimal::{Drift, STAGES, Solution, WalkCosts, WalkProblem, soles_with_width};
-use ambulo::simulation::consistent_walk::SOFT_SHOES;
 use cpu_time::ThreadTime;
 use curves::Cycle;
 
@@ -119,8 +119,8 @@ fn find(human: &Human, speed: f64, start: Option<&[f64]>) -> Result<Found, Strin
     let planar = human.model.coordinate("pelvis_list").is_none();
     let soles = if planar { human.soles.clone() } else { soles_with_width(human) };
     let clock = ThreadTime::now();
-    let problem =
-        WalkProblem::new(human, &soles, SOFT_SHOES, &walk, &WalkCosts::default()).map_err(|e| e.to_string())?;
+    let problem = WalkProblem::new(human, &soles, HuntCrossley::SOFT_SHOES, &walk, &WalkCosts::default())
+        .map_err(|e| e.to_string())?;
     let solution: Solution = match start {
         Some(unknowns) => problem.problem.solve(unknowns, &STAGES[NEAR..]),
         None => problem.solve(&STAGES),

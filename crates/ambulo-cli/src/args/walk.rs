@@ -34,10 +34,12 @@ pub(crate) struct DemoArgs {
   ambulo walk --gait goose --mode paper -o out
   ambulo walk --gait slow --states
 
-Modes: `corrected` changes the gait by a few degrees until it has no residual forces, and simulates it on soft shoes; `paper` drives the
-joints with the unchanged curves, holds the trunk upright and has rigid soles, as Faure, Debunne, Cani and Multon did in 1997. Both modes
-take every gait and style whose sides do the same half a cycle apart; a gait file whose sides differ, or whose joints machines drive, is
-walked in the mode `paper`. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
+Modes: `optimal` finds a walk in three dimensions on soft shoes that is near the angles and forces of people and needs no force from outside
+(docs/OPTIMAL.md); the usual figures at slow, free and fast speed are solved beforehand, others take some seconds. `corrected` (or --planar)
+walks in the sagittal plane: it changes the gait by a few degrees until it has no residual forces, and simulates it on soft shoes. `paper`
+drives the joints with the unchanged curves, holds the trunk upright and has rigid soles, as Faure, Debunne, Cani and Multon did in 1997.
+`optimal` and `corrected` take gaits whose sides do the same half a cycle apart, `optimal` only those of constant pace; a gait file whose
+sides differ, or whose joints machines drive, is walked in the mode `paper`. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
 step with straight knees; without --style they use style 1997 in the mode
 `paper` and style knots in the mode `corrected`. If no small change makes a gait dynamically consistent, a warning says so.
 
@@ -56,9 +58,12 @@ pub(crate) struct WalkArgs {
     pub(crate) gait: GaitArgs,
     #[command(flatten)]
     pub(crate) figure: FigureArgs,
-    /// How the walk is computed [default: corrected; paper if the sides of the gait differ].
+    /// How the walk is computed [default: optimal for a steady gait of people; corrected for other gaits with equal sides; else paper].
     #[arg(long, value_enum)]
     pub(crate) mode: Option<WalkMode>,
+    /// Walk in the sagittal plane: the same as `--mode corrected`.
+    #[arg(long, conflicts_with = "mode")]
+    pub(crate) planar: bool,
     /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = super::forces::AngleConvention::Clinical)]
     pub(crate) convention: super::forces::AngleConvention,
@@ -143,7 +148,9 @@ pub(crate) struct FigureArgs {
 /// How a walk is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum WalkMode {
-    /// Dynamically consistent, on soft shoes.
+    /// In three dimensions, found by optimal motion, on soft shoes.
+    Optimal,
+    /// In the sagittal plane, dynamically consistent, on soft shoes.
     Corrected,
     /// As in the 1997 paper: rigid soles, the trunk held upright.
     Paper,
@@ -152,6 +159,7 @@ pub(crate) enum WalkMode {
 impl WalkMode {
     pub(crate) fn mode(self) -> SyntheticMode {
         match self {
+            WalkMode::Optimal => SyntheticMode::Optimal,
             WalkMode::Corrected => SyntheticMode::Corrected,
             WalkMode::Paper => SyntheticMode::Paper,
         }

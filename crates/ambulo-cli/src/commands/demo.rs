@@ -1,13 +1,14 @@
 //! `ambulo demo`: the forces of a built-in walk, which is also written as a recording.
 
 use super::stopwatch::Stopwatch;
-use super::walk::{SyntheticRun, default_build};
+use super::walk::SyntheticRun;
 use crate::Completion;
 use crate::args::DemoArgs;
 use crate::replacement::ResultTarget;
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
+use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
@@ -21,8 +22,8 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
     let gait = Gait::named("free")?;
     let settings = SyntheticWalkSettings {
         gait: &gait,
-        build: default_build(),
-        mode: SyntheticMode::Corrected,
+        build: Build::usual(SegmentTable::DeLevaMale),
+        mode: SyntheticMode::Optimal,
         cycles: 3,
         rate_hz: 100.0,
     };

@@ -9,7 +9,7 @@ use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::state_table;
 use ambulo::gait::{Gait, PaceChange, Style, Walk};
-use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::model::anthropometry::{Build, BuildError};
 use ambulo::motion::RecordedTable;
 use ambulo::numerics::NaturalSpline;
 use ambulo::simulation::synthetic::{
@@ -30,9 +30,9 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let (gait, mut read) = gait(name, &args.gait, &mut findings)?;
     let described_in = read.first().cloned();
     let build = build(&args.figure)?;
-    let by_gait = || if gait.is_symmetric() { SyntheticMode::Corrected } else { SyntheticMode::Paper };
+    let by_gait = || Ok::<_, BuildError>(SyntheticMode::of(&gait, &build, build.human()?.dimensions.leg_length));
     if args.states {
-        let mode = args.mode.map_or_else(by_gait, WalkMode::mode);
+        let mode = asked_mode(args).map_or_else(by_gait, Ok)?;
         return states(args, &shaped(&gait, build, mode, args), &read, findings);
     }
     let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
@@ -41,12 +41,12 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     read.extend(args.thresholds.clone());
     let torques = args.torques.as_deref().map(|path| read_torques(path, &gait.name)).transpose()?;
     read.extend(args.torques.clone());
-    if torques.is_some() && args.mode == Some(WalkMode::Corrected) {
-        bail!("--torques: found --mode corrected; expected the mode paper, in which the torques were computed");
-    }
-    let mode = match (&torques, args.mode) {
-        (Some(_), _) => SyntheticMode::Paper,
-        (None, mode) => mode.map_or_else(by_gait, WalkMode::mode),
+    let mode = match (&torques, asked_mode(args)) {
+        (Some(_), None | Some(SyntheticMode::Paper)) => SyntheticMode::Paper,
+        (Some(_), Some(mode)) => {
+            bail!("--torques: found the mode {mode}; expected the mode paper, in which the torques were computed")
+        }
+        (None, mode) => mode.map_or_else(by_gait, Ok)?,
     };
     let gait = if mode == SyntheticMode::Corrected { style_for_correction(gait, name, &args.gait) } else { gait };
     let walk_settings = shaped(&gait, build, mode, args);
@@ -68,6 +68,11 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
         check: args.check,
     };
     run.analyse_and_write(findings, clock, &target, args.print)
+}
+
+/// The mode that the user chose.
+fn asked_mode(args: &WalkArgs) -> Option<SyntheticMode> {
+    if args.planar { Some(SyntheticMode::Corrected) } else { args.mode.map(WalkMode::mode) }
 }
 
 fn shaped<'a>(gait: &'a Gait, build: Build, mode: SyntheticMode, args: &WalkArgs) -> SyntheticWalkSettings<'a> {
@@ -190,7 +195,7 @@ fn gait_file(walk: &Walk) -> Result<OutputFile<'static>> {
 /// How the ground forces were determined, also in double support.
 fn rule(walk_settings: &SyntheticWalkSettings<'_>) -> &'static str {
     match walk_settings.mode {
-        SyntheticMode::Corrected => "soft shoes",
+        SyntheticMode::Optimal | SyntheticMode::Corrected => "soft shoes",
         SyntheticMode::Paper => "rigid soles",
     }
 }
@@ -210,27 +215,10 @@ fn input(walk_settings: &SyntheticWalkSettings<'_>) -> Input {
     }
 }
 
-/// Default mass [kg] and stature [m]: for de Leva's and Winter's tables round numbers near the means of their subjects, for the 1997 paper
-/// 80 kg with the stature that completes its table.
-fn default_size(table: SegmentTable) -> [f64; 2] {
-    match table {
-        SegmentTable::DeLevaMale | SegmentTable::DempsterWinter => [75.0, 1.75],
-        SegmentTable::DeLevaFemale => [60.0, 1.65],
-        SegmentTable::Faure1997 => [80.0, 1.80],
-    }
-}
-
-pub(super) fn default_build() -> Build {
-    let table = SegmentTable::DeLevaMale;
-    let [mass, height] = default_size(table);
-    Build { table, mass, height, toe_joint: true }
-}
-
 fn build(args: &FigureArgs) -> Result<Build> {
-    let table = args.figure.parse().context("--figure")?;
-    let [mass, height] = default_size(table);
-    let (mass, height) = (args.mass.unwrap_or(mass), args.height.unwrap_or(height));
-    let build = Build { table, mass, height, toe_joint: !args.no_toe_joint };
+    let usual = Build::usual(args.figure.parse().context("--figure")?);
+    let (mass, height) = (args.mass.unwrap_or(usual.mass), args.height.unwrap_or(usual.height));
+    let build = Build { mass, height, toe_joint: !args.no_toe_joint, ..usual };
     // Reject an impossible size before anything is computed.
     build.human()?;
     Ok(build)

@@ -6,9 +6,10 @@ use super::{
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
+use ambulo::simulation::synthetic::SyntheticMode;
 use ambulo::study::{MassState, MassWitness, Quality};
 use ambulo_results::{
-    FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Summary, WalkSummary,
+    FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Size, Summary, WalkSummary,
 };
 use anyhow::Result;
 use std::path::Path;
@@ -149,6 +150,9 @@ fn print_quality(quality: &Quality, print: PrintArgs) -> Result<()> {
     shown.into_iter().try_for_each(|reason| print_line(&format!("    {}: {}", reason.state.word(), reason.message)))
 }
 
+/// Angles whose change is printed, the largest first.
+const ANGLES_SHOWN: usize = 5;
+
 /// Prints how a synthetic walk was computed.
 fn print_walk(walk: &WalkSummary) -> Result<()> {
     print_line(&format!(
@@ -158,9 +162,16 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
     if let (Some(count), Some(degrees), Some(path)) =
         (walk.parameters_adjusted, &walk.adjustment_deg, &walk.pelvis_path_mm)
     {
+        let mut largest: Vec<_> = degrees.iter().collect();
+        largest.sort_by(|(_, a), (_, b)| b.rms.total_cmp(&a.rms));
+        let shown = largest.iter().take(ANGLES_SHOWN);
         let angles: Vec<String> =
-            degrees.iter().map(|(name, size)| format!("{} {:.1}", name.trim_end_matches("_r"), size.rms)).collect();
-        print_line(&format!("  changed   {} deg rms, by {count} parameters", angles.join(", ")))?;
+            shown.map(|(name, size)| format!("{} {:.1}", name.trim_end_matches("_r"), size.rms)).collect();
+        let others = match degrees.len().saturating_sub(ANGLES_SHOWN) {
+            0 => String::new(),
+            others => format!(", {others} others less"),
+        };
+        print_line(&format!("  changed   {} deg rms{others}, by {count} parameters", angles.join(", ")))?;
         print_line(&format!("            pelvis {:.1} mm rms forwards, {:.1} mm up", path.forward.rms, path.up.rms))?;
     }
     let slip = match (walk.foot_slip_mm, walk.foot_slip_path_mm) {
@@ -169,10 +180,16 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
         }
         _ => String::new(),
     };
-    print_line(&format!(
-        "  trunk     held upright with {:.1} N.m rms, {:.1} N.m peak{slip}",
-        walk.trunk_torque_nm.rms, walk.trunk_torque_nm.largest
-    ))?;
+    let held = match (&walk.lacking_force_n, &walk.lacking_moment_nm) {
+        (Some(force), Some(moment)) if walk.mode == SyntheticMode::Optimal.name() => {
+            format!("outside   {:.2} N and {:.2} N.m rms act on the pelvis", force.rms, moment.rms)
+        }
+        _ => {
+            let Size { rms, largest } = walk.trunk_torque_nm;
+            format!("trunk     held upright with {rms:.1} N.m rms, {largest:.1} N.m peak")
+        }
+    };
+    print_line(&format!("  {held}{slip}"))?;
     if walk.impacts > 0 {
         print_line(&format!("  impacts   {}, {:.1} N.s at most", walk.impacts, walk.largest_impact_n_s))?;
     }

@@ -95,6 +95,17 @@ impl HuntCrossley {
     };
     /// opensim-core Moco `example2DWalking/2D_gait.osim`: two spheres per foot, 35 mm at the heel and 15 mm at the forefoot.
     pub const MOCO_2D_GAIT: HuntCrossley = HuntCrossley { stiffness: 3_067_776.0, ..HuntCrossley::FALISSE_2022 };
+    /// Soft shoes: stiffness as OpenSim Moco's `2D_gait.osim`, dissipation 2 s/m as there and in Falisse 2022; friction 0.6. A creep
+    /// speed of 13 mm/s at full friction is ours; it is much slower than theirs (0.2 m/s), so that a foot in stance stays in place.
+    pub const SOFT_SHOES: HuntCrossley = HuntCrossley {
+        static_friction: 0.6,
+        dynamic_friction: 0.6,
+        viscous_friction: 0.0,
+        transition_velocity: 0.013,
+        depth_offset: 0.0,
+        friction_curve: FrictionCurve::Smooth,
+        ..HuntCrossley::MOCO_2D_GAIT
+    };
     /// opensim-models `WalkerModel.osim`: spheres of 50 mm.
     pub const WALKER_MODEL: HuntCrossley =
         HuntCrossley { dissipation: 1.0, dynamic_friction: 0.4, viscous_friction: 0.4, ..HuntCrossley::FALISSE_2022 };

@@ -305,6 +305,14 @@ impl Gait {
             && !self.machines.iter().any(|machine| machine.drives.moves_a_joint())
     }
 
+    /// Whether joint angles are those of people at the speed of the gait, without a change of curve, joint or step; the pace may differ.
+    #[must_use]
+    pub fn follows_people(&self) -> bool {
+        let pace = Pace { length_scale: 1.0, cadence_scale: 1.0, ..self.pace };
+        let pace_changes = self.pace_changes.clone();
+        *self == Gait { pace, pace_changes, ..Gait::new(&self.name, Style::Knots) }
+    }
+
     /// Exponent b of step frequency ~ V^b.
     #[must_use]
     pub fn cadence_exponent(&self) -> f64 {

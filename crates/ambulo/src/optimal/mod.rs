@@ -25,12 +25,14 @@ mod problem;
 mod solution;
 mod solve;
 
+mod plan;
 mod walk;
 
 pub use forward::Drift;
 pub use layout::Span;
 pub use objective::{Bound, Quantity, Term};
+pub use plan::{NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, WalkPlan};
 pub use problem::Problem;
-pub use solution::{Progress, Sample, SoleContact, Solution};
+pub use solution::{Progress, Sample, SoleContact, Solution, Unbalanced};
 pub use solve::Continuation;
 pub use walk::{STAGES, WalkCosts, WalkProblem, soles_with_width};

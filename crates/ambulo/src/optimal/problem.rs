@@ -121,10 +121,18 @@ impl Problem {
     }
 
     /// Coordinates of the root, and whether they are rotations.
-    pub(super) fn root(&self) -> Vec<(CoordinateId, bool)> {
+    #[must_use]
+    pub fn root(&self) -> Vec<(CoordinateId, bool)> {
         let roots = self.model.bodies().iter().filter(|body| body.joint.parent.is_none());
         let turns = |id: CoordinateId| self.model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
         roots.flat_map(|body| body.joint.coordinates()).map(|id| (id, turns(id))).collect()
+    }
+
+    /// Coordinates of the root, and the force that counts as one at each [N or N.m].
+    pub(super) fn root_scales(&self) -> Vec<(CoordinateId, f64)> {
+        let weight = self.weight_n();
+        let scale = |turns: bool| if turns { weight * self.length_m } else { weight };
+        self.root().into_iter().map(|(id, turns)| (id, scale(turns))).collect()
     }
 
     pub(super) fn weight_n(&self) -> f64 {
@@ -143,13 +151,9 @@ impl Problem {
 impl<'a> Transcription<'a> {
     pub(super) fn new(problem: &'a Problem) -> Result<Transcription<'a>, CurvedJointError> {
         let layout = problem.layout();
-        let weight = problem.weight_n();
-        let model = &problem.model;
-        let scale = |turns: bool| if turns { weight * problem.length_m } else { weight };
-        let root: Vec<(usize, f64)> =
-            problem.root().into_iter().map(|(id, turns)| (id.index(), scale(turns))).collect();
+        let root = problem.root_scales().into_iter().map(|(id, scale)| (id.index(), scale)).collect::<Vec<_>>();
         Ok(Transcription {
-            evaluator: Evaluator::new(model, &problem.soles)?,
+            evaluator: Evaluator::new(&problem.model, &problem.soles)?,
             stage: Stage { shoes: problem.shoes, slack: 1.0 },
             multipliers: vec![0.0; layout.instants() * root.len()],
             instants: vec![Instant::default(); layout.instants()],

@@ -1,20 +1,47 @@
 //! The solution of a problem: motion, forces and contacts at any time.
 
-use super::instant::{Evaluator, HEIGHT, Instant, SLIP};
+use super::instant::{Evaluator, HEIGHT, Instant, SIDE_BY_SIDE, SLIP};
 use super::layout::Layout;
 use super::problem::{Problem, Transcription};
 use crate::dynamics::CurvedJointError;
+use crate::model::CoordinateKind;
 use crate::spatial::Vec3;
+use std::fmt;
 
 /// State of the solver at the end of a stage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Steps of the solver.
     pub steps: usize,
-    /// Sum of squares, including that of the constraints.
+    /// Sum of squares at the start, including that of the constraints.
+    pub from: f64,
+    /// The same at the end.
     pub cost: f64,
     /// Residual forces at the root: root mean square and maximum [body weights, body weights × length].
     pub root: (f64, f64),
+}
+
+/// The largest force at the root that nothing supplies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unbalanced {
+    /// Name of the coordinate of the root.
+    pub coordinate: String,
+    /// Time from the start of the span [s].
+    pub time_s: f64,
+    /// Generalised force [N or N.m].
+    pub force: f64,
+    /// Largest force that counts as none, in the same unit.
+    pub allowed: f64,
+    /// Whether the force is a moment.
+    pub is_moment: bool,
+}
+
+impl fmt::Display for Unbalanced {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Unbalanced { coordinate, time_s, force, allowed, is_moment } = self;
+        let unit = if *is_moment { "N.m" } else { "N" };
+        write!(f, "at {time_s:.2} s `{coordinate}` needs {force:.2} {unit}; expected at most {allowed:.2} {unit}")
+    }
 }
 
 /// One instant of a motion.
@@ -126,13 +153,41 @@ impl Solution {
         Ok(transcription.root_forces())
     }
 
+    /// The largest force at the root at the instants of the problem, if it exceeds `share` [body weights, body weights × length].
+    #[must_use]
+    pub fn unbalanced(&self, share: f64) -> Option<Unbalanced> {
+        let step_s = self.problem.duration_s / (self.instants.len() - 1) as f64;
+        let at = |(k, instant): (usize, &Instant)| {
+            let forces =
+                self.problem.root_scales().into_iter().map(|(id, scale)| (id, instant.forces[id.index()], scale));
+            let worst = forces.max_by(|a, b| (a.1.abs() / a.2).total_cmp(&(b.1.abs() / b.2)))?;
+            Some((k, worst))
+        };
+        let worst = self.instants.iter().enumerate().filter_map(at);
+        let (k, (id, force, scale)) = worst.max_by(|(_, a), (_, b)| (a.1.abs() / a.2).total_cmp(&(b.1.abs() / b.2)))?;
+        let coordinate = &self.problem.model.coordinates()[id.index()];
+        let is_small = force.abs() <= share * scale;
+        (!is_small).then(|| Unbalanced {
+            coordinate: coordinate.name.clone(),
+            time_s: step_s * k as f64,
+            force,
+            allowed: share * scale,
+            is_moment: coordinate.kind == CoordinateKind::Rotation,
+        })
+    }
+
     /// Motion and forces at given times [s].
     ///
     /// # Errors
     /// Does not fail for a solved problem.
     pub fn samples(&self, times_s: &[f64]) -> Result<Vec<Sample>, CurvedJointError> {
+        let mut evaluator = Evaluator::new(&self.problem.model, &self.problem.soles)?;
+        Ok(times_s.chunks(SIDE_BY_SIDE).flat_map(|times_s| self.block(&mut evaluator, times_s)).collect())
+    }
+
+    fn block(&self, evaluator: &mut Evaluator, times_s: &[f64]) -> Vec<Sample> {
         let mut instants: Vec<Instant> = times_s.iter().map(|&time_s| self.instant(time_s)).collect();
-        Evaluator::new(&self.problem.model, &self.problem.soles)?.evaluate(&self.problem.shoes, &mut instants);
+        evaluator.evaluate(&self.problem.shoes, &mut instants);
         let sample = |(at, &time_s): (Instant, &f64)| {
             let contact = |c: &super::instant::Contact| SoleContact {
                 place: c.place,
@@ -143,7 +198,7 @@ impl Solution {
             let contacts = at.contacts.iter().map(contact).collect();
             Sample { time_s, posture: at.posture, forces: at.forces, contacts }
         };
-        Ok(instants.into_iter().zip(times_s).map(sample).collect())
+        instants.into_iter().zip(times_s).map(sample).collect()
     }
 
     /// Generalised forces at the instants of the problem [N.m or N].

@@ -42,6 +42,7 @@ impl Problem {
         let mut method = Method::new(self)?;
         let mut unknowns = guess.to_vec();
         let mut progress = Vec::new();
+        method.transcription.evaluate(&unknowns);
         for stage in stages {
             method.transcription.stage = Stage {
                 shoes: HuntCrossley {
@@ -52,7 +53,7 @@ impl Problem {
                 slack: stage.slack,
             };
             method.transcription.clear_multipliers();
-            let mut steps = 0;
+            let (from, mut steps) = (method.cost(&unknowns), 0);
             for update in 0..=stage.updates {
                 if update > 0 {
                     method.transcription.update_multipliers();
@@ -60,7 +61,7 @@ impl Problem {
                 steps += method.minimise(&mut unknowns, stage.steps);
             }
             let (cost, root) = (method.transcription.cost(), method.transcription.root_forces());
-            progress.push(Progress { steps, cost, root });
+            progress.push(Progress { steps, from, cost, root });
         }
         let instants = method.transcription.instants().to_vec();
         Ok(Solution::new(self, unknowns, instants, progress))
@@ -68,6 +69,18 @@ impl Problem {
 }
 
 impl Problem {
+    /// The motion of given unknowns, which are not changed.
+    ///
+    /// # Errors
+    /// If the model has joints that are not hinges or slides.
+    pub fn at(&self, unknowns: &[f64]) -> Result<Solution, CurvedJointError> {
+        let mut transcription = Transcription::new(self)?;
+        transcription.evaluate(unknowns);
+        let (cost, root) = (transcription.cost(), transcription.root_forces());
+        let progress = vec![Progress { steps: 0, from: cost, cost, root }];
+        Ok(Solution::new(self, unknowns.to_vec(), transcription.instants().to_vec(), progress))
+    }
+
     /// Moves a coordinate, the height of the body, until the ground carries the body's weight on average.
     ///
     /// # Errors

@@ -160,6 +160,7 @@ impl WalkProblem {
         let mut builder = Builder { model, targets, terms: Vec::new() };
         builder.posture(costs);
         builder.forces(&problem, walk, costs);
+        builder.moment_rates(walk, costs);
         builder.feet(&problem, costs);
         let Builder { targets, terms, .. } = builder;
         problem.terms = terms;
@@ -324,8 +325,16 @@ impl Builder<'_> {
         self.add("trunk", Quantity::Acceleration(both), accelerations, 3.0, Bound::Near);
     }
 
+    /// Forces on the ground and in joints. Those of people belong to their gait alone.
     fn forces(&mut self, problem: &Problem, walk: &Walk, costs: &WalkCosts) {
         let weight = problem.weight_n();
+        for side in Side::BOTH {
+            let toes = Quantity::GroundForce(spheres_of(problem, side, "toe"), 1);
+            self.add("force under the toes", toes, self.constant(0.0), 0.15 * weight, Bound::Near);
+        }
+        if !walk.gait().follows_people() {
+            return;
+        }
         for (k, side) in Side::BOTH.into_iter().enumerate() {
             let spheres = spheres_of(problem, side, "");
             for axis in 0..2 {
@@ -333,10 +342,11 @@ impl Builder<'_> {
                 let deviation = costs.force[axis] * weight;
                 self.add("ground force", Quantity::GroundForce(spheres.clone(), axis), targets, deviation, Bound::Near);
             }
-            let toes = Quantity::GroundForce(spheres_of(problem, side, "toe"), 1);
-            self.add("force under the toes", toes, self.constant(0.0), 0.15 * weight, Bound::Near);
         }
         self.moments(problem, costs);
+    }
+
+    fn moment_rates(&mut self, walk: &Walk, costs: &WalkCosts) {
         let rate = costs.moment_rate * self.model.mass() / walk.cycle_s();
         for id in self.model.coordinate_ids() {
             let Some(meaning) = self.model.anatomy().meaning(id) else { continue };

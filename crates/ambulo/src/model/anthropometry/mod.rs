@@ -151,6 +151,18 @@ impl Human {
 }
 
 impl Build {
+    /// The figure of a table in its usual size, with toe joints: for de Leva's and Winter's tables round numbers near the means of their
+    /// subjects, for the 1997 paper 80 kg with the stature that completes its table.
+    #[must_use]
+    pub fn usual(table: SegmentTable) -> Build {
+        let [mass, height] = match table {
+            SegmentTable::DeLevaMale | SegmentTable::DempsterWinter => [75.0, 1.75],
+            SegmentTable::DeLevaFemale => [60.0, 1.65],
+            SegmentTable::Faure1997 => [80.0, 1.80],
+        };
+        Build { table, mass, height, toe_joint: true }
+    }
+
     /// Builds the figure.
     ///
     /// # Errors

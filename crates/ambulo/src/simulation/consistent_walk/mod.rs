@@ -31,5 +31,5 @@ mod adjustment;
 pub use adjustment::{Adjustment, Magnitude};
 pub use changing::{ChangingWalk, make_changing_walk};
 pub use response::PlannedForces;
-pub use settings::{ConsistentWalkError, ConsistentWalkSettings, Deviations, SOFT_SHOES};
+pub use settings::{ConsistentWalkError, ConsistentWalkSettings, Deviations};
 pub use walk::{ConsistentMotion, ConsistentWalk, make_consistent_walk};

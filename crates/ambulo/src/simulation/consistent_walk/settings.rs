@@ -1,6 +1,6 @@
 //! Settings of a dynamically consistent walk: costs of deviations, resolution of the splines, properties of the shoes.
 
-use crate::contact::{FrictionCurve, HuntCrossley};
+use crate::contact::HuntCrossley;
 use crate::toml_reader::TomlError;
 
 /// The deviation of each quantity that has a cost of one. A smaller deviation is a larger cost.
@@ -58,7 +58,7 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 impl Default for ConsistentWalkSettings {
     fn default() -> Self {
         ConsistentWalkSettings {
-            shoes: SOFT_SHOES,
+            shoes: HuntCrossley::SOFT_SHOES,
             deviations: Deviations {
                 joints: [2.0 * DEGREE, 3.0 * DEGREE, 2.0 * DEGREE],
                 joint_acceleration: 30.0,
@@ -82,18 +82,6 @@ impl Default for ConsistentWalkSettings {
         }
     }
 }
-
-/// Soft shoes: stiffness as OpenSim Moco's `2D_gait.osim`, dissipation 2 s/m as there and in Falisse 2022; friction 0.6. A creep
-/// speed of 13 mm/s at full friction is ours; it is much slower than theirs (0.2 m/s), so that a foot in stance stays in place.
-pub const SOFT_SHOES: HuntCrossley = HuntCrossley {
-    static_friction: 0.6,
-    dynamic_friction: 0.6,
-    viscous_friction: 0.0,
-    transition_velocity: 0.013,
-    depth_offset: 0.0,
-    friction_curve: FrictionCurve::Smooth,
-    ..HuntCrossley::MOCO_2D_GAIT
-};
 
 /// Why a dynamically consistent walk could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

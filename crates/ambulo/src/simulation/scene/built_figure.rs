@@ -11,7 +11,7 @@ use super::recorder::Recorder;
 use super::sources::{InputFiles, chain};
 use super::walk_recorder::{FigureRecorder, LiveTargets, Placed};
 use super::{Place, SceneError};
-use crate::contact::Shape;
+use crate::contact::{HuntCrossley, Shape};
 use crate::findings::Findings;
 use crate::gait::machine::{WalkMachine, planned};
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
@@ -22,7 +22,7 @@ use crate::model::{
     ModelError, Side,
 };
 use crate::simulation::consistent_walk::{
-    ConsistentWalk, ConsistentWalkSettings, SOFT_SHOES, make_changing_walk, make_consistent_walk,
+    ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
 };
 use crate::simulation::joint::{JointKind, rotation};
 use crate::simulation::signal::Signal;
@@ -421,8 +421,8 @@ fn add_soles(
     first_body: usize,
 ) -> Result<Vec<(usize, Side)>, SceneError> {
     let material = built.shoes.unwrap_or_else(|| {
-        let law = ContactLaw::HuntCrossley(SOFT_SHOES);
-        world.materials.push(Material { friction: SOFT_SHOES.dynamic_friction, restitution: 0.0, law });
+        let law = ContactLaw::HuntCrossley(HuntCrossley::SOFT_SHOES);
+        world.materials.push(Material { friction: HuntCrossley::SOFT_SHOES.dynamic_friction, restitution: 0.0, law });
         world.materials.len() - 1
     });
     let mut soles = Vec::new();

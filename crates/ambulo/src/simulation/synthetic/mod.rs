@@ -1,13 +1,15 @@
 //! Synthetic walks: from a gait and a body size to motion and ground forces, for an analysis like that of a recording.
 //!
-//! There are two modes. [`SyntheticMode::Corrected`] makes the gait dynamically consistent ([`super::consistent_walk`]) and simulates it
+//! There are three modes. [`SyntheticMode::Optimal`] finds the walk of a figure in three dimensions by optimal motion ([`crate::optimal`]).
+//! [`SyntheticMode::Corrected`] makes the gait dynamically consistent ([`super::consistent_walk`]) and simulates it
 //! on soft shoes. [`SyntheticMode::Paper`] makes the joints follow the gait exactly, holds the trunk upright and has rigid soles
-//! (Faure, Debunne, Cani, Multon 1997). Both skip the cycles before the walk is steady. The kept part begins shortly before a strike
+//! (Faure, Debunne, Cani, Multon 1997). The last two skip the cycles before the walk is steady. The kept part begins shortly before a strike
 //! of the right foot, so that every cycle is complete.
 
 mod settings;
 
 mod modes;
+mod optimal;
 mod walk;
 
 pub use crate::numerics::Progress;

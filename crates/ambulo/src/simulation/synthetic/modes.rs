@@ -1,5 +1,6 @@
 //! Synthesis of a walk, in the two modes.
 
+use super::optimal::optimal;
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
 use super::walk::{CorrectionReport, KeptPart, Made, StateRun, SyntheticWalk, steady};
 use crate::findings::{Code, Findings};
@@ -14,8 +15,8 @@ use crate::simulation::walking::{
 };
 use crate::simulation::{ImpactLaw, StepSettings};
 
-/// Cycles before the corrected walk is steady; it starts with the planned motion.
-const CORRECTED_SKIPPED: usize = 1;
+/// Cycles before the corrected walk is steady; it starts with the planned motion. An optimal walk begins with the same phase.
+pub(super) const CORRECTED_SKIPPED: usize = 1;
 /// Largest residual of a consistent walk, rms: force as a share of body weight, moment of body weight times leg length.
 const LARGEST_RESIDUAL: [f64; 2] = [0.01, 0.005];
 /// Longest walk with machines [s].
@@ -50,10 +51,10 @@ pub fn synthesise(
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     settings.check()?;
-    let human = settings.build.human()?;
     match settings.mode {
-        SyntheticMode::Corrected => corrected(settings, human, findings),
-        SyntheticMode::Paper => paper(settings, human, findings),
+        SyntheticMode::Optimal => optimal(settings, findings),
+        SyntheticMode::Corrected => corrected(settings, settings.build.human()?, findings),
+        SyntheticMode::Paper => paper(settings, settings.build.human()?, findings),
     }
 }
 
@@ -88,7 +89,7 @@ fn corrected(
 }
 
 /// The walk of the settings, and the part of its simulation that is kept. Times of changes of pace count from the start of the kept part.
-fn timed(
+pub(super) fn timed(
     settings: &SyntheticWalkSettings<'_>,
     gait: &Gait,
     human: &Human,
@@ -208,7 +209,7 @@ pub fn run_of_states(
                 kept.states(settings, &walk)
             }
         }
-        SyntheticMode::Corrected => {
+        SyntheticMode::Optimal | SyntheticMode::Corrected => {
             let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
             kept.states(settings, &walk)
         }

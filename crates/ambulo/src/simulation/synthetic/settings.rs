@@ -1,9 +1,11 @@
 //! Settings of a synthetic walk.
 
-use crate::gait::{Gait, GaitError};
+use crate::findings::Findings;
+use crate::gait::{Gait, GaitError, Walk, walking_speeds};
 use crate::kinematics::TrajectoryError;
 use crate::model::anthropometry::{Build, BuildError};
 use crate::numerics::Shown;
+use crate::optimal::OptimalWalkError;
 use crate::simulation::consistent_walk::ConsistentWalkError;
 use crate::simulation::walking::WalkingError;
 use std::fmt;
@@ -11,17 +13,36 @@ use std::fmt;
 /// How a walk is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SyntheticMode {
-    /// Dynamically consistent, on soft shoes.
+    /// In three dimensions, found by optimal motion on soft shoes: no force but those of its own joints and of the ground.
+    Optimal,
+    /// In the sagittal plane, dynamically consistent, on soft shoes.
     Corrected,
     /// As in the 1997 paper: rigid soles, and the trunk is held upright.
     Paper,
 }
 
 impl SyntheticMode {
+    /// The mode of a gait if none is asked for: optimal for the steady gait of people on a figure with toe joints, in the range of walking
+    /// speeds; corrected for another gait whose sides do the same half a cycle apart; else the paper's.
+    #[must_use]
+    pub fn of(gait: &Gait, build: &Build, leg_length: f64) -> SyntheticMode {
+        let speed = Walk::new(gait, leg_length, &mut Findings::default()).map(|walk| walk.speed());
+        let [slowest, fastest] = walking_speeds(leg_length);
+        let is_walking = speed.is_ok_and(|speed| (slowest..=fastest).contains(&speed));
+        if gait.follows_people() && gait.pace_changes.is_empty() && build.toe_joint && is_walking {
+            SyntheticMode::Optimal
+        } else if gait.is_symmetric() {
+            SyntheticMode::Corrected
+        } else {
+            SyntheticMode::Paper
+        }
+    }
+
     /// Name of the mode in files and options.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            SyntheticMode::Optimal => "optimal",
             SyntheticMode::Corrected => "corrected",
             SyntheticMode::Paper => "paper",
         }
@@ -102,6 +123,19 @@ pub enum SyntheticError {
         /// Name of the gait.
         gait: String,
     },
+    /// An optimal walk repeats one cycle.
+    #[error(
+        "the gait `{gait}`: found machines, changes of pace or sides that differ; expected equal cycles and sides half a cycle apart, because an optimal walk is computed for half a cycle. hint: use the mode `corrected` or `paper`"
+    )]
+    Changing {
+        /// Name of the gait.
+        gait: String,
+    },
+    /// Figures in three dimensions have toe joints.
+    #[error(
+        "found a figure without toe joints; expected toe joints, because the figure in three dimensions has them. hint: use the mode `corrected` or `paper`"
+    )]
+    NoToeJoint,
     /// Torques of one cycle cannot replay a gait whose cycles differ.
     #[error(
         "the gait `{gait}`: found machines or changes of pace; expected equal cycles, because the torques are those of one cycle"
@@ -119,6 +153,9 @@ pub enum SyntheticError {
     /// The gait could not be made dynamically consistent.
     #[error(transparent)]
     Consistency(#[from] ConsistentWalkError),
+    /// No optimal walk was found.
+    #[error(transparent)]
+    Optimal(#[from] OptimalWalkError),
     /// The walk could not be simulated.
     #[error(transparent)]
     Walking(#[from] WalkingError),

@@ -87,12 +87,12 @@ pub struct PaceReached {
     pub step_frequency: f64,
 }
 
-/// The correction that made a walk dynamically consistent.
+/// How a walk was made dynamically consistent: by a change of the gait, or by optimal motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CorrectionReport {
     /// Number of free parameters.
     pub parameters: usize,
-    /// Size of the change of the motion.
+    /// Difference of the motion from the curves of the gait.
     pub adjustment: Adjustment,
     /// Remaining residual force [N] and residual moment [N.m] of the planned motion.
     pub residual: [Magnitude; 2],
@@ -111,9 +111,9 @@ const CYCLES_AFTER_CHANGE: f64 = 2.0;
 /// The part of a simulation that is kept.
 pub(super) struct KeptPart {
     /// First row of the simulation.
-    first: usize,
+    pub(super) first: usize,
     /// Frames of the motion.
-    frames: usize,
+    pub(super) frames: usize,
     /// Duration of the simulation [s].
     pub(super) simulated_s: f64,
 }
@@ -196,7 +196,7 @@ impl KeptPart {
 
 /// The states of the machines of a kept part: machine by machine, and in order of time.
 pub(super) struct StateRun {
-    periods: Vec<StatePeriod>,
+    pub(super) periods: Vec<StatePeriod>,
     pub(super) changes: Vec<StateChange>,
 }
 
@@ -239,6 +239,32 @@ fn changes(walk: &Walk, start_s: f64) -> Vec<PaceReached> {
     walk.pace_ramps().into_iter().map(reached).collect()
 }
 
+impl WalkReport {
+    /// The report of a walk that is as planned, before anything of its motion is measured.
+    pub(super) fn of_plan(settings: &SyntheticWalkSettings<'_>, human: &Human, walk: &Walk) -> WalkReport {
+        WalkReport {
+            gait: walk.name().to_owned(),
+            style: walk.style(),
+            mode: settings.mode,
+            figure: settings.build.table,
+            speed: walk.speed(),
+            dimensionless_speed: walk.dimensionless_speed(),
+            step_length: walk.step_length(),
+            cycle_s: walk.cycle_s(),
+            leg_length: human.dimensions.leg_length,
+            changes: Vec::new(),
+            correction: None,
+            trunk_torque: Magnitude::default(),
+            slip: None,
+            flight_s: 0.0,
+            impacts: (0, 0.0),
+            speed_drift: 0.0,
+            steps_hz: 1.0 / settings.step_s(),
+            unsolved_steps: 0,
+        }
+    }
+}
+
 fn report(
     settings: &SyntheticWalkSettings<'_>,
     rows: ExcerptRows,
@@ -257,15 +283,6 @@ fn report(
     let speed = recording.speed();
     let later = all.clone().filter(|row| row + cycle_rows < all.end);
     WalkReport {
-        gait: walk.name().to_owned(),
-        style: walk.style(),
-        mode: settings.mode,
-        figure: settings.build.table,
-        speed: walk.speed(),
-        dimensionless_speed: walk.dimensionless_speed(),
-        step_length: walk.step_length(),
-        cycle_s: walk.cycle_s(),
-        leg_length: human.dimensions.leg_length,
         correction,
         changes: changes(walk, start_s),
         trunk_torque: Magnitude::of(trunk.iter().copied()),
@@ -273,7 +290,7 @@ fn report(
         flight_s: step_s * all.clone().filter(|row| recording.flies(*row)).count() as f64,
         impacts: (impulses.len() / 2, impulses.iter().copied().fold(0.0, f64::max)),
         speed_drift: later.map(|row| (speed[row + cycle_rows] - speed[row]).abs()).fold(0.0, f64::max),
-        steps_hz: 1.0 / step_s,
         unsolved_steps: recording.unsolved_steps,
+        ..WalkReport::of_plan(settings, human, walk)
     }
 }

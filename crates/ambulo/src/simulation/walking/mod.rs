@@ -19,8 +19,10 @@ mod torques;
 
 pub use feet::{FootRecord, ToeRecord};
 pub use figure::{GroundContact, Shoes, Walker, WalkingError};
+pub(super) use recording::loads;
 pub use recording::{Excerpt, ExcerptRows, FootImpact, WalkRecording};
 pub use run::{Release, Released};
 pub use signals::{GaitTargets, gait_signals};
 pub use slip::StanceSlip;
+pub(super) use slip::worst_slip;
 pub use torques::{HARMONICS, TorqueSeries};

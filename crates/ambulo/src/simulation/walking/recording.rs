@@ -140,17 +140,22 @@ impl WalkRecording {
         let columns = self.model.coordinate_ids().map(column).collect();
         let short = TimeGrid { start_s: 0.0, step_s: grid.step_s * every as f64, frames: rows.frames };
         let times: Vec<f64> = rows.all().map(|row| grid.step_s * (row - rows.first) as f64).collect();
-        let loads = ["right", "left"].iter().zip(&self.feet).flat_map(|(side, foot)| loads(side, foot, &rows, &times));
+        let loads = loads(&self.feet, rows.all(), &times);
         Ok(Excerpt {
             trajectory: Trajectory::new(&self.model, short, columns)?,
-            loads: loads.collect(),
+            loads,
             efforts: self.efforts.iter().map(|effort| taken(effort)).collect(),
         })
     }
 }
 
-/// Loads on the heel's body and on the toes of a foot.
-fn loads(side: &str, foot: &FootRecord, rows: &ExcerptRows, times: &[f64]) -> Vec<ForceRecording> {
+/// Loads on the heel's body and on the toes of each foot in some rows, as force and moment about the world's origin.
+pub(in crate::simulation) fn loads(feet: &[FootRecord; 2], rows: Range<usize>, times: &[f64]) -> Vec<ForceRecording> {
+    let sides = ["right", "left"].iter().zip(feet);
+    sides.flat_map(|(side, foot)| loads_of_foot(side, foot, &rows, times)).collect()
+}
+
+fn loads_of_foot(side: &str, foot: &FootRecord, rows: &Range<usize>, times: &[f64]) -> Vec<ForceRecording> {
     let of_toes = |row: usize| {
         foot.toes.as_ref().map_or((Vec3::zeros(), Vec3::zeros()), |toes| (toes.force[row], toes.moment[row]))
     };
@@ -159,7 +164,7 @@ fn loads(side: &str, foot: &FootRecord, rows: &ExcerptRows, times: &[f64]) -> Ve
         (foot.force[row] - force, foot.moment[row] - moment)
     };
     let load = |name: String, body: BodyId, at: &dyn Fn(usize) -> (Vec3, Vec3)| {
-        let (force, moment) = rows.all().map(at).unzip();
+        let (force, moment) = rows.clone().map(at).unzip();
         let point = vec![Vec3::zeros(); times.len()];
         ForceRecording { name, body, force_frame: None, point_frame: None, times: times.to_vec(), force, point, moment }
     };

@@ -1,5 +1,6 @@
 //! Slip of the feet during stance.
 
+use super::feet::FootRecord;
 use super::recording::WalkRecording;
 
 /// A foot is in stance while it carries more than this [N].
@@ -20,16 +21,18 @@ impl WalkRecording {
     /// Largest slip of all stances of both feet that begin and end after a row; `None` if no stance is complete.
     #[must_use]
     pub fn stance_slip(&self, first_row: usize) -> Option<StanceSlip> {
-        let step_s = self.grid().step_s;
-        let of_foot = |foot: &super::FootRecord| {
-            stances((first_row..foot.force.len()).map(|row| (foot.force[row].y, foot.slip[row])), step_s)
-        };
-        let worse = |a: StanceSlip, b: StanceSlip| StanceSlip {
-            excursion: a.excursion.max(b.excursion),
-            path: a.path.max(b.path),
-        };
-        self.feet.iter().flat_map(of_foot).reduce(worse)
+        worst_slip(&self.feet, self.grid().step_s, first_row)
     }
+}
+
+/// Largest slip of all stances of both feet that begin and end after a row, of rows that are `step_s` apart.
+pub(in crate::simulation) fn worst_slip(feet: &[FootRecord; 2], step_s: f64, first_row: usize) -> Option<StanceSlip> {
+    let of_foot = |foot: &FootRecord| {
+        stances((first_row..foot.force.len()).map(|row| (foot.force[row].y, foot.slip[row])), step_s)
+    };
+    let worse =
+        |a: StanceSlip, b: StanceSlip| StanceSlip { excursion: a.excursion.max(b.excursion), path: a.path.max(b.path) };
+    feet.iter().flat_map(of_foot).reduce(worse)
 }
 
 /// Slip during a stance.

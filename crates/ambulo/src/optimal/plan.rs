@@ -1,0 +1,236 @@
+//! Optimal walks of figures, found from shipped solutions where there are some.
+//!
+//! data/walks has the spline coefficients of solved walks of the built-in figures. A walk of the same figure, speed and cadence needs no
+//! solution; a test checks that the files solve the present problem. Made by `cargo xtask walk-plans`.
+
+use super::solution::{Solution, Unbalanced};
+use super::solve::Continuation;
+use super::walk::{STAGES, WalkCosts, WalkProblem, soles_with_width};
+use crate::contact::HuntCrossley;
+use crate::dynamics::CurvedJointError;
+use crate::gait::Walk;
+use crate::model::anthropometry::{Build, BuildError, Human, SegmentTable};
+use crate::model::full_body::full_body;
+use crate::toml_reader::{Source, Table, TomlError};
+
+/// Largest force and moment at the root that count as none [body weights, body weights × leg length].
+pub const NO_ROOT_FORCE: f64 = 1e-4;
+/// Larger forces at the root mean that no walk was found; those between are reported with the walk.
+const LARGEST_ROOT_FORCE: f64 = 1e-3;
+/// Updates of the multipliers after the last stage of a solution that leaves forces at the root.
+const LATER_UPDATES: usize = 10;
+/// Largest difference of speed and cycle at which a plan belongs to a walk.
+const SAME: f64 = 1e-9;
+/// What errors call a plan.
+const DOCUMENT: &str = "plan of a walk";
+
+const FILES: [(SegmentTable, &str); 12] = [
+    (SegmentTable::DeLevaMale, include_str!("../../data/walks/de-leva-male-slow.toml")),
+    (SegmentTable::DeLevaMale, include_str!("../../data/walks/de-leva-male-free.toml")),
+    (SegmentTable::DeLevaMale, include_str!("../../data/walks/de-leva-male-fast.toml")),
+    (SegmentTable::DeLevaFemale, include_str!("../../data/walks/de-leva-female-slow.toml")),
+    (SegmentTable::DeLevaFemale, include_str!("../../data/walks/de-leva-female-free.toml")),
+    (SegmentTable::DeLevaFemale, include_str!("../../data/walks/de-leva-female-fast.toml")),
+    (SegmentTable::DempsterWinter, include_str!("../../data/walks/dempster-winter-slow.toml")),
+    (SegmentTable::DempsterWinter, include_str!("../../data/walks/dempster-winter-free.toml")),
+    (SegmentTable::DempsterWinter, include_str!("../../data/walks/dempster-winter-fast.toml")),
+    (SegmentTable::Faure1997, include_str!("../../data/walks/faure-1997-slow.toml")),
+    (SegmentTable::Faure1997, include_str!("../../data/walks/faure-1997-free.toml")),
+    (SegmentTable::Faure1997, include_str!("../../data/walks/faure-1997-fast.toml")),
+];
+
+/// A solved walk: spline coefficients of a figure's walk at a speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WalkPlan {
+    /// The figure.
+    pub build: Build,
+    /// Speed V/√(gL).
+    pub speed: f64,
+    /// Duration of a cycle [s].
+    pub cycle_s: f64,
+    /// Names of the figure's coordinates.
+    pub coordinates: Vec<String>,
+    /// Coefficients, all coordinates of one knot after another [rad or m].
+    pub coefficients: Vec<f64>,
+}
+
+/// An optimal walk of a figure.
+#[derive(Debug, Clone)]
+pub struct OptimalWalk {
+    /// The figure.
+    pub human: Human,
+    /// The problem that was solved.
+    pub problem: WalkProblem,
+    /// Its solution.
+    pub solution: Solution,
+}
+
+/// Why a figure cannot walk by optimal motion.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OptimalWalkError {
+    /// The figure could not be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A built-in file is wrong.
+    #[error(transparent)]
+    BuiltIn(#[from] TomlError),
+    /// The figure has joints that are not hinges or slides.
+    #[error(transparent)]
+    Joint(#[from] CurvedJointError),
+    /// No motion without outside forces was found.
+    #[error(
+        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force from outside: {worst}"
+    )]
+    NotConverged {
+        /// Speed [m/s].
+        speed: f64,
+        /// Cadence [steps/min].
+        cadence: f64,
+        /// Leg length [m].
+        leg_length: f64,
+        /// The largest force at the root.
+        worst: Unbalanced,
+    },
+}
+
+impl OptimalWalk {
+    /// Finds the walk of a figure in three dimensions on soft shoes: a built-in plan where one is for this walk, else a solution from the laws.
+    ///
+    /// # Errors
+    /// A figure that cannot be built; no motion without outside forces.
+    pub fn find(build: &Build, walk: &Walk) -> Result<OptimalWalk, OptimalWalkError> {
+        OptimalWalk::find_with(build, walk, &STAGES, WalkPlan::of(build, walk)?.as_ref())
+    }
+
+    /// As [`OptimalWalk::find`], with given stages of the solution and from a given plan.
+    ///
+    /// # Errors
+    /// As [`OptimalWalk::find`].
+    pub fn find_with(
+        build: &Build,
+        walk: &Walk,
+        stages: &[Continuation],
+        plan: Option<&WalkPlan>,
+    ) -> Result<OptimalWalk, OptimalWalkError> {
+        let human = full_body(build)?;
+        let soles = soles_with_width(&human);
+        let problem = WalkProblem::new(&human, &soles, HuntCrossley::SOFT_SHOES, walk, &WalkCosts::default())?;
+        if let Some(plan) = plan {
+            let solution = problem.problem.at(&plan.coefficients)?;
+            if solution.unbalanced(LARGEST_ROOT_FORCE).is_none() {
+                return Ok(OptimalWalk { human, problem, solution });
+            }
+        }
+        let mut solution = problem.solve(stages)?;
+        if let (Some(last), Some(_)) = (stages.last(), solution.unbalanced(NO_ROOT_FORCE)) {
+            let longer = Continuation { updates: LATER_UPDATES, ..*last };
+            solution = problem.problem.solve(solution.unknowns(), &[longer])?;
+        }
+        match solution.unbalanced(LARGEST_ROOT_FORCE) {
+            None => Ok(OptimalWalk { human, problem, solution }),
+            Some(worst) => Err(OptimalWalkError::NotConverged {
+                speed: walk.speed(),
+                cadence: 120.0 / walk.cycle_s(),
+                leg_length: human.dimensions.leg_length,
+                worst,
+            }),
+        }
+    }
+}
+
+impl WalkPlan {
+    /// The built-in plan for this walk of a figure, if there is one.
+    ///
+    /// # Errors
+    /// None of the built-in plans; a test reads them.
+    pub fn of(build: &Build, walk: &Walk) -> Result<Option<WalkPlan>, TomlError> {
+        if !walk.gait().follows_people() {
+            return Ok(None);
+        }
+        let is_for = |plan: &WalkPlan| {
+            plan.build == *build
+                && (plan.speed - walk.dimensionless_speed()).abs() < SAME
+                && (plan.cycle_s - walk.cycle_s()).abs() < SAME
+        };
+        Ok(WalkPlan::built_in(build.table)?.into_iter().find(is_for))
+    }
+
+    /// The built-in plans of a figure.
+    ///
+    /// # Errors
+    /// None of the built-in plans; a test reads them.
+    pub fn built_in(table: SegmentTable) -> Result<Vec<WalkPlan>, TomlError> {
+        FILES.iter().filter(|(of, _)| *of == table).map(|(_, text)| WalkPlan::from_toml(text)).collect()
+    }
+
+    /// The plan of a solved walk.
+    #[must_use]
+    pub fn new(found: &OptimalWalk, walk: &Walk) -> WalkPlan {
+        WalkPlan {
+            build: found.human.build,
+            speed: walk.dimensionless_speed(),
+            cycle_s: walk.cycle_s(),
+            coordinates: found.human.model.coordinates().iter().map(|coordinate| coordinate.name.clone()).collect(),
+            coefficients: found.solution.unknowns().to_vec(),
+        }
+    }
+
+    /// Reads a plan.
+    ///
+    /// # Errors
+    /// Anything that [`WalkPlan::to_toml`] does not write, with line and key.
+    pub fn from_toml(text: &str) -> Result<WalkPlan, TomlError> {
+        let source = Source::new(text, DOCUMENT);
+        let parsed = source.parse()?;
+        let root = Table::root(&source, &parsed);
+        root.only(&[&["figure", "mass", "height", "speed", "cycle_s", "coordinates", "coefficients"]])?;
+        let tables = SegmentTable::ALL.map(|table| (table.name(), table));
+        let build = Build {
+            table: root.need("figure", "the table of segments")?.choice(&tables)?,
+            mass: root.need("mass", "the body mass [kg]")?.above_zero()?,
+            height: root.need("height", "the stature [m]")?.above_zero()?,
+            toe_joint: true,
+        };
+        let names = root.need("coordinates", "names of the coordinates")?;
+        let coordinates =
+            names.list("a list of names")?.iter().map(|name| name.filled_text()).collect::<Result<Vec<_>, _>>()?;
+        let mut coefficients = Vec::new();
+        let expected = "one list of numbers per knot, with a number for each coordinate";
+        for row in root.need("coefficients", "the coefficients of the splines")?.list(expected)? {
+            let numbers = row.list(expected)?;
+            if numbers.len() != coordinates.len() {
+                return Err(row.wrong(expected));
+            }
+            for number in numbers {
+                coefficients.push(number.number()?);
+            }
+        }
+        Ok(WalkPlan {
+            build,
+            speed: root.need("speed", "the dimensionless speed")?.above_zero()?,
+            cycle_s: root.need("cycle_s", "the duration of a cycle [s]")?.above_zero()?,
+            coordinates,
+            coefficients,
+        })
+    }
+
+    /// The plan as a file.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let Build { table, mass, height, .. } = self.build;
+        let names: Vec<String> = self.coordinates.iter().map(|name| format!("\"{name}\"")).collect();
+        let row = |row: &[f64]| {
+            let numbers: Vec<String> = row.iter().map(|number| format!("{number:.10}")).collect();
+            format!("  [{}],\n", numbers.join(", "))
+        };
+        let rows: String = self.coefficients.chunks(names.len().max(1)).map(row).collect();
+        format!(
+            "# Optimal walk of a built-in figure: spline coefficients of half a cycle [rad or m], docs/OPTIMAL.md. Made by `cargo xtask walk-plans`.\nfigure = \"{}\"\nmass = {mass}\nheight = {height}\nspeed = {}\ncycle_s = {}\ncoordinates = [{}]\ncoefficients = [\n{rows}]\n",
+            table.name(),
+            self.speed,
+            self.cycle_s,
+            names.join(", ")
+        )
+    }
+}
