@@ -304,7 +304,9 @@ fn converted_forces_agree_with_their_recording() {
         summary["findings"].as_array().unwrap().iter().map(|f| f["code"].as_str().unwrap()).collect();
     assert!(codes.contains(&"loads.world_axes"), "{codes:?}");
     let columns = "hip_flexion_r_moment,knee_angle_r_moment,ankle_angle_r_moment,hip_adduction_r_moment";
-    bench.run(&["compare", "table/moments.sto", "plates/moments.sto", "--columns", columns, "--limit", "0.5"]).done();
+    // A table is zero where a foot carries less than 20 N. At the hip, 0.9 m higher, that is at most 18 N.m in the frame after a foot off, one of
+    // 109 frames: 1.7 N.m rms.
+    bench.run(&["compare", "table/moments.sto", "plates/moments.sto", "--columns", columns, "--limit", "0.6"]).done();
 }
 
 #[test]

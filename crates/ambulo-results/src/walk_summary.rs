@@ -14,7 +14,7 @@ pub struct WalkSummary {
     pub gait: String,
     /// Style of the joint curves: `knots` or `1997`.
     pub style: String,
-    /// Mode: `corrected` or `paper`.
+    /// Mode: `optimal`, `corrected` or `paper`.
     pub mode: String,
     /// Name of the table of segments.
     pub figure: String,
