@@ -57,7 +57,7 @@ environment:
 const OWN: [&str; 6] = ["check", "house", "build-time", "measured", "mutants", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 16] = [
+const MEASUREMENTS: [&str; 17] = [
     "bench",
     "bench-markers",
     "bench-simulation",

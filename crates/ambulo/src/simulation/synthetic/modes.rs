@@ -2,9 +2,9 @@
 
 use super::optimal::optimal;
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
-use super::walk::{CorrectionReport, KeptPart, Made, StateRun, SyntheticWalk, steady};
+use super::walk::{CORRECTED_SKIPPED, CorrectionReport, KeptPart, Made, StateRun, SyntheticWalk, steady, timed};
 use crate::findings::{Code, Findings};
-use crate::gait::machine::{StateChange, planned};
+use crate::gait::machine::StateChange;
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
 use crate::simulation::consistent_walk::{
@@ -15,12 +15,8 @@ use crate::simulation::walking::{
 };
 use crate::simulation::{ImpactLaw, StepSettings};
 
-/// Cycles before the corrected walk is steady; it starts with the planned motion. An optimal walk begins with the same phase.
-pub(super) const CORRECTED_SKIPPED: usize = 1;
 /// Largest residual of a consistent walk, rms: force as a share of body weight, moment of body weight times leg length.
 const LARGEST_RESIDUAL: [f64; 2] = [0.01, 0.005];
-/// Longest walk with machines [s].
-const LONGEST_PLAN_S: f64 = 300.0;
 /// Cycles before the paper's walk repeats.
 const PAPER_SKIPPED: usize = 2;
 /// The paper's ground: rigid soles, and a coefficient of friction of 1 (section 4.3).
@@ -86,40 +82,6 @@ fn corrected(
     let recording = changing.simulate(&human, &consistent_settings, settings.step_s(), kept.simulated_s, findings)?;
     let made = Made { recording: &recording, states: kept.states(settings, &walk), correction: first };
     steady(settings, &kept, human, walk, made)
-}
-
-/// The walk of the settings, and the part of its simulation that is kept. Times of changes of pace count from the start of the kept part.
-pub(super) fn timed(
-    settings: &SyntheticWalkSettings<'_>,
-    gait: &Gait,
-    human: &Human,
-    skipped: usize,
-    findings: &mut Findings,
-) -> Result<(Walk, KeptPart), SyntheticError> {
-    let leg_length = human.dimensions.leg_length;
-    if !gait.machines.is_empty() {
-        let walk = Walk::new(gait, leg_length, findings)?;
-        let first = KeptPart::first_row(settings, &walk, skipped);
-        let walk = walk.with_machines_from(first as f64 * settings.step_s());
-        let (walk, kept_s) = planned(walk, (settings.cycles + 1) as f64, LONGEST_PLAN_S, findings)?;
-        let kept = KeptPart::of_duration(settings, first, kept_s);
-        return Ok((walk, kept));
-    }
-    if gait.pace_changes.is_empty() {
-        let walk = Walk::new(gait, leg_length, findings)?;
-        let kept = KeptPart::of_steady(settings, &walk, skipped);
-        return Ok((walk, kept));
-    }
-    let planned = Walk::new(gait, leg_length, &mut Findings::default())?;
-    let first = KeptPart::first_row(settings, &planned, skipped);
-    let later_s = first as f64 * settings.step_s();
-    let mut gait = gait.clone();
-    for change in &mut gait.pace_changes {
-        change.start_s += later_s;
-    }
-    let walk = Walk::new(&gait, leg_length, findings)?;
-    let kept = KeptPart::of_changing(settings, &walk, first);
-    Ok((walk, kept))
 }
 
 /// Reports the change of the gait; warns if residual forces remain.

@@ -1,8 +1,7 @@
 //! The optimal mode: a walk in three dimensions, read from its solution. Nothing is simulated, because the solution has no force from outside.
 
-use super::modes::{CORRECTED_SKIPPED, timed};
 use super::settings::{SyntheticError, SyntheticWalkSettings};
-use super::walk::{CorrectionReport, SyntheticWalk, WalkReport};
+use super::walk::{CORRECTED_SKIPPED, CorrectionReport, SyntheticWalk, WalkReport, timed};
 use crate::findings::Findings;
 use crate::gait::Walk;
 use crate::kinematics::{Trajectory, TrajectoryError};

@@ -1,8 +1,9 @@
 //! The result of a synthesis: the steady part of a simulated walk, and a report on how it was made.
 
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
-use crate::gait::machine::{StateChange, StatePeriod, StateTrace, WalkMachine};
-use crate::gait::{PaceRamp, Style, Walk};
+use crate::findings::Findings;
+use crate::gait::machine::{StateChange, StatePeriod, StateTrace, WalkMachine, planned};
+use crate::gait::{Gait, PaceRamp, Style, Walk};
 use crate::kinematics::Trajectory;
 use crate::model::anthropometry::{Human, SegmentTable};
 use crate::motion::ForceRecording;
@@ -108,6 +109,11 @@ const STANDING_S: f64 = 1.0;
 /// Cycles after the last change that are kept.
 const CYCLES_AFTER_CHANGE: f64 = 2.0;
 
+/// Cycles before the corrected walk is steady; it starts with the planned motion. An optimal walk begins with the same phase.
+pub(super) const CORRECTED_SKIPPED: usize = 1;
+/// Longest walk with machines [s].
+const LONGEST_PLAN_S: f64 = 300.0;
+
 /// The part of a simulation that is kept.
 pub(super) struct KeptPart {
     /// First row of the simulation.
@@ -192,6 +198,40 @@ impl KeptPart {
         let ([first_s, last_s], running) = (self.ends_s(settings), machine.running());
         StateRun { periods: trace.periods(running, first_s, last_s), changes: trace.changes(running, first_s, last_s) }
     }
+}
+
+/// The walk of the settings, and the part of its simulation that is kept. Times of changes of pace count from the start of the kept part.
+pub(super) fn timed(
+    settings: &SyntheticWalkSettings<'_>,
+    gait: &Gait,
+    human: &Human,
+    skipped: usize,
+    findings: &mut Findings,
+) -> Result<(Walk, KeptPart), SyntheticError> {
+    let leg_length = human.dimensions.leg_length;
+    if !gait.machines.is_empty() {
+        let walk = Walk::new(gait, leg_length, findings)?;
+        let first = KeptPart::first_row(settings, &walk, skipped);
+        let walk = walk.with_machines_from(first as f64 * settings.step_s());
+        let (walk, kept_s) = planned(walk, (settings.cycles + 1) as f64, LONGEST_PLAN_S, findings)?;
+        let kept = KeptPart::of_duration(settings, first, kept_s);
+        return Ok((walk, kept));
+    }
+    if gait.pace_changes.is_empty() {
+        let walk = Walk::new(gait, leg_length, findings)?;
+        let kept = KeptPart::of_steady(settings, &walk, skipped);
+        return Ok((walk, kept));
+    }
+    let planned = Walk::new(gait, leg_length, &mut Findings::default())?;
+    let first = KeptPart::first_row(settings, &planned, skipped);
+    let later_s = first as f64 * settings.step_s();
+    let mut gait = gait.clone();
+    for change in &mut gait.pace_changes {
+        change.start_s += later_s;
+    }
+    let walk = Walk::new(&gait, leg_length, findings)?;
+    let kept = KeptPart::of_changing(settings, &walk, first);
+    Ok((walk, kept))
 }
 
 /// The states of the machines of a kept part: machine by machine, and in order of time.
