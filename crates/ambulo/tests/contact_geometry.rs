@@ -362,6 +362,49 @@ fn crossed_edges_touch_in_the_point_where_they_pass() {
 }
 
 #[test]
+fn a_point_is_named_by_the_edges_or_the_face_that_touch() {
+    let one = |first: &Shape, first_pose: Pose, second: &Shape, second_pose: Pose| {
+        let points = touching(first, &first_pose, second, &second_pose, 0.01);
+        points.first().unwrap_or_else(|| panic!("{first_pose:?} {second_pose:?}")).feature
+    };
+    let quarter = |axis: Vec3, turns: f64| common::turn(axis, turns * std::f64::consts::FRAC_PI_2);
+    // Bars that cross on their edges, each turned about its own axis: same place, other edges.
+    let bar = Shape::cuboid(Vec3::new(0.5, 0.1, 0.1)).unwrap();
+    let lower = |turns: f64| Pose { rotation: quarter(Vec3::x(), turns + 0.5), translation: Vec3::zeros() };
+    let upper = |turns: f64| {
+        let translation = Vec3::new(0.1, 0.2 * 2.0_f64.sqrt() - 0.001, 0.2);
+        Pose { rotation: quarter(Vec3::y(), 1.0) * quarter(Vec3::x(), turns + 0.5), translation }
+    };
+    let of_edges = one(&bar, upper(0.0), &bar, lower(0.0));
+    assert_ne!(of_edges, one(&bar, upper(1.0), &bar, lower(0.0)));
+    assert_ne!(of_edges, one(&bar, upper(0.0), &bar, lower(1.0)));
+    // A small block on another face of a large one, flat (the face of the first counts) or tilted (that of the large one).
+    let (large, small) = (Shape::cuboid(Vec3::repeat(0.5)).unwrap(), Shape::cuboid(Vec3::repeat(0.1)).unwrap());
+    let turned = |turns: f64| Pose { rotation: quarter(Vec3::z(), turns), translation: Vec3::zeros() };
+    let flat = Pose::at(Vec3::new(0.0, 0.599, 0.0));
+    let tilted = Pose { rotation: common::turn(Vec3::new(1.0, 0.0, 0.7), 0.02), ..flat };
+    assert_ne!(one(&large, turned(0.0), &small, flat), one(&large, turned(1.0), &small, flat));
+    assert_ne!(one(&small, tilted, &large, turned(0.0)), one(&small, tilted, &large, turned(1.0)));
+}
+
+#[test]
+fn a_ball_about_a_corner_of_a_solid_overlaps_by_its_radius() {
+    let radius = 0.1;
+    let ball = Shape::sphere(radius).unwrap();
+    let mut r = Random::new(5);
+    for _ in 0..300 {
+        // Every corner of a tetrahedron is a corner of its hull.
+        let corners: [Vec3; 4] = std::array::from_fn(|_| r.vector(1.0));
+        let Ok(solid) = Shape::convex(&corners) else { continue };
+        for corner in corners {
+            let points = touching(&ball, &Pose::at(corner), &solid, &Pose::IDENTITY, 0.01);
+            assert!((lowest(&points) + radius).abs() < 1e-9, "{corner:?}: {points:?}");
+            assert!(points.iter().all(|p| (p.normal.norm() - 1.0).abs() < ROUNDING), "{points:?}");
+        }
+    }
+}
+
+#[test]
 fn a_hull_with_six_sided_faces_stands_on_all_six_corners() {
     let ring = |y: f64| {
         (0..6)
@@ -485,6 +528,38 @@ fn the_peak_of_a_tent_carries_a_plate() {
     let points = touching(&ball, &Pose::at(Vec3::new(0.0, 1.099, 0.0)), &tent(), &Pose::IDENTITY, 0.01);
     assert_eq!(points.len(), 1, "{points:?}");
     assert!((points[0].gap + 0.001).abs() < ROUNDING, "{points:?}");
+}
+
+#[test]
+fn a_peak_at_any_inner_point_of_the_grid_carries_a_plate() {
+    let plate = Shape::cuboid(Vec3::new(0.2, 0.05, 0.2)).unwrap();
+    let (rows, columns) = (4, 5);
+    for (i, j) in (1..rows - 1).flat_map(|i| (1..columns - 1).map(move |j| (i, j))) {
+        let mut heights = vec![0.0; rows * columns];
+        heights[i * columns + j] = 1.0;
+        // A grid point every metre.
+        let field = Shape::height_field(rows, columns, &heights, 4.0, 3.0).unwrap();
+        let peak = Vec3::new(j as f64 - 2.0, 1.0, i as f64 - 1.5);
+        let pose = Pose::at(peak + Vec3::new(0.05, 0.051, 0.07));
+        let points = touching(&plate, &pose, &field, &Pose::IDENTITY, 0.01);
+        assert_eq!(points.len(), 1, "{i} {j}: {points:?}");
+        assert!((points[0].gap - 0.001).abs() < ROUNDING, "{i} {j}: {points:?}");
+        assert!((points[0].point - peak - Vec3::y() * 0.0005).norm() < ROUNDING, "{i} {j}: {points:?}");
+    }
+}
+
+#[test]
+fn the_length_of_a_capsule_touches_a_ridge_that_is_not_below_it() {
+    let (radius, gap, reach) = (0.1, 0.04, 0.05);
+    // Perpendicular to the ridge and to the capsule, which rises to the ridge at 30 degrees and ends just past the nearest point.
+    let (along, normal) = (Vec3::new(0.75_f64.sqrt(), 0.5, 0.0), Vec3::new(-0.5, 0.75_f64.sqrt(), 0.0));
+    let rod = Shape::capsule(along * -0.3, along * 0.01, radius).unwrap();
+    let nearest = Vec3::new(0.0, 1.0, 0.3);
+    let points = touching(&rod, &Pose::at(nearest + normal * (radius + gap)), &roof(), &Pose::IDENTITY, reach);
+    let of_length = points.iter().filter(|p| (p.gap - gap).abs() < ROUNDING && (p.normal - normal).norm() < ROUNDING);
+    let places: Vec<Vec3> = of_length.map(|p| p.point).collect();
+    assert_eq!(places.len(), 1, "{points:?}");
+    assert!((places[0] - nearest - normal * (gap / 2.0)).norm() < ROUNDING, "{points:?}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ pub(super) struct Module {
     pub(super) quick: &'static [&'static str],
     /// Tests that what survives the quick ones is run with.
     pub(super) wide: &'static [&'static str],
-    /// Whether the wide tests include those inside the library.
+    /// Whether the wide tests include those inside the library; their names begin with that of the module.
     pub(super) unit: bool,
 }
 
@@ -87,7 +87,7 @@ pub(super) const MODULES: [Module; 8] = [
         files: "crates/ambulo/src/contact/**",
         sample: Some(40),
         quick: &["contact_geometry", "simulation_closed_form", "simulation_contact"],
-        wide: &["simulation_", "scene_", "walking", "consistent_walk"],
+        wide: &["contact::", "simulation_", "scene_", "walking", "consistent_walk"],
         unit: true,
     },
     Module {
@@ -112,7 +112,16 @@ pub(super) const MODULES: [Module; 8] = [
             "marker_",
             "opensim_parity",
         ],
-        wide: &["analysis", "laboratory", "recordings", "skeleton", "plug_in_gait", "anatomy", "splines"],
+        wide: &[
+            "kinematics::",
+            "analysis",
+            "laboratory",
+            "recordings",
+            "skeleton",
+            "plug_in_gait",
+            "anatomy",
+            "splines",
+        ],
         unit: true,
     },
     Module {
