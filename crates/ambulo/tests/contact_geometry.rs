@@ -388,17 +388,18 @@ fn a_point_is_named_by_the_edges_or_the_face_that_touch() {
 }
 
 #[test]
-fn a_ball_about_a_corner_of_a_solid_overlaps_by_its_radius() {
+fn a_ball_about_a_corner_or_an_edge_of_a_solid_overlaps_by_its_radius() {
     let radius = 0.1;
     let ball = Shape::sphere(radius).unwrap();
     let mut r = Random::new(5);
     for _ in 0..300 {
-        // Every corner of a tetrahedron is a corner of its hull.
+        // Every corner of a tetrahedron is a corner of its hull, every pair of corners an edge.
         let corners: [Vec3; 4] = std::array::from_fn(|_| r.vector(1.0));
         let Ok(solid) = Shape::convex(&corners) else { continue };
-        for corner in corners {
-            let points = touching(&ball, &Pose::at(corner), &solid, &Pose::IDENTITY, 0.01);
-            assert!((lowest(&points) + radius).abs() < 1e-9, "{corner:?}: {points:?}");
+        let pairs = (0..4).flat_map(|i| (i..4).map(move |k| [i, k]));
+        for center in pairs.map(|[i, k]| corners[i] + (corners[k] - corners[i]) * 0.5) {
+            let points = touching(&ball, &Pose::at(center), &solid, &Pose::IDENTITY, 0.01);
+            assert!((lowest(&points) + radius).abs() < 1e-9, "{center:?}: {points:?}");
             assert!(points.iter().all(|p| (p.normal.norm() - 1.0).abs() < ROUNDING), "{points:?}");
         }
     }
