@@ -107,7 +107,7 @@ fn separation_from_point(solid: &Polytope, point: Vec3) -> Separation {
             best = separation;
         }
     }
-    if best.distance <= 0.0 {
+    if best.distance <= rounding(solid) {
         return best;
     }
     let to_edge = |number: usize| {
@@ -117,13 +117,19 @@ fn separation_from_point(solid: &Polytope, point: Vec3) -> Separation {
     nearest_of((0..solid.net.edges.len()).filter_map(to_edge)).unwrap_or(best)
 }
 
+/// What is above a plane by less [m] may as well lie on an edge, so that the way from the edge has no direction: a few roundings of the
+/// coordinates of the solid's corners.
+fn rounding(solid: &Polytope) -> f64 {
+    16.0 * f64::EPSILON * solid.size_from(Vec3::zeros())
+}
+
 fn nearest_of(separations: impl Iterator<Item = Separation>) -> Option<Separation> {
     separations.min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
 fn separation_from_segment(solid: &Polytope, segment: Segment) -> Separation {
     let inner = deepest_axis(solid, segment);
-    if inner.distance <= 0.0 {
+    if inner.distance <= rounding(solid) {
         return inner;
     }
     let to_edge = |number: usize| {

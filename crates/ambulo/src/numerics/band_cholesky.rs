@@ -103,33 +103,32 @@ impl BandFactor {
 }
 
 impl BandFactor {
-    /// The entries of A⁻¹ inside the band of A.
+    /// The entries of A⁻¹ inside the band of A, in the memory of L.
     ///
     /// From Z L = L⁻ᵀ, row by row from the last: Z_ij = (δ_ij / L_jj - Σ_k Z_ik L_kj) / L_jj for j <= i, k = j+1 .. j+w (Takahashi,
-    /// Fagan, Chen 1973; unverified). Cost: rows times w².
+    /// Fagan, Chen 1973; unverified). Column j of Z needs column j of L and later columns of Z. Cost: rows times w².
     #[must_use]
-    pub fn inverse_in_band(&self) -> BandMatrix {
-        let BandMatrix { size, width: w, rows } = &self.0;
-        let (stride, mut inverse) = (w + 1, BandMatrix::zeros(*size, *w));
-        let mut column = vec![0.0; *w];
+    pub fn inverse_in_band(self) -> BandMatrix {
+        let BandFactor(mut matrix) = self;
+        let (size, w) = (matrix.size, matrix.width);
+        let mut column = vec![0.0; w];
         // Column j of Z from row j to j + w, by columns of L from the last to the first.
-        for j in (0..*size).rev() {
-            let reach = (*size - 1 - j).min(*w);
+        for j in (0..size).rev() {
+            let reach = (size - 1 - j).min(w);
             for (k, l) in column[..reach].iter_mut().enumerate() {
-                let row = j + 1 + k;
-                *l = rows[row * stride + w + j - row];
+                *l = matrix.rows[matrix.at(j + 1 + k, j)];
             }
-            let pivot = rows[j * stride + w];
+            let diagonal = matrix.at(j, j);
+            let pivot = matrix.rows[diagonal];
             for i in (j + 1..=j + reach).rev() {
-                let sum: f64 = (0..reach).map(|k| inverse.value(i, j + 1 + k) * column[k]).sum();
-                let place = inverse.at(i, j);
-                inverse.rows[place] = -sum / pivot;
+                let sum: f64 = (0..reach).map(|k| matrix.value(i, j + 1 + k) * column[k]).sum();
+                let place = matrix.at(i, j);
+                matrix.rows[place] = -sum / pivot;
             }
-            let sum: f64 = (0..reach).map(|k| inverse.value(j + 1 + k, j) * column[k]).sum();
-            let place = inverse.at(j, j);
-            inverse.rows[place] = (1.0 / pivot - sum) / pivot;
+            let sum: f64 = (0..reach).map(|k| matrix.value(j + 1 + k, j) * column[k]).sum();
+            matrix.rows[diagonal] = (1.0 / pivot - sum) / pivot;
         }
-        inverse
+        matrix
     }
 }
 

@@ -22,7 +22,7 @@ use super::expected::Expectation;
 use super::gaussian_filter::GaussianFilter;
 use super::loads::{FootLoads, loads};
 use super::normal_equations::NormalEquations;
-use super::samples::{EstimateInputs, StanceSamples};
+use super::samples::EstimateInputs;
 use super::stance_curves::StanceCurves;
 use super::unknowns::Unknowns;
 use crate::model::BySide;
@@ -37,11 +37,7 @@ pub(super) fn estimate(inputs: &EstimateInputs<'_>, curves: &StanceCurves) -> Re
         stances.iter().map(|stance| Expectation::new(stance, stances, curves, parameters, body_scale)).collect();
     let unknowns = Unknowns::new(stances, body_scale, parameters);
     let filter = GaussianFilter::new(parameters.bandwidth_hz, grid);
-    let samples: Vec<StanceSamples> = expectations
-        .iter()
-        .zip(&unknowns.curves)
-        .map(|(expectation, curves)| StanceSamples::new(inputs, expectation, curves, filter.stride))
-        .collect();
-    let solution = NormalEquations { inputs, unknowns: &unknowns, samples: &samples, filter: &filter }.solve()?;
+    let solution =
+        NormalEquations { inputs, unknowns: &unknowns, expectations: &expectations, filter: &filter }.solve()?;
     Ok(BySide::from_fn(|side| loads(side, inputs, &expectations, &unknowns, &solution)))
 }

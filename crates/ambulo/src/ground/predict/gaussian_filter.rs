@@ -26,9 +26,14 @@ impl GaussianFilter {
         GaussianFilter { stride, weights }
     }
 
-    /// Half of its length, plus one frame [s].
+    /// Half of its length, plus one frame.
+    pub(super) fn reach_frames(&self) -> usize {
+        self.stride * (self.weights.len() - 1) + 1
+    }
+
+    /// The same [s].
     pub(super) fn reach_s(&self, grid: TimeGrid) -> f64 {
-        (self.stride * (self.weights.len() - 1) + 1) as f64 * grid.step_s
+        self.reach_frames() as f64 * grid.step_s
     }
 
     /// Frames around a frame with their coefficients, which sum to one; fewer at the ends of the recording.

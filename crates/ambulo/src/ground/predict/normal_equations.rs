@@ -1,8 +1,9 @@
 //! The normal equations of the estimate, from prior and evidence.
 
 use super::PredictError;
+use super::expected::Expectation;
 use super::gaussian_filter::GaussianFilter;
-use super::samples::{EstimateInputs, StanceSamples};
+use super::samples::{EstimateInputs, StanceSamples, frames_of};
 use super::stances::Stance;
 use super::unknowns::Unknowns;
 use crate::numerics::BandMatrix;
@@ -12,7 +13,7 @@ use crate::spatial::{Vec3, Wrench};
 const OBSERVED_EVERY_S: f64 = 0.04;
 /// Near the ends of the recording, within the length of the filter, noise is larger by this factor.
 const AT_THE_ENDS: f64 = 2.0;
-/// Memory limit for the equations and their inverse [bytes]: ten minutes of walking take 60 MB.
+/// Memory limit for the equations, whose inverse takes their place [bytes]: ten minutes of walking take 30 MB.
 const MOST_BYTES: f64 = 1e9;
 /// Smaller coefficients, as a share of a standard deviation of the noise, are neglected.
 const NEGLIGIBLE: f64 = 1e-4;
@@ -27,8 +28,8 @@ pub(super) struct Solution {
 pub(super) struct NormalEquations<'a> {
     pub(super) inputs: &'a EstimateInputs<'a>,
     pub(super) unknowns: &'a Unknowns,
-    /// One entry per stance, with the stride of the filter.
-    pub(super) samples: &'a [StanceSamples],
+    /// One entry per stance.
+    pub(super) expectations: &'a [Expectation<'a>],
     pub(super) filter: &'a GaussianFilter,
 }
 
@@ -50,7 +51,7 @@ impl NormalEquations<'_> {
         let ranges: Vec<Option<[usize; 2]>> = instants().map(|frame| self.range(grid.time(frame))).collect();
         let width = ranges.iter().flatten().map(|[first, last]| last - first).max().unwrap_or(0);
         let width = width.max(self.unknowns.widest());
-        let bytes = 2.0 * 8.0 * self.unknowns.count as f64 * (width + 1) as f64;
+        let bytes = 8.0 * self.unknowns.count as f64 * (width + 1) as f64;
         if bytes > MOST_BYTES {
             return Err(PredictError::TooLarge { found_mb: bytes / 1e6, most_mb: MOST_BYTES / 1e6 });
         }
@@ -60,11 +61,13 @@ impl NormalEquations<'_> {
         for number in 0..self.unknowns.count {
             matrix.add(number, number, 1.0);
         }
+        let mut samples: Vec<Option<StanceSamples>> = vec![None; self.expectations.len()];
         let mut rows = Rows::default();
         let mut used = Vec::new();
         for (frame, range) in instants().zip(&ranges) {
             let Some([first, last]) = *range else { continue };
-            self.observe(frame, first, last - first + 1, &mut rows);
+            self.sample_near(frame, &mut samples);
+            self.observe(frame, first, last - first + 1, &samples, &mut rows);
             let noise = self.noise(grid.time(frame));
             for ((row, rest), noise) in rows.coefficients.iter().zip(rows.rest).zip(noise) {
                 used.clear();
@@ -99,7 +102,23 @@ impl NormalEquations<'_> {
         nearest.map_or([Vec3::x(), up, Vec3::z()], |s| [s.forward, up, s.right])
     }
 
-    fn observe(&self, frame: usize, first: usize, count: usize, rows: &mut Rows) {
+    /// Samples the stances within the filter around a frame, and forgets the others: a long recording has many.
+    fn sample_near(&self, frame: usize, samples: &mut [Option<StanceSamples>]) {
+        let reach = self.filter.reach_frames();
+        let (from, to) = (frame.saturating_sub(reach), frame + reach);
+        let stances = self.expectations.iter().zip(&self.unknowns.curves);
+        for (samples, (expectation, curves)) in samples.iter_mut().zip(stances) {
+            let frames = frames_of(self.inputs, expectation.stance);
+            if frames.start > to || frames.end <= from {
+                *samples = None;
+            } else if samples.is_none() {
+                *samples = Some(StanceSamples::new(self.inputs, expectation, curves, self.filter.stride));
+            }
+        }
+    }
+
+    /// `samples` has one entry per stance.
+    fn observe(&self, frame: usize, first: usize, count: usize, samples: &[Option<StanceSamples>], rows: &mut Rows) {
         let grid = self.inputs.grid;
         for row in &mut rows.coefficients {
             row.clear();
@@ -109,8 +128,8 @@ impl NormalEquations<'_> {
         let mut rest = Wrench::ZERO;
         for (tap, weight) in self.filter.around(frame, grid.frames) {
             add(&mut rest, &self.inputs.about_mass_center(tap), weight);
-            for (samples, curves) in self.samples.iter().zip(&self.unknowns.curves) {
-                let Some(sample) = samples.at(tap) else { continue };
+            for (samples, curves) in samples.iter().zip(&self.unknowns.curves) {
+                let Some(sample) = samples.as_ref().and_then(|samples| samples.at(tap)) else { continue };
                 add(&mut rest, &sample.expected, -weight);
                 for (part, curve) in sample.parts.iter().zip(curves) {
                     let slopes = along(&part.unit, &axes).map(|x| x * part.deviation * weight);
