@@ -8,6 +8,8 @@ use ambulo::ground::predict::PredictError;
 use ambulo::kinematics::TrajectoryError;
 use ambulo::motion::MotionError;
 use ambulo::motion::skeleton::SkeletonError;
+use ambulo::optimal::OptimalWalkError;
+use ambulo::simulation::synthetic::SyntheticError;
 use ambulo::study::StudyError;
 use ambulo_results::ResultsError;
 use std::error::Error;
@@ -52,8 +54,14 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
         cause.downcast_ref().and_then(of_skeleton),
         cause.downcast_ref().and_then(of_comparison),
         cause.downcast_ref().and_then(of_results),
+        cause.downcast_ref().and_then(of_walk),
     ];
     others.into_iter().flatten().next()
+}
+
+fn of_walk(error: &SyntheticError) -> Option<&'static str> {
+    matches!(error, SyntheticError::Optimal(OptimalWalkError::NotConverged { .. } | OptimalWalkError::Ripple { .. }))
+        .then_some("with one of `--speed`, `--cadence` and `--step-length` the others are as in people; `--planar` walks in the sagittal plane")
 }
 
 fn of_study(error: &StudyError) -> Option<&'static str> {

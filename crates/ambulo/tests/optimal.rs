@@ -260,6 +260,8 @@ fn shipped_plans_solve_the_present_problem() {
         let root = found.solution.progress[0].root.1;
         println!("{} {}: {root:.1e}", build.table, walk.name());
         assert!(root < 2.0 * NO_ROOT_FORCE, "{} {}: {root:.1e}", build.table, walk.name());
+        let between = found.solution.root_forces(10).unwrap().0;
+        assert!(between < 4e-3, "{} {}: {between:.1e} between the instants", build.table, walk.name());
         let names: Vec<&str> = found.human.model.coordinates().iter().map(|c| c.name.as_str()).collect();
         assert_eq!(plan.coordinates, names);
         let text = plan.to_toml();

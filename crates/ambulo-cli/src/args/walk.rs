@@ -38,8 +38,8 @@ Modes: `optimal` finds a walk in three dimensions on soft shoes that is near the
 (docs/OPTIMAL.md); the usual figures at slow, free and fast speed are solved beforehand, others take some seconds. `corrected` (or --planar)
 walks in the sagittal plane: it changes the gait by a few degrees until it has no residual forces, and simulates it on soft shoes. `paper`
 drives the joints with the unchanged curves, holds the trunk upright and has rigid soles, as Faure, Debunne, Cani and Multon did in 1997.
-`optimal` and `corrected` take gaits whose sides do the same half a cycle apart, `optimal` only those of constant pace; a gait file whose
-sides differ, or whose joints machines drive, is walked in the mode `paper`. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
+`optimal` and `corrected` take gaits whose sides do the same half a cycle apart, `optimal` only those with the curves of people and a
+constant pace; a gait file whose sides differ, or whose joints machines drive, is walked in the mode `paper`. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
 step with straight knees; without --style they use style 1997 in the mode
 `paper` and style knots in the mode `corrected`. If no small change makes a gait dynamically consistent, a warning says so.
 

@@ -17,6 +17,11 @@ use crate::toml_reader::{Source, Table, TomlError};
 pub const NO_ROOT_FORCE: f64 = 1e-4;
 /// Larger forces at the root mean that no walk was found; those between are reported with the walk.
 const LARGEST_ROOT_FORCE: f64 = 1e-3;
+/// Instants per knot interval at which the forces at the root between the instants of the problem are judged, and their largest root mean
+/// square [body weights, body weights × leg length]. Walks of people leave at most 0.003 (docs/measured/OPTIMAL_WALK.md); a body that hops
+/// between the instants leaves more.
+const BETWEEN: usize = 10;
+const LARGEST_BETWEEN: f64 = 0.01;
 /// Updates of the multipliers after the last stage of a solution that leaves forces at the root.
 const LATER_UPDATES: usize = 10;
 /// Largest difference of speed and cycle at which a plan belongs to a walk.
@@ -92,6 +97,22 @@ pub enum OptimalWalkError {
         /// The largest force at the root.
         worst: Unbalanced,
     },
+    /// The motion needs forces from outside between the instants at which it was solved.
+    #[error(
+        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force from outside: between the instants of the solution {:.1} % of body weight remain (rms); expected at most {:.1} %",
+        100.0 * share,
+        100.0 * LARGEST_BETWEEN
+    )]
+    Ripple {
+        /// Speed [m/s].
+        speed: f64,
+        /// Cadence [steps/min].
+        cadence: f64,
+        /// Leg length [m].
+        leg_length: f64,
+        /// Root mean square of the forces at the root [body weights, body weights × leg length].
+        share: f64,
+    },
 }
 
 impl OptimalWalk {
@@ -127,15 +148,15 @@ impl OptimalWalk {
             let longer = Continuation { updates: LATER_UPDATES, ..*last };
             solution = problem.problem.solve(solution.unknowns(), &[longer])?;
         }
-        match solution.unbalanced(LARGEST_ROOT_FORCE) {
-            None => Ok(OptimalWalk { human, problem, solution }),
-            Some(worst) => Err(OptimalWalkError::NotConverged {
-                speed: walk.speed(),
-                cadence: 120.0 / walk.cycle_s(),
-                leg_length: human.dimensions.leg_length,
-                worst,
-            }),
+        let (speed, cadence, leg_length) = (walk.speed(), 120.0 / walk.cycle_s(), human.dimensions.leg_length);
+        if let Some(worst) = solution.unbalanced(LARGEST_ROOT_FORCE) {
+            return Err(OptimalWalkError::NotConverged { speed, cadence, leg_length, worst });
         }
+        let (share, _) = solution.root_forces(BETWEEN)?;
+        if share > LARGEST_BETWEEN {
+            return Err(OptimalWalkError::Ripple { speed, cadence, leg_length, share });
+        }
+        Ok(OptimalWalk { human, problem, solution })
     }
 }
 

@@ -27,6 +27,9 @@ pub(super) fn optimal(
     if !(walk.is_symmetric() && walk.is_steady()) {
         return Err(SyntheticError::Changing { gait: settings.gait.name.clone() });
     }
+    if !walk.gait().follows_people() {
+        return Err(SyntheticError::NotOfPeople { gait: settings.gait.name.clone() });
+    }
     if !settings.build.toe_joint {
         return Err(SyntheticError::NoToeJoint);
     }

@@ -131,6 +131,14 @@ pub enum SyntheticError {
         /// Name of the gait.
         gait: String,
     },
+    /// Optimal walks follow the forces of people, which belong to their joint curves.
+    #[error(
+        "the gait `{gait}`: found curves, joints or steps that are changed; expected the curves of people (style knots), because an optimal walk also follows their forces. hint: use the mode `corrected`"
+    )]
+    NotOfPeople {
+        /// Name of the gait.
+        gait: String,
+    },
     /// Figures in three dimensions have toe joints.
     #[error(
         "found a figure without toe joints; expected toe joints, because the figure in three dimensions has them. hint: use the mode `corrected` or `paper`"
