@@ -145,6 +145,13 @@ fn gaits_take_the_mode_that_can_compute_them() {
     assert_eq!(mode(&|_, _| ()), SyntheticMode::Optimal);
     assert_eq!(mode(&|gait, _| gait.pace = gait.pace.with(Some(1.0), None, None)), SyntheticMode::Optimal);
     assert_eq!(mode(&|gait, _| gait.pace = gait.pace.with(Some(0.1), None, None)), SyntheticMode::Corrected);
+    let paced = |speed, steps_min: f64| {
+        move |gait: &mut Gait, _: &mut Build| {
+            gait.pace = gait.pace.with(Some(speed), None, Some(steps_min / 60.0));
+        }
+    };
+    assert_eq!(mode(&paced(1.3, 100.0)), SyntheticMode::Optimal);
+    assert_eq!(mode(&paced(1.3, 90.0)), SyntheticMode::Corrected);
     assert_eq!(mode(&|_, build| build.toe_joint = false), SyntheticMode::Corrected);
     assert_eq!(mode(&|gait, _| *gait = Gait::named("standard").unwrap()), SyntheticMode::Corrected);
     let limp = "base = \"free\"\n[[joint]]\njoint = \"right knee\"\nangle_deg = 3\n";

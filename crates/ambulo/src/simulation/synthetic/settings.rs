@@ -9,6 +9,7 @@ use crate::optimal::OptimalWalkError;
 use crate::simulation::consistent_walk::ConsistentWalkError;
 use crate::simulation::walking::WalkingError;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// How a walk is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,13 +24,12 @@ pub enum SyntheticMode {
 
 impl SyntheticMode {
     /// The mode of a gait if none is asked for: optimal for the steady gait of people on a figure with toe joints, in the range of walking
-    /// speeds; corrected for another gait whose sides do the same half a cycle apart; else the paper's.
+    /// speeds and with steps near those that people prefer; corrected for another gait whose sides do the same half a cycle apart; else the
+    /// paper's.
     #[must_use]
     pub fn of(gait: &Gait, build: &Build, leg_length: f64) -> SyntheticMode {
-        let speed = Walk::new(gait, leg_length, &mut Findings::default()).map(|walk| walk.speed());
-        let [slowest, fastest] = walking_speeds(leg_length);
-        let is_walking = speed.is_ok_and(|speed| (slowest..=fastest).contains(&speed));
-        if gait.follows_people() && gait.pace_changes.is_empty() && build.toe_joint && is_walking {
+        let is_optimal = gait.follows_people() && gait.pace_changes.is_empty() && build.toe_joint;
+        if is_optimal && has_usual_steps(gait, leg_length).unwrap_or(false) {
             SyntheticMode::Optimal
         } else if gait.is_symmetric() {
             SyntheticMode::Corrected
@@ -47,6 +47,19 @@ impl SyntheticMode {
             SyntheticMode::Paper => "paper",
         }
     }
+}
+
+/// Steps that optimal walks can have, as shares of the preferred step at the same speed. Figures with longer ones hop; shorter ones were not
+/// tried.
+const STEPS: RangeInclusive<f64> = 0.7..=1.12;
+
+/// Whether speed and steps of a gait are in the range of optimal walks.
+fn has_usual_steps(gait: &Gait, leg_length: f64) -> Result<bool, GaitError> {
+    let walk = Walk::new(gait, leg_length, &mut Findings::default())?;
+    let preferred = Gait { pace: gait.pace.with(Some(walk.speed()), None, None), ..gait.clone() };
+    let preferred = Walk::new(&preferred, leg_length, &mut Findings::default())?;
+    let [slowest, fastest] = walking_speeds(leg_length);
+    Ok((slowest..=fastest).contains(&walk.speed()) && STEPS.contains(&(walk.step_length() / preferred.step_length())))
 }
 
 impl fmt::Display for SyntheticMode {
