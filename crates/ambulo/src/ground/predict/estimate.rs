@@ -14,7 +14,7 @@
 //! normative curves at this walking speed and the smoothness of the curves are weighted by their deviations.
 //!
 //! Cost: the equations are linear in frames; the stances near each frame are searched among all of them, which is noticeable from
-//! some thousand steps on. Memory: 370 bytes per frame of the result, 2.3 kB during the computation (docs/STREAMING.md).
+//! some thousand steps on. Memory: 370 bytes per frame of the result, 1.1 kB during the computation (docs/STREAMING.md).
 //! Not handled: contact of hands and objects. Negative vertical forces are corrected afterwards ([`super::unilateral`]).
 
 use super::PredictError;
