@@ -7,8 +7,8 @@ use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::optimal::{
-    NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Quantity, STAGES, Solution, Span, WalkCosts, WalkPlan, WalkProblem,
-    soles_with_width,
+    NEAR_STAGES, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Quantity, STAGES, Solution, Span, WalkCosts, WalkPlan,
+    WalkProblem, soles_with_width,
 };
 use ambulo::spatial::{Pose, Vec3};
 use std::sync::LazyLock;
@@ -203,10 +203,48 @@ fn position_rate_and_acceleration_belong_together_across_the_seam() {
 #[test]
 fn a_solution_starts_the_next_problem() {
     let Case { problem, solution, .. } = &*PLANAR;
-    let again = problem.problem.solve(solution.unknowns(), &STAGES[5..]).unwrap();
-    let steps = |s: &Solution| s.progress.iter().map(|p| p.steps).sum::<usize>();
+    let again = problem.problem.solve(solution.unknowns(), &NEAR_STAGES[2..]).unwrap();
     assert!(steps(&again) < steps(solution), "{} and {} steps", steps(&again), steps(solution));
     assert!(again.progress.last().unwrap().root.1 < NO_ROOT_FORCE);
+}
+
+fn steps(solution: &Solution) -> usize {
+    solution.progress.iter().map(|p| p.steps).sum()
+}
+
+#[test]
+fn a_known_walk_starts_other_speeds_and_other_figures() {
+    let Case { human, walk, problem, solution } = &*PLANAR;
+    let costs = WalkCosts { knots: 24, ..WalkCosts::default() };
+    let other = |human: &Human, speed: f64| {
+        let mut gait = Gait::named("free").unwrap();
+        gait.pace = gait.pace.with(Some(speed), None, None);
+        let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
+        WalkProblem::new(human, &human.soles, HuntCrossley::SOFT_SHOES, &walk, &costs).unwrap()
+    };
+    let woman = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true }.human().unwrap();
+    let slower = other(human, walk.speed() - 0.1);
+    for next in [&slower, &other(human, walk.speed() + 0.2), &other(&woman, walk.speed())] {
+        let near = next.solve_near(problem, solution.unknowns()).unwrap();
+        let root = near.progress.last().unwrap().root.1;
+        println!("{} steps, root {root:.1e}", steps(&near));
+        assert!(steps(&near) < 60 && 4 * steps(&near) < 3 * steps(solution), "{:?}", near.progress);
+        assert!(root < NO_ROOT_FORCE, "{:?}", near.progress);
+    }
+    let (near, cold) = (slower.solve_near(problem, solution.unknowns()).unwrap(), slower.solve(&STAGES).unwrap());
+    let cost = |s: &Solution| s.progress.last().unwrap().cost;
+    assert!(cost(&near) < 1.1 * cost(&cold), "{} and {}", cost(&near), cost(&cold));
+}
+
+#[test]
+fn a_walk_with_other_joints_or_knots_is_no_start() {
+    let Case { human, walk, problem, solution } = &*PLANAR;
+    let costs = WalkCosts { knots: 12, ..WalkCosts::default() };
+    let coarse = WalkProblem::new(human, &human.soles, HuntCrossley::SOFT_SHOES, walk, &costs).unwrap();
+    let stages = |s: &Solution| s.progress.len();
+    assert_eq!(stages(&coarse.solve_near(problem, solution.unknowns()).unwrap()), STAGES.len());
+    assert_eq!(stages(&problem.solve_near(problem, &solution.unknowns()[1..]).unwrap()), STAGES.len());
+    assert_eq!(stages(&problem.solve_near(problem, solution.unknowns()).unwrap()), NEAR_STAGES.len());
 }
 
 #[test]
@@ -223,7 +261,7 @@ fn an_objective_of_ones_own_is_followed() {
         }
     }
     assert_eq!(own.span, Span::MirroredHalfCycle);
-    let bent = own.solve(solution.unknowns(), &STAGES[5..]).unwrap();
+    let bent = own.solve(solution.unknowns(), &NEAR_STAGES[2..]).unwrap();
     let mean = |s: &Solution| {
         let count = human.model.coordinates().len();
         let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];

@@ -34,8 +34,8 @@ const BUILDS: [Build; 4] = [
 ];
 /// Step of the forward simulation [s].
 const STEP_S: f64 = 5e-4;
-/// Number of stages left out when the solver starts from the solution of a similar problem.
-const NEAR: usize = 5;
+/// Changes of speed from free walking whose solution starts from that of free walking [m/s].
+const SPEED_STEPS: [f64; 6] = [-0.2, -0.1, -0.05, 0.05, 0.1, 0.2];
 
 /// A solved walk.
 struct Found {
@@ -49,7 +49,18 @@ struct Found {
     root: (f64, f64),
     between: (f64, f64),
     drift: Drift,
+    problem: WalkProblem,
     unknowns: Vec<f64>,
+}
+
+/// How a problem was solved from the solution of free walking of the main figure.
+struct Near {
+    name: String,
+    /// CPU time of the solver [s].
+    seconds: f64,
+    steps: usize,
+    /// Largest residual force at the root.
+    root: f64,
 }
 
 /// Everything measured in one run.
@@ -60,8 +71,7 @@ struct Results {
     /// Mean sideways force of people over stance, and number of people.
     sideways: (Vec<f64>, usize),
     man: Vec<Found>,
-    /// Fast walking from the solution of free walking: CPU time [s] and steps of the solver.
-    next_speed: (f64, usize),
+    near: Vec<Near>,
     /// The planar figure at free speed: CPU time [s], steps, largest residual force at the root.
     planar: (f64, usize, f64),
     others: Vec<(Build, Found, Vec<Band>)>,
@@ -86,7 +96,7 @@ fn measure() -> Result<Results, String> {
     for speed in SPEEDS {
         man.push(find(&human, speed, None)?);
     }
-    let near = find(&human, SPEEDS[FREE + 1], Some(&man[FREE].unknowns))?;
+    let near = near(&human, &man[FREE])?;
     let planar_figure = MAN.human().map_err(|e| e.to_string())?;
     let planar = find(&planar_figure, SPEEDS[FREE], None)?;
     let mut others = Vec::new();
@@ -99,7 +109,7 @@ fn measure() -> Result<Results, String> {
         machine: crate::bench::machine(),
         people: curves::people(human.dimensions.leg_length, their_leg)?,
         sideways: sideways::people()?,
-        next_speed: (near.seconds, near.steps),
+        near,
         planar: (planar.seconds, planar.steps, planar.root.1),
         man,
         others,
@@ -110,8 +120,24 @@ fn spatial(build: &Build) -> Result<Human, String> {
     full_body(build).map_err(|e| e.to_string())
 }
 
-/// Solves the walk of a figure at a dimensionless speed, from the first guess or from the unknowns of a similar walk.
-fn find(human: &Human, speed: f64, start: Option<&[f64]>) -> Result<Found, String> {
+/// Other speeds of the figure, and another figure at the same dimensionless speed, from the solution of free walking.
+fn near(human: &Human, free: &Found) -> Result<Vec<Near>, String> {
+    let solved =
+        |name: String, found: Found| Near { name, seconds: found.seconds, steps: found.steps, root: found.root.1 };
+    let mut all = vec![solved("fast walking".to_owned(), find(human, SPEEDS[FREE + 1], Some(free))?)];
+    for step in SPEED_STEPS {
+        let found = find(human, SPEEDS[FREE] * (free.speed + step) / free.speed, Some(free))?;
+        all.push(solved(format!("{step:+.2} m/s"), found));
+    }
+    for build in BUILDS {
+        let found = find(&spatial(&build)?, SPEEDS[FREE], Some(free))?;
+        all.push(solved(crate::walk_bands::build_name(&build), found));
+    }
+    Ok(all)
+}
+
+/// Solves the walk of a figure at a dimensionless speed, from the first guess or from the solution of a similar walk.
+fn find(human: &Human, speed: f64, near: Option<&Found>) -> Result<Found, String> {
     let mut gait = Gait::named("free").map_err(|e| e.to_string())?;
     gait.pace.speed = Some(Speed::Dimensionless(speed));
     let leg_length = human.dimensions.leg_length;
@@ -121,8 +147,8 @@ fn find(human: &Human, speed: f64, start: Option<&[f64]>) -> Result<Found, Strin
     let clock = ThreadTime::now();
     let problem = WalkProblem::new(human, &soles, HuntCrossley::SOFT_SHOES, &walk, &WalkCosts::default())
         .map_err(|e| e.to_string())?;
-    let solution: Solution = match start {
-        Some(unknowns) => problem.problem.solve(unknowns, &STAGES[NEAR..]),
+    let solution: Solution = match near {
+        Some(known) => problem.solve_near(&known.problem, &known.unknowns),
         None => problem.solve(&STAGES),
     }
     .map_err(|e| e.to_string())?;
@@ -137,5 +163,6 @@ fn find(human: &Human, speed: f64, start: Option<&[f64]>) -> Result<Found, Strin
         between: solution.root_forces(10).map_err(|e| e.to_string())?,
         drift: solution.forward(walk.cycle_s(), STEP_S).map_err(|e| e.to_string())?,
         unknowns: solution.unknowns().to_vec(),
+        problem,
     })
 }

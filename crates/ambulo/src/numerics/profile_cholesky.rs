@@ -62,6 +62,12 @@ impl ProfileMatrix {
         }
     }
 
+    /// The diagonal.
+    #[must_use]
+    pub fn diagonal(&self) -> Vec<f64> {
+        (0..self.first.len()).map(|row| self.entries[self.starts[row] + row - self.first[row]]).collect()
+    }
+
     /// Factors the matrix; `None` if it is not positive definite.
     #[must_use]
     pub fn factor(mut self) -> Option<ProfileFactor> {

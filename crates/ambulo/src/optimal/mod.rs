@@ -25,11 +25,13 @@ mod problem;
 mod solution;
 mod solve;
 
+mod near;
 mod plan;
 mod walk;
 
 pub use forward::Drift;
 pub use layout::Span;
+pub use near::NEAR_STAGES;
 pub use objective::{Bound, Quantity, Term};
 pub use plan::{NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, WalkPlan};
 pub use problem::Problem;

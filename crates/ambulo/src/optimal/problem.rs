@@ -282,8 +282,10 @@ impl<'a> Transcription<'a> {
         }
     }
 
-    pub(super) fn clear_multipliers(&mut self) {
-        self.multipliers.fill(0.0);
+    pub(super) fn scale_multipliers(&mut self, factor: f64) {
+        for multiplier in &mut self.multipliers {
+            *multiplier *= factor;
+        }
     }
 
     /// Normal equations at the instants that were evaluated.

@@ -1,6 +1,10 @@
 //! The solution: Levenberg and Marquardt's method inside an augmented Lagrangian.
 //!
-//! A step solves (A + λ diag A) Δ = -b with the normal equations A, b of the residuals; λ falls when the cost does and grows when it does not.
+//! A step solves (A + λ diag A) Δ = -b with the normal equations A, b of the residuals. The damping λ changes with the ratio of the decrease of
+//! the cost to that of its quadratic model, -bᵀΔ + λ Δᵀ diag A Δ (Levenberg 1944, Marquardt 1963; unverified).
+//!
+//! A multiplier m stands for the force m / s² of its constraint, where s is the slack. This force is kept from stage to stage, so m changes
+//! with s².
 
 use super::normal::{NormalEquations, empty_matrix};
 use super::problem::{Problem, Stage, Transcription};
@@ -18,16 +22,20 @@ pub struct Continuation {
     pub creep: f64,
     /// Force at the root that costs one [body weights, body weights × length].
     pub slack: f64,
-    /// Updates of the multipliers.
+    /// Largest number of updates of the multipliers. They end when no force at the root is above the slack.
     pub updates: usize,
     /// Largest number of steps before each update.
     pub steps: usize,
+    /// A step that lowers the cost by less than this share is the last one before an update.
+    pub gain: f64,
 }
 
-/// A relative gain below this ends a stage.
-const SMALL_GAIN: f64 = 1e-4;
 const FIRST_DAMPING: f64 = 1e-3;
-const LEAST_DAMPING: f64 = 1e-9;
+const LEAST_DAMPING: f64 = 1e-7;
+/// Factor of the damping after a step that does not lower the cost.
+const MORE_DAMPING: f64 = 10.0;
+/// Factors of the damping after a step, and the ratios of decrease and predicted decrease above which they are used.
+const LESS_DAMPING: [(f64, f64); 2] = [(0.75, 0.1), (0.25, 0.5)];
 /// Attempts per step to lower the cost.
 const TRIES: usize = 12;
 /// Accuracy of the first height over the ground, a share of the length of the body.
@@ -41,7 +49,7 @@ impl Problem {
     pub fn solve(&self, guess: &[f64], stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
         let mut method = Method::new(self)?;
         let mut unknowns = guess.to_vec();
-        let mut progress = Vec::new();
+        let (mut progress, mut slack) = (Vec::new(), 1.0);
         method.transcription.evaluate(&unknowns);
         for stage in stages {
             method.transcription.stage = Stage {
@@ -52,13 +60,17 @@ impl Problem {
                 },
                 slack: stage.slack,
             };
-            method.transcription.clear_multipliers();
+            method.transcription.scale_multipliers((stage.slack / slack).powi(2));
+            slack = stage.slack;
             let (from, mut steps) = (method.cost(&unknowns), 0);
             for update in 0..=stage.updates {
                 if update > 0 {
+                    if method.transcription.root_forces().1 <= slack {
+                        break;
+                    }
                     method.transcription.update_multipliers();
                 }
-                steps += method.minimise(&mut unknowns, stage.steps);
+                steps += method.minimise(&mut unknowns, stage);
             }
             let (cost, root) = (method.transcription.cost(), method.transcription.root_forces());
             progress.push(Progress { steps, from, cost, root });
@@ -121,18 +133,18 @@ impl<'a> Method<'a> {
     }
 
     /// Improves the unknowns; the number of steps taken. The instants are those of the last unknowns.
-    fn minimise(&mut self, unknowns: &mut [f64], steps: usize) -> usize {
+    fn minimise(&mut self, unknowns: &mut [f64], stage: &Continuation) -> usize {
         self.damping = self.damping.min(FIRST_DAMPING);
         let mut cost = self.cost(unknowns);
-        for step in 0..steps {
+        for step in 0..stage.steps {
             let Some(after) = self.step(unknowns, cost) else { return step };
             let gain = cost - after;
             cost = after;
-            if gain < SMALL_GAIN * cost {
+            if gain < stage.gain * cost {
                 return step + 1;
             }
         }
-        steps
+        stage.steps
     }
 
     /// A step that lowers the cost, and the lower cost.
@@ -142,6 +154,7 @@ impl<'a> Method<'a> {
         let mut matrix = empty_matrix(&layout);
         let mut right = vec![0.0; unknowns.len()];
         self.normal.fold(&layout, &mut matrix, &mut right);
+        let diagonal = matrix.diagonal();
         self.transcription.exchange_base();
         for _ in 0..TRIES {
             let mut damped = matrix.clone();
@@ -149,6 +162,8 @@ impl<'a> Method<'a> {
             if let Some(factor) = damped.factor() {
                 let mut change = right.clone();
                 factor.solve(&mut change);
+                let predicted: f64 =
+                    (0..change.len()).map(|i| change[i] * (right[i] + self.damping * diagonal[i] * change[i])).sum();
                 let moved = |change: &[f64]| -> Vec<f64> { unknowns.iter().zip(change).map(|(x, d)| x - d).collect() };
                 let plain = moved(&change);
                 let plain_cost = self.cost(&plain);
@@ -167,12 +182,14 @@ impl<'a> Method<'a> {
                     if bent_cost > plain_cost {
                         self.transcription.evaluate(&next);
                     }
-                    self.damping = (self.damping / 5.0).max(LEAST_DAMPING);
+                    let ratio = (cost - after) / predicted;
+                    let less = LESS_DAMPING.iter().find(|(above, _)| ratio > *above).map_or(1.0, |(_, factor)| *factor);
+                    self.damping = (self.damping * less).max(LEAST_DAMPING);
                     unknowns.copy_from_slice(&next);
                     return Some(after);
                 }
             }
-            self.damping *= 6.0;
+            self.damping *= MORE_DAMPING;
         }
         self.transcription.evaluate(unknowns);
         None

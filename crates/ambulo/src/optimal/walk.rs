@@ -93,14 +93,14 @@ impl Default for WalkCosts {
 
 /// Stages of the solution: shoes become stiffer, friction steeper, and residual forces at the root more expensive.
 pub const STAGES: [Continuation; 8] = [
-    Continuation { stiffness: 0.25, creep: 50.0, slack: 0.05, updates: 0, steps: 20 },
-    Continuation { stiffness: 0.5, creep: 20.0, slack: 0.02, updates: 0, steps: 20 },
-    Continuation { stiffness: 1.0, creep: 8.0, slack: 0.01, updates: 0, steps: 20 },
-    Continuation { stiffness: 1.0, creep: 4.0, slack: 0.005, updates: 0, steps: 20 },
-    Continuation { stiffness: 1.0, creep: 2.0, slack: 0.002, updates: 0, steps: 30 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.002, updates: 1, steps: 30 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0002, updates: 2, steps: 30 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.00001, updates: 2, steps: 30 },
+    Continuation { stiffness: 0.25, creep: 50.0, slack: 0.05, updates: 0, steps: 20, gain: 3e-3 },
+    Continuation { stiffness: 0.5, creep: 20.0, slack: 0.02, updates: 0, steps: 20, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 8.0, slack: 0.01, updates: 0, steps: 10, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 4.0, slack: 0.005, updates: 0, steps: 10, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 2.0, slack: 0.002, updates: 0, steps: 10, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.001, updates: 0, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0002, updates: 1, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.00003, updates: 6, steps: 10, gain: 1e-3 },
 ];
 
 /// Clearance is required from the first share of the cycle after foot off until the second share before the next foot strike: heel, ball, toes.

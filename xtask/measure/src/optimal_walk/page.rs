@@ -140,8 +140,10 @@ fn time(results: &Results) -> String {
         [name.to_owned(), format!("<= {limit}"), judged(seconds, limit), steps.to_string(), root]
     };
     table.row(row("3-D free walking, cold start", 8.0, free.seconds, free.steps, format!("{:.0e}", free.root.1)));
-    let (seconds, steps) = results.next_speed;
-    table.row(row("fast walking from free walking", 1.5, seconds, steps, String::new()));
+    for near in &results.near {
+        let name = format!("{}, from the solution of free walking", near.name);
+        table.row(row(&name, 1.5, near.seconds, near.steps, format!("{:.0e}", near.root)));
+    }
     let (seconds, steps, root) = results.planar;
     table.row(row("planar free walking, cold start", 0.5, seconds, steps, format!("{root:.0e}")));
     table.text()
