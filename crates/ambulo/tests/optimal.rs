@@ -224,16 +224,21 @@ fn a_known_walk_starts_other_speeds_and_other_figures() {
     };
     let woman = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true }.human().unwrap();
     let slower = other(human, walk.speed() - 0.1);
-    for next in [&slower, &other(human, walk.speed() + 0.2), &other(&woman, walk.speed())] {
-        let near = next.solve_near(problem, solution.unknowns()).unwrap();
-        let root = near.progress.last().unwrap().root.1;
-        println!("{} steps, root {root:.1e}", steps(&near));
-        assert!(steps(&near) < 60 && 4 * steps(&near) < 3 * steps(solution), "{:?}", near.progress);
-        assert!(root < NO_ROOT_FORCE, "{:?}", near.progress);
-    }
-    let (near, cold) = (slower.solve_near(problem, solution.unknowns()).unwrap(), slower.solve(&STAGES).unwrap());
     let cost = |s: &Solution| s.progress.last().unwrap().cost;
-    assert!(cost(&near) < 1.1 * cost(&cold), "{} and {}", cost(&near), cost(&cold));
+    for next in [&slower, &other(human, walk.speed() + 0.2), &other(&woman, walk.speed())] {
+        let (near, cold) = (next.solve_near(problem, solution.unknowns()).unwrap(), next.solve(&STAGES).unwrap());
+        let root = near.progress.last().unwrap().root.1;
+        println!(
+            "{} steps instead of {}, root {root:.1e}; cost {} and {}",
+            steps(&near),
+            steps(&cold),
+            cost(&near),
+            cost(&cold)
+        );
+        assert!(steps(&near) < steps(&cold), "{:?} {:?}", near.progress, cold.progress);
+        assert!(root < NO_ROOT_FORCE, "{:?}", near.progress);
+        assert!(cost(&near) < 1.2 * cost(&cold), "{} and {}", cost(&near), cost(&cold));
+    }
 }
 
 #[test]
@@ -297,7 +302,7 @@ fn shipped_plans_solve_the_present_problem() {
         assert_eq!(found.solution.unknowns(), plan.coefficients, "{} {}", build.table, walk.name());
         let root = found.solution.progress[0].root.1;
         println!("{} {}: {root:.1e}", build.table, walk.name());
-        assert!(root < 2.0 * NO_ROOT_FORCE, "{} {}: {root:.1e}", build.table, walk.name());
+        assert!(root < NO_ROOT_FORCE, "{} {}: {root:.1e}", build.table, walk.name());
         let between = found.solution.root_forces(10).unwrap().0;
         assert!(between < 4e-3, "{} {}: {between:.1e} between the instants", build.table, walk.name());
         let names: Vec<&str> = found.human.model.coordinates().iter().map(|c| c.name.as_str()).collect();
