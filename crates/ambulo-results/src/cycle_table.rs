@@ -2,7 +2,7 @@
 
 use crate::sound::{EXPECTED, is_sound};
 use ambulo::analysis::{Analysis, CYCLE_SAMPLES, Cycle, over_cycle_of};
-use ambulo::ground::{BodyForces, upward};
+use ambulo::ground::BodyForces;
 use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
@@ -80,7 +80,7 @@ fn coordinate_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, id: Coordi
 
 /// Vertical, fore-aft (along world x) and lateral (along world z, to the right) ground force in body weights.
 fn ground_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, grid: TimeGrid) -> Vec<CycleRow> {
-    let up = upward(model);
+    let up = model.up();
     let weight = analysis.mass.kg * model.gravity().norm();
     let is_own = |part: &&BodyForces| model.anatomy().body_side(part.body) == Some(cycle.side);
     let parts: Vec<&BodyForces> = analysis.ground.bodies.iter().filter(is_own).collect();

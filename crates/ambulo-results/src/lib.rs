@@ -45,7 +45,7 @@ pub use summary::{
     ResidualSummary, Summary, summary,
 };
 pub use tables::ground_columns;
-pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkSummary};
+pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkPredictionSummary, WalkSummary};
 pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
 
 /// Name of the table of foot strikes and foot offs in a result folder.

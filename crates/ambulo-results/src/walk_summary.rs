@@ -2,7 +2,7 @@
 
 use ambulo::model::Model;
 use ambulo::simulation::consistent_walk::Magnitude;
-use ambulo::simulation::synthetic::{CorrectionReport, PaceReached, Progress, WalkReport};
+use ambulo::simulation::synthetic::{CorrectionReport, PaceReached, PredictionReport, Progress, WalkReport};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ pub struct WalkSummary {
     pub gait: String,
     /// Style of the joint curves: `knots` or `1997`.
     pub style: String,
-    /// Mode: `optimal`, `corrected` or `paper`.
+    /// Mode: `optimal`, `predict`, `corrected` or `paper`.
     pub mode: String,
     /// Name of the table of segments.
     pub figure: String,
@@ -45,6 +45,9 @@ pub struct WalkSummary {
     pub lacking_moment_nm: Option<Size>,
     /// Progress of the solver by stage; `null` in paper mode.
     pub solver: Option<Vec<SolverStage>>,
+    /// Conditions and effort of a predicted walk; `null` in the other modes.
+    #[serde(default)]
+    pub prediction: Option<WalkPredictionSummary>,
     /// External torque that supports the trunk [N.m].
     pub trunk_torque_nm: Size,
     /// The same per kilogram of body mass [N.m/kg].
@@ -65,6 +68,41 @@ pub struct WalkSummary {
     pub simulator_hz: f64,
     /// Time steps whose contacts were not solved to the tolerance.
     pub unsolved_steps: usize,
+}
+
+/// Conditions and effort of a predicted walk.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct WalkPredictionSummary {
+    /// Slope of the ground [%], positive uphill. The axes of all results are those of the ground: x along the slope, y perpendicular to it.
+    pub slope_percent: f64,
+    /// Mass of the load [kg].
+    pub load_kg: f64,
+    /// Shares of strength that are left, by coordinate; joints with all their strength are not listed.
+    pub strength: BTreeMap<String, f64>,
+    /// Coordinates with devices, whose moments are parts of the joint moments.
+    pub devices: Vec<String>,
+    /// Asked distance between the paths of both feet [m].
+    pub step_width_m: Option<f64>,
+    /// Metabolic power per kilogram of the body without load, by a simple formula: positive joint work / 0.25 + negative joint work / 1.2 + 1.4 W/kg.
+    pub metabolic_power_w_kg: f64,
+    /// The same per distance [J/kg/m].
+    pub cost_of_transport_j_kg_m: f64,
+}
+
+impl WalkPredictionSummary {
+    fn new(report: &PredictionReport, speed: f64) -> WalkPredictionSummary {
+        let conditions = &report.conditions;
+        WalkPredictionSummary {
+            slope_percent: 100.0 * conditions.slope,
+            load_kg: conditions.load.map_or(0.0, |load| load.mass),
+            strength: conditions.strengths.iter().cloned().collect(),
+            devices: conditions.devices.iter().map(|device| device.coordinate.clone()).collect(),
+            step_width_m: conditions.step_width_m,
+            metabolic_power_w_kg: report.metabolic_power,
+            cost_of_transport_j_kg_m: report.metabolic_power / speed,
+        }
+    }
 }
 
 /// A change of pace.
@@ -165,6 +203,7 @@ impl WalkSummary {
             lacking_force_n: correction.map(|c| Size::new(c.residual[0], 1.0)),
             lacking_moment_nm: correction.map(|c| Size::new(c.residual[1], 1.0)),
             solver: correction.map(|c| c.progress.iter().map(stage).collect()),
+            prediction: report.prediction.as_ref().map(|made| WalkPredictionSummary::new(made, report.speed)),
             trunk_torque_nm: Size::new(report.trunk_torque, 1.0),
             trunk_torque_nm_kg: Size::new(report.trunk_torque, 1.0 / model.mass()),
             foot_slip_mm: report.slip.map(|slip| 1e3 * slip.excursion),

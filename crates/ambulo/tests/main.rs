@@ -79,6 +79,7 @@ mod marker_smoothing;
 mod mujoco_parity;
 mod opensim_parity;
 mod optimal;
+mod optimal_prediction;
 mod osim_export;
 mod osim_import;
 mod plug_in_gait;

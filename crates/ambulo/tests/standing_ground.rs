@@ -3,7 +3,6 @@
 use crate::plug_in_gait::PEOPLE;
 use crate::shared_data::data;
 use ambulo::findings::Findings;
-use ambulo::ground::upward;
 use ambulo::spatial::Vec3;
 use ambulo::study::{self, GroundSettings, Outcome, Recording, Settings, Source, Tracking};
 
@@ -18,7 +17,7 @@ fn standing(source: &Source) -> Option<Outcome> {
 
 /// Centre of pressure of the feet together, and of the plates together, averaged over the recording.
 fn centers(outcome: &Outcome) -> Option<[Vec3; 2]> {
-    let up = upward(&outcome.body);
+    let up = outcome.body.up();
     let Some(Tracking::Markers(tracked)) = &outcome.tracking else { panic!("no markers") };
     let weighted = |points: Vec<(f64, Vec3)>| {
         let load: f64 = points.iter().map(|(load, _)| load).sum();
@@ -42,7 +41,7 @@ fn standing_people_have_their_centre_of_pressure_where_plates_measure_it() {
     for person in &PEOPLE {
         let Some(outcome) = standing(&person.source(&folder)) else { continue };
         let Some([feet, plates]) = centers(&outcome) else { continue };
-        let up = upward(&outcome.body);
+        let up = outcome.body.up();
         let apart = feet - plates;
         let level = apart - up * apart.dot(&up);
         println!(

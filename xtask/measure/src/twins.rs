@@ -17,7 +17,7 @@ use crate::workspace;
 use ambulo::analysis::activity::ActivityKind;
 use ambulo::analysis::feasibility::{Reason, Verdict, VerdictState};
 use ambulo::findings::Findings;
-use ambulo::ground::{GroundForces, upward};
+use ambulo::ground::GroundForces;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::model::{Displacement, JointAxis, Movement, Side};
 use ambulo::motion::{ForceRecording, Motion};
@@ -191,7 +191,7 @@ fn twin(outcome: &Outcome, change: Change) -> Result<Verdict, String> {
 fn vertical(outcome: &Outcome) -> Option<usize> {
     let model = &outcome.body;
     let joint = &model.bodies().iter().find(|body| body.joint.parent.is_none())?.joint;
-    let upward_part = |axis: &&JointAxis| (joint.parent_from_joint.rotation * axis.direction).dot(&upward(model)).abs();
+    let upward_part = |axis: &&JointAxis| (joint.parent_from_joint.rotation * axis.direction).dot(&model.up()).abs();
     let axis = joint.translations.iter().max_by(|a, b| upward_part(a).total_cmp(&upward_part(b)))?;
     match &axis.displacement {
         Displacement::Follows(id, _) => Some(id.index()),

@@ -2,6 +2,7 @@
 
 use ambulo::model::Side;
 use ambulo::motion::filter::MAX_ORDER;
+use ambulo::optimal::{Load, LoadPlace};
 use ambulo::spatial::Vec3;
 use ambulo::study::AddedMass;
 use ambulo_results::Keep;
@@ -194,6 +195,22 @@ pub(super) fn timed_value(text: &str) -> Result<TimedValue, String> {
         }
         _ => Err("expected TIME:VALUE or TIME:VALUE:DURATION with times in seconds, such as 3:1.6 or 3:1.6:2".into()),
     }
+}
+
+/// A load: KG, KGkg, and optionally where it is carried; the library checks the mass.
+pub(super) fn load(text: &str) -> Result<Load, String> {
+    let expected = || "expected a mass and optionally back, hands or pelvis, such as 12, 12kg or 12kg:hands".to_owned();
+    let (mass, place) = text.split_once(':').unwrap_or((text, LoadPlace::ALL[0].0));
+    let place = LoadPlace::ALL.into_iter().find(|(name, _)| *name == place.trim()).ok_or_else(expected)?.1;
+    let mass = mass.trim().trim_end_matches("kg").trim().parse().map_err(|_| expected())?;
+    Ok(Load { mass, place })
+}
+
+/// JOINT=SHARE; the library knows the joints and checks the share.
+pub(super) fn weakness(text: &str) -> Result<(String, f64), String> {
+    let expected = || "expected JOINT=SHARE, such as ankle_r=0.6".to_owned();
+    let (joint, share) = text.split_once('=').ok_or_else(expected)?;
+    Ok((joint.trim().to_owned(), share.trim().parse().map_err(|_| expected())?))
 }
 
 /// A mass carried by the person.

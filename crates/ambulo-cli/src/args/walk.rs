@@ -1,7 +1,8 @@
 //! Options of `ambulo walk` and `ambulo demo`.
 
-use super::values::{TimedValue, number, outputs_of_demo, outputs_of_run, timed_value, whole_number};
+use super::values::{TimedValue, load, number, outputs_of_demo, outputs_of_run, timed_value, weakness, whole_number};
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
+use ambulo::optimal::Load;
 use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
@@ -33,9 +34,12 @@ pub(crate) struct DemoArgs {
   ambulo walk --speed 1.0 --figure de-leva-female --mass 60 --height 1.65 -o out
   ambulo walk --gait goose --mode paper -o out
   ambulo walk --gait slow --states
+  ambulo walk --slope 8 --load 15kg:back -o uphill
 
 Modes: `optimal` finds a walk in three dimensions on soft shoes that is near the angles and forces of people and needs no force from outside
-(docs/OPTIMAL.md); the usual figures at slow, free and fast speed are solved beforehand, others take some seconds. `corrected` (or --planar)
+(docs/OPTIMAL.md); the usual figures at slow, free and fast speed are solved beforehand, others take some seconds. `predict` also walks in
+three dimensions, but follows no curves of people: muscles work as little as they can; it takes some seconds, and slopes, loads, weak joints
+and devices are allowed. `corrected` (or --planar)
 walks in the sagittal plane: it changes the gait by a few degrees until it has no residual forces, and simulates it on soft shoes. `paper`
 drives the joints with the unchanged curves, holds the trunk upright and has rigid soles, as Faure, Debunne, Cani and Multon did in 1997.
 `optimal` and `corrected` take gaits whose sides do the same half a cycle apart, `optimal` only those with the curves of people and a
@@ -58,6 +62,8 @@ pub(crate) struct WalkArgs {
     pub(crate) gait: GaitArgs,
     #[command(flatten)]
     pub(crate) figure: FigureArgs,
+    #[command(flatten)]
+    pub(crate) conditions: ConditionArgs,
     /// How the walk is computed [default: optimal for a steady gait of people; corrected for other gaits with equal sides; else paper].
     #[arg(long, value_enum)]
     pub(crate) mode: Option<WalkMode>,
@@ -128,6 +134,29 @@ pub(crate) struct GaitArgs {
     pub(crate) style: Option<String>,
 }
 
+/// Conditions of a predicted walk.
+#[derive(Debug, Clone, Default, PartialEq, ClapArgs)]
+pub(crate) struct ConditionArgs {
+    /// Slope of the ground, -40 to 40 percent; uphill is positive. This and the following options imply `--mode predict`.
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) slope: Option<f64>,
+    /// Load that is carried: on the back, half in each hand, or at the pelvis [default: back].
+    #[arg(long, value_name = "KG[:back|hands|pelvis]", allow_negative_numbers = true, value_parser = load)]
+    pub(crate) load: Option<Load>,
+    /// Share of its strength that a joint has left, such as ankle=0.6 (both sides) or knee_r=0.5; repeatable.
+    #[arg(long, value_name = "JOINT=SHARE", value_parser = weakness)]
+    pub(crate) weak: Vec<(String, f64)>,
+    /// Devices at joints, springs or given moments: .toml (docs/OPTIMAL.md).
+    #[arg(long, value_name = "FILE")]
+    pub(crate) device: Option<PathBuf>,
+    /// Distance between the paths of both feet, 0 to 0.5 m [default: what the muscles choose].
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) step_width: Option<f64>,
+    /// Let both sides move differently even if their conditions are the same.
+    #[arg(long)]
+    pub(crate) asymmetric: bool,
+}
+
 /// The body that walks.
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct FigureArgs {
@@ -150,6 +179,8 @@ pub(crate) struct FigureArgs {
 pub(crate) enum WalkMode {
     /// In three dimensions, found by optimal motion, on soft shoes.
     Optimal,
+    /// In three dimensions, on soft shoes, by muscles that work as little as they can, without curves of people.
+    Predict,
     /// In the sagittal plane, dynamically consistent, on soft shoes.
     Corrected,
     /// As in the 1997 paper: rigid soles, the trunk held upright.
@@ -160,6 +191,7 @@ impl WalkMode {
     pub(crate) fn mode(self) -> SyntheticMode {
         match self {
             WalkMode::Optimal => SyntheticMode::Optimal,
+            WalkMode::Predict => SyntheticMode::Predicted,
             WalkMode::Corrected => SyntheticMode::Corrected,
             WalkMode::Paper => SyntheticMode::Paper,
         }

@@ -12,8 +12,9 @@ use ambulo::gait::{Gait, PaceChange, Style, Walk};
 use ambulo::model::anthropometry::{Build, BuildError};
 use ambulo::motion::RecordedTable;
 use ambulo::numerics::NaturalSpline;
+use ambulo::optimal::{Device, WalkConditions};
 use ambulo::simulation::synthetic::{
-    SyntheticError, SyntheticMode, SyntheticWalk, SyntheticWalkSettings, replay, run_of_states, synthesise,
+    SyntheticError, SyntheticMode, SyntheticWalk, SyntheticWalkSettings, predict, replay, run_of_states, synthesise,
 };
 use ambulo::simulation::walking::TorqueSeries;
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
@@ -30,9 +31,10 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let (gait, mut read) = gait(name, &args.gait, &mut findings)?;
     let described_in = read.first().cloned();
     let build = build(&args.figure)?;
+    let conditions = conditions(args, &mut read)?;
     let by_gait = || Ok::<_, BuildError>(SyntheticMode::of(&gait, &build, build.human()?.dimensions.leg_length));
     if args.states {
-        let mode = asked_mode(args).map_or_else(by_gait, Ok)?;
+        let mode = asked_mode(args, &conditions)?.map_or_else(by_gait, Ok)?;
         return states(args, &shaped(&gait, build, mode, args), &read, findings);
     }
     let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
@@ -41,7 +43,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     read.extend(args.thresholds.clone());
     let torques = args.torques.as_deref().map(|path| read_torques(path, &gait.name)).transpose()?;
     read.extend(args.torques.clone());
-    let mode = match (&torques, asked_mode(args)) {
+    let mode = match (&torques, asked_mode(args, &conditions)?) {
         (Some(_), None | Some(SyntheticMode::Paper)) => SyntheticMode::Paper,
         (Some(_), Some(mode)) => {
             bail!("--torques: found the mode {mode}; expected the mode paper, in which the torques were computed")
@@ -52,6 +54,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let walk_settings = shaped(&gait, build, mode, args);
     let walk = match &torques {
         Some(torques) => replay(&walk_settings, torques, &mut findings),
+        None if mode == SyntheticMode::Predicted => predict(&walk_settings, &conditions, &mut findings),
         None => synthesise(&walk_settings, &mut findings),
     };
     let walk = in_file(walk, described_in.as_ref())?;
@@ -70,9 +73,38 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     run.analyse_and_write(findings, clock, &target, args.print)
 }
 
-/// The mode that the user chose.
-fn asked_mode(args: &WalkArgs) -> Option<SyntheticMode> {
-    if args.planar { Some(SyntheticMode::Corrected) } else { args.mode.map(WalkMode::mode) }
+/// The mode that the user chose, or that the conditions need.
+fn asked_mode(args: &WalkArgs, conditions: &WalkConditions) -> Result<Option<SyntheticMode>> {
+    let asked = if args.planar { Some(SyntheticMode::Corrected) } else { args.mode.map(WalkMode::mode) };
+    if *conditions == WalkConditions::default() {
+        return Ok(asked);
+    }
+    match asked {
+        None | Some(SyntheticMode::Predicted) => Ok(Some(SyntheticMode::Predicted)),
+        Some(mode) => bail!(
+            "--slope, --load, --weak, --device, --step-width, --asymmetric: found the mode {mode}; expected the mode predict, because the others follow people who walk without them"
+        ),
+    }
+}
+
+/// The conditions of a predicted walk; a device file is added to the files that were read.
+fn conditions(args: &WalkArgs, read: &mut Vec<PathBuf>) -> Result<WalkConditions> {
+    let asked = &args.conditions;
+    let mut devices = Vec::new();
+    if let Some(path) = &asked.device {
+        let shown = || path.display().to_string();
+        let text = String::from_utf8(files::read(path)?).with_context(shown)?;
+        devices = Device::from_toml(&text).with_context(shown)?;
+        read.push(path.clone());
+    }
+    Ok(WalkConditions {
+        slope: asked.slope.unwrap_or_default() / 100.0,
+        load: asked.load,
+        strengths: asked.weak.clone(),
+        devices,
+        step_width_m: asked.step_width,
+        asymmetric: asked.asymmetric,
+    })
 }
 
 fn shaped<'a>(gait: &'a Gait, build: Build, mode: SyntheticMode, args: &WalkArgs) -> SyntheticWalkSettings<'a> {
@@ -195,7 +227,7 @@ fn gait_file(walk: &Walk) -> Result<OutputFile<'static>> {
 /// How the ground forces were determined, also in double support.
 fn rule(walk_settings: &SyntheticWalkSettings<'_>) -> &'static str {
     match walk_settings.mode {
-        SyntheticMode::Optimal | SyntheticMode::Corrected => "soft shoes",
+        SyntheticMode::Optimal | SyntheticMode::Predicted | SyntheticMode::Corrected => "soft shoes",
         SyntheticMode::Paper => "rigid soles",
     }
 }

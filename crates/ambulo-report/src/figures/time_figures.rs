@@ -8,7 +8,7 @@ use super::svg::{Drawing, Stroke};
 use crate::style::{Style, style};
 use ambulo::analysis::{Analysis, residual_sizes};
 use ambulo::ground::predict::Prediction;
-use ambulo::ground::{BodyForces, feet, upward};
+use ambulo::ground::{BodyForces, feet};
 use ambulo::model::{Model, Side};
 use ambulo::spatial::Vec3;
 
@@ -112,7 +112,7 @@ pub fn prediction_figure(
     }
     let dash = dashes(style, Side::Left);
     let shown = Shown { style, dash: &dash, weight, frames: grid.frames };
-    let up = upward(model);
+    let up = model.up();
     let forward = Vec3::x();
     let axes = [
         ("vertical", "Vertical", up, ["up", ""]),

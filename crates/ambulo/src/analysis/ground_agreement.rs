@@ -21,7 +21,7 @@ use super::walking_direction::WalkingDirection;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::phases::contacts_from_events;
 use crate::ground::predict::{FootDeviation, Prediction};
-use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet, upward};
+use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet};
 use crate::model::{Model, Movement, Side};
 use crate::motion::{ForceRecording, TimeGrid, Window};
 use crate::numerics::or_nan;
@@ -248,7 +248,7 @@ pub fn ground_agreement(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverag
     let Mass { kg, .. } = measured.mass;
     let comparison = Comparison {
         grid: predicted.trajectory.grid(),
-        up: upward(model),
+        up: model.up(),
         weight: kg * model.gravity().norm(),
         direction: WalkingDirection::of(model, &predicted.trajectory, &prediction.footfalls),
     };

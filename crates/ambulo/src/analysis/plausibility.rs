@@ -3,7 +3,7 @@
 use super::feasibility::LARGE_RESIDUAL_BW;
 use super::recording::Analysis;
 use crate::findings::{Code, Findings};
-use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, upward};
+use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{CoordinateKind, Model};
 use crate::numerics::median;
@@ -28,7 +28,7 @@ pub(super) fn report_residual(model: &Model, analysis: &Analysis, findings: &mut
 
 /// Reports ground forces with the wrong sign or under the wrong foot.
 pub(super) fn report_loads(model: &Model, analysis: &Analysis, findings: &mut Findings) {
-    report_downward(model, &analysis.ground, upward(model), findings);
+    report_downward(model, &analysis.ground, model.up(), findings);
     report_far_feet(model, &analysis.trajectory, &analysis.ground, findings);
 }
 

@@ -12,7 +12,6 @@ use super::residual::residual;
 use crate::dynamics::{Workspace, inverse_with_residual};
 use crate::findings::{Code, Finding, Findings};
 use crate::ground::predict::{PredictSettings, Prediction, Prescribed, predict};
-use crate::ground::upward;
 use crate::kinematics::Trajectory;
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model};
@@ -185,7 +184,7 @@ fn with_prediction(
         cycles: cycles(&events, grid),
         events,
         mass: Mass { kg: model.mass(), source: MassSource::Model },
-        speed_m_s: over_ground(model, &trajectory, &ground, upward(model)).map(|over| over.speed),
+        speed_m_s: over_ground(model, &trajectory, &ground, model.up()).map(|over| over.speed),
         residual: residual(model, &forces),
         trajectory,
         adjusted: false,

@@ -247,7 +247,7 @@ pub(super) fn with_forces(
     progress.end(Stage::Ground)?;
     let forces = inverse_with_residual(&mut Workspace::new(model), &trajectory, &ground.loads());
     progress.end(Stage::InverseDynamics)?;
-    let up = ground::upward(model);
+    let up = model.up();
     let vertical = vertical_by_side(model, plates, up);
     let contacts: Vec<(Side, Vec<Contact>)> =
         vertical.iter().map(|(side, (times, force))| (*side, contacts_from_force(times, force))).collect();

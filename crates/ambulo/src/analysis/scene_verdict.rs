@@ -5,7 +5,7 @@ use crate::analysis::feasibility::{MotionAndForces, Person, Thresholds, Verdict,
 use crate::dynamics::{Forces, JointReaction, Workspace, inverse_with_residual};
 use crate::findings::Findings;
 use crate::ground::footfalls::footfalls;
-use crate::ground::{BodyForces, GroundForces, upward};
+use crate::ground::{BodyForces, GroundForces};
 use crate::kinematics::{TrajectoryError, each_body_motion};
 use crate::model::{CoordinateKind, Model};
 use crate::simulation::scene::{FigureMotion, FigureRecord, FigureWalk, ObstacleForces, Scene};
@@ -61,7 +61,7 @@ pub fn scene_verdict(
 fn motion_verdict(motion: &FigureMotion, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
     let FigureMotion { model, trajectory, ground, loads, .. } = motion;
     let forces = inverse_with_residual(&mut Workspace::new(model), trajectory, loads);
-    let up = upward(model);
+    let up = model.up();
     let body_forces = |on: &ObstacleForces| BodyForces::on_ground(on.body, &on.force, &on.moment, up, &on.height);
     let ground = &GroundForces { bodies: ground.iter().map(body_forces).collect() };
     let person = Person::of_model(model);
@@ -102,7 +102,7 @@ fn walk_verdict(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findi
 
 /// The ground forces on the feet. Contact points transmit no moment, so the free moment is zero.
 fn ground(recording: &WalkRecording) -> GroundForces {
-    let up = upward(&recording.model);
+    let up = recording.model.up();
     let bodies = recording.feet.iter().map(|foot| {
         let moments: Vec<Vec3> = foot.point.iter().zip(&foot.force).map(|(point, force)| point.cross(force)).collect();
         BodyForces::on_level_ground(foot.body, &foot.force, &moments, up, 0.0)

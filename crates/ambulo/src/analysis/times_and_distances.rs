@@ -17,7 +17,6 @@
 use super::events::{Event, EventKind};
 use super::feasibility::over_ground;
 use super::recording::Analysis;
-use crate::ground::upward;
 use crate::kinematics::each_body_motion;
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
@@ -305,7 +304,7 @@ struct Floor {
 impl Floor {
     /// A belt moves with the feet that carry the body; a floor that moves slower than a share of the walking speed is still.
     fn of(model: &Model, analysis: &Analysis) -> Floor {
-        let up = upward(model);
+        let up = model.up();
         let still = Floor { up, velocity: Vec3::zeros() };
         let Some(over) = over_ground(model, &analysis.trajectory, &analysis.ground, up) else { return still };
         let velocity = still.level(over.ground);

@@ -5,7 +5,6 @@
 //! Pinned by: its own tests, tests/ground_agreement.rs
 
 use crate::ground::footfalls::Footfalls;
-use crate::ground::upward;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::Model;
 use crate::spatial::Vec3;
@@ -31,7 +30,7 @@ impl WalkingDirection {
             pelvis.push(root.map_or(Vec3::zeros(), |root| bodies[root.index()].center));
         });
         let floor_velocity = footfalls.floor_velocity;
-        WalkingDirection { up: upward(model), floor_velocity, times: trajectory.grid().times(), pelvis }
+        WalkingDirection { up: model.up(), floor_velocity, times: trajectory.grid().times(), pelvis }
     }
 
     /// Unit vectors forwards and to the right during a time span.

@@ -3,7 +3,6 @@
 use super::events::{Event, EventKind};
 use super::predicted::PredictedAnalysis;
 use super::recording::{Analysis, Mass, MassSource, WHOLE_BODY_SHARE};
-use crate::ground::upward;
 use crate::model::{Model, Side};
 use crate::motion::Window;
 
@@ -59,7 +58,7 @@ fn cycle_mass_kg(analysis: &Analysis, model: &Model, window: Window) -> Option<f
     if !has_a_cycle || frames == 0 {
         return None;
     }
-    let up = upward(model);
+    let up = model.up();
     let vertical = |i: usize| analysis.ground.bodies.iter().map(|b| b.force[i].dot(&up)).sum::<f64>();
     let mean = (first..first + frames).map(vertical).sum::<f64>() / frames as f64;
     Some(mean / model.gravity().norm())

@@ -7,7 +7,6 @@
 use super::measured::{center_of_pressure, surface_height};
 use super::phases::contacts_from_force;
 use super::plates::{FARTHEST_M, VIBRATION};
-use super::upward;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
@@ -54,7 +53,7 @@ impl FootPaths {
             right.push(line(&soles.right));
             left.push(line(&soles.left));
         });
-        Some(FootPaths { grid: trajectory.grid(), up: upward(model), lines: BySide { right, left } })
+        Some(FootPaths { grid: trajectory.grid(), up: model.up(), lines: BySide { right, left } })
     }
 
     /// The loaded times of each load during the motion; vibrations are left out. A load in the axes of a body has none.

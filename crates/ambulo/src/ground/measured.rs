@@ -67,7 +67,7 @@ impl GroundForces {
 /// Ground reaction force on each foot: the sum over the bodies of that side, assigned to the most loaded one. A single body is borrowed.
 #[must_use]
 pub fn feet<'a>(model: &Model, ground: &'a GroundForces) -> Vec<(Side, Cow<'a, BodyForces>)> {
-    let up = upward(model);
+    let up = model.up();
     let side_of = |b: &BodyForces| model.anatomy().body_side(b.body);
     let sum = |side: Side| {
         let bodies: Vec<&BodyForces> = ground.bodies.iter().filter(|b| side_of(b) == Some(side)).collect();
@@ -144,7 +144,7 @@ pub fn measured(
     filter: Option<LowPass>,
     findings: &mut Findings,
 ) -> Result<GroundForces, MotionError> {
-    let up = upward(model);
+    let up = model.up();
     let mut series = Vec::new();
     for recording in recordings {
         let recording = in_world(model, trajectory, &usable(recording, trajectory.grid()));
@@ -179,12 +179,6 @@ fn usable(recording: &ForceRecording, grid: TimeGrid) -> ForceRecording {
         *cut = whole[rows.clone()].to_vec();
     }
     out
-}
-
-/// The upward direction, against gravity; world y without gravity.
-#[must_use]
-pub fn upward(model: &Model) -> Vec3 {
-    model.gravity().try_normalize(f64::MIN_POSITIVE).map_or(Vec3::y(), |down| -down)
 }
 
 /// Transforms force, moment and point to the world's axes.

@@ -10,5 +10,4 @@ pub mod predict;
 pub mod stream;
 
 pub(crate) use load_sides::{FootPaths, LoadedSpan};
-pub use measured::upward;
 pub use measured::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, feet, measured};

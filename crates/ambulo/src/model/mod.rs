@@ -136,6 +136,7 @@ pub struct Marker {
 pub struct Model {
     name: String,
     gravity: Vec3,
+    up: Vec3,
     bodies: Vec<Body>,
     coordinates: Vec<Coordinate>,
     markers: Vec<Marker>,
@@ -239,7 +240,8 @@ impl Model {
         markers: Vec<Marker>,
     ) -> Result<Model, ModelError> {
         let anatomy = Arc::default();
-        let mut model = Model { name: name.into(), gravity, bodies, coordinates, markers, anatomy };
+        let up = gravity.try_normalize(f64::MIN_POSITIVE).map_or(Vec3::y(), |down| -down);
+        let mut model = Model { name: name.into(), gravity, up, bodies, coordinates, markers, anatomy };
         model.check()?;
         model.anatomy = Arc::new(Anatomy::find(&model));
         Ok(model)
@@ -287,6 +289,12 @@ impl Model {
     #[must_use]
     pub fn gravity(&self) -> Vec3 {
         self.gravity
+    }
+
+    /// The upward direction, perpendicular to the ground: against gravity, except on a slope; world y without gravity.
+    #[must_use]
+    pub fn up(&self) -> Vec3 {
+        self.up
     }
 
     /// Bodies, parents first.
@@ -367,6 +375,14 @@ impl Model {
             .with_point_mass(mass, place)
             .map_err(|source| ModelError::Inertia { body: name.clone(), source })?;
         Ok(model)
+    }
+
+    /// The model on ground that rises by an angle [rad] along x. The axes are those of the ground, so gravity is inclined.
+    #[must_use]
+    pub fn on_slope(&self, angle: f64) -> Model {
+        let forward = Vec3::x() - self.up * self.up.dot(&Vec3::x());
+        let gravity = (self.up * angle.cos() + forward * angle.sin()) * -self.gravity.norm();
+        Model { gravity, ..self.clone() }
     }
 
     /// The model with another mass, mass centre and inertia of a body, in the frame of the body.

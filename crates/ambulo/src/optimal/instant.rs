@@ -21,11 +21,13 @@ pub(super) const SIDE_BY_SIDE: usize = 8;
 /// Value, rate and acceleration of every coordinate.
 pub(super) type Posture = [Vec<f64>; 3];
 
-/// Number of quantities of a contact: force on the foot along x, y, z [N], height of the sphere above the ground [m], slip along x and z [m/s].
-pub(super) const CONTACT: usize = 6;
-/// Offsets of height and slip.
+/// Number of quantities of a contact: force on the foot along x, y, z [N], height of the sphere above the ground [m], slip along x and z [m/s],
+/// place along z [m].
+pub(super) const CONTACT: usize = 7;
+/// Offsets of height, slip and place.
 pub(super) const HEIGHT: usize = 3;
 pub(super) const SLIP: usize = 4;
+pub(super) const PLACE: usize = 6;
 
 /// Forces of one instant, and their derivatives.
 #[derive(Debug, Clone, Default)]
@@ -182,7 +184,7 @@ impl Evaluator {
         let found = law.force_with_slopes(sole.radius, -height, -velocity.y, velocity);
         let force = found.force;
         contact.place = place;
-        contact.values = [force.x, force.y, force.z, height, velocity.x, velocity.z];
+        contact.values = [force.x, force.y, force.z, height, velocity.x, velocity.z, center.z];
         contact.slopes.clear();
         let mut wrenches = Vec::with_capacity(chain.len());
         for &link in chain {
@@ -192,6 +194,7 @@ impl Evaluator {
             let turned = axis.cross(motion.minus(One::of(&self.kernel.velocities[link], lane)));
             let velocity_slopes = [turned.at(place) + motion.angular.cross(&shifted), axis.at(place)];
             let depth_slopes = [-moved.y, 0.0];
+            let place_slopes = [moved.z, 0.0];
             let mut slopes = [[0.0; CONTACT]; 2];
             let mut wrench = [NO_WRENCH; 2];
             for part in 0..2 {
@@ -199,7 +202,7 @@ impl Evaluator {
                 let f = found.by_depth * depth_slopes[part] - found.by_rate * v.y
                     + found.by_slip[0] * v.x
                     + found.by_slip[1] * v.z;
-                slopes[part] = [f.x, f.y, f.z, -depth_slopes[part], v.x, v.z];
+                slopes[part] = [f.x, f.y, f.z, -depth_slopes[part], v.x, v.z, place_slopes[part]];
                 let arm = if part == 0 { shifted.cross(&force) } else { Vec3::zeros() };
                 wrench[part] = One { angular: arm + place.cross(&f), linear: f };
             }

@@ -25,15 +25,23 @@ mod problem;
 mod solution;
 mod solve;
 
+mod conditions;
+mod effort;
+mod find;
 mod near;
 mod plan;
+mod predict;
 mod walk;
 
+pub use conditions::{Device, Load, LoadPlace, WalkConditions};
+pub use effort::{Effort, Exponential};
+pub use find::{NO_ROOT_FORCE, OptimalWalk, OptimalWalkError};
 pub use forward::Drift;
 pub use layout::Span;
 pub use near::NEAR_STAGES;
 pub use objective::{Bound, Quantity, Term};
-pub use plan::{NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, WalkPlan};
+pub use plan::WalkPlan;
+pub use predict::{EffortCosts, Overload, Prediction, WORK_PRICES, metabolic_power};
 pub use problem::Problem;
 pub use solution::{Progress, Sample, SoleContact, Solution, Unbalanced};
 pub use solve::Continuation;

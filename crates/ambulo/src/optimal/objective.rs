@@ -1,6 +1,7 @@
 //! The objective of a motion: a sum of squared deviations of quantities from their targets.
 
-use super::instant::{CONTACT, HEIGHT, Instant, SLIP};
+use super::effort::{Effort, root_power};
+use super::instant::{CONTACT, HEIGHT, Instant, PLACE, SLIP};
 use crate::model::CoordinateId;
 
 /// A quantity of one instant of a motion.
@@ -14,12 +15,26 @@ pub enum Quantity {
     Acceleration(Vec<(CoordinateId, f64)>),
     /// Generalised force of a coordinate [N.m or N].
     Force(CoordinateId),
+    /// What muscles do at a joint [N.m or N].
+    Effort(Effort),
+    /// Square root of the power that muscles cost at a joint, √(p₊ P₊ + p₋ P₋) [√W], where P₊ and P₋ are positive and negative mechanical
+    /// power. Both are smoothed: P₊ = (P + √(P² + `smooth_w`²)) / 2, P₋ = P₊ - P.
+    RootPower {
+        /// What muscles do at the joint.
+        effort: Effort,
+        /// Price p₊ of positive and p₋ of negative power.
+        prices: [f64; 2],
+        /// Power below which the smoothed values differ from P₊ and P₋ [W].
+        smooth_w: f64,
+    },
     /// Rate of a generalised force [N.m/s or N/s].
     ForceRate(CoordinateId),
     /// Sum of the ground forces on some spheres along x (0), y (1) or z (2) [N]. Spheres are numbered as in the problem.
     GroundForce(Vec<usize>, usize),
     /// Height of a sphere above the ground [m].
     Height(usize),
+    /// Sideways position of the centre of a sphere, along z [m].
+    Sideways(usize),
     /// Slip velocity of a sphere along x (0) or z (1) [m/s], multiplied by N / (N + `light_n`), where N is the vertical force on it [N].
     Slip {
         /// Number of the sphere.
@@ -86,8 +101,8 @@ impl Quantity {
         }
     }
 
-    /// Value at an instant.
-    pub(super) fn value(&self, at: &Instant) -> f64 {
+    /// Value at an instant, given with its number.
+    pub(super) fn value(&self, instant: usize, at: &Instant) -> f64 {
         let sum = |part: usize, of: &[(CoordinateId, f64)]| {
             of.iter().map(|(id, factor)| factor * at.posture[part][id.index()]).sum::<f64>()
         };
@@ -96,8 +111,14 @@ impl Quantity {
             Quantity::Rate(of) => sum(1, of),
             Quantity::Acceleration(of) => sum(2, of),
             Quantity::Force(id) | Quantity::ForceRate(id) => at.forces[id.index()],
+            Quantity::Effort(effort) => effort.value(instant, at),
+            Quantity::RootPower { effort, prices, smooth_w } => {
+                let rate = at.posture[1][effort.coordinate.index()];
+                root_power(effort.value(instant, at) * rate, *prices, *smooth_w).0
+            }
             Quantity::GroundForce(spheres, axis) => spheres.iter().map(|&s| at.contacts[s].values[*axis]).sum(),
             Quantity::Height(sphere) => at.contacts[*sphere].values[HEIGHT],
+            Quantity::Sideways(sphere) => at.contacts[*sphere].values[PLACE],
             Quantity::Slip { sphere, axis, light_n } => {
                 let values = &at.contacts[*sphere].values;
                 values[SLIP + axis] * values[1] / (values[1] + light_n)
@@ -106,7 +127,7 @@ impl Quantity {
     }
 
     /// Derivatives at an instant divided by `scale`; a full row is appended to `full`.
-    pub(super) fn row(&self, at: &Instant, scale: f64, full: &mut Vec<f64>) -> Row {
+    pub(super) fn row(&self, instant: usize, at: &Instant, scale: f64, full: &mut Vec<f64>) -> Row {
         let n = at.posture[0].len();
         let entries = |part: usize, of: &[(CoordinateId, f64)]| {
             Row::Entries(of.iter().map(|(id, factor)| (part * n + id.index(), factor / scale)).collect())
@@ -134,8 +155,22 @@ impl Quantity {
                 full.extend(at.slopes[id.index() * 3 * n..(id.index() + 1) * 3 * n].iter().map(|slope| slope / scale));
                 Row::Full
             }
+            Quantity::Effort(effort) => {
+                effort.push_row(at, 1.0 / scale, full);
+                Row::Full
+            }
+            Quantity::RootPower { effort, prices, smooth_w } => {
+                let c = effort.coordinate.index();
+                let (force, rate) = (effort.value(instant, at), at.posture[1][c]);
+                let slope = root_power(force * rate, *prices, *smooth_w).1 / scale;
+                let first = full.len();
+                effort.push_row(at, slope * rate, full);
+                full[first + n + c] += slope * force;
+                Row::Full
+            }
             Quantity::GroundForce(spheres, axis) => contact(spheres, &|_, slopes| slopes[*axis]),
             Quantity::Height(sphere) => contact(&[*sphere], &|_, slopes| slopes[HEIGHT]),
+            Quantity::Sideways(sphere) => contact(&[*sphere], &|_, slopes| slopes[PLACE]),
             Quantity::Slip { sphere, axis, light_n } => contact(&[*sphere], &|sphere, slopes| {
                 let values = &at.contacts[sphere].values;
                 let weight = values[1] / (values[1] + light_n);

@@ -1,29 +1,13 @@
-//! Optimal walks of figures, found from shipped solutions where there are some.
+//! Solved walks of the built-in figures, which ship with the library.
 //!
 //! data/walks has the spline coefficients of solved walks of the built-in figures. A walk of the same figure, speed and cadence needs no
 //! solution; a test checks that the files solve the present problem. Made by `cargo xtask walk-plans`.
 
-use super::solution::{Solution, Unbalanced};
-use super::solve::Continuation;
-use super::walk::{STAGES, WalkCosts, WalkProblem, soles_with_width};
-use crate::contact::HuntCrossley;
-use crate::dynamics::CurvedJointError;
+use super::find::OptimalWalk;
 use crate::gait::Walk;
-use crate::model::anthropometry::{Build, BuildError, Human, SegmentTable};
-use crate::model::full_body::full_body;
+use crate::model::anthropometry::{Build, SegmentTable};
 use crate::toml_reader::{Source, Table, TomlError};
 
-/// Largest force and moment at the root that count as none [body weights, body weights × leg length].
-pub const NO_ROOT_FORCE: f64 = 1e-4;
-/// Larger forces at the root mean that no walk was found; those between are reported with the walk.
-const LARGEST_ROOT_FORCE: f64 = 1e-3;
-/// Instants per knot interval at which the forces at the root between the instants of the problem are judged, and their largest root mean
-/// square [body weights, body weights × leg length]. Walks of people leave at most 0.003 (docs/measured/OPTIMAL_WALK.md); a body that hops
-/// between the instants leaves more.
-const BETWEEN: usize = 10;
-const LARGEST_BETWEEN: f64 = 0.01;
-/// Updates of the multipliers after the last stage of a solution that leaves forces at the root.
-const LATER_UPDATES: usize = 10;
 /// Largest difference of speed and cycle at which a plan belongs to a walk.
 const SAME: f64 = 1e-9;
 /// What errors call a plan.
@@ -57,107 +41,6 @@ pub struct WalkPlan {
     pub coordinates: Vec<String>,
     /// Coefficients, all coordinates of one knot after another [rad or m].
     pub coefficients: Vec<f64>,
-}
-
-/// An optimal walk of a figure.
-#[derive(Debug, Clone)]
-pub struct OptimalWalk {
-    /// The figure.
-    pub human: Human,
-    /// The problem that was solved.
-    pub problem: WalkProblem,
-    /// Its solution.
-    pub solution: Solution,
-}
-
-/// Why a figure cannot walk by optimal motion.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum OptimalWalkError {
-    /// The figure could not be built.
-    #[error(transparent)]
-    Build(#[from] BuildError),
-    /// A built-in file is wrong.
-    #[error(transparent)]
-    BuiltIn(#[from] TomlError),
-    /// The figure has joints that are not hinges or slides.
-    #[error(transparent)]
-    Joint(#[from] CurvedJointError),
-    /// No motion without outside forces was found.
-    #[error(
-        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force from outside: {worst}"
-    )]
-    NotConverged {
-        /// Speed [m/s].
-        speed: f64,
-        /// Cadence [steps/min].
-        cadence: f64,
-        /// Leg length [m].
-        leg_length: f64,
-        /// The largest force at the root.
-        worst: Unbalanced,
-    },
-    /// The motion needs forces from outside between the instants at which it was solved.
-    #[error(
-        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force from outside: between the instants of the solution {:.1} % of body weight remain (rms); expected at most {:.1} %",
-        100.0 * share,
-        100.0 * LARGEST_BETWEEN
-    )]
-    Ripple {
-        /// Speed [m/s].
-        speed: f64,
-        /// Cadence [steps/min].
-        cadence: f64,
-        /// Leg length [m].
-        leg_length: f64,
-        /// Root mean square of the forces at the root [body weights, body weights × leg length].
-        share: f64,
-    },
-}
-
-impl OptimalWalk {
-    /// Finds the walk of a figure in three dimensions on soft shoes: a built-in plan where one is for this walk, else a solution from the laws.
-    ///
-    /// # Errors
-    /// A figure that cannot be built; no motion without outside forces.
-    pub fn find(build: &Build, walk: &Walk) -> Result<OptimalWalk, OptimalWalkError> {
-        OptimalWalk::find_with(build, walk, &STAGES, WalkPlan::of(build, walk)?.as_ref())
-    }
-
-    /// As [`OptimalWalk::find`], with given stages of the solution and from a given plan.
-    ///
-    /// # Errors
-    /// As [`OptimalWalk::find`].
-    pub fn find_with(
-        build: &Build,
-        walk: &Walk,
-        stages: &[Continuation],
-        plan: Option<&WalkPlan>,
-    ) -> Result<OptimalWalk, OptimalWalkError> {
-        let human = full_body(build)?;
-        let soles = soles_with_width(&human);
-        let problem = WalkProblem::new(&human, &soles, HuntCrossley::SOFT_SHOES, walk, &WalkCosts::default())?;
-        if let Some(plan) = plan {
-            let solution = problem.problem.at(&plan.coefficients)?;
-            if solution.unbalanced(LARGEST_ROOT_FORCE).is_none() {
-                return Ok(OptimalWalk { human, problem, solution });
-            }
-        }
-        let mut solution = problem.solve(stages)?;
-        if let (Some(last), Some(_)) = (stages.last(), solution.unbalanced(NO_ROOT_FORCE)) {
-            let longer = Continuation { updates: LATER_UPDATES, ..*last };
-            solution = problem.problem.solve(solution.unknowns(), &[longer])?;
-        }
-        let (speed, cadence, leg_length) = (walk.speed(), 120.0 / walk.cycle_s(), human.dimensions.leg_length);
-        if let Some(worst) = solution.unbalanced(LARGEST_ROOT_FORCE) {
-            return Err(OptimalWalkError::NotConverged { speed, cadence, leg_length, worst });
-        }
-        let (share, _) = solution.root_forces(BETWEEN)?;
-        if share > LARGEST_BETWEEN {
-            return Err(OptimalWalkError::Ripple { speed, cadence, leg_length, share });
-        }
-        Ok(OptimalWalk { human, problem, solution })
-    }
 }
 
 impl WalkPlan {

@@ -220,7 +220,7 @@ impl<'a> Transcription<'a> {
         for index in 0..self.counted() {
             let at = &self.instants[index];
             for term in self.problem.terms.iter().filter(|term| term.quantity.is_rate_of_force().is_none()) {
-                cost += term.residual(index, term.quantity.value(at)).map_or(0.0, |r| (r * share).powi(2));
+                cost += term.residual(index, term.quantity.value(index, at)).map_or(0.0, |r| (r * share).powi(2));
             }
             for k in 0..self.root.len() {
                 cost += (self.root_residual(index, k) * share).powi(2);
@@ -232,6 +232,24 @@ impl<'a> Transcription<'a> {
             }
         }
         cost
+    }
+
+    /// The cost of each term.
+    pub(super) fn costs(&self) -> Vec<(String, f64)> {
+        let share = self.share();
+        let of = |term: &Term| -> f64 {
+            let square = |r: f64| (r * share).powi(2);
+            match term.quantity.is_rate_of_force() {
+                Some(id) => {
+                    (0..self.instants.len() - 1).filter_map(|k| self.rate_residual(id, term, k)).map(square).sum()
+                }
+                None => (0..self.counted())
+                    .filter_map(|k| term.residual(k, term.quantity.value(k, &self.instants[k])))
+                    .map(square)
+                    .sum(),
+            }
+        };
+        self.problem.terms.iter().map(|term| (term.name.clone(), of(term))).collect()
     }
 
     fn rates(&self) -> impl Iterator<Item = (CoordinateId, &'a Term)> + use<'a> {
@@ -342,8 +360,8 @@ impl<'a> Transcription<'a> {
         self.rows.slopes.clear();
         for term in self.problem.terms.iter().filter(|term| term.quantity.is_rate_of_force().is_none()) {
             let at = &self.instants[index];
-            let Some(residual) = term.residual(index, term.quantity.value(at)) else { continue };
-            match term.quantity.row(at, term.deviation / share, &mut self.rows.slopes) {
+            let Some(residual) = term.residual(index, term.quantity.value(index, at)) else { continue };
+            match term.quantity.row(index, at, term.deviation / share, &mut self.rows.slopes) {
                 Row::Entries(mut entries) => {
                     entries.sort_unstable_by_key(|(place, _)| *place);
                     self.sums.add_entries(residual * share, &entries);

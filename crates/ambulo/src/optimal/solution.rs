@@ -2,6 +2,7 @@
 
 use super::instant::{Evaluator, HEIGHT, Instant, SIDE_BY_SIDE, SLIP};
 use super::layout::Layout;
+use super::objective::Quantity;
 use super::problem::{Problem, Transcription};
 use crate::dynamics::CurvedJointError;
 use crate::model::CoordinateKind;
@@ -199,6 +200,11 @@ impl Solution {
             Sample { time_s, posture: at.posture, forces: at.forces, contacts }
         };
         instants.into_iter().zip(times_s).map(sample).collect()
+    }
+
+    /// Values of a quantity at the instants of the problem.
+    pub fn values<'a>(&'a self, quantity: &'a Quantity) -> impl Iterator<Item = f64> + 'a {
+        self.instants.iter().enumerate().map(|(index, at)| quantity.value(index, at))
     }
 
     /// Generalised forces at the instants of the problem [N.m or N].

@@ -81,6 +81,14 @@ impl Problem {
 }
 
 impl Problem {
+    /// The cost of each term at given unknowns, with its name.
+    #[must_use]
+    pub fn costs(&self, unknowns: &[f64]) -> Vec<(String, f64)> {
+        let Ok(mut transcription) = Transcription::new(self) else { return Vec::new() };
+        transcription.evaluate(unknowns);
+        transcription.costs()
+    }
+
     /// The motion of given unknowns, which are not changed.
     ///
     /// # Errors

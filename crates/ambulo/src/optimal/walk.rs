@@ -141,22 +141,39 @@ impl WalkProblem {
         walk: &Walk,
         costs: &WalkCosts,
     ) -> Result<WalkProblem, TomlError> {
+        WalkProblem::over(Span::MirroredHalfCycle, human, soles, shoes, walk, costs)
+    }
+
+    /// As [`WalkProblem::new`], over half a mirrored cycle or a whole cycle, whose sides may then differ.
+    ///
+    /// # Errors
+    /// As [`WalkProblem::new`].
+    pub fn over(
+        span: Span,
+        human: &Human,
+        soles: &[ContactSphere],
+        shoes: HuntCrossley,
+        walk: &Walk,
+        costs: &WalkCosts,
+    ) -> Result<WalkProblem, TomlError> {
         let model = &human.model;
         let forward = model.anatomy().coordinate(Movement::PelvisForward, None).map(|(id, _)| id);
-        let half = 0.5 * walk.cycle_s();
+        let halves = if span == Span::MirroredHalfCycle { 1 } else { 2 };
+        let duration_s = 0.5 * walk.cycle_s() * halves as f64;
         let mut problem = Problem {
             model: model.clone(),
             soles: soles.to_vec(),
             shoes,
-            span: Span::MirroredHalfCycle,
-            duration_s: half,
-            travel: forward.map(|id| (id, walk.speed() * half)),
-            knots: costs.knots,
+            span,
+            duration_s,
+            travel: forward.map(|id| (id, walk.speed() * duration_s)),
+            knots: costs.knots * halves,
             instants_per_knot: costs.per_knot,
             length_m: human.dimensions.leg_length,
             terms: Vec::new(),
         };
-        let targets = targets(human, walk, &problem.shares())?;
+        let phases: Vec<f64> = problem.shares().iter().map(|share| 0.5 * halves as f64 * share).collect();
+        let targets = targets(human, walk, &phases)?;
         let mut builder = Builder { model, targets, terms: Vec::new() };
         builder.posture(costs);
         builder.forces(&problem, walk, costs);
@@ -180,7 +197,7 @@ impl WalkProblem {
     }
 }
 
-fn targets(human: &Human, walk: &Walk, shares: &[f64]) -> Result<Vec<Target>, TomlError> {
+fn targets(human: &Human, walk: &Walk, phases: &[f64]) -> Result<Vec<Target>, TomlError> {
     let (forces, planes) = (GroundForceLaws::built_in()?, OtherPlaneLaws::built_in()?);
     let moments = JointMomentLaws::built_in()?;
     let model = &human.model;
@@ -188,8 +205,7 @@ fn targets(human: &Human, walk: &Walk, shares: &[f64]) -> Result<Vec<Target>, To
     let mut machine = WalkMachine::new(walk);
     let count = model.coordinates().len();
     let speed = walk.curve_speed(&walk.clock(0.0)).value;
-    let target = |&share: &f64| {
-        let phase = 0.5 * share;
+    let target = |&phase: &f64| {
         let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
         let [q, qd, qdd] = &mut posture;
         let at = machine.step(phase * walk.cycle_s());
@@ -215,7 +231,7 @@ fn targets(human: &Human, walk: &Walk, shares: &[f64]) -> Result<Vec<Target>, To
         let moments = [0.0, 0.5].map(|ahead| moments.at((phase + ahead) % 1.0, speed));
         Target { posture, forces: [a, d], moments, toes: [b, e], swing: [c, f] }
     };
-    Ok(shares.iter().map(target).collect())
+    Ok(phases.iter().map(target).collect())
 }
 
 /// Adds the tilt of the pelvis to the target of the lumbar joint, because the trunk angles of the tables are relative to the pelvis, while the

@@ -10,7 +10,6 @@
 //! stay below 1.6 (unverified for stairs).
 //! Pinned by: tests/force_filter.rs
 
-use crate::ground::upward;
 use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Smoother, TimeGrid};
@@ -59,7 +58,7 @@ impl ForceFilter {
 fn has_impacts(model: &Model, forces: &[ForceRecording]) -> bool {
     let Some(first) = forces.first() else { return false };
     let Some(grid) = TimeGrid::spanning(&first.times) else { return false };
-    let up = upward(model);
+    let up = model.up();
     let carried = |force: &ForceRecording, t: f64| {
         let sample = force.times.partition_point(|time| *time < t - 0.5 * grid.step_s);
         let vector = force.force.get(sample).copied().unwrap_or(Vec3::zeros());

@@ -2,7 +2,6 @@
 
 use super::error::StudyError;
 use crate::findings::{Code, Findings};
-use crate::ground::upward;
 use crate::model::{CoordinateKind, Displacement, Model};
 use crate::motion::Motion;
 use crate::spatial::Vec3;
@@ -57,7 +56,7 @@ impl StatedSize {
             return Cow::Borrowed(motion);
         }
         let factor = self.length_factor(model);
-        let up = upward(model);
+        let up = model.up();
         let mut moved = motion.clone();
         for body in model.bodies() {
             for axis in &body.joint.translations {

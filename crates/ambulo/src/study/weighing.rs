@@ -18,7 +18,6 @@ use crate::analysis::BodyInMotion;
 use crate::findings::Findings;
 use crate::ground::footfalls::footfalls;
 use crate::ground::phases::{Contact, SHORTEST_CONTACT_S, contacts_from_force};
-use crate::ground::upward;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
@@ -79,7 +78,7 @@ impl<'a> Carried<'a> {
         soles: &BySide<Option<Sole>>,
         body: Option<&BodyInMotion>,
     ) -> Carried<'a> {
-        let (up, grid) = (upward(model), trajectory.grid());
+        let (up, grid) = (model.up(), trajectory.grid());
         let mut velocity = Vec::with_capacity(grid.frames);
         each_body_motion(model, trajectory, |_, bodies| {
             let momentum =

@@ -2,7 +2,6 @@
 
 use crate::ground::footfalls::{Footfall, Footfalls};
 use crate::ground::predict::total_wrench;
-use crate::ground::upward;
 use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::anatomy::{Movement, Sole};
 use crate::model::{BySide, Model, Side};
@@ -96,7 +95,7 @@ fn instants(
     soles: &BySide<Option<Sole>>,
     floor_velocity: Vec3,
 ) -> Option<Vec<Instant>> {
-    let (up, grid) = (upward(model), trajectory.grid());
+    let (up, grid) = (model.up(), trajectory.grid());
     let pelvis = model.anatomy().pelvis()?;
     let legs = model.anatomy().legs().as_ref().map(|leg| leg.as_ref().map(|leg| leg.hip)).both()?;
     let soles = soles.as_ref().map(Option::as_ref).both()?;
@@ -159,7 +158,7 @@ fn turn(instants: &[Instant], grid: TimeGrid) -> f64 {
 
 /// First and last instant of the longest time in which no foot is on the ground and the motion needs hardly any upward force [s].
 fn longest_flight(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls, edge: usize) -> Option<[f64; 2]> {
-    let (grid, up) = (trajectory.grid(), upward(model));
+    let (grid, up) = (trajectory.grid(), model.up());
     let weight = model.mass() * model.gravity().norm();
     let total = total_wrench(model, trajectory);
     let inner = edge..grid.frames.saturating_sub(edge);

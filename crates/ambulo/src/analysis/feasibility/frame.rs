@@ -116,7 +116,7 @@ impl FeasibilityLimits {
         FeasibilityLimits {
             thresholds: thresholds.clone(),
             person: person.clone(),
-            up: crate::ground::upward(model),
+            up: model.up(),
             weight: person.mass_kg * model.gravity().norm(),
             mass: person.mass_kg,
             coordinates: model.coordinate_ids().map(of_coordinate).collect(),

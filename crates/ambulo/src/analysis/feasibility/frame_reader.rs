@@ -4,7 +4,7 @@ use super::frame::{FootFrame, Frame};
 use super::ground_speed::over_ground;
 use super::motion_and_forces::MotionAndForces;
 use crate::dynamics::{Forces, Roots};
-use crate::ground::{BodyForces, GroundForces, feet, upward};
+use crate::ground::{BodyForces, GroundForces, feet};
 use crate::kinematics::BodyMotion;
 use crate::model::BySide;
 use crate::spatial::Vec3;
@@ -28,7 +28,7 @@ pub(super) struct FrameReader<'a> {
 impl<'a> FrameReader<'a> {
     pub(super) fn new(motion: &MotionAndForces<'a>, forces: &'a Forces, ground: &'a GroundForces) -> FrameReader<'a> {
         let model = motion.model;
-        let up = upward(model);
+        let up = model.up();
         let over = over_ground(model, motion.trajectory, ground, up);
         let mut by_side = feet(model, ground);
         let feet = BySide::from_fn(|side| {

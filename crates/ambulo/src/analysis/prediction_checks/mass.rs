@@ -3,7 +3,6 @@
 use super::CheckedPrediction;
 use super::judgement::{Criterion, Judgement, TimedValue};
 use crate::analysis::predicted::PredictedAnalysis;
-use crate::ground::upward;
 use crate::model::Model;
 use crate::motion::Window;
 
@@ -42,7 +41,7 @@ impl PlateMass {
     #[must_use]
     pub fn of_plates(analysis: &PredictedAnalysis, model: &Model, [from_s, to_s]: [f64; 2]) -> Option<PlateMass> {
         let measured = analysis.measured.as_ref()?;
-        let (grid, up) = (measured.trajectory.grid(), upward(model));
+        let (grid, up) = (measured.trajectory.grid(), model.up());
         let (first, frames) = grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
         let duration_s = (frames as f64) * grid.step_s;
         if duration_s < SHORTEST_S {

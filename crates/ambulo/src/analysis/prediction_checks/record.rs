@@ -2,7 +2,6 @@
 
 use super::CheckedPrediction;
 use crate::ground::footfalls::Footfall;
-use crate::ground::upward;
 use crate::kinematics::each_body_motion;
 use crate::model::{Displacement, Model, Side};
 use crate::motion::TimeGrid;
@@ -54,7 +53,7 @@ impl Record {
         let on_floor = |(frame, wrench): (usize, &Wrench)| wrench.about(-way(frame));
         Some(Record {
             grid,
-            up: upward(model),
+            up: model.up(),
             weight: model.mass() * model.gravity().norm(),
             velocity,
             soles,

@@ -7,7 +7,6 @@
 //! F = Σ mᵢ (aᵢ - g), M = Σ rᵢ × mᵢ (aᵢ - g) + Iᵢ αᵢ + ωᵢ × Iᵢ ωᵢ about the world's origin (Newton, Euler), and from the statics of
 //! [`crate::ground`]: p = (u × M + h F) / (u · F).
 
-use crate::ground::upward;
 use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
@@ -44,7 +43,7 @@ pub(super) struct Signals {
 impl Signals {
     /// Computes the signals; a foot without a sole is left out.
     pub(super) fn new(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -> Signals {
-        let (up, grid) = (upward(model), trajectory.grid());
+        let (up, grid) = (model.up(), trajectory.grid());
         let gravity = Some(model.gravity().norm()).filter(|g| *g > f64::MIN_POSITIVE).unwrap_or(STANDARD_GRAVITY);
         let leg = model.stature().leg_length_m;
         let mut signals = Signals {

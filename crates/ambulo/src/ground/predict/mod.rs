@@ -26,7 +26,7 @@ mod unknowns;
 mod zero_moment_point;
 
 use super::footfalls::{Footfall, Footfalls, footfalls};
-use super::{BodyForces, GroundForces, upward};
+use super::{BodyForces, GroundForces};
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
 use crate::model::anatomy::Sole;
@@ -249,7 +249,7 @@ pub fn predict(
         None => footfalls(model, trajectory, &soles.map(Some), findings),
     };
     let total = settings.prescribed.total(total_wrench(model, trajectory));
-    let up = upward(model);
+    let up = model.up();
     let stature = model.stature();
     let gravity = model.gravity().norm();
     if model.mass() <= 0.0 {

@@ -1,8 +1,8 @@
 //! Results of a stream: the forces on both feet and in all joints in one frame.
 
 use crate::dynamics::{BodyLoad, Workspace, inverse_frame};
+use crate::ground::BodyForces;
 use crate::ground::predict::Prediction;
-use crate::ground::{BodyForces, upward};
 use crate::kinematics::{Posture, Trajectory};
 use crate::model::{Model, Side};
 use crate::spatial::{Vec3, Wrench};
@@ -86,7 +86,7 @@ fn foot_load(model: &Model, prediction: &Prediction, side: Side, frame: usize) -
         force: foot.force[frame],
         moment: foot.moment[frame],
         center_of_pressure: center,
-        free_moment: center.map_or(0.0, |_| foot.free_moment[frame].dot(&upward(model))),
+        free_moment: center.map_or(0.0, |_| foot.free_moment[frame].dot(&model.up())),
         deviation: LoadDeviation {
             force: deviation.force[frame],
             center: deviation.center[frame],

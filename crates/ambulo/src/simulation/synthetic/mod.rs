@@ -1,6 +1,7 @@
 //! Synthetic walks: from a gait and a body size to motion and ground forces, for an analysis like that of a recording.
 //!
-//! There are three modes. [`SyntheticMode::Optimal`] finds the walk of a figure in three dimensions by optimal motion ([`crate::optimal`]).
+//! There are four modes. [`SyntheticMode::Optimal`] finds the walk of a figure in three dimensions by optimal motion ([`crate::optimal`]);
+//! [`SyntheticMode::Predicted`] does so without curves of people as targets, also on slopes, with loads, weak joints and devices.
 //! [`SyntheticMode::Corrected`] makes the gait dynamically consistent ([`super::consistent_walk`]) and simulates it
 //! on soft shoes. [`SyntheticMode::Paper`] makes the joints follow the gait exactly, holds the trunk upright and has rigid soles
 //! (Faure, Debunne, Cani, Multon 1997). The last two skip the cycles before the walk is steady. The kept part begins shortly before a strike
@@ -13,6 +14,6 @@ mod optimal;
 mod walk;
 
 pub use crate::numerics::Progress;
-pub use modes::{replay, run_of_states, synthesise};
+pub use modes::{predict, replay, run_of_states, synthesise};
 pub use settings::{MOST_CYCLES, RATES_HZ, SyntheticError, SyntheticMode, SyntheticWalkSettings};
-pub use walk::{CorrectionReport, PaceReached, SyntheticWalk, WalkReport};
+pub use walk::{CorrectionReport, PaceReached, PredictionReport, SyntheticWalk, WalkReport};

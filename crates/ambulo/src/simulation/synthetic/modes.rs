@@ -1,12 +1,13 @@
-//! Synthesis of a walk, in the two modes.
+//! Synthesis of a walk, in its modes.
 
-use super::optimal::optimal;
+use super::optimal::{optimal, predicted};
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
 use super::walk::{CORRECTED_SKIPPED, CorrectionReport, KeptPart, Made, StateRun, SyntheticWalk, steady, timed};
 use crate::findings::{Code, Findings};
 use crate::gait::machine::StateChange;
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
+use crate::optimal::WalkConditions;
 use crate::simulation::consistent_walk::{
     ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
 };
@@ -49,9 +50,24 @@ pub fn synthesise(
     settings.check()?;
     match settings.mode {
         SyntheticMode::Optimal => optimal(settings, findings),
+        SyntheticMode::Predicted => predicted(settings, &WalkConditions::default(), findings),
         SyntheticMode::Corrected => corrected(settings, settings.build.human()?, findings),
         SyntheticMode::Paper => paper(settings, settings.build.human()?, findings),
     }
+}
+
+/// Predicts a walk under some conditions. The mode of the settings is [`SyntheticMode::Predicted`], whatever they say.
+///
+/// # Errors
+/// As [`synthesise`]; conditions that do not fit the figure, or that its muscles are too weak for.
+pub fn predict(
+    settings: &SyntheticWalkSettings<'_>,
+    conditions: &WalkConditions,
+    findings: &mut Findings,
+) -> Result<SyntheticWalk, SyntheticError> {
+    settings.check()?;
+    let settings = SyntheticWalkSettings { mode: SyntheticMode::Predicted, ..*settings };
+    predicted(&settings, conditions, findings)
 }
 
 /// The corrected mode: the gait is made dynamically consistent, then simulated on soft shoes.
@@ -171,7 +187,7 @@ pub fn run_of_states(
                 kept.states(settings, &walk)
             }
         }
-        SyntheticMode::Optimal | SyntheticMode::Corrected => {
+        SyntheticMode::Optimal | SyntheticMode::Predicted | SyntheticMode::Corrected => {
             let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
             kept.states(settings, &walk)
         }

@@ -1,7 +1,7 @@
 //! The optimal mode: a walk in three dimensions, read from its solution. Nothing is simulated, because the solution has no force from outside.
 
 use super::settings::{SyntheticError, SyntheticWalkSettings};
-use super::walk::{CORRECTED_SKIPPED, CorrectionReport, SyntheticWalk, WalkReport, timed};
+use super::walk::{CORRECTED_SKIPPED, CorrectionReport, KeptPart, PredictionReport, SyntheticWalk, WalkReport, timed};
 use crate::findings::Findings;
 use crate::gait::Walk;
 use crate::kinematics::{Trajectory, TrajectoryError};
@@ -9,7 +9,7 @@ use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{BodyId, CoordinateId, CoordinateKind, Model, Side};
 use crate::motion::TimeGrid;
 use crate::numerics::Progress;
-use crate::optimal::{OptimalWalk, Sample, Solution};
+use crate::optimal::{OptimalWalk, OptimalWalkError, Sample, Solution, WalkConditions, metabolic_power};
 use crate::simulation::ContactForce;
 use crate::simulation::consistent_walk::{Adjustment, Magnitude};
 use crate::simulation::walking::{FootRecord, loads, worst_slip};
@@ -22,6 +22,29 @@ pub(super) fn optimal(
     settings: &SyntheticWalkSettings<'_>,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
+    let (walk, kept) = planned(settings, findings)?;
+    let found = OptimalWalk::find(&settings.build, &walk)?;
+    made(settings, walk, &kept, found)
+}
+
+/// The predicted mode: as the optimal one, from the solution of muscles that work as little as they can.
+pub(super) fn predicted(
+    settings: &SyntheticWalkSettings<'_>,
+    conditions: &WalkConditions,
+    findings: &mut Findings,
+) -> Result<SyntheticWalk, SyntheticError> {
+    let (walk, kept) = planned(settings, findings)?;
+    let found = OptimalWalk::predict(&settings.build, &walk, conditions)?;
+    let conditions = found.conditions.clone();
+    let (mass, devices) = (settings.build.mass, &conditions.devices);
+    let metabolic_power = metabolic_power(&found.solution, &walk, mass, devices).map_err(OptimalWalkError::from)?;
+    let mut predicted = made(settings, walk, &kept, found)?;
+    predicted.report.prediction = Some(PredictionReport { conditions, metabolic_power });
+    Ok(predicted)
+}
+
+/// The walk to be found, and the part of it that is kept.
+fn planned(settings: &SyntheticWalkSettings<'_>, findings: &mut Findings) -> Result<(Walk, KeptPart), SyntheticError> {
     let planar = settings.build.human()?;
     let (walk, kept) = timed(settings, settings.gait, &planar, CORRECTED_SKIPPED, findings)?;
     if !(walk.is_symmetric() && walk.is_steady()) {
@@ -33,7 +56,15 @@ pub(super) fn optimal(
     if !settings.build.toe_joint {
         return Err(SyntheticError::NoToeJoint);
     }
-    let found = OptimalWalk::find(&settings.build, &walk)?;
+    Ok((walk, kept))
+}
+
+fn made(
+    settings: &SyntheticWalkSettings<'_>,
+    walk: Walk,
+    kept: &KeptPart,
+    found: OptimalWalk,
+) -> Result<SyntheticWalk, SyntheticError> {
     let start_s = kept.first as f64 * settings.step_s();
     let grid = TimeGrid { start_s: 0.0, step_s: 1.0 / settings.rate_hz, frames: kept.frames };
     let trajectory = trajectory(&found.human.model, &found.solution, start_s, grid)?;
@@ -85,7 +116,7 @@ fn trajectory(model: &Model, solution: &Solution, start_s: f64, grid: TimeGrid) 
 
 /// Generalised forces at some times, one column per coordinate.
 fn efforts(solution: &Solution, times_s: &[f64]) -> Result<Vec<Vec<f64>>, SyntheticError> {
-    let samples = solution.samples(times_s).map_err(crate::optimal::OptimalWalkError::from)?;
+    let samples = solution.samples(times_s).map_err(OptimalWalkError::from)?;
     let count = solution.problem().model.coordinates().len();
     Ok((0..count).map(|c| samples.iter().map(|sample| sample.forces[c]).collect()).collect())
 }
@@ -104,7 +135,7 @@ impl<'a> Cycle<'a> {
         let rows = (walk.cycle_s() * rate_hz).ceil() as usize;
         let step_s = walk.cycle_s() / rows as f64;
         let times: Vec<f64> = (0..rows).map(|row| start_s + step_s * row as f64).collect();
-        let samples = found.solution.samples(&times).map_err(crate::optimal::OptimalWalkError::from)?;
+        let samples = found.solution.samples(&times).map_err(OptimalWalkError::from)?;
         Ok(Cycle { found, samples, step_s, stride: Vec3::new(walk.speed() * walk.cycle_s(), 0.0, 0.0) })
     }
 
@@ -156,7 +187,7 @@ fn bodies(human: &Human, side: Side) -> [Option<BodyId>; 2] {
 
 /// Difference of the solution from the curves of the gait, remaining forces at the root, and the course of the solution.
 fn correction(found: &OptimalWalk, walk: &Walk) -> Result<CorrectionReport, SyntheticError> {
-    let wrong = crate::optimal::OptimalWalkError::from;
+    let wrong = OptimalWalkError::from;
     let curves = found.problem.problem.at(&found.problem.guess).map_err(wrong)?;
     let times: Vec<f64> = (0..INSTANTS).map(|k| walk.cycle_s() * k as f64 / INSTANTS as f64).collect();
     let samples = found.solution.samples(&times).map_err(wrong)?;

@@ -16,6 +16,8 @@ use std::ops::RangeInclusive;
 pub enum SyntheticMode {
     /// In three dimensions, found by optimal motion on soft shoes: no force but those of its own joints and of the ground.
     Optimal,
+    /// In three dimensions, predicted: as optimal, but muscles work as little as they can instead of following curves of people.
+    Predicted,
     /// In the sagittal plane, dynamically consistent, on soft shoes.
     Corrected,
     /// As in the 1997 paper: rigid soles, and the trunk is held upright.
@@ -43,6 +45,7 @@ impl SyntheticMode {
     pub fn name(self) -> &'static str {
         match self {
             SyntheticMode::Optimal => "optimal",
+            SyntheticMode::Predicted => "predict",
             SyntheticMode::Corrected => "corrected",
             SyntheticMode::Paper => "paper",
         }

@@ -8,6 +8,7 @@ use crate::kinematics::Trajectory;
 use crate::model::anthropometry::{Human, SegmentTable};
 use crate::motion::ForceRecording;
 use crate::numerics::Progress;
+use crate::optimal::WalkConditions;
 use crate::simulation::consistent_walk::{Adjustment, Magnitude};
 use crate::simulation::walking::{ExcerptRows, StanceSlip, WalkRecording};
 
@@ -57,6 +58,8 @@ pub struct WalkReport {
     pub changes: Vec<PaceReached>,
     /// The correction of the gait; of its first pace if the pace changes; `None` in the paper's mode.
     pub correction: Option<CorrectionReport>,
+    /// What a prediction was made for and what it costs; `None` in the other modes.
+    pub prediction: Option<PredictionReport>,
     /// Torque that holds the trunk from outside [N.m].
     pub trunk_torque: Magnitude,
     /// Slip of a loaded sole in the worst complete stance.
@@ -71,6 +74,15 @@ pub struct WalkReport {
     pub steps_hz: f64,
     /// Number of steps whose contacts were not solved to the tolerance.
     pub unsolved_steps: usize,
+}
+
+/// Conditions and effort of a predicted walk.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PredictionReport {
+    /// The conditions.
+    pub conditions: WalkConditions,
+    /// Metabolic power by the formula of [`crate::optimal::metabolic_power`] [W/kg of the body without load].
+    pub metabolic_power: f64,
 }
 
 /// A change of pace and what it leads to.
@@ -294,6 +306,7 @@ impl WalkReport {
             leg_length: human.dimensions.leg_length,
             changes: Vec::new(),
             correction: None,
+            prediction: None,
             trunk_torque: Magnitude::default(),
             slip: None,
             flight_s: 0.0,

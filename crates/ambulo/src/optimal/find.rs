@@ -1,0 +1,223 @@
+//! Finding the walk of a figure: one that follows people, or one that is predicted for some conditions.
+
+use super::conditions::WalkConditions;
+use super::layout::Span;
+use super::plan::WalkPlan;
+use super::predict::{EffortCosts, Overload};
+use super::problem::Problem;
+use super::solution::{Solution, Unbalanced};
+use super::solve::Continuation;
+use super::walk::{STAGES, WalkCosts, WalkProblem, soles_with_width};
+use crate::contact::HuntCrossley;
+use crate::dynamics::CurvedJointError;
+use crate::gait::Walk;
+use crate::model::ModelError;
+use crate::model::anthropometry::{Build, BuildError, Human};
+use crate::model::full_body::full_body;
+use crate::numerics::Shown;
+use crate::toml_reader::TomlError;
+
+/// Largest force and moment at the root that count as none [body weights, body weights × leg length].
+pub const NO_ROOT_FORCE: f64 = 1e-4;
+/// Larger forces at the root mean that no walk was found; those between are reported with the walk.
+const LARGEST_ROOT_FORCE: f64 = 1e-3;
+/// Instants per knot interval at which the forces at the root between the instants of the problem are judged, and their largest root mean
+/// square [body weights, body weights × leg length]. Walks of people leave at most 0.003 (docs/measured/OPTIMAL_WALK.md); a body that hops
+/// between the instants leaves more.
+const BETWEEN: usize = 10;
+const LARGEST_BETWEEN: f64 = 0.01;
+/// Updates of the multipliers after the last stage of a solution that leaves forces at the root.
+const LATER_UPDATES: usize = 10;
+/// Share of its strength by which the muscles of a joint may exceed it: the cost of weakness is steep, but no constraint.
+const LARGEST_OVERLOAD: f64 = 0.05;
+
+/// An optimal walk of a figure.
+#[derive(Debug, Clone)]
+pub struct OptimalWalk {
+    /// The figure.
+    pub human: Human,
+    /// The problem that was solved.
+    pub problem: WalkProblem,
+    /// Its solution.
+    pub solution: Solution,
+    /// The conditions that it was predicted for, with the names of coordinates for all joints.
+    pub conditions: WalkConditions,
+}
+
+/// Why a figure cannot walk by optimal motion.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OptimalWalkError {
+    /// The figure could not be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A built-in file is wrong.
+    #[error(transparent)]
+    BuiltIn(#[from] TomlError),
+    /// The figure has joints that are not hinges or slides.
+    #[error(transparent)]
+    Joint(#[from] CurvedJointError),
+    /// No motion without outside forces was found.
+    #[error(
+        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force from outside: {worst}"
+    )]
+    NotConverged {
+        /// Speed [m/s].
+        speed: f64,
+        /// Cadence [steps/min].
+        cadence: f64,
+        /// Leg length [m].
+        leg_length: f64,
+        /// The largest force at the root.
+        worst: Unbalanced,
+    },
+    /// The motion needs forces from outside between the instants at which it was solved.
+    #[error(
+        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force from outside: between the instants of the solution {:.1} % of body weight remain (rms); expected at most {:.1} %",
+        100.0 * share,
+        100.0 * LARGEST_BETWEEN
+    )]
+    Ripple {
+        /// Speed [m/s].
+        speed: f64,
+        /// Cadence [steps/min].
+        cadence: f64,
+        /// Leg length [m].
+        leg_length: f64,
+        /// Root mean square of the forces at the root [body weights, body weights × leg length].
+        share: f64,
+    },
+    /// The load does not fit the body.
+    #[error(transparent)]
+    Load(#[from] ModelError),
+    /// A condition outside its range.
+    #[error("found {what} of {}; expected {expected}", Shown(*found))]
+    Condition {
+        /// What the number is.
+        what: &'static str,
+        /// The number.
+        found: f64,
+        /// Allowed numbers, and why.
+        expected: &'static str,
+    },
+    /// A strength or a device belongs to a joint that the figure does not have.
+    #[error("found the joint `{found}`; expected {expected}")]
+    UnknownJoint {
+        /// Name that was given.
+        found: String,
+        /// Names of the joints' coordinates.
+        expected: String,
+    },
+    /// The muscles of a joint are too weak.
+    #[error(
+        "found no walk at {speed:.2} m/s that the muscles can do: {} needs {:.0} N.m at {:.3} s; expected at most {:.0} N.m, its strength",
+        overload.coordinate,
+        overload.moment.abs(),
+        overload.time_s,
+        overload.strength
+    )]
+    TooWeak {
+        /// Speed [m/s].
+        speed: f64,
+        /// The largest moment above strength.
+        overload: Overload,
+    },
+}
+
+impl OptimalWalk {
+    /// Finds the walk of a figure in three dimensions on soft shoes: a built-in plan where one is for this walk, else a solution from the laws.
+    ///
+    /// # Errors
+    /// A figure that cannot be built; no motion without outside forces.
+    pub fn find(build: &Build, walk: &Walk) -> Result<OptimalWalk, OptimalWalkError> {
+        OptimalWalk::find_with(build, walk, &STAGES, WalkPlan::of(build, walk)?.as_ref())
+    }
+
+    /// As [`OptimalWalk::find`], with given stages of the solution and from a given plan.
+    ///
+    /// # Errors
+    /// As [`OptimalWalk::find`].
+    pub fn find_with(
+        build: &Build,
+        walk: &Walk,
+        stages: &[Continuation],
+        plan: Option<&WalkPlan>,
+    ) -> Result<OptimalWalk, OptimalWalkError> {
+        let human = full_body(build)?;
+        let soles = soles_with_width(&human);
+        let problem = WalkProblem::new(&human, &soles, HuntCrossley::SOFT_SHOES, walk, &WalkCosts::default())?;
+        if let Some(plan) = plan {
+            let solution = problem.problem.at(&plan.coefficients)?;
+            if solution.unbalanced(LARGEST_ROOT_FORCE).is_none() {
+                return Ok(OptimalWalk { human, problem, solution, conditions: WalkConditions::default() });
+            }
+        }
+        let mut solution = problem.solve(stages)?;
+        if let (Some(last), Some(_)) = (stages.last(), solution.unbalanced(NO_ROOT_FORCE)) {
+            let longer = Continuation { updates: LATER_UPDATES, ..*last };
+            solution = problem.problem.solve(solution.unknowns(), &[longer])?;
+        }
+        let found = OptimalWalk { human, problem, solution, conditions: WalkConditions::default() };
+        found.check(walk)?;
+        Ok(found)
+    }
+
+    /// Predicts the walk of a figure under some conditions, without curves of people as targets. If the conditions differ between the sides, so
+    /// does the walk.
+    ///
+    /// # Errors
+    /// As [`OptimalWalk::find`]; conditions that do not fit the figure; muscles that are too weak.
+    pub fn predict(build: &Build, walk: &Walk, conditions: &WalkConditions) -> Result<OptimalWalk, OptimalWalkError> {
+        let followed = OptimalWalk::find(build, walk)?;
+        let conditions = conditions.checked(&followed.human.model)?;
+        let human = conditions.figure(&followed.human)?;
+        let (start, unknowns) = if conditions.is_symmetric() && !conditions.asymmetric {
+            (followed.problem.clone(), followed.solution.unknowns().to_vec())
+        } else {
+            let shoes = followed.problem.problem.shoes;
+            let soles = &followed.problem.problem.soles;
+            let costs = WalkCosts::default();
+            let whole = WalkProblem::over(Span::Cycle, &followed.human, soles, shoes, walk, &costs)?;
+            let unknowns = whole.problem.fitted(&followed.without_travel(&whole.problem));
+            (whole, unknowns)
+        };
+        let found = start.predict(&human, walk, &EffortCosts::default(), &conditions, &unknowns)?;
+        let overload = found.overload(LARGEST_OVERLOAD);
+        let found = OptimalWalk { human, problem: found.problem, solution: found.solution, conditions };
+        // Muscles that are too weak leave forces at the root too; the muscles are the cause.
+        if let Some(overload) = overload {
+            return Err(OptimalWalkError::TooWeak { speed: walk.speed(), overload });
+        }
+        found.check(walk)?;
+        Ok(found)
+    }
+
+    /// Coordinates at the instants of a problem, without forward motion.
+    fn without_travel(&self, problem: &Problem) -> Vec<Vec<f64>> {
+        let count = problem.model.coordinates().len();
+        let mut posture = [(); 3].map(|()| vec![0.0; count]);
+        let at = |share: f64| {
+            self.solution.write(share * problem.duration_s, &mut posture);
+            if let Some((id, distance)) = problem.travel {
+                posture[0][id.index()] -= share * distance;
+            }
+            posture[0].clone()
+        };
+        problem.shares().into_iter().map(at).collect()
+    }
+
+    /// Checks that the motion needs no force from outside.
+    fn check(&self, walk: &Walk) -> Result<(), OptimalWalkError> {
+        let solution = &self.solution;
+        let (speed, cadence) = (walk.speed(), 120.0 / walk.cycle_s());
+        let leg_length = self.human.dimensions.leg_length;
+        if let Some(worst) = solution.unbalanced(LARGEST_ROOT_FORCE) {
+            return Err(OptimalWalkError::NotConverged { speed, cadence, leg_length, worst });
+        }
+        let (share, _) = solution.root_forces(BETWEEN)?;
+        if share > LARGEST_BETWEEN {
+            return Err(OptimalWalkError::Ripple { speed, cadence, leg_length, share });
+        }
+        Ok(())
+    }
+}
