@@ -19,7 +19,7 @@ pub(crate) fn run() -> Result<(), String> {
             let walk = Walk::new(&gait, leg_length, &mut Findings::default()).map_err(|e| e.to_string())?;
             let found = OptimalWalk::find_with(&build, &walk, &STAGES, None).map_err(|e| e.to_string())?;
             let path = workspace::root().join(format!("crates/ambulo/data/walks/{}-{name}.toml", table.name()));
-            fs::write(&path, WalkPlan::new(&found, &walk).to_toml())
+            fs::write(&path, WalkPlan::new(found.human.build, &walk, &found.solution).to_toml())
                 .map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
             eprintln!(
                 "written: {}  root {:.1e}",

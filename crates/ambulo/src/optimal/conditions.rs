@@ -1,6 +1,6 @@
 //! Conditions of a walk that people's curves say nothing about: a slope, a load, weak joints, devices, a width of steps.
 
-use super::find::OptimalWalkError;
+use super::error::OptimalWalkError;
 use crate::model::anthropometry::Human;
 use crate::model::{Model, ModelError, Side};
 use crate::spatial::Vec3;
@@ -192,7 +192,10 @@ impl WalkConditions {
             Some((side, joint)) => format!("{joint}_{}", side.other().letter()),
             None => name.to_owned(),
         };
-        let strong = self.strengths.iter().all(|(name, _)| self.strength(name) == self.strength(&other(name)));
+        let strong = self
+            .strengths
+            .iter()
+            .all(|(name, _)| (self.strength(name) - self.strength(&other(name))).abs() < f64::EPSILON);
         let count = |device: &Device| self.devices.iter().filter(|other| *other == device).count();
         let mirrored = |device: &Device| Device { coordinate: other(&device.coordinate), ..device.clone() };
         strong && self.devices.iter().all(|device| count(device) == count(&mirrored(device)))

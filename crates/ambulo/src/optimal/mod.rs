@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Cost: one inverse dynamics with derivatives per step and instant, and one factorisation of a band with a border per step.
-//! Not handled: obstacles, slopes, unknown durations.
-//! Pinned by: tests/optimal.rs
+//! Not handled: obstacles, unknown durations; slopes are inclined gravity.
+//! Pinned by: tests/optimal.rs, tests/optimal_prediction.rs
 
 mod layout;
 
@@ -27,6 +27,7 @@ mod solve;
 
 mod conditions;
 mod effort;
+mod error;
 mod find;
 mod near;
 mod plan;
@@ -35,13 +36,14 @@ mod walk;
 
 pub use conditions::{Device, Load, LoadPlace, WalkConditions};
 pub use effort::{Effort, Exponential};
-pub use find::{NO_ROOT_FORCE, OptimalWalk, OptimalWalkError};
+pub use error::{OptimalWalkError, Overload};
+pub use find::{NO_ROOT_FORCE, OptimalWalk};
 pub use forward::Drift;
 pub use layout::Span;
 pub use near::NEAR_STAGES;
 pub use objective::{Bound, Quantity, Term};
 pub use plan::WalkPlan;
-pub use predict::{EffortCosts, Overload, Prediction, WORK_PRICES, metabolic_power};
+pub use predict::{EffortCosts, Prediction, WORK_PRICES, metabolic_power};
 pub use problem::Problem;
 pub use solution::{Progress, Sample, SoleContact, Solution, Unbalanced};
 pub use solve::Continuation;

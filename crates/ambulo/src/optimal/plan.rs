@@ -3,7 +3,7 @@
 //! data/walks has the spline coefficients of solved walks of the built-in figures. A walk of the same figure, speed and cadence needs no
 //! solution; a test checks that the files solve the present problem. Made by `cargo xtask walk-plans`.
 
-use super::find::OptimalWalk;
+use super::solution::Solution;
 use crate::gait::Walk;
 use crate::model::anthropometry::{Build, SegmentTable};
 use crate::toml_reader::{Source, Table, TomlError};
@@ -70,13 +70,19 @@ impl WalkPlan {
 
     /// The plan of a solved walk.
     #[must_use]
-    pub fn new(found: &OptimalWalk, walk: &Walk) -> WalkPlan {
+    pub fn new(build: Build, walk: &Walk, solution: &Solution) -> WalkPlan {
         WalkPlan {
-            build: found.human.build,
+            build,
             speed: walk.dimensionless_speed(),
             cycle_s: walk.cycle_s(),
-            coordinates: found.human.model.coordinates().iter().map(|coordinate| coordinate.name.clone()).collect(),
-            coefficients: found.solution.unknowns().to_vec(),
+            coordinates: solution
+                .problem()
+                .model
+                .coordinates()
+                .iter()
+                .map(|coordinate| coordinate.name.clone())
+                .collect(),
+            coefficients: solution.unknowns().to_vec(),
         }
     }
 

@@ -9,6 +9,7 @@
 
 use super::conditions::{Device, WalkConditions};
 use super::effort::{Effort, tissue_of};
+use super::error::Overload;
 use super::near::NEAR_STAGES;
 use super::objective::{Bound, Quantity, Term};
 use super::solution::Solution;
@@ -85,19 +86,6 @@ pub struct Prediction {
     pub problem: WalkProblem,
     /// Its solution.
     pub solution: Solution,
-}
-
-/// A muscle moment above the strength of its joint.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Overload {
-    /// Name of the coordinate.
-    pub coordinate: String,
-    /// Moment of the muscles [N.m].
-    pub moment: f64,
-    /// Their strength [N.m].
-    pub strength: f64,
-    /// Time [s].
-    pub time_s: f64,
 }
 
 impl WalkProblem {
