@@ -3,7 +3,7 @@
 
 use crate::common;
 use crate::common::random::Random;
-use ambulo::contact::{ContactPoint, FrictionCurve, HuntCrossley, Shape, candidate_pairs, contacts};
+use ambulo::contact::{ContactPoint, FrictionCurve, HuntCrossley, Onset, Shape, candidate_pairs, contacts};
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3};
 use parry3d_f64::math::{Matrix, Pose as GenericPose, Rotation, Vector};
 use parry3d_f64::query;
@@ -845,6 +845,23 @@ fn no_overlap_no_force() {
 }
 
 #[test]
+fn the_published_law_acts_before_the_surfaces_meet() {
+    // Simbody's `SmoothSphereHalfSpaceForceImpl::calcForce`, evaluated by hand: depth -2 mm, sinking at 0.1 m/s, slip 0.05 m/s.
+    let law = HuntCrossley { onset: Onset::Published, ..HuntCrossley::MOCO_2D_GAIT };
+    let k = 0.5 * 3_067_776.0_f64.powf(2.0 / 3.0);
+    let hertz = 4.0 / 3.0 * k * (0.035 * k).sqrt() * (4e-6_f64 + 1e-5).sqrt().powf(1.5);
+    let smooth = hertz * (0.5 + 0.5 * (-0.6_f64).tanh());
+    let normal = smooth * 1.3 * (0.5 + 0.5 * (50.0_f64 * (0.1 + 1.0 / 3.0)).tanh());
+    let slip = (0.0025_f64 + 1e-5).sqrt();
+    let friction = normal * (slip / 0.2 * 0.8 + 0.5 * slip) * 0.05 / slip;
+    let found = law.force(0.035, -0.002, 0.1, Vec3::x() * 0.05);
+    assert!((found.0 - normal).abs() < 1e-9 && (found.1.x + friction).abs() < 1e-9, "{found:?} {normal} {friction}");
+    // It pulls a little while the surfaces part faster than 1/3 m/s.
+    let (pull, _) = law.force(0.035, 0.01, -0.36, Vec3::zeros());
+    assert!(pull < 0.0 && pull > -0.01 * law.force(0.035, 0.01, 0.0, Vec3::zeros()).0, "{pull}");
+}
+
+#[test]
 fn friction_opposes_the_slip_and_is_static_at_the_transition_velocity() {
     let set = HuntCrossley { viscous_friction: 0.0, ..HuntCrossley::WALKER_MODEL };
     let direction = Vec3::new(0.6, 0.0, -0.8);
@@ -877,9 +894,11 @@ fn parameters_that_the_law_cannot_have_are_errors() {
 fn slopes_of_the_compliant_force_are_its_differences() {
     let smooth = HuntCrossley { friction_curve: FrictionCurve::Smooth, ..HuntCrossley::MOCO_2D_GAIT };
     let mut random = Random::new(5);
-    for law in [smooth, HuntCrossley::FALISSE_2022, HuntCrossley::SCONE_HUMAN_0914] {
+    let published = HuntCrossley { onset: Onset::Published, ..HuntCrossley::MOCO_2D_GAIT };
+    for law in [smooth, HuntCrossley::FALISSE_2022, HuntCrossley::SCONE_HUMAN_0914, published] {
         for _ in 0..200 {
-            let (depth, rate) = (random.between(1e-4, 0.02), random.within(0.5));
+            let least = if law.onset == Onset::Published { -0.01 } else { 1e-4 };
+            let (depth, rate) = (random.between(least, 0.02), random.within(0.5));
             let slip = Vec3::new(random.within(0.3), 0.0, random.within(0.3));
             let force = |depth: f64, rate: f64, slip: Vec3| {
                 let (normal, friction) = law.force(0.03, depth, rate, slip);

@@ -20,11 +20,12 @@
 //! | `depth`, `depth_rate` | d, d'  | m, m/s | overlap and its growth                                            |
 //! | `slip`                | v      | m/s    | tangential velocity of the surface of the sphere on the plane     |
 //!
-//! As published, the law gives a small force before the surfaces meet, because tanh(b_d d) is not -1 for d < 0. Here the force
-//! is zero unless d > 0, and never negative. The force therefore jumps at d = 0 by half of F_h(0), which is F_h without ε at
-//! 3.2 mm: 7.5 N for [`HuntCrossley::FALISSE_2022`] and R = 32 mm. With ε = 0 there is no jump.
+//! As published, the law gives a small force before the surfaces meet, because tanh(b_d d) is not -1 for d < 0; a small pull while they part
+//! fast; and friction with √(v² + ε) in place of v. With [`Onset::AtTouch`], the force is zero unless d > 0, and never negative. The force
+//! therefore jumps at d = 0 by half of F_h(0), which is F_h without ε at 3.2 mm: 7.5 N for [`HuntCrossley::FALISSE_2022`] and R = 32 mm.
+//! With ε = 0 there is no jump. [`Onset::Published`] is the law as published.
 //!
-//! Source: opensim-core `SmoothSphereHalfSpaceForce.h`; 3dpredictsim `Contact/HCContactModel.m`. Each set of parameters names
+//! Source: opensim-core `SmoothSphereHalfSpaceForce.h`; simbody `SmoothSphereHalfSpaceForce.cpp`; 3dpredictsim `Contact/HCContactModel.m`. Each set of parameters names
 //! its own file.
 //! Cost: constant.
 //! Not handled: radii that change over the contact; load sharing between spheres.
@@ -55,6 +56,18 @@ pub struct HuntCrossley {
     pub rate_slope: f64,
     /// Dry friction against slip speed.
     pub friction_curve: FrictionCurve,
+    /// Where the force begins.
+    pub onset: Onset,
+}
+
+/// Where the force of a contact begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Onset {
+    /// Where the surfaces meet; the force never pulls.
+    #[default]
+    AtTouch,
+    /// As published: smoothly, before the surfaces meet, with a small pull while they part fast, and √(v² + ε) as slip speed.
+    Published,
 }
 
 /// Dry friction as a function of the slip speed.
@@ -92,6 +105,7 @@ impl HuntCrossley {
         depth_slope: 300.0,
         rate_slope: 50.0,
         friction_curve: FrictionCurve::Stribeck,
+        onset: Onset::AtTouch,
     };
     /// opensim-core Moco `example2DWalking/2D_gait.osim`: two spheres per foot, 35 mm at the heel and 15 mm at the forefoot.
     pub const MOCO_2D_GAIT: HuntCrossley = HuntCrossley { stiffness: 3_067_776.0, ..HuntCrossley::FALISSE_2022 };
@@ -148,16 +162,24 @@ impl HuntCrossley {
         Err(HuntCrossleyError { parameter: "the transition velocity", found, unit: "m/s", least: "above zero" })
     }
 
-    /// Normal force [N], zero or more, and friction [N] on a sphere of this radius [m] whose overlap with the plane is
+    /// Normal force [N] and friction [N] on a sphere of this radius [m] whose overlap with the plane is
     /// `depth` [m], growing by `depth_rate` [m/s], and whose surface moves along the plane with `slip` [m/s].
     #[must_use]
     pub fn force(&self, radius: f64, depth: f64, depth_rate: f64, slip: Vec3) -> (f64, Vec3) {
         let normal_force = self.normal_force(radius, depth, depth_rate);
-        let speed = slip.norm();
-        if normal_force <= 0.0 || speed <= 0.0 {
+        let speed = self.slip_speed(slip);
+        if normal_force.abs() <= 0.0 || speed <= 0.0 {
             return (normal_force, Vec3::zeros());
         }
         (normal_force, slip * (-normal_force * self.friction_per_slip(speed)[0]))
+    }
+
+    /// Slip speed as the friction takes it [m/s].
+    fn slip_speed(&self, slip: Vec3) -> f64 {
+        match self.onset {
+            Onset::AtTouch => slip.norm(),
+            Onset::Published => (slip.norm_squared() + self.depth_offset).sqrt(),
+        }
     }
 
     fn normal_force(&self, radius: f64, depth: f64, depth_rate: f64) -> f64 {
@@ -166,7 +188,8 @@ impl HuntCrossley {
 
     /// The normal force, and its derivatives by depth and by rate of depth.
     fn normal_with_slopes(&self, radius: f64, depth: f64, depth_rate: f64) -> [f64; 3] {
-        if depth <= 0.0 {
+        let ends_at_touch = self.onset == Onset::AtTouch;
+        if ends_at_touch && depth <= 0.0 {
             return [0.0; 3];
         }
         let k = 0.5 * self.stiffness.powf(2.0 / 3.0);
@@ -180,7 +203,7 @@ impl HuntCrossley {
             if c > 0.0 { step(self.rate_slope * (depth_rate + 1.0 / c)) } else { (1.0, 0.0) };
         let (rise, rise_slope) = step(self.depth_slope * depth);
         let force = hertz * damping * separation * rise;
-        if force <= 0.0 {
+        if ends_at_touch && force <= 0.0 {
             return [0.0; 3];
         }
         let by_depth = damping * separation * (hertz_slope * rise + hertz * rise_slope * self.depth_slope);
@@ -217,7 +240,7 @@ impl HuntCrossley {
     pub fn force_with_slopes(&self, radius: f64, depth: f64, depth_rate: f64, slip: Vec3) -> ContactSlopes {
         let [normal, by_depth, by_rate] = self.normal_with_slopes(radius, depth, depth_rate);
         let slip = Vec3::new(slip.x, 0.0, slip.z);
-        let [ratio, bend] = self.friction_per_slip(slip.norm());
+        let [ratio, bend] = self.friction_per_slip(self.slip_speed(slip));
         let per_newton = Vec3::y() - slip * ratio;
         let by_slip = [Vec3::x(), Vec3::z()].map(|e| (e * ratio + slip * (bend * slip.dot(&e))) * -normal);
         ContactSlopes {

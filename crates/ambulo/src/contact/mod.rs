@@ -15,7 +15,7 @@ mod compliant;
 mod cone;
 
 pub use broad_phase::candidate_pairs;
-pub use compliant::{ContactSlopes, FrictionCurve, HuntCrossley, HuntCrossleyError};
+pub use compliant::{ContactSlopes, FrictionCurve, HuntCrossley, HuntCrossleyError, Onset};
 pub use cone::{ConeProjection, project_onto_cone};
 pub use detect::{ContactPoint, contacts};
 pub use shape::{Outline, Shape, ShapeError};

@@ -150,7 +150,7 @@ impl Evaluator {
         for k in 0..self.soles.len() {
             let chain = &self.chains[self.soles[k].body.index()];
             let (wrench, slopes) = self.touch(law, lane, k, &mut instant.contacts[k]);
-            if instant.contacts[k].values[1] <= 0.0 {
+            if instant.contacts[k].values[1].abs() <= 0.0 {
                 continue;
             }
             let links: Vec<(usize, One)> = chain

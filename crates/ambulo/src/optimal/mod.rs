@@ -22,6 +22,7 @@ mod objective;
 mod forward;
 mod normal;
 mod problem;
+mod refine;
 mod solution;
 mod solve;
 

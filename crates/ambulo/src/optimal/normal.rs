@@ -70,6 +70,13 @@ impl InstantSums {
         }
     }
 
+    /// Adds a matrix in z, of which only the lower half counts.
+    pub(super) fn add_lower(&mut self, matrix: &[f64]) {
+        for (sum, value) in self.matrix.iter_mut().zip(matrix) {
+            *sum += value;
+        }
+    }
+
     fn complete(&mut self) {
         for i in 0..self.width {
             for j in 0..i {

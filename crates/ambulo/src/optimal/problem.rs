@@ -7,6 +7,8 @@
 //! where τ_root are the residual forces at the root. The augmented Lagrangian adds 1/P Σ |c_p + m_p|² / s² with the multipliers m and the
 //! slack s; after each minimisation m grows by c (Hestenes 1969, Powell 1969; unverified).
 
+mod bending;
+
 use super::instant::{Evaluator, Instant};
 use super::layout::{Layout, Span, Weights};
 use super::normal::{InstantSums, NormalEquations, empty_matrix};
