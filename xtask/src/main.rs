@@ -43,6 +43,8 @@ usage: cargo xtask <command>
   twins             judge recordings of people, and twins of them that no person could make  [--only NAME]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
   walk-plans        solve the walks of the built-in figures: crates/ambulo/data/walks
+  optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes
+                    [--env DIR] [--resume: keep results of peers]  [--write: docs/measured/OPTIMAL_PEERS.md from the record]
   optimal-walk      compare optimal walks in three dimensions with people  [--write: docs/measured/OPTIMAL_WALK.md]
   walk-bands        compare corrected walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
   help              print this text
@@ -57,7 +59,7 @@ environment:
 const OWN: [&str; 6] = ["check", "house", "build-time", "measured", "mutants", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 17] = [
+const MEASUREMENTS: [&str; 18] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -72,6 +74,7 @@ const MEASUREMENTS: [&str; 17] = [
     "normative-bands",
     "twins",
     "validate",
+    "optimal-peers",
     "optimal-walk",
     "walk-plans",
     "walk-bands",

@@ -45,7 +45,7 @@ const FORCES: &[&str] = &[
     "xtask/measure/src/validate/recording.rs",
 ];
 
-const PAGES: [Page; 8] = [
+const PAGES: [Page; 9] = [
     Page { name: "VALIDATION", command: "validate", inputs: FORCES },
     Page { name: "GROUND_FIT", command: "fit-ground", inputs: FORCES },
     Page {
@@ -100,6 +100,12 @@ const PAGES: [Page; 8] = [
         inputs: &["crates/ambulo/src/contact", "crates/ambulo/src/dynamics", "crates/ambulo/src/simulation"],
     },
     Page { name: "BENCHMARKS_MARKERS", command: "bench-markers", inputs: &["crates/ambulo/src/kinematics/marker_fit"] },
+    // Recorded outcomes: a run takes up to an hour and needs other solvers.
+    Page {
+        name: "OPTIMAL_PEERS",
+        command: "optimal-peers",
+        inputs: &["xtask/measure/peers/optimal_outcomes.json", "xtask/measure/src/optimal_peers/page.rs"],
+    },
     // Recorded outcomes instead of source: a run takes hours, and mutants are found by line and column, which any edit moves.
     Page { name: "MUTANTS", command: "mutants", inputs: &["xtask/mutants"] },
 ];

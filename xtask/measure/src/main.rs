@@ -9,6 +9,7 @@ mod harmonics;
 mod normative;
 mod normative_bands;
 mod npz;
+mod optimal_peers;
 mod optimal_walk;
 mod oracle_c3d;
 mod peers;
@@ -47,6 +48,7 @@ fn main() -> ExitCode {
         ("validate", _) => validate::run(rest),
         ("walk-bands", _) => walk_bands::run(rest),
         ("walk-plans", []) => walk_plans::run(),
+        ("optimal-peers", _) => optimal_peers::run(rest),
         ("optimal-walk", _) => optimal_walk::run(rest),
         _ => {
             eprintln!("error: unknown command `{}`\nhint: `cargo xtask help` lists the commands", words.join(" "));
