@@ -191,7 +191,7 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     let names = |verb: &str| options(verb).into_iter().map(|(name, _)| name).collect::<Vec<String>>();
     let gait =
         ["speed", "step-length", "cadence", "speed-change", "step-length-change", "cadence-change", "step-height"];
-    let walk = [&gait[..], &["mass", "height", "cycles", "rate"]].concat();
+    let walk = [&gait[..], &["mass", "height", "slope", "load", "weak", "step-width", "cycles", "rate"]].concat();
     assert_eq!(names("walk"), walk);
     for name in
         ["from", "to", "rate", "cutoff", "force-cutoff", "order", "mass", "height", "max-gap", "add-mass", "plate"]

@@ -7,6 +7,7 @@
 mod criteria;
 mod curves;
 mod page;
+mod prediction;
 mod sideways;
 
 use crate::normative::{Band, SPEEDS};

@@ -39,6 +39,7 @@ pub(super) fn text(results: &Results) -> Result<String, String> {
     let _ = write!(text, "\n## Sideways force\n\n{}", sideways(results));
     let _ = write!(text, "\n## Other figures, free walking\n\n{}", others(results));
     let _ = write!(text, "\n## Time\n\n{}", time(results));
+    let _ = write!(text, "\n## Predicted walks\n\n{}", super::prediction::section(&results.people)?);
     Ok(text)
 }
 
