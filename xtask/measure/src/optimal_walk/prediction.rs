@@ -2,7 +2,7 @@
 
 use super::curves::{Cycle, QUANTITIES};
 use super::{FREE, MAN};
-use crate::normative::{Band, NAMES, SPEEDS, two_laboratories};
+use crate::normative::{Band, SPEEDS, two_laboratories};
 use crate::table::Table;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
@@ -34,10 +34,14 @@ struct Predicted {
     seconds: f64,
 }
 
-fn gait(speed: Speed, cadence: Option<f64>) -> Result<Gait, String> {
+/// Free walking of a figure with a leg [m] at a speed; without a cadence [steps/s], that of people.
+fn gait(leg_length: f64, speed: Speed, cadence: Option<f64>) -> Result<Gait, String> {
     let mut gait = Gait::named("free").map_err(|e| e.to_string())?;
-    gait.pace.speed = Some(speed);
-    gait.pace = gait.pace.with(None, None, cadence);
+    let speed = match speed {
+        Speed::MetersPerSecond(speed) => speed,
+        Speed::Dimensionless(speed) => speed * (9.80665 * leg_length).sqrt(),
+    };
+    gait.pace = gait.pace.with(Some(speed), None, cadence);
     Ok(gait)
 }
 
@@ -47,8 +51,12 @@ fn predict(
     cadence: Option<f64>,
     conditions: &WalkConditions,
 ) -> Result<Predicted, String> {
-    let walk = Walk::new(&gait(speed, cadence)?, human.dimensions.leg_length, &mut Findings::default())
-        .map_err(|e| e.to_string())?;
+    let walk = Walk::new(
+        &gait(human.dimensions.leg_length, speed, cadence)?,
+        human.dimensions.leg_length,
+        &mut Findings::default(),
+    )
+    .map_err(|e| e.to_string())?;
     let clock = ThreadTime::now();
     let found = OptimalWalk::predict(&MAN, &walk, conditions).map_err(|e| e.to_string())?;
     let seconds = clock.elapsed().as_secs_f64();
@@ -83,11 +91,11 @@ fn speeds(human: &Human, people: &[Vec<Band>; 5]) -> Result<String, String> {
     let mut table = Table::new(&[
         "curve, r with people",
         "criterion, free",
-        NAMES[0],
-        NAMES[1],
-        NAMES[2],
-        NAMES[3],
-        NAMES[4],
+        "very slow",
+        "slow",
+        "free",
+        "fast",
+        "very fast",
         "second laboratory, free",
     ]);
     for (k, quantity) in QUANTITIES.iter().enumerate() {
@@ -142,7 +150,7 @@ fn transport(human: &Human) -> Result<String, String> {
     for speed in TRANSPORT {
         let own = predict(human, Speed::MetersPerSecond(speed), None, &WalkConditions::default())?;
         let walk = Walk::new(
-            &gait(Speed::MetersPerSecond(speed), None)?,
+            &gait(human.dimensions.leg_length, Speed::MetersPerSecond(speed), None)?,
             human.dimensions.leg_length,
             &mut Findings::default(),
         )
@@ -163,8 +171,12 @@ fn transport(human: &Human) -> Result<String, String> {
 
 fn cadences(human: &Human) -> Result<String, String> {
     let speed = Speed::Dimensionless(SPEEDS[FREE]);
-    let walk = Walk::new(&gait(speed, None)?, human.dimensions.leg_length, &mut Findings::default())
-        .map_err(|e| e.to_string())?;
+    let walk = Walk::new(
+        &gait(human.dimensions.leg_length, speed, None)?,
+        human.dimensions.leg_length,
+        &mut Findings::default(),
+    )
+    .map_err(|e| e.to_string())?;
     let preferred = 2.0 / walk.cycle_s();
     let mut table = Table::new(&["cadence / people's", "cost", "cost of transport [J/kg/m]"]);
     let mut costs = Vec::new();
