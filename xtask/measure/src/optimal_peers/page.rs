@@ -13,7 +13,8 @@ const KKT: f64 = 1e-4;
 const HEAD: &str = "\
 # Optimal motion, compared with other solvers
 
-Made from outcomes that `cargo xtask optimal-peers` recorded in one run (xtask/measure/peers/optimal_outcomes.json). Missed requirements are listed as missed.
+Made from outcomes that `cargo xtask optimal-peers` recorded (xtask/measure/peers/optimal_outcomes.json). A peer's result of an earlier run counts if
+the exported problem is the same, byte for byte. Other work ran on the machine. Missed requirements are listed as missed.
 ";
 
 const METHODS: &str = "
@@ -129,8 +130,8 @@ fn requirements(outcomes: &Value, ours: &Ours, runs: &[Run<'_>]) -> Result<Strin
         let text = format!("{:.3} %", 100.0 * apart);
         table.row([format!("same objective: {}", run.name), "<= 1 %".into(), verdict(apart <= SAME_OBJECTIVE, &text)]);
     }
-    // A start from our solution is no race.
-    for run in runs.iter().step_by(2).filter(|run| !run.has_failed()) {
+    // A start from our solution helps the peer; it counts only where there is no result from the first guess.
+    for run in runs.chunks(2).filter_map(|starts| starts.iter().find(|run| !run.has_failed())) {
         let ratio = number(run.value, "seconds")? / ours.seconds;
         let asked = format!(">= {:.0} x", run.required);
         table.row([
