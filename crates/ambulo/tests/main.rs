@@ -79,6 +79,7 @@ mod marker_smoothing;
 mod mujoco_parity;
 mod opensim_parity;
 mod optimal;
+mod optimal_movements;
 mod optimal_prediction;
 mod osim_export;
 mod osim_import;

@@ -218,7 +218,7 @@ fn a_weak_leg_does_less_than_the_other() {
     println!("{:.1} N.m at the weak ankle, {:.1} at the other", peak(Side::Right), peak(Side::Left));
     assert!(peak(Side::Right) < 0.9 * peak(Side::Left));
     assert!(weak.root() < NO_ROOT_FORCE, "{}", weak.root());
-    assert!(weak.found.overload(0.05).is_none(), "{:?}", weak.found.overload(0.05));
+    assert!(weak.found.solution.overload(0.05).is_none(), "{:?}", weak.found.solution.overload(0.05));
 }
 
 #[test]
@@ -265,7 +265,7 @@ fn muscles_that_are_too_weak_are_named() {
     let human = MAN.human().unwrap();
     let strengths = vec![("ankle_angle_r".to_owned(), 0.02), ("ankle_angle_l".to_owned(), 0.02)];
     let weak = MIRRORED.predict(&WalkConditions { strengths, ..WalkConditions::default() });
-    let overload = weak.found.overload(0.05).unwrap();
+    let overload = weak.found.solution.overload(0.05).unwrap();
     println!("{overload:?}");
     assert!(overload.moment.abs() > 1.05 * overload.strength);
     assert!(human.model.coordinate(&overload.coordinate).is_some());

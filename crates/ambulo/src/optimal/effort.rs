@@ -154,7 +154,7 @@ mod tests {
             Quantity::Sideways(3),
             Quantity::Height(3),
         ];
-        let mut evaluator = Evaluator::new(&human.model, &human.soles).unwrap();
+        let mut evaluator = Evaluator::new(&human.model, &human.soles, &[]).unwrap();
         let law = HuntCrossley::SOFT_SHOES;
         let count = human.model.coordinates().len();
         let wave = |size: f64, shift: f64| (0..count).map(|k| size * (1.3 * k as f64 + shift).sin()).collect();

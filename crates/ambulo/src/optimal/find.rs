@@ -3,8 +3,8 @@
 use super::conditions::WalkConditions;
 use super::error::{LARGEST_BETWEEN, OptimalWalkError};
 use super::layout::Span;
+use super::muscles::EffortCosts;
 use super::plan::WalkPlan;
-use super::predict::EffortCosts;
 use super::problem::Problem;
 use super::solution::Solution;
 use super::solve::Continuation;
@@ -96,7 +96,7 @@ impl OptimalWalk {
             (whole, unknowns)
         };
         let found = start.predict(&human, walk, &EffortCosts::default(), &conditions, &unknowns)?;
-        let overload = found.overload(LARGEST_OVERLOAD);
+        let overload = found.solution.overload(LARGEST_OVERLOAD);
         let found = OptimalWalk { human, problem: found.problem, solution: found.solution, conditions };
         // Muscles that are too weak leave forces at the root too; the muscles are the cause.
         if let Some(overload) = overload {

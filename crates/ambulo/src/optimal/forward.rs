@@ -35,7 +35,7 @@ impl Solution {
         let root = problem.root();
         let mut simulated = Rollout {
             solution: self,
-            evaluator: Evaluator::new(&problem.model, &problem.soles)?,
+            evaluator: Evaluator::new(&problem.model, &problem.soles, &problem.levels_m)?,
             instant: [self.instant(0.0)],
             root: root.iter().map(|(id, _)| id.index()).collect(),
         };

@@ -6,7 +6,7 @@
 //!   τ_j = ... - S_jᵀ W        ∂τ_j/∂q_k = ... - S_jᵀ ∂W/∂q_k - (S_k × S_j)ᵀ W  if k carries j        ∂τ_j/∂q̇_k = ... - S_jᵀ ∂W/∂q̇_k
 //!
 //! The contact point of a sphere with radius r and centre p is c = (p_x, (p_y - r)/2, p_z), midway between both surfaces as in the
-//! simulator; its velocity is u = v + ω × c, that of the body. Coordinate q_k of link k moves the centre by ∂p/∂q_k, the velocity of S_k at p,
+//! simulator (above a surface at height h it is higher by h); its velocity is u = v + ω × c, that of the body. Coordinate q_k of link k moves the centre by ∂p/∂q_k, the velocity of S_k at p,
 //! and changes the velocity of the body by ∂V/∂q_k = S_k × (V - V_k).
 
 use crate::contact::HuntCrossley;
@@ -21,7 +21,7 @@ pub(super) const SIDE_BY_SIDE: usize = 8;
 /// Value, rate and acceleration of every coordinate.
 pub(super) type Posture = [Vec<f64>; 3];
 
-/// Number of quantities of a contact: force on the foot along x, y, z [N], height of the sphere above the ground [m], slip along x and z [m/s],
+/// Number of quantities of a contact: force on the foot along x, y, z [N], height of the sphere above its surface [m], slip along x and z [m/s],
 /// place along z [m].
 pub(super) const CONTACT: usize = 7;
 /// Offsets of height, slip and place.
@@ -55,6 +55,8 @@ pub(super) struct Contact {
 pub(super) struct Evaluator {
     kernel: DerivativeKernel<SIDE_BY_SIDE>,
     soles: Vec<ContactSphere>,
+    /// Height of the surface under each sphere [m].
+    levels: Vec<f64>,
     /// Links that carry each body, the one that moves the body directly first.
     chains: Vec<Vec<usize>>,
 }
@@ -98,7 +100,8 @@ struct WrenchSlopes {
 const NO_WRENCH: One = One { angular: Vec3::new(0.0, 0.0, 0.0), linear: Vec3::new(0.0, 0.0, 0.0) };
 
 impl Evaluator {
-    pub(super) fn new(model: &Model, soles: &[ContactSphere]) -> Result<Evaluator, CurvedJointError> {
+    /// `levels` are heights of surfaces, 0 where there are fewer than spheres [m].
+    pub(super) fn new(model: &Model, soles: &[ContactSphere], levels: &[f64]) -> Result<Evaluator, CurvedJointError> {
         let kernel = DerivativeKernel::new(model)?;
         let chain = |mut last: Option<usize>| {
             let mut chain = Vec::new();
@@ -109,7 +112,8 @@ impl Evaluator {
             chain
         };
         let chains = kernel.link_of_body.iter().map(|&last| chain(last)).collect();
-        Ok(Evaluator { kernel, soles: soles.to_vec(), chains })
+        let levels = (0..soles.len()).map(|sphere| levels.get(sphere).copied().unwrap_or(0.0)).collect();
+        Ok(Evaluator { kernel, soles: soles.to_vec(), levels, chains })
     }
 
     /// Computes forces, contacts and derivatives of all instants from their postures.
@@ -176,8 +180,8 @@ impl Evaluator {
         let body = sole.body.index();
         let pose = self.kernel.pose(body, lane);
         let center = pose.rotation * sole.center + pose.translation;
-        let height = center.y - sole.radius;
-        let place = Vec3::new(center.x, 0.5 * height, center.z);
+        let height = center.y - sole.radius - self.levels[sphere];
+        let place = Vec3::new(center.x, self.levels[sphere] + 0.5 * height, center.z);
         let chain = &self.chains[body];
         let motion = chain.first().map_or(NO_WRENCH, |&link| One::of(&self.kernel.velocities[link], lane));
         let velocity = motion.at(place);
@@ -240,7 +244,8 @@ mod tests {
         let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
         let human = full_body(&build).unwrap();
         let law = HuntCrossley { friction_curve: FrictionCurve::Smooth, ..HuntCrossley::MOCO_2D_GAIT };
-        let mut evaluator = Evaluator::new(&human.model, &human.soles).unwrap();
+        // The first sphere touches a step, the others the ground.
+        let mut evaluator = Evaluator::new(&human.model, &human.soles, &[0.02]).unwrap();
         let count = human.model.coordinates().len();
         let (mut touching, mut checked) = (0, 0);
         for seed in 0..6 {

@@ -11,7 +11,7 @@
 //!
 //! Cost: one inverse dynamics with derivatives per step and instant, and one factorisation of a band with a border per step.
 //! Not handled: obstacles, unknown durations; slopes are inclined gravity.
-//! Pinned by: tests/optimal.rs, tests/optimal_prediction.rs
+//! Pinned by: tests/optimal.rs, tests/optimal_prediction.rs, tests/optimal_movements.rs
 
 mod layout;
 
@@ -30,6 +30,8 @@ mod conditions;
 mod effort;
 mod error;
 mod find;
+mod movement;
+mod muscles;
 mod near;
 mod plan;
 mod predict;
@@ -41,10 +43,12 @@ pub use error::{OptimalWalkError, Overload};
 pub use find::{NO_ROOT_FORCE, OptimalWalk};
 pub use forward::Drift;
 pub use layout::Span;
+pub use movement::{Key, MovementError, MovementProblem, MovementSettings};
+pub use muscles::{EffortCosts, WORK_PRICES};
 pub use near::NEAR_STAGES;
 pub use objective::{Bound, Quantity, Term};
 pub use plan::WalkPlan;
-pub use predict::{EffortCosts, Prediction, WORK_PRICES, metabolic_power};
+pub use predict::{Prediction, metabolic_power};
 pub use problem::Problem;
 pub use solution::{Progress, Sample, SoleContact, Solution, Unbalanced};
 pub use solve::Continuation;

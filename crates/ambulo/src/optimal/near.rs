@@ -20,6 +20,17 @@ pub const NEAR_STAGES: [Continuation; 5] = [
     Continuation { stiffness: 1.0, creep: 1.0, slack: 0.00003, updates: 6, steps: 10, gain: 1e-3 },
 ];
 
+/// Steps of the solver before an update, and factor of the gain below which a stage ends, where the objective changes more than near a known
+/// walk.
+const LONGER: (usize, f64) = (3, 0.3);
+
+/// Stages with more steps.
+pub(super) fn longer(stages: &[Continuation]) -> Vec<Continuation> {
+    let longer =
+        |stage: &Continuation| Continuation { steps: LONGER.0 * stage.steps, gain: LONGER.1 * stage.gain, ..*stage };
+    stages.iter().map(longer).collect()
+}
+
 impl WalkProblem {
     /// Solves the problem from the solution of a similar walk, in fewer steps than from the first guess: another speed (steps of up to 0.2 m/s
     /// were tried) or cadence, another mass and height. `unknowns` solve `known` ([`Solution::unknowns`]): knot after knot, one number per

@@ -25,7 +25,9 @@ pub struct Problem {
     pub model: Model,
     /// Spheres under its feet.
     pub soles: Vec<ContactSphere>,
-    /// Contact law between the spheres and the ground, y = 0.
+    /// Height of the level surface that each sphere touches [m], for spheres above a chair or a step; the ground, 0, where there is none.
+    pub levels_m: Vec<f64>,
+    /// Contact law between the spheres and these surfaces.
     pub shoes: HuntCrossley,
     /// How the motion continues after the span.
     pub span: Span,
@@ -155,7 +157,7 @@ impl<'a> Transcription<'a> {
         let layout = problem.layout();
         let root = problem.root_scales().into_iter().map(|(id, scale)| (id.index(), scale)).collect::<Vec<_>>();
         Ok(Transcription {
-            evaluator: Evaluator::new(&problem.model, &problem.soles)?,
+            evaluator: Evaluator::new(&problem.model, &problem.soles, &problem.levels_m)?,
             stage: Stage { shoes: problem.shoes, slack: 1.0 },
             multipliers: vec![0.0; layout.instants() * root.len()],
             instants: vec![Instant::default(); layout.instants()],

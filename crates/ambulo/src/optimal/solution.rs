@@ -182,7 +182,7 @@ impl Solution {
     /// # Errors
     /// Does not fail for a solved problem.
     pub fn samples(&self, times_s: &[f64]) -> Result<Vec<Sample>, CurvedJointError> {
-        let mut evaluator = Evaluator::new(&self.problem.model, &self.problem.soles)?;
+        let mut evaluator = Evaluator::new(&self.problem.model, &self.problem.soles, &self.problem.levels_m)?;
         Ok(times_s.chunks(SIDE_BY_SIDE).flat_map(|times_s| self.block(&mut evaluator, times_s)).collect())
     }
 

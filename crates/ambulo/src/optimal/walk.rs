@@ -163,6 +163,7 @@ impl WalkProblem {
         let mut problem = Problem {
             model: model.clone(),
             soles: soles.to_vec(),
+            levels_m: Vec::new(),
             shoes,
             span,
             duration_s,
