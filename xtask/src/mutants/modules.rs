@@ -40,15 +40,24 @@ pub(super) const SLOW: [&str; 19] = [
 ];
 
 /// Tests that take more than a second, left out of the quick ones.
-pub(super) const LONG: [&str; 8] = [
-    "a_whipping_chain_of_twenty_links",
+pub(super) const LONG: [&str; 17] = [
+    "a_known_walk_starts_other_speeds",
     "a_model_without_feet",
+    "a_walk_of_lazy_muscles",
+    "a_walk_with_other_joints_or_knots",
+    "a_weak_leg_does_less",
+    "a_whipping_chain_of_twenty_links",
     "forces_that_are_a_tenth_larger",
+    "joint_moments_of_an_optimal_walk",
     "marker_outliers",
+    "muscles_that_are_too_weak",
+    "slopes_and_loads_change_moments",
     "solids_of_every_shape_come_to_rest",
+    "springs_at_the_ankles",
     "too_little_gravity_is_rejected",
     "unusual_numbers_are_rejected_or_ignored",
     "with_everything_prescribed",
+    "work_becomes_height_and_losses",
 ];
 
 /// Tests of the simulator that take less than a second each.
