@@ -930,3 +930,38 @@ fn slopes_of_the_compliant_force_are_its_differences() {
         }
     }
 }
+
+#[test]
+fn a_capsule_beside_an_edge_of_a_box_touches_it_at_both_ends() {
+    let rod = Shape::capsule(Vec3::new(-0.3, 0.0, 0.0), Vec3::new(0.3, 0.0, 0.0), 0.05).unwrap();
+    let slab = Shape::cuboid(Vec3::new(1.0, 0.1, 1.0)).unwrap();
+    // At 45 degrees above and beside the upper edge at z = 1.
+    let away = (0.05 + 0.001) * 0.5_f64.sqrt();
+    let points = touching(&rod, &Pose::at(Vec3::new(0.1, 0.1 + away, 1.0 + away)), &slab, &Pose::IDENTITY, 0.01);
+    assert_eq!(points.len(), 2, "{points:?}");
+    for (p, x) in points.iter().zip([-0.2, 0.4]) {
+        assert!((p.gap - 0.001).abs() < 1e-9 && (p.point.x - x).abs() < 1e-9, "{p:?}");
+    }
+}
+
+/// Stiffness, dissipation, static, dynamic and viscous friction, transition velocity, as in the model files that their documentation names.
+#[test]
+fn published_laws_have_their_published_parameters() {
+    for (law, expected) in [
+        (HuntCrossley::FALISSE_2022, [1e6, 2.0, 0.8, 0.8, 0.5, 0.2]),
+        (HuntCrossley::MOCO_2D_GAIT, [3_067_776.0, 2.0, 0.8, 0.8, 0.5, 0.2]),
+        (HuntCrossley::WALKER_MODEL, [1e6, 1.0, 0.8, 0.4, 0.4, 0.2]),
+        (HuntCrossley::SCONE_HUMAN_0914, [2e6, 1.0, 0.9, 0.8, 0.6, 0.1]),
+        (HuntCrossley::SOFT_SHOES, [3_067_776.0, 2.0, 0.6, 0.6, 0.0, 0.013]),
+    ] {
+        let found = [
+            law.stiffness,
+            law.dissipation,
+            law.static_friction,
+            law.dynamic_friction,
+            law.viscous_friction,
+            law.transition_velocity,
+        ];
+        assert_eq!(found, expected);
+    }
+}

@@ -105,6 +105,24 @@ fn a_marker_that_stands_elsewhere_is_said_and_counts_little() {
 }
 
 #[test]
+fn a_marker_that_may_move_on_its_body_is_not_called_misplaced() {
+    let Some(subject) = woman() else { return };
+    let mut body = body(&subject);
+    let mut markers = subject.walk.markers.clone();
+    let number = |name: &str| markers.markers.iter().position(|m| m.name == name).unwrap();
+    let (moved, at) = (number("RP5M"), number("RTOE"));
+    let places = markers.markers[at].positions.clone();
+    for (p, at) in markers.markers[moved].positions.iter_mut().zip(places) {
+        *p = at * 2.0 - *p;
+    }
+    let misplaced = |body: &Calibrated| fitted(body, &markers, OutlierDetection::On).1.has(Code::MarkersMisplaced);
+    assert!(misplaced(&body));
+    let largest = body.weights.values().copied().fold(0.0, f64::max);
+    body.weights.insert("RP5M".to_owned(), 0.02 * largest);
+    assert!(!misplaced(&body));
+}
+
+#[test]
 fn clean_recordings_have_no_marker_out_of_place() {
     for subject in everyone().into_iter().chain(turning().into_iter().skip(1)) {
         let (_, findings) = fitted(&body(&subject), &subject.walk.markers, OutlierDetection::On);

@@ -1,14 +1,15 @@
 //! Optimal motion: the forces at the root vanish, a forward simulation follows the plan, sides are mirrored, momentum is kept.
 
-use ambulo::contact::HuntCrossley;
+use ambulo::contact::{FrictionCurve, HuntCrossley, Onset};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::{Posture, body_motion};
+use ambulo::model::Side;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::optimal::{
-    NEAR_STAGES, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Quantity, STAGES, Solution, Span, WalkCosts, WalkPlan,
-    WalkProblem, soles_with_width,
+    Bound, NEAR_STAGES, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Quantity, STAGES, Solution, Span, Term,
+    WalkCosts, WalkPlan, WalkProblem, soles_with_width,
 };
 use ambulo::spatial::{Pose, Vec3};
 use std::sync::LazyLock;
@@ -368,4 +369,49 @@ fn a_plan_file_that_is_wrong_is_refused_with_its_line() {
         let message = WalkPlan::from_toml(&text.replacen(from, to, 1)).unwrap_err().to_string();
         assert!(message.contains(expected), "{message}");
     }
+}
+
+#[test]
+fn a_deviation_of_one_costs_one_for_any_number_of_instants() {
+    for per_knot in [1, 2, 5] {
+        let mut problem = PLANAR.problem.problem.clone();
+        problem.instants_per_knot = per_knot;
+        // The sum of no coordinates is zero.
+        let (quantity, targets) = (Quantity::Position(Vec::new()), vec![Some(-3.0); problem.instants()]);
+        problem.terms = vec![Term { name: "three".to_owned(), quantity, targets, deviation: 3.0, bound: Bound::Near }];
+        let costs = problem.costs(PLANAR.solution.unknowns());
+        assert!((costs[0].1 - 1.0).abs() < 1e-12, "{costs:?}");
+    }
+}
+
+#[test]
+fn soles_with_width_have_their_medial_spheres_nearer_to_the_middle() {
+    let human = full_body(&MAN).unwrap();
+    let soles = soles_with_width(&human);
+    assert_eq!(soles.len(), 2 * human.soles.len());
+    for pair in soles.chunks(2) {
+        let right = if pair[0].side == Side::Right { 1.0 } else { -1.0 };
+        assert!(pair[0].name.ends_with("medial") && pair[1].name.ends_with("lateral"));
+        assert!(right * (pair[1].center.z - pair[0].center.z) > 0.02, "{pair:?}");
+        assert_eq!(pair[0].center.x.to_bits(), pair[1].center.x.to_bits());
+    }
+}
+
+#[test]
+fn newton_s_method_finds_the_exact_minimum_near_a_solution() {
+    let build = Build { toe_joint: false, ..MAN };
+    let human = build.human().unwrap();
+    let gait = Gait::named("free").unwrap();
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
+    let smooth = HuntCrossley { friction_curve: FrictionCurve::Smooth, ..HuntCrossley::MOCO_2D_GAIT };
+    let shoes = HuntCrossley { onset: Onset::Published, ..smooth };
+    let costs = WalkCosts { knots: 8, per_knot: 1, ..WalkCosts::default() };
+    let mut own = WalkProblem::new(&human, &human.soles, shoes, &walk, &costs).unwrap();
+    // Terms without corners.
+    own.problem.terms.retain(|term| term.bound == Bound::Near && !matches!(term.quantity, Quantity::Slip { .. }));
+    let near = own.solve(&STAGES[..4]).unwrap();
+    let exact = own.problem.refine(near.unknowns(), 1e-4, 300).unwrap();
+    let last = exact.progress.last().unwrap();
+    println!("{:?} to {last:?}", near.progress.last().unwrap());
+    assert!(near.progress.last().unwrap().root.1 > 1e-3 && last.root.1 <= 1e-4 && last.steps > 0, "{last:?}");
 }

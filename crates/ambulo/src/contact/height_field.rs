@@ -356,3 +356,14 @@ fn crossing(ridge: Segment, edge: Segment) -> Option<Touch> {
     let point = ridge[0] + u * (s / cross.norm_squared()) + outward * (gap / 2.0);
     (inside(s) && inside(t)).then_some(Touch { point, outward, gap, feature: [0; 4] })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_box_around_a_field_touches_its_edges_and_extreme_heights() {
+        let field = HeightField::new([2, 3], vec![0.0, 0.1, -0.2, 0.3, 0.0, 0.05], [4.0, 2.0]);
+        assert_eq!(field.bounding(), (Vec3::new(-2.0, -0.2, -1.0), Vec3::new(2.0, 0.3, 1.0)));
+    }
+}

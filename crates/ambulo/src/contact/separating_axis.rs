@@ -225,3 +225,26 @@ fn edge_touch([p, p_end]: [Vec3; 2], [q, q_end]: [Vec3; 2], outward: Vec3) -> To
     let s = (q - p).cross(&v).dot(&outward) / u.cross(&v).dot(&outward);
     Touch { point: p + u * s + outward * (gap / 2.0), outward, gap, feature: [0; 4] }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square with corners (0, 0), (1, 0), (1, 1), (0, 1), cut by the line through (0, 0) and (1, 1).
+    #[test]
+    fn a_polygon_that_is_cut_through_its_corners_keeps_each_of_them_once() {
+        let corner = |(i, (x, y)): (usize, (f64, f64))| Cut {
+            point: Vec3::new(x, y, 0.0),
+            origin: [VERTEX + i, VERTEX],
+            line: i,
+        };
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let square: Vec<Cut> = corners.into_iter().enumerate().map(corner).collect();
+        let line = Line { side: 2, outward: Vec3::new(1.0, -1.0, 0.0).normalize(), start: Vec3::zeros(), slack: 1e-9 };
+        let mut kept = Vec::new();
+        cut_polygon(&square, line, &mut kept);
+        let places: Vec<(f64, f64)> = kept.iter().map(|cut| (cut.point.x, cut.point.y)).collect();
+        assert_eq!(places, [(0.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+        assert_eq!(kept.iter().map(|cut| cut.line).collect::<Vec<_>>(), [CUTTING + 2, 2, 3]);
+    }
+}

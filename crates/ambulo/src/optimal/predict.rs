@@ -47,9 +47,7 @@ impl WalkProblem {
     ) -> Result<Prediction, CurvedJointError> {
         let stages = longer(&NEAR_STAGES);
         let mut unknowns = unknowns.to_vec();
-        let parts = (conditions.slope.abs() / SLOPE_STEP).ceil();
-        for part in 1..parts as usize {
-            let slope = conditions.slope * part as f64 / parts;
+        for slope in flatter_slopes(conditions.slope) {
             let flatter = WalkConditions { slope, ..conditions.clone() };
             let on_it = Human { model: human.model.on_slope(flatter.incline()), ..human.clone() };
             let problem = self.of_muscles(&on_it, walk, costs, &flatter, PEOPLE[0]);
@@ -84,6 +82,12 @@ impl WalkProblem {
         next.problem.terms = muscles.terms;
         next
     }
+}
+
+/// Slopes between the level and a steep slope, in equal steps.
+fn flatter_slopes(slope: f64) -> impl Iterator<Item = f64> {
+    let parts = (slope.abs() / SLOPE_STEP).ceil();
+    (1..parts as usize).map(move |part| slope * part as f64 / parts)
 }
 
 /// Names of the terms of a walk that say how a foot moves and where the walk begins, not how people walk.
@@ -162,4 +166,19 @@ pub fn metabolic_power(
         }
     }
     Ok(RESTING + sum / POWER_INSTANTS as f64 / body_mass)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steep_slopes_are_reached_in_equal_steps() {
+        let slopes = |slope| flatter_slopes(slope).collect::<Vec<_>>();
+        assert_eq!(slopes(0.0), []);
+        assert_eq!(slopes(0.08), []);
+        assert_eq!(slopes(-0.15), [-0.075]);
+        let up = slopes(0.2);
+        assert!(up.len() == 2 && (up[0] - 0.2 / 3.0).abs() < 1e-12 && (up[1] - 0.4 / 3.0).abs() < 1e-12, "{up:?}");
+    }
 }
