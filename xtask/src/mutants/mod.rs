@@ -51,7 +51,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
                 let known = if request.resume { Some(known()?) } else { None };
                 campaign::sample(&place, module, &draws, known, save)?
             };
-            println!("{}: {}", module.name, record.counts().sentence());
+            println!("{}: {}", module.name, record.counts(&record::reasons(&folder())?).sentence());
             save(&record)?;
         }
     }

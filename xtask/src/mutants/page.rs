@@ -23,7 +23,7 @@ pub(super) fn render(folder: &Path) -> Result<String, String> {
     let mut page = introduction();
     let mut sum = Counts::default();
     for (module, record) in &records {
-        let counts = record.counts();
+        let counts = record.counts(&reasons);
         sum = sum + counts;
         let place = module.files.trim_start_matches("crates/ambulo/src/").trim_end_matches("/**");
         let _ = writeln!(page, "{}", row(&format!("`{place}`"), Some(record.mutants), &counts));
@@ -61,15 +61,16 @@ test notices survives. `cargo xtask mutants` runs all mutants of two files and r
 tests of the subject, then the survivors with wider tests. Tests that take more than five seconds are left out
 (`xtask/src/mutants/modules.rs` lists them), so a survivor here may still fail in a complete run.
 
-A mutant is *viable* if it compiles. *At first* is the share of viable mutants that the tests caught when the sample was drawn, with
+A mutant is *viable* if it compiles and is not *equivalent*: an equivalent one changes results nowhere, or only where two computed numbers are
+exactly equal; it is listed as a survivor with that reason. *At first* is the share of viable mutants that the tests caught when the sample was drawn, with
 Wilson's 95 % interval: an estimate for the whole module where it is a sample. *Now* includes tests written for the survivors, and so is
 no estimate for mutants that were not drawn. A test that hangs (timeout) has noticed. Required: {:.0} %.
 
 The first line has a hash of the recorded outcomes and reasons, not of the source: a run takes hours, and mutants are found by
 line and column, so any edit would make the page old. The commits below were measured.
 
-| module | mutants | run | viable | caught | timeouts | caught since | survivors | at first | Wilson 95 % | now |
-|:---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|
+| module | mutants | run | equivalent | viable | caught | timeouts | caught since | survivors | at first | Wilson 95 % | now |
+|:---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|
 ",
         100.0 * REQUIRED
     )
@@ -81,9 +82,9 @@ fn row(name: &str, mutants: Option<usize>, counts: &Counts) -> String {
     let (low, high) = wilson(counts.noticed_at_first(), viable);
     let now = share(counts.noticed_at_first() + counts.mended);
     let mutants = mutants.map_or_else(String::new, |count| count.to_string());
-    let Counts { caught, timeout, missed, mended, .. } = counts;
+    let Counts { caught, timeout, missed, mended, equivalent, .. } = counts;
     format!(
-        "| {name} | {mutants} | {} | {viable} | {caught} | {timeout} | {mended} | {missed} | {:.1} % | {:.1} to {:.1} % | {now:.1} %{} |",
+        "| {name} | {mutants} | {} | {equivalent} | {viable} | {caught} | {timeout} | {mended} | {missed} | {:.1} % | {:.1} to {:.1} % | {now:.1} %{} |",
         counts.run(),
         share(counts.noticed_at_first()),
         100.0 * low,
@@ -153,10 +154,10 @@ mod tests {
 
     #[test]
     fn a_row_counts_what_was_mended_only_now() {
-        let counts = Counts { caught: 17, timeout: 1, missed: 1, mended: 1, unviable: 3 };
+        let counts = Counts { caught: 17, timeout: 1, missed: 1, mended: 1, equivalent: 2, unviable: 3 };
         let row = row("`contact`", Some(900), &counts);
         assert!(
-            row.starts_with("| `contact` | 900 | 23 | 20 | 17 | 1 | 1 | 1 | 90.0 % | 69.9 to 97.2 % | 95.0 % |"),
+            row.starts_with("| `contact` | 900 | 25 | 2 | 20 | 17 | 1 | 1 | 1 | 90.0 % | 69.9 to 97.2 % | 95.0 % |"),
             "{row}"
         );
     }

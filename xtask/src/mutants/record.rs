@@ -31,6 +31,9 @@ const WORDS: [(Outcome, &str); 5] = [
     (Outcome::Unviable, "unviable"),
 ];
 
+/// Beginning of the reason for a survivor that no test can notice: results change nowhere, or only where two computed numbers are exactly equal.
+const EQUIVALENT: &str = "equivalent";
+
 /// The outcomes of one module.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Record {
@@ -53,16 +56,18 @@ pub(super) struct Counts {
     pub(super) timeout: usize,
     pub(super) missed: usize,
     pub(super) mended: usize,
+    /// Missed, and no test could notice.
+    pub(super) equivalent: usize,
     pub(super) unviable: usize,
 }
 
 impl Counts {
     /// Mutants that were run.
     pub(super) fn run(&self) -> usize {
-        self.viable() + self.unviable
+        self.viable() + self.equivalent + self.unviable
     }
 
-    /// Mutants that compile.
+    /// Mutants that compile and that a test could notice.
     pub(super) fn viable(&self) -> usize {
         self.caught + self.timeout + self.missed + self.mended
     }
@@ -73,8 +78,10 @@ impl Counts {
     }
 
     pub(super) fn sentence(&self) -> String {
-        let Counts { caught, timeout, missed, mended, unviable } = self;
-        format!("{caught} caught, {timeout} timeouts, {missed} missed, {mended} mended, {unviable} unviable")
+        let Counts { caught, timeout, missed, mended, equivalent, unviable } = self;
+        format!(
+            "{caught} caught, {timeout} timeouts, {missed} missed, {mended} mended, {equivalent} equivalent, {unviable} unviable"
+        )
     }
 }
 
@@ -87,6 +94,7 @@ impl std::ops::Add for Counts {
             timeout: self.timeout + other.timeout,
             missed: self.missed + other.missed,
             mended: self.mended + other.mended,
+            equivalent: self.equivalent + other.equivalent,
             unviable: self.unviable + other.unviable,
         }
     }
@@ -143,13 +151,17 @@ impl Record {
         text
     }
 
-    pub(super) fn counts(&self) -> Counts {
+    /// Survivors whose reason begins with `equivalent` are counted separately.
+    pub(super) fn counts(&self, reasons: &BTreeMap<String, String>) -> Counts {
+        let is_equivalent = |name: &String| reasons.get(name).is_some_and(|reason| reason.starts_with(EQUIVALENT));
+        let equivalent = self.with(Outcome::Missed).iter().filter(|name| is_equivalent(name)).count();
         let of = |outcome: Outcome| self.outcomes.values().filter(|known| **known == outcome).count();
         Counts {
             caught: of(Outcome::Caught),
             timeout: of(Outcome::Timeout),
-            missed: of(Outcome::Missed),
+            missed: of(Outcome::Missed) - equivalent,
             mended: of(Outcome::Mended),
+            equivalent,
             unviable: of(Outcome::Unviable),
         }
     }
@@ -184,7 +196,23 @@ mod tests {
         let record = Record { commit: "abc".to_owned(), seed: 3, mutants: 12, note: "in order".to_owned(), outcomes };
         assert_eq!(Record::parse(&record.text()), Ok(record.clone()));
         assert_eq!(record.with(Outcome::Mended), ["a.rs:9:1: replace f with ()"]);
-        assert_eq!((record.counts().run(), record.counts().noticed_at_first()), (2, 1));
+        let counts = record.counts(&BTreeMap::new());
+        assert_eq!((counts.run(), counts.noticed_at_first()), (2, 1));
         assert!(Record::parse("escaped a.rs:1:2: replace + with -").is_err());
+    }
+
+    #[test]
+    fn equivalent_survivors_are_no_viable_mutants() {
+        let record =
+            Record::parse("commit a\nseed 1\nmutants 9\ncaught a.rs:1:1: x\nmissed a.rs:2:1: y\nmissed a.rs:3:1: z")
+                .unwrap();
+        let reason = |name: &str, reason: &str| (name.to_owned(), reason.to_owned());
+        let reasons = BTreeMap::from([
+            reason("a.rs:1:1: x", "equivalent: but it was caught"),
+            reason("a.rs:2:1: y", "equivalent: a tie"),
+            reason("a.rs:3:1: z", "open"),
+        ]);
+        let counts = record.counts(&reasons);
+        assert_eq!((counts.run(), counts.viable(), counts.equivalent, counts.missed), (3, 2, 1, 1));
     }
 }
