@@ -106,6 +106,7 @@ mod splines;
 mod standing_ground;
 mod synthetic_walk;
 mod times_and_distances;
+mod unchanged_results;
 mod walk_changes;
 mod walking;
 mod weighing;

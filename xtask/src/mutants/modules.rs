@@ -138,6 +138,7 @@ pub(super) const MODULES: [Module; 8] = [
         files: "crates/ambulo/src/ground/predict/**",
         sample: Some(40),
         quick: &[
+            "unchanged_results",
             "both_feet_together_give_the_total",
             "fore_aft_and_vertical_forces",
             "prediction_checks",
@@ -151,6 +152,7 @@ pub(super) const MODULES: [Module; 8] = [
         files: "crates/ambulo/src/analysis/**",
         sample: Some(40),
         quick: &[
+            "unchanged_results",
             "analysis",
             "activity",
             "feasibility",
