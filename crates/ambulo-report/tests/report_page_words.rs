@@ -37,6 +37,41 @@ fn header_has(shown: &Shown, label: &str) -> bool {
     shown.session()["header"].as_array().unwrap().iter().any(|line| line["label"] == label)
 }
 
+// ---- predicted walks ----
+
+#[test]
+fn a_predicted_walk_says_what_it_was_asked_to_bear() {
+    let size = json!({"rms": 0.0, "largest": 0.0});
+    let walk = |conditions: Value| {
+        let mut prediction = json!({"slope_percent": 0.0, "load_kg": 0.0, "strength": {}, "devices": [], "step_width_m": null,
+            "metabolic_power_w_kg": 6.25, "cost_of_transport_j_kg_m": 5.0});
+        for (key, value) in conditions.as_object().unwrap() {
+            prediction[key] = value.clone();
+        }
+        let mut files = recorded();
+        with_summary(&mut files, |summary| {
+            summary["walk"] = json!({"gait": "free", "style": "knots", "mode": "predict", "figure": "de-leva-male",
+                "speed_asked_m_s": 1.25, "speed_dimensionless": 0.4, "step_length_m": 0.7, "cadence_steps_min": 110.0,
+                "cycle_s": 1.1, "leg_length_m": 0.9, "pace_changes": [], "trunk_torque_nm": size,
+                "trunk_torque_nm_kg": size, "flight_s": 0.0, "impacts": 0, "largest_impact_n_s": 0.0,
+                "speed_drift_m_s": 0.0, "simulator_hz": 100.0, "unsolved_steps": 0, "prediction": prediction});
+        });
+        Shown::of(&files)
+    };
+    let plain = walk(json!({}));
+    assert_eq!(plain.header("Conditions"), "level ground, no load, full strength");
+    assert!(!header_note(&plain, "Conditions").contains("slope"));
+    assert!(header_note(&plain, "Conditions").starts_with("metabolic power 6.2 W/kg, cost of transport 5.0 J/kg/m"));
+    let hard = walk(json!({"slope_percent": -8.000_000_000_000_002, "load_kg": 15.0, "load_place": "back",
+        "strength": {"ankle_angle_r": 0.5}, "devices": ["knee_angle_l"], "step_width_m": 0.2}));
+    assert_eq!(
+        hard.header("Conditions"),
+        "8 % downhill; load of 15 kg (back); strength of ankle_angle_r 50 %; devices at knee_angle_l; steps 0.2 m wide"
+    );
+    assert!(header_note(&hard, "Conditions").contains("axes of the slope"));
+    assert!(!header_has(&Shown::of(&recorded()), "Conditions"));
+}
+
 // ---- paths ----
 
 #[test]

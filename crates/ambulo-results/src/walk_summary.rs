@@ -78,6 +78,9 @@ pub struct WalkPredictionSummary {
     pub slope_percent: f64,
     /// Mass of the load [kg].
     pub load_kg: f64,
+    /// Where it is carried: `back`, `hands` or `pelvis`; `null` without a load.
+    #[serde(default)]
+    pub load_place: Option<String>,
     /// Shares of strength that are left, by coordinate; joints with all their strength are not listed.
     pub strength: BTreeMap<String, f64>,
     /// Coordinates with devices, whose moments are parts of the joint moments.
@@ -96,6 +99,7 @@ impl WalkPredictionSummary {
         WalkPredictionSummary {
             slope_percent: 100.0 * conditions.slope,
             load_kg: conditions.load.map_or(0.0, |load| load.mass),
+            load_place: conditions.load.map(|load| load.place.name().to_owned()),
             strength: conditions.strengths.iter().cloned().collect(),
             devices: conditions.devices.iter().map(|device| device.coordinate.clone()).collect(),
             step_width_m: conditions.step_width_m,
@@ -103,6 +107,30 @@ impl WalkPredictionSummary {
             cost_of_transport_j_kg_m: report.metabolic_power / speed,
         }
     }
+
+    /// The conditions in words: slope, load, weak joints, devices, width of steps. Empty for level walking without any of them.
+    #[must_use]
+    pub fn conditions(&self) -> Vec<String> {
+        let uphill = if self.slope_percent > 0.0 { "uphill" } else { "downhill" };
+        let is_sloped = self.slope_percent.abs() > 0.0;
+        let place = self.load_place.as_deref().map_or_else(String::new, |place| format!(" ({place})"));
+        let listed =
+            |names: Vec<String>, what: &str| (!names.is_empty()).then(|| format!("{what} {}", names.join(", ")));
+        let weak = self.strength.iter().map(|(name, share)| format!("{name} {:.0} %", 100.0 * share)).collect();
+        let parts = [
+            is_sloped.then(|| format!("{} % {uphill}", rounded(self.slope_percent.abs()))),
+            (self.load_kg > 0.0).then(|| format!("load of {} kg{place}", rounded(self.load_kg))),
+            listed(weak, "strength of"),
+            listed(self.devices.clone(), "devices at"),
+            self.step_width_m.map(|width| format!("steps {} m wide", rounded(width))),
+        ];
+        parts.into_iter().flatten().collect()
+    }
+}
+
+/// As it was typed: without the digits of a conversion.
+fn rounded(value: f64) -> f64 {
+    (1e6 * value).round() / 1e6
 }
 
 /// A change of pace.

@@ -83,6 +83,11 @@ fn outline(summary: &Summary) -> Result<()> {
     if !walk.is_empty() {
         print_line(&format!("  activity  {}", walk.join(", ")))?;
     }
+    if let Some(made) = summary.walk.as_ref().and_then(|walk| walk.prediction.as_ref()) {
+        let cost = format!("{:.1} J/kg/m", made.cost_of_transport_j_kg_m);
+        let parts = made.conditions().into_iter().chain([format!("cost of transport {cost}")]);
+        print_line(&format!("  walk      {}", parts.collect::<Vec<_>>().join(", ")))?;
+    }
     let [from, to] = summary.window_s;
     let Summary { frames, rate_hz, ground: Ground { source, .. }, .. } = summary;
     print_line(&format!("  forces    {source}, {from:.3} to {to:.3} s, {frames} frames at {rate_hz:.2} Hz"))?;

@@ -72,6 +72,12 @@ impl LoadPlace {
     pub const ALL: [(&'static str, LoadPlace); 3] =
         [("back", LoadPlace::Back), ("hands", LoadPlace::Hands), ("pelvis", LoadPlace::Pelvis)];
 
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        LoadPlace::ALL.iter().find(|(_, place)| *place == self).map_or("", |(name, _)| name)
+    }
+
     /// The places in the figure as bodies, each with its position and its share of the load.
     fn on(self, human: &Human) -> Vec<(&'static str, Vec3, f64)> {
         let center = |name: &str| {

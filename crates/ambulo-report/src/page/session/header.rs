@@ -21,6 +21,7 @@ pub(super) fn header(results: &Results, size: &BodySize) -> Vec<Fact> {
     };
     let lines = [
         Some(recording(results)),
+        conditions(results),
         Some(subject(results)),
         Some(mass(results)),
         Some(metres(&size.stature, "Stature")),
@@ -62,6 +63,22 @@ pub(super) fn recording(results: &Results) -> Fact {
     let input = &results.summary.input;
     let standing = input.standing.as_ref().map(|file| format!("standing trial: {}", file_name(file)));
     fact("Recording", file_name(&input.motion), standing)
+}
+
+/// What a predicted walk was asked to bear, and what it costs.
+fn conditions(results: &Results) -> Option<Fact> {
+    let made = results.summary.walk.as_ref()?.prediction.as_ref()?;
+    let conditions = match made.conditions() {
+        none if none.is_empty() => "level ground, no load, full strength".to_owned(),
+        some => some.join("; "),
+    };
+    let cost = format!(
+        "metabolic power {:.1} W/kg, cost of transport {:.1} J/kg/m by a simple formula",
+        made.metabolic_power_w_kg, made.cost_of_transport_j_kg_m
+    );
+    let sloped = made.slope_percent.abs() > 0.0;
+    let axes = if sloped { "; all curves and the 3-D view are in axes of the slope, so it looks level" } else { "" };
+    Some(fact("Conditions", conditions, Some(format!("{cost}{axes}"))))
 }
 
 fn subject(results: &Results) -> Fact {
