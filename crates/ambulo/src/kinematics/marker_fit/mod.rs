@@ -24,6 +24,7 @@
 mod result;
 mod settings;
 
+mod branch_matrix;
 mod budget;
 mod normal;
 mod problem;

@@ -1,4 +1,4 @@
-//! The normal equations of one frame, JᵀWJ and JᵀW(m - p), and small dense Cholesky factors.
+//! The normal equations of one frame, JᵀWJ and JᵀW(m - p).
 //!
 //! JᵀWJ is the joint-space mass matrix of a body whose only masses are the weights w at the markers, and JᵀW(m - p) is the
 //! generalised force of springs of stiffness w that pull the markers to the recorded positions. Both are therefore assembled by
@@ -26,7 +26,8 @@
 //! Cost: number of pairs of a column with a column between it and the root.
 //! Pinned by: tests/marker_fit.rs
 
-use super::tree::MarkerTree;
+use super::branch_matrix::Branches;
+use super::tree::{MarkerTree, TwistColumn};
 use crate::spatial::{Mat3, Vec3};
 
 /// A fitted marker: the node that carries it, and its place in the frame of that body [m].
@@ -74,12 +75,13 @@ impl Composite {
     }
 }
 
-/// JᵀWJ, rows of `n`, lower half, and JᵀW(m - p).
+/// JᵀWJ and JᵀW(m - p).
 #[derive(Debug, Clone)]
 pub(super) struct Normal {
-    n: usize,
+    /// Places of the entries of both matrices.
+    pub(super) branches: Branches,
     pub(super) matrix: Vec<f64>,
-    /// Σ f·∂²p, lower half.
+    /// Σ f·∂²p.
     pub(super) curvature: Vec<f64>,
     pub(super) right: Vec<f64>,
     composites: Vec<Composite>,
@@ -99,13 +101,13 @@ pub(super) fn cost(tree: &MarkerTree, targets: &Targets<'_>) -> f64 {
 
 impl Normal {
     pub(super) fn new(tree: &MarkerTree) -> Normal {
-        let n = tree.unknowns();
+        let branches = branches(tree);
         Normal {
-            n,
-            matrix: vec![0.0; n * n],
-            curvature: vec![0.0; n * n],
-            right: vec![0.0; n],
+            matrix: vec![0.0; branches.entries()],
+            curvature: vec![0.0; branches.entries()],
+            right: vec![0.0; branches.unknowns()],
             composites: vec![EMPTY; tree.node_count()],
+            branches,
         }
     }
 
@@ -158,7 +160,7 @@ impl Normal {
                 let bends = if other.turns && column.turns { other.angular.dot(&bend) } else { 0.0 };
                 self.add(column.unknown, other.unknown, other.angular.dot(&angular) + other.linear.dot(&linear), bends);
             }
-            let diagonal = column.unknown * self.n + column.unknown;
+            let diagonal = self.branches.diagonal(column.unknown);
             self.matrix[diagonal] += column.angular.dot(&angular) + column.linear.dot(&linear);
             self.curvature[diagonal] += column.angular.dot(&bend);
             let mut next = tree.parent(node);
@@ -175,72 +177,27 @@ impl Normal {
     /// Adds the product of two different columns, which may belong to one unknown.
     fn add(&mut self, a: usize, b: usize, product: f64, bends: f64) {
         let times = if a == b { 2.0 } else { 1.0 };
-        let entry = a.max(b) * self.n + a.min(b);
+        let entry = self.branches.entry(a, b);
         self.matrix[entry] += times * product;
         self.curvature[entry] += times * bends;
     }
 }
 
-/// Cholesky factor of A = L Lᵀ, of which `a` (rows of `n`) has the lower half. Lᵀ replaces the upper half with the diagonal. Returns false
-/// if the matrix is not positive definite.
-///
-/// The sums of a column of L are accumulated side by side, so that they need not wait for each other; each keeps its order.
-pub(super) fn cholesky_factor(a: &mut [f64], n: usize) -> bool {
-    for j in 0..n {
-        let (above, rest) = a.split_at_mut(j * n);
-        let (row, below) = rest.split_at_mut(n);
-        let diagonal = row[j];
-        let sums = &mut row[j..];
-        sums.fill(-0.0);
-        for k in 0..j {
-            let other = &above[k * n + j..(k + 1) * n];
-            let factor = other[0];
-            sums.iter_mut().zip(other).for_each(|(sum, x)| *sum += x * factor);
+/// The unknowns of each node with each other and with those of all nodes towards the root.
+fn branches(tree: &MarkerTree) -> Branches {
+    let mut outwards = Vec::with_capacity(tree.unknowns());
+    let mut pairs = Vec::new();
+    for node in 0..tree.node_count() {
+        for column in tree.columns(node) {
+            if !outwards.contains(&column.unknown) {
+                outwards.push(column.unknown);
+            }
         }
-        let pivot = diagonal - sums[0];
-        if !(pivot > 0.0 && pivot.is_finite()) {
-            return false;
-        }
-        let root = pivot.sqrt();
-        sums[0] = root;
-        for (sum, entry) in sums[1..].iter_mut().zip(below.iter().skip(j).step_by(n)) {
-            *sum = (entry - *sum) / root;
+        let towards_root = std::iter::successors(Some(node), |node| tree.parent(*node));
+        let others: Vec<&TwistColumn> = towards_root.flat_map(|node| tree.columns(node)).collect();
+        for column in tree.columns(node) {
+            pairs.extend(others.iter().map(|other| (column.unknown, other.unknown)));
         }
     }
-    true
-}
-
-/// Solves L Lᵀ x = b in place, with the factor of [`cholesky_factor`]; `scratch` has n numbers.
-pub(super) fn cholesky_solve(l: &[f64], n: usize, scratch: &mut [f64], x: &mut [f64]) {
-    scratch.fill(-0.0);
-    for i in 0..n {
-        x[i] = (x[i] - scratch[i]) / l[i * n + i];
-        let value = x[i];
-        let column = &l[i * n + i + 1..(i + 1) * n];
-        scratch[i + 1..].iter_mut().zip(column).for_each(|(known, a)| *known += a * value);
-    }
-    for i in (0..n).rev() {
-        x[i] /= l[i * n + i];
-        let value = x[i];
-        for (x, a) in x[..i].iter_mut().zip(l.iter().skip(i).step_by(n)) {
-            *x -= a * value;
-        }
-    }
-}
-
-/// The diagonal of (L Lᵀ)⁻¹, with the factor of [`cholesky_factor`]; `scratch` has n numbers.
-pub(super) fn cholesky_inverse_diagonal(l: &[f64], n: usize, scratch: &mut [f64], diagonal: &mut [f64]) {
-    for k in 0..n {
-        // Entry k of A⁻¹ eₖ is |L⁻¹ eₖ|².
-        scratch.fill(-0.0);
-        let mut square = 0.0;
-        for i in k..n {
-            let right = if i == k { 1.0 } else { 0.0 };
-            let value = (right - scratch[i]) / l[i * n + i];
-            let column = &l[i * n + i + 1..(i + 1) * n];
-            scratch[i + 1..].iter_mut().zip(column).for_each(|(known, a)| *known += a * value);
-            square += value * value;
-        }
-        diagonal[k] = square;
-    }
+    Branches::new(outwards, pairs.into_iter().filter(|(a, b)| a != b))
 }

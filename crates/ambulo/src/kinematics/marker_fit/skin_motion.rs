@@ -15,8 +15,8 @@
 //! Pinned by: tests/marker_gaps.rs
 
 use super::frames::Frames;
-use super::normal::{cholesky_factor, cholesky_solve};
 use super::problem::FitProblem;
+use crate::numerics::BandMatrix;
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
 
@@ -82,9 +82,9 @@ impl MarkerSkinMotion {
         for &f in &known {
             means.iter_mut().zip(skin.terms(frames.posture(f))).for_each(|(mean, term)| *mean += term / count);
         }
-        let mut matrix = vec![0.0; terms * terms];
+        let mut matrix = BandMatrix::zeros(terms, terms.saturating_sub(1));
         let mut right = [vec![0.0; terms], vec![0.0; terms], vec![0.0; terms]];
-        (0..terms).for_each(|k| matrix[k * terms + k] = COST);
+        (0..terms).for_each(|k| matrix.add(k, k, COST));
         let mut row = Vec::with_capacity(terms);
         for &f in &known {
             row.clear();
@@ -92,14 +92,11 @@ impl MarkerSkinMotion {
             let offset = frames.offsets(f)[marker] - middle;
             for a in 0..terms {
                 (0..3).for_each(|axis| right[axis][a] += row[a] * offset[axis]);
-                (0..=a).for_each(|b| matrix[a * terms + b] += row[a] * row[b]);
+                (0..=a).for_each(|b| matrix.add(a, b, row[a] * row[b]));
             }
         }
-        if !cholesky_factor(&mut matrix, terms) {
-            return MarkerSkinMotion::default();
-        }
-        let mut scratch = vec![0.0; terms];
-        right.iter_mut().for_each(|side| cholesky_solve(&matrix, terms, &mut scratch, side));
+        let Some(factor) = matrix.factor() else { return MarkerSkinMotion::default() };
+        right.iter_mut().for_each(|side| factor.solve(side));
         skin.slopes = (0..terms).map(|k| Vec3::new(right[0][k], right[1][k], right[2][k])).collect();
         skin
     }

@@ -182,11 +182,11 @@ impl SmoothFit {
             let first = frame * n;
             for i in 0..n {
                 right[first + i] = self.precision * normal.right[i];
-                for j in 0..=i {
-                    let entry = normal.matrix[i * n + j] - curvature * normal.curvature[i * n + j];
-                    matrix.add(first + i, first + j, self.precision * entry);
-                }
                 matrix.add(first + i, first + i, FLOOR * self.precision);
+            }
+            for (i, j, entry) in normal.branches.each_entry() {
+                let entry = normal.matrix[entry] - curvature * normal.curvature[entry];
+                matrix.add(first + i.max(j), first + i.min(j), self.precision * entry);
             }
         }
         for (u, frame, third) in self.each_third(x) {

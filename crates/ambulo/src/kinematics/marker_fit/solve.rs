@@ -10,8 +10,9 @@
 //!
 //! Pinned by: tests/marker_fit.rs
 
+use super::branch_matrix::Branches;
 use super::budget::Budget;
-use super::normal::{Normal, Targets, cholesky_factor, cholesky_inverse_diagonal, cholesky_solve, cost};
+use super::normal::{Normal, Targets, cost};
 use super::tree::MarkerTree;
 
 /// The iteration ends when no unknown moves by more [rad or m].
@@ -90,9 +91,10 @@ impl Solver {
     pub(super) fn new(tree: &MarkerTree) -> Solver {
         let n = tree.unknowns();
         let zeros = || vec![0.0; n];
+        let normal = Normal::new(tree);
         Solver {
-            normal: Normal::new(tree),
-            factor: vec![0.0; n * n],
+            factor: vec![0.0; normal.matrix.len()],
+            normal,
             step: zeros(),
             trial: zeros(),
             fixed: vec![false; n],
@@ -136,7 +138,8 @@ impl Solver {
         let n = x.len();
         self.normal.gather(tree, targets);
         for i in 0..n {
-            self.normal.matrix[i * n + i] += bounds.stiffness[i];
+            let diagonal = self.normal.branches.diagonal(i);
+            self.normal.matrix[diagonal] += bounds.stiffness[i];
             self.normal.right[i] += bounds.stiffness[i] * (bounds.anchor[i] - x[i]);
         }
         for i in 0..n {
@@ -190,27 +193,22 @@ impl Solver {
     /// Computes the damped step of the unknowns that are not fixed. Returns false if the matrix is not positive definite.
     fn solve(&mut self, damping: f64, newton: bool) -> bool {
         self.budget.spend_one();
-        let n = self.step.len();
-        self.factor.copy_from_slice(&self.normal.matrix);
+        let Normal { branches, matrix, curvature, right, .. } = &self.normal;
         if newton {
-            self.factor.iter_mut().zip(&self.normal.curvature).for_each(|(a, b)| *a -= b);
+            self.factor.iter_mut().zip(matrix).zip(curvature).for_each(|((f, a), b)| *f = a - b);
+        } else {
+            self.factor.copy_from_slice(matrix);
         }
-        let largest = (0..n).map(|i| self.factor[i * n + i]).fold(f64::MIN_POSITIVE, f64::max);
-        for i in 0..n {
-            self.factor[i * n + i] += damping * self.factor[i * n + i] + FLOOR * largest;
-            self.step[i] = self.normal.right[i];
+        raise_diagonal(branches, &mut self.factor, damping);
+        self.step.copy_from_slice(right);
+        if self.fixed.contains(&true) {
+            branches.hold(&mut self.factor, &self.fixed);
+            self.step.iter_mut().zip(&self.fixed).filter(|(_, fixed)| **fixed).for_each(|(step, _)| *step = 0.0);
         }
-        for i in (0..n).filter(|&i| self.fixed[i]) {
-            for j in 0..n {
-                self.factor[i.max(j) * n + i.min(j)] = 0.0;
-            }
-            self.factor[i * n + i] = 1.0;
-            self.step[i] = 0.0;
-        }
-        if !cholesky_factor(&mut self.factor, n) {
+        if !branches.factor(&mut self.factor) {
             return false;
         }
-        cholesky_solve(&self.factor, n, &mut self.scratch, &mut self.step);
+        branches.solve(&self.factor, &mut self.step);
         let longest = self.step.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         if longest > LONGEST_STEP {
             self.step.iter_mut().for_each(|x| *x *= LONGEST_STEP / longest);
@@ -221,20 +219,26 @@ impl Solver {
     /// RMS change of each unknown per unit of error in each marker, at the current posture: the square roots of the diagonal of
     /// (JᵀWJ)⁻¹ for unit weights. Infinite if no marker determines the unknown.
     pub(super) fn uncertainty(&mut self, tree: &MarkerTree, targets: &Targets<'_>, sensitivity: &mut [f64]) {
-        let n = self.step.len();
         self.normal.gather(tree, targets);
-        let largest = (0..n).map(|i| self.normal.matrix[i * n + i]).fold(f64::MIN_POSITIVE, f64::max);
-        for i in 0..n {
-            self.normal.matrix[i * n + i] += FLOOR * largest;
-        }
+        let branches = &self.normal.branches;
         self.factor.copy_from_slice(&self.normal.matrix);
-        if !cholesky_factor(&mut self.factor, n) {
+        raise_diagonal(branches, &mut self.factor, 0.0);
+        if !branches.factor(&mut self.factor) {
             sensitivity.fill(f64::INFINITY);
             return;
         }
-        cholesky_inverse_diagonal(&self.factor, n, &mut self.scratch, sensitivity);
+        branches.inverse_diagonal(&self.factor, &mut self.scratch, sensitivity);
         for value in sensitivity.iter_mut() {
             *value = value.sqrt();
         }
+    }
+}
+
+/// Damps all unknowns, and those that no marker determines by [`FLOOR`].
+fn raise_diagonal(branches: &Branches, entries: &mut [f64], damping: f64) {
+    let unknowns = 0..branches.unknowns();
+    let largest = unknowns.clone().map(|u| entries[branches.diagonal(u)]).fold(f64::MIN_POSITIVE, f64::max);
+    for diagonal in unknowns.map(|u| branches.diagonal(u)) {
+        entries[diagonal] += damping * entries[diagonal] + FLOOR * largest;
     }
 }
