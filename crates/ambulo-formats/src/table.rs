@@ -83,6 +83,16 @@ impl Table {
         self.data.first().map_or(0, Vec::len)
     }
 
+    /// The first of every `step` rows (at least 1), and no others.
+    #[must_use]
+    pub fn every(self, step: usize) -> Table {
+        if step <= 1 {
+            return self;
+        }
+        let data = self.data.into_iter().map(|column| column.into_iter().step_by(step).collect()).collect();
+        Table { data, lines: self.lines.into_iter().step_by(step).collect(), ..self }
+    }
+
     /// Column names as in the file, including the time column.
     pub fn names(&self) -> &[String] {
         &self.names

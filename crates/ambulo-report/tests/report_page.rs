@@ -49,7 +49,8 @@ fn compared(shown: &Shown, files: &Files) -> (usize, usize) {
             let table = Table::read_storage(&files[origin["file"].as_str().unwrap()]).unwrap().0;
             let column = table.column(origin["column"].as_str().unwrap()).unwrap();
             let place = panel["id"].as_str().unwrap().starts_with("center_of_pressure") || panel["id"] == "free_moment";
-            compare(&trace["values"], column, origin["factor"].as_f64().unwrap(), place);
+            let drawn: Vec<f64> = column.iter().copied().step_by(shown.rows_per_instant(column.len())).collect();
+            compare(&trace["values"], &drawn, origin["factor"].as_f64().unwrap(), place);
         }
     }
     (same, different)
@@ -61,6 +62,49 @@ fn every_number_drawn_is_that_of_the_files() {
     let (same, different) = compared(&Shown::of(&files), &files);
     assert_eq!(different, 0);
     assert!(same > 20_000, "{same} numbers");
+}
+
+/// The same motion with this many rows for each step of time, interpolated linearly.
+fn refined(files: &Files, times: usize) -> Files {
+    let mut refined = files.clone();
+    for (name, bytes) in files {
+        let is_csv = name == "clinical.csv";
+        if !is_csv && ![".mot", ".sto"].iter().any(|ending| name.ends_with(ending)) {
+            continue;
+        }
+        let read = if is_csv { Table::read_csv(bytes) } else { Table::read_storage(bytes) };
+        let table = read.unwrap().0;
+        let between = |values: &[f64]| -> Vec<f64> {
+            let pairs = values.windows(2).flat_map(|pair| {
+                (0..times).map(|k| pair[0] + (pair[1] - pair[0]) * k as f64 / times as f64).collect::<Vec<_>>()
+            });
+            pairs.chain(values.last().copied()).collect()
+        };
+        let columns = table.columns().map(|(name, values)| (name.to_owned(), between(values))).collect();
+        let mut fine = Table::new(table.name.clone(), columns).unwrap();
+        fine.in_degrees = table.in_degrees;
+        refined.insert(name.clone(), if is_csv { fine.write_csv() } else { fine.write_storage() });
+    }
+    refined
+}
+
+#[test]
+fn of_a_long_recording_the_page_draws_evenly_spaced_instants_and_all_cycles() {
+    let short = recorded();
+    let rows = |files: &Files| Table::read_storage(&files["kinematics.mot"]).unwrap().0.rows();
+    let files = refined(&short, 13_000 / rows(&short));
+    let (shown, whole) = (Shown::of(&files), Shown::of(&short));
+    let time = &shown.session()["time"];
+    let step = shown.rows_per_instant(rows(&files));
+    assert!(step >= 2 && time["frames"].as_u64().unwrap() <= 6_000, "{step} rows per instant, {time}");
+    let times = Table::read_storage(&files["kinematics.mot"]).unwrap().0.times().unwrap().to_vec();
+    let spacing = time["step_s"].as_f64().unwrap();
+    assert!((spacing - (times[step] - times[0])).abs() < 1e-9 * spacing.max(1.0), "{spacing} s");
+    let (same, different) = compared(&shown, &files);
+    assert_eq!(different, 0);
+    assert!(same > 100_000, "{same} numbers");
+    assert_eq!(shown.session()["cycles"], whole.session()["cycles"]);
+    assert!(shown.misses("Not all instants") && !whole.misses("Not all instants"));
 }
 
 #[test]

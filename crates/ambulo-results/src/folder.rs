@@ -22,8 +22,11 @@ pub struct Folder<'a> {
     /// Name of the folder.
     pub name: String,
     content: Content<'a>,
+    /// Tables of time series are read with the first of this many rows.
+    step: usize,
 }
 
+#[derive(Clone)]
 enum Content<'a> {
     /// The bytes of a file, if it exists.
     Files(&'a dyn Fn(&str) -> Option<Vec<u8>>),
@@ -65,13 +68,19 @@ impl<'a> Folder<'a> {
     /// A folder whose files are read by `file`, which returns the bytes of a file if it exists.
     #[must_use]
     pub fn of_files(name: impl Into<String>, file: &'a dyn Fn(&str) -> Option<Vec<u8>>) -> Folder<'a> {
-        Folder { name: name.into(), content: Content::Files(file) }
+        Folder { name: name.into(), content: Content::Files(file), step: 1 }
     }
 
     /// The folder of a run whose results are in memory.
     #[must_use]
     pub fn of_run(name: impl Into<String>, files: &'a [OutputFile<'a>], summary: RunSummary) -> Folder<'a> {
-        Folder { name: name.into(), content: Content::Written { files, summary } }
+        Folder { name: name.into(), content: Content::Written { files, summary }, step: 1 }
+    }
+
+    /// The same folder, whose tables of time series have the first of every `step` rows only.
+    #[must_use]
+    pub fn every(&self, step: usize) -> Folder<'a> {
+        Folder { name: self.name.clone(), content: self.content.clone(), step }
     }
 
     /// Whether the folder contains a file.
@@ -188,7 +197,7 @@ impl<'a> Folder<'a> {
             }
         };
         self.check_numbers(file, &table)?;
-        Ok(Some(table))
+        Ok(Some(table.every(self.step)))
     }
 
     /// A text file, if the folder contains it, without a byte order mark.

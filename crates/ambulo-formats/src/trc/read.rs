@@ -12,9 +12,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Trc, Vec<Remark>), Error> {
     let header = read_header(&mut lines)?;
     let mut remarks = Vec::new();
     let names = read_names(&mut lines, header.markers, &mut remarks)?;
-    let markers = names.into_iter().map(|name| Marker { name, positions_m: vec![] }).collect();
+    let room = room(bytes, header.frames, names.len());
+    let marker = |name| Marker { name, positions_m: Vec::with_capacity(room) };
+    let markers = names.into_iter().map(marker).collect();
     let Header { rate_hz, unit, orig_start_frame, .. } = header;
-    let (frames, times) = (vec![], vec![]);
+    let (frames, times) = (Vec::with_capacity(room), Vec::with_capacity(room));
     let mut trc = Trc { name, rate_hz, unit, orig_start_frame, frames, times, markers, lines: vec![] };
     let oddities = read_frames(&mut lines, &mut trc, header.frames)?;
     remarks.extend(oddities.remarks());
@@ -22,6 +24,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Trc, Vec<Remark>), Error> {
         remarks.push(Remark { line: None, message: frame_count_message(stated, trc.times.len(), &lines) });
     }
     Ok((trc, remarks))
+}
+
+/// Number of frames to make room for: as stated, but no more than the file can contain; vectors that grow leave as much memory unused.
+fn room(bytes: &[u8], stated: Option<usize>, markers: usize) -> usize {
+    let shortest_line = "1\t0".len() + markers * "\t0\t0\t0".len() + 1;
+    stated.unwrap_or(0).min(bytes.len() / shortest_line)
 }
 
 fn frame_count_message(stated: usize, frames: usize, lines: &Lines<'_>) -> String {

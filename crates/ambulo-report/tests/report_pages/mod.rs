@@ -143,6 +143,11 @@ impl Shown {
         numbers.iter().map(|&q| if q == u16::MAX { f64::NAN } else { low + step * f64::from(q) }).collect()
     }
 
+    /// How many rows of tables with `rows` rows belong to each drawn instant.
+    pub(crate) fn rows_per_instant(&self, rows: usize) -> usize {
+        rows.div_ceil(self.session()["time"]["frames"].as_u64().unwrap() as usize)
+    }
+
     /// All panels, including those of quality.
     pub(crate) fn panels(&self) -> Vec<&Value> {
         let session = self.session();

@@ -19,6 +19,14 @@ const LACKING: [(&str, &str); 5] = [
     ("foot_progression_angle", "foot progression (not computed)"),
 ];
 
+/// Of long recordings, not all instants are drawn.
+fn thinned(results: &Results) -> String {
+    let (step, drawn) = (results.step, results.grid.frames);
+    format!(
+        "Not all instants: curves over time and the figure show {drawn} of them, one of {step}, because the recording is long; means and peaks are those of all, which the other files of the folder contain."
+    )
+}
+
 /// One sentence for each missing part.
 pub(super) fn missing(
     results: &Results,
@@ -32,6 +40,7 @@ pub(super) fn missing(
             sentences.push(sentence);
         }
     };
+    add(results.step > 1, thinned(results));
     let no_ground = results.source == PageSource::None;
     add(
         no_ground,

@@ -30,7 +30,7 @@ use super::view::{Viewed, view};
 use ambulo::study::{Quality, QualityState};
 use ambulo_results::{Folder, ResultsError, RunSummary};
 use feasibility::Basis;
-use results::Results;
+use results::{AllRows, Results};
 use size::BodySize;
 
 /// The session of a folder; its numbers go into `block`.
@@ -39,9 +39,12 @@ pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session,
         RunSummary::Scene(summary) => scene::session(folder, &summary, block),
         RunSummary::Motion(summary) => {
             // The figure comes first, because its errors report all causes of a broken body.
-            let viewed = view(folder, block)?;
+            let motion = folder.table(results::KINEMATICS)?;
+            let drawn = folder.every(motion.as_ref().map_or(1, results::step));
+            let viewed = view(&drawn, block)?;
             let machines = machines::machines(&folder.states()?);
-            recording(Results::read(folder, *summary)?, viewed, machines, block)
+            let all = motion.map(|motion| AllRows::read(folder, &motion)).transpose()?;
+            recording(Results::read(&drawn, *summary, all)?, viewed, machines, block)
         }
     }
 }

@@ -10,6 +10,34 @@ use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
 use ambulo_results::{CLINICAL, Convention, CycleRow, Folder, GroundOrigin, ResultsError, Summary};
 
+/// Most instants of time series that a page draws: more take memory and time in the browser, and no screen shows them.
+const MOST_INSTANTS: usize = 6_000;
+
+/// What is found from all rows of the motion.
+pub(super) struct AllRows {
+    /// Rows per drawn instant.
+    step: usize,
+    events: Vec<PageEvent>,
+    curves: Vec<CycleRow>,
+    cycles: Vec<PageCycle>,
+}
+
+impl AllRows {
+    /// Of a folder whose `kinematics.mot` has all rows.
+    pub(super) fn read(folder: &Folder<'_>, kinematics: &Table) -> Result<AllRows, ResultsError> {
+        let events = folder.events()?.iter().map(page_event).collect::<Vec<_>>();
+        let curves = folder.cycles()?;
+        let times = kinematics.times().unwrap_or_default();
+        let cycles = cycles::cycles(&events, &curves, kinematics, times);
+        Ok(AllRows { step: step(kinematics), events, curves, cycles })
+    }
+}
+
+/// Of a table of time series, the first of this many rows is drawn.
+pub(super) fn step(table: &Table) -> usize {
+    table.rows().div_ceil(MOST_INSTANTS).max(1)
+}
+
 /// The contents of the files of a recording or walk.
 pub(super) struct Results {
     pub(super) summary: Summary,
@@ -26,6 +54,8 @@ pub(super) struct Results {
     pub(super) events: Vec<PageEvent>,
     pub(super) curves: Vec<CycleRow>,
     pub(super) cycles: Vec<PageCycle>,
+    /// Of the rows of the files, the first of this many is drawn.
+    pub(super) step: usize,
     /// The name of the model file, and the model.
     pub(super) body: Option<(&'static str, Model)>,
     pub(super) source: PageSource,
@@ -36,20 +66,18 @@ pub(super) struct Results {
 }
 
 impl Results {
-    /// Reads the files.
-    pub(super) fn read(folder: &Folder<'_>, summary: Summary) -> Result<Results, ResultsError> {
+    /// Reads the files. The cycles belong to all rows of the motion; the time series have the rows of `folder`.
+    pub(super) fn read(folder: &Folder<'_>, summary: Summary, all: Option<AllRows>) -> Result<Results, ResultsError> {
         let missing = || ResultsError::Missing { folder: folder.name.clone(), file: KINEMATICS };
         let kinematics = folder.table(KINEMATICS)?.ok_or_else(missing)?;
+        let all = all.ok_or_else(missing)?;
         let times = kinematics.times().unwrap_or_default().to_vec();
         let uneven = || "the time column is not evenly spaced; expected two or more rows at even steps".to_owned();
         let grid = TimeGrid::through(&times).ok_or_else(|| folder.unreadable(KINEMATICS, uneven()))?;
         let table = |file: &str| same_instants(folder, file, &grid);
         let body = folder.body()?;
         let mass_kg = mass(folder, &summary)?;
-        let events = folder.events()?.iter().map(page_event).collect::<Vec<_>>();
-        let curves = folder.cycles()?;
         Ok(Results {
-            cycles: cycles::cycles(&events, &curves, &kinematics, &times),
             moments: table(MOMENTS)?,
             powers: table(POWERS)?,
             ground: table(GROUND)?,
@@ -62,8 +90,10 @@ impl Results {
             grid,
             times,
             kinematics,
-            events,
-            curves,
+            events: all.events,
+            curves: all.curves,
+            cycles: all.cycles,
+            step: all.step,
             body,
             mass_kg,
         })
