@@ -96,13 +96,13 @@ fn of_a_long_recording_the_page_draws_evenly_spaced_instants_and_all_cycles() {
     let (shown, whole) = (Shown::of(&files), Shown::of(&short));
     let time = &shown.session()["time"];
     let step = shown.rows_per_instant(rows(&files));
-    assert!(step >= 2 && time["frames"].as_u64().unwrap() <= 6_000, "{step} rows per instant, {time}");
+    assert!(step >= 2 && time["frames"].as_u64().unwrap() <= 4_000, "{step} rows per instant, {time}");
     let times = Table::read_storage(&files["kinematics.mot"]).unwrap().0.times().unwrap().to_vec();
     let spacing = time["step_s"].as_f64().unwrap();
     assert!((spacing - (times[step] - times[0])).abs() < 1e-9 * spacing.max(1.0), "{spacing} s");
     let (same, different) = compared(&shown, &files);
     assert_eq!(different, 0);
-    assert!(same > 100_000, "{same} numbers");
+    assert!(same > 50_000, "{same} numbers");
     assert_eq!(shown.session()["cycles"], whole.session()["cycles"]);
     assert!(shown.misses("Not all instants") && !whole.misses("Not all instants"));
 }

@@ -2,12 +2,18 @@
 
 use crate::plug_in_gait::PEOPLE;
 use crate::shared_data::data;
+use ambulo::analysis::feasibility::VerdictState;
 use ambulo::findings::Findings;
+use ambulo::formats::external_loads::ExternalLoads;
+use ambulo::formats::table::Table;
+use ambulo::model::Model;
 use ambulo::motion::filter::LowPass;
-use ambulo::motion::{Motion, Smoother};
+use ambulo::motion::force_plate::PlateRecording;
+use ambulo::motion::{ForceRecording, Motion, Smoother, coordinates_from_table, force_recordings};
 use ambulo::spatial::Vec3;
 use ambulo::study::{
-    self, GroundSettings, MarkerBody, Measure, Quality, QualityLimits, QualityState, Recording, Settings, Source,
+    self, GroundSettings, MarkerBody, Measure, MeasuredForces, Quality, QualityLimits, QualityState, Recording,
+    Settings, Source,
 };
 use std::path::Path;
 
@@ -22,7 +28,7 @@ const fn spoiled(what: &'static str, measure: Measure, spoil: fn(&mut Source, &m
     Spoiled { what, measure, spoil }
 }
 
-const SPOILED: [Spoiled; 8] = [
+const SPOILED: [Spoiled; 9] = [
     spoiled("a body of 85 % of the mass", Measure::Mass, |source, _| {
         let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
         let MarkerBody::BuiltIn { mass_kg: Some(mass_kg), .. } = &mut markers.body else { panic!("no stated mass") };
@@ -37,6 +43,15 @@ const SPOILED: [Spoiled; 8] = [
     spoiled("a laboratory that shakes", Measure::Sliding, |source, _| {
         each_marker(source, |time_s, position| *position += Vec3::new(0.03, 0.03, 0.0) * (10.0 * time_s).sin());
     }),
+    spoiled("plates that start 0.1 s late", Measure::ResidualMoment, |source, _| {
+        each_plate(source, |plate| {
+            let late = (0.1 / (plate.times[1] - plate.times[0])).round() as usize;
+            for values in [&mut plate.force, &mut plate.moment] {
+                values.rotate_right(late);
+                values[..late].fill(Vec3::zeros());
+            }
+        });
+    }),
     spoiled("a filter that removes the movement", Measure::LowCutoff, |_, settings| {
         settings.smoother = Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 0.9 });
     }),
@@ -47,11 +62,15 @@ const SPOILED: [Spoiled; 8] = [
 ];
 
 fn scale_plates(source: &mut Source, factor: f64) {
-    let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
-    for plate in &mut markers.trial.recording.plates {
+    each_plate(source, |plate| {
         plate.force.iter_mut().for_each(|force| *force *= factor);
         plate.moment.iter_mut().for_each(|moment| *moment *= factor);
-    }
+    });
+}
+
+fn each_plate(source: &mut Source, change: impl Fn(&mut PlateRecording)) {
+    let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
+    markers.trial.recording.plates.iter_mut().for_each(change);
 }
 
 /// Moves every marker of the walk, as a function of time [s] and its position in the laboratory.
@@ -100,6 +119,54 @@ fn spoiled_copies_are_never_good_and_the_reason_names_what_is_wrong() {
             assert!(found.iter().any(|(found, _)| found == measure), "{}: {what}: {found:?}", person.name);
         }
     }
+}
+
+/// Gait2392's subject on a treadmill, with changed forces.
+fn with_forces(data: &Path, change: impl FnMut(&mut ForceRecording)) -> study::Outcome {
+    let folder = data.join("opensim-gait2392-subject01");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let mut findings = Findings::default();
+    let model = Model::from_osim(&read("subject01_simbody.osim"), &mut findings).unwrap();
+    let (angles, _) = Table::read_storage(&read("subject01_walk1_ik.mot")).unwrap();
+    let motion = coordinates_from_table(&model, &angles, "walk", &mut findings).unwrap();
+    let (plates, _) = Table::read_storage(&read("subject01_walk1_grf.mot")).unwrap();
+    let (loads, _) = ExternalLoads::read(&read("subject01_walk1_grf.xml")).unwrap();
+    let mut forces = force_recordings(&model, &loads, &plates, &mut findings).unwrap();
+    forces.iter_mut().for_each(change);
+    let source = Source::coordinates(model, motion).with_forces(MeasuredForces::OnBodies(forces));
+    study::run(&source, &Settings::default(), &mut findings).unwrap()
+}
+
+/// Plates that were switched off say nothing about the person.
+#[test]
+fn force_plates_that_carry_nothing_make_the_data_bad_and_the_movement_not_judged() {
+    let Some(data) = data() else { return };
+    for factor in [0.0, 0.02] {
+        let outcome = with_forces(&data, |load| {
+            load.force.iter_mut().chain(&mut load.moment).for_each(|value| *value *= factor);
+        });
+        let (verdict, quality) = (outcome.verdict, outcome.quality);
+        assert_eq!(verdict.state, VerdictState::NotJudged, "{:?}", verdict.reasons);
+        assert_eq!(quality.state, QualityState::Bad);
+        assert!(
+            quality.reasons.iter().any(|reason| reason.measure == Measure::MeasuredForces),
+            "{:?}",
+            quality.reasons
+        );
+    }
+}
+
+/// The feet are so near to each other's places that a treadmill's forces fit the whole body, though not the feet.
+#[test]
+fn forces_of_a_treadmill_that_are_late_are_outside_the_soles_and_the_quality_says_so() {
+    let Some(data) = data() else { return };
+    let found = |late_s: f64| {
+        let outcome = with_forces(&data, |load| load.times.iter_mut().for_each(|time| *time += late_s));
+        let reasons = outcome.quality.reasons.into_iter();
+        reasons.filter(|reason| reason.measure == Measure::CenterOfPressure).map(|reason| reason.value).next()
+    };
+    assert_eq!(found(0.0), None);
+    assert!(found(0.1).is_some_and(|outside_m| outside_m > 0.03));
 }
 
 #[test]

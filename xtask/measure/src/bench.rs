@@ -1,5 +1,5 @@
-//! Times inverse dynamics, synthetic walks, predicted ground forces, the stages of an analysis and the `ambulo` command:
-//! `cargo xtask bench`.
+//! Times inverse dynamics, synthetic walks, predicted ground forces, the stages of an analysis and the `ambulo` command,
+//! and measures its memory: `cargo xtask bench`.
 //!
 //! First, the torques of the reference human are compared with those of another engine, because the time of a wrong result is
 //! meaningless. If other engines are installed (see `peers`), they run right after ours, and the ratios are printed: between runs, times
@@ -11,6 +11,7 @@
 mod gait;
 mod human;
 pub(crate) mod markers;
+mod memory;
 mod prediction;
 pub(crate) mod simulation;
 mod timing;
@@ -55,7 +56,12 @@ pub(crate) fn run() -> Result<(), String> {
         None => println!("reference human: skipped: no data"),
     }
     match walk {
-        Some(walk) => rows.extend(bench_walk(&walk)?),
+        Some(walk) => {
+            rows.extend(bench_walk(&walk)?);
+            let memory = memory::bench()?;
+            print!("\n{}", memory::table(&memory));
+            rows.extend(memory);
+        }
         None => println!("main job: skipped: no data"),
     }
     let path = write_csv(&rows)?;

@@ -13,6 +13,7 @@ mod optimal_peers;
 mod optimal_walk;
 mod oracle_c3d;
 mod peers;
+mod random;
 mod reproduction;
 mod simulators;
 mod table;

@@ -10,7 +10,7 @@
 
 use super::outcome::{ForceOrigin, Tracking};
 use crate::analysis::PredictionChecks;
-use crate::analysis::feasibility::{LARGE_RESIDUAL_BW, Verdict};
+use crate::analysis::feasibility::{Check, LARGE_RESIDUAL_BW, Reason, Verdict};
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
 use crate::motion::{Jumps, Motion, Smoother, jumps};
@@ -67,6 +67,8 @@ pub enum Measure {
     Gaps,
     /// Speed of loaded soles along the ground.
     Sliding,
+    /// Distance of the measured centre of pressure from the sole.
+    CenterOfPressure,
     /// Number of jumps of coordinates.
     Jumps,
     /// Cut-off frequency that may be too low.
@@ -86,7 +88,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 13] = [
+    pub const ALL: [Measure; 14] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -97,6 +99,7 @@ impl Measure {
         Measure::Mass,
         Measure::Gaps,
         Measure::Sliding,
+        Measure::CenterOfPressure,
         Measure::Jumps,
         Measure::LowCutoff,
         Measure::HighCutoff,
@@ -117,6 +120,7 @@ impl Measure {
             Measure::Mass => AtMost(0.05, 0.15),
             Measure::Gaps => AtMost(0.1, 0.3),
             Measure::Sliding => AtMost(0.05, 0.15),
+            Measure::CenterOfPressure => AtMost(0.03, 0.1),
             Measure::Jumps => AtMost(0.0, 10.0),
             Measure::LowCutoff => AtLeast(3.0, 1.0),
             Measure::HighCutoff => AtMost(0.2, 0.4),
@@ -137,6 +141,7 @@ impl Measure {
             Measure::Mass => "mass",
             Measure::Gaps => "gaps",
             Measure::Sliding => "sliding",
+            Measure::CenterOfPressure => "center_of_pressure",
             Measure::Jumps => "jumps",
             Measure::LowCutoff => "low_cutoff",
             Measure::HighCutoff => "high_cutoff",
@@ -163,6 +168,9 @@ impl Measure {
             Measure::Sliding => {
                 "speed along the ground of soles that carry at least half the body weight, lower quartile"
             }
+            Measure::CenterOfPressure => {
+                "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief one"
+            }
             Measure::Jumps => "number of jumps of recorded coordinates",
             Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
             Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
@@ -175,7 +183,7 @@ impl Measure {
         match self {
             Measure::ResidualForce => "BW",
             Measure::ResidualMoment => "N.m/kg",
-            Measure::MarkerFit | Measure::Scaling => "m",
+            Measure::MarkerFit | Measure::Scaling | Measure::CenterOfPressure => "m",
             Measure::Sliding => "m/s",
             Measure::LowCutoff => "Hz",
             Measure::GroundForces
@@ -281,7 +289,7 @@ impl QualityEvidence<'_> {
     pub(super) fn quality(&self) -> Quality {
         let of_forces = [self.residual_force(), self.residual_moment(), self.ground_forces(), self.measured_forces()];
         let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
-        let of_motion = [self.gaps(), self.sliding(), self.jumps(), self.cutoff()];
+        let of_motion = [self.gaps(), self.sliding(), self.center_of_pressure(), self.jumps(), self.cutoff()];
         Quality::of(of_forces.into_iter().chain(of_body).chain(of_motion).flatten())
     }
 
@@ -418,6 +426,20 @@ impl QualityEvidence<'_> {
         Measure::Sliding.reason(speed_m_s, |limit| {
             format!(
                 "soles that carry the body move along the ground at {speed_m_s:.2} m/s or more for three quarters of the time (at most {limit} m/s): the motion of the legs is wrong"
+            )
+        })
+    }
+
+    /// Force plates and motion that are not aligned in place or time are a fault of the data, whatever the movement is.
+    fn center_of_pressure(&self) -> Option<QualityReason> {
+        let outside = |reason: &&Reason| reason.check == Check::CenterOfPressure;
+        let reasons =
+            self.verdict.reasons.iter().filter(outside).filter(|_| self.force_origin == ForceOrigin::Measured);
+        let worst = reasons.max_by(|a, b| a.value.total_cmp(&b.value))?;
+        Measure::CenterOfPressure.reason(worst.value, |limit| {
+            format!(
+                "the measured centre of pressure is {:.3} m outside the sole at {:.3} s (at most {limit} m): force plates and motion are not aligned in place or time, or a force acts on the wrong foot",
+                worst.value, worst.at_s
             )
         })
     }

@@ -3,15 +3,18 @@
 //! Two recordings of the data folder are fitted, all common markers at weight 1. Ours is CPU time of the thread for the whole
 //! fit, divided by the frames; OpenSim's is CPU time of its process for `InverseKinematicsTool::run` over the same frames, as
 //! `ik_opensim.py` of the peers' scripts prints it, right after ours. Where `AMBULO_PEERS_ENV` names no folder with an `opensim`
-//! environment, ours stands alone. With `--write` the table is written to docs/measured/BENCHMARKS_MARKERS.md.
+//! environment, only ours is printed. The same recordings are then damaged at random, with a seed: labels exchanged, markers lost and
+//! displaced for a while. With `--write` the table is written to docs/measured/BENCHMARKS_MARKERS.md.
 
 use super::machine;
 use super::timing::{Timing, cpu_us};
+use crate::random::Random;
 use crate::workspace;
 use ambulo::findings::Findings;
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::model::Model;
 use ambulo::motion::{MarkerRecording, markers_from_trc};
+use ambulo::spatial::Vec3;
 use ambulo_formats::trc::Trc;
 use std::fmt::Write as _;
 use std::fs;
@@ -57,6 +60,16 @@ const ALLOWED_MM: f64 = 0.1;
 /// The stored runs of OpenSim end here [s].
 const JUDGED_UNTIL_S: f64 = 2.0;
 
+/// Faults of a damaged recording: exchanges of two labels, markers that are lost, markers that are displaced.
+const DAMAGE: [[usize; 3]; 2] = [[5, 10, 3], [30, 40, 20]];
+/// Time for a frame of a damaged recording at most [ms].
+const REQUIRED_DAMAGED_MS: f64 = 0.3;
+/// An exchange or a gap lasts at most this share of the recording.
+const LONGEST_FAULT: f64 = 0.25;
+/// Furthest displacement along each axis [m].
+const DISPLACED: f64 = 0.4;
+const SEED: u64 = 7;
+
 /// Fits, times and prints. An error means a wrong fit or a broken file, never a long time.
 #[expect(clippy::print_stdout, reason = "the table is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
@@ -68,6 +81,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let mut page =
         format!("# Marker fitting, timed\n\nOpenSim ran in the same run, right after ours.\n\n{}\n\n", machine());
     page.push_str("| recording | mean marker RMS | OpenSim's | ours, CPU per frame | required | OpenSim, CPU per frame | ratio |\n|---|---|---|---|---|---|---|\n");
+    let mut damaged = String::new();
     let mut rows = 0;
     for case in &CASES {
         let folder = workspace::data().join("data").join(case.folder);
@@ -76,8 +90,14 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
             continue;
         }
         page.push_str(&row(case, &folder)?);
+        damaged.push_str(&damaged_rows(case, &folder)?);
         rows += 1;
     }
+    page.push_str("\n## Damaged recordings\n\nLabels are exchanged and markers lost for up to a quarter of the recording, and displaced by up to 0.4 m along each axis, at random.\n\n");
+    page.push_str(
+        "| recording | exchanges, gaps, displacements | ours, CPU per frame | required |\n|---|---|---|---|\n",
+    );
+    page.push_str(&damaged);
     print!("{page}");
     if write && rows == CASES.len() {
         let path = workspace::root().join("docs/measured/BENCHMARKS_MARKERS.md");
@@ -105,6 +125,55 @@ fn row(case: &Case, folder: &Path) -> Result<String, String> {
     });
     let theirs = opensim(case, folder);
     Ok(line(case, mean_mm, ours, theirs.as_ref()))
+}
+
+/// Times of fits to damaged recordings. Their distances are not judged: some faults are as large as the body.
+fn damaged_rows(case: &Case, folder: &Path) -> Result<String, String> {
+    let (model, clean) = read(case, folder)?;
+    let mut text = String::new();
+    for damage in DAMAGE {
+        let markers = damaged(&clean, damage);
+        let fit = || fit_markers(&model, &markers, &FitSettings::default(), &mut Findings::default());
+        fit().map_err(|e| e.to_string())?;
+        let ms = cpu_us(markers.times.len(), || {
+            black_box(fit().is_ok());
+        });
+        let ms = ms.median / 1000.0;
+        let met = if ms <= REQUIRED_DAMAGED_MS { "met" } else { "missed" };
+        let [exchanges, gaps, displacements] = damage;
+        let _ = writeln!(
+            text,
+            "| {} | {exchanges}, {gaps}, {displacements} | {ms:.3} ms | {REQUIRED_DAMAGED_MS} ms: {met} |",
+            case.name
+        );
+    }
+    Ok(text)
+}
+
+/// A recording with faults at random.
+fn damaged(clean: &MarkerRecording, [exchanges, gaps, displacements]: [usize; 3]) -> MarkerRecording {
+    let mut markers = clean.clone();
+    let (mut random, frames, count) = (Random::seeded(SEED), clean.times.len(), clean.markers.len());
+    let mut below = |n: usize| random.below(n);
+    let longest = (LONGEST_FAULT * frames as f64) as usize;
+    for _ in 0..exchanges {
+        let (a, b, start, length) = (below(count), below(count), below(frames), below(longest));
+        for frame in start..(start + length).min(frames) {
+            let kept = markers.markers[a].positions[frame];
+            markers.markers[a].positions[frame] = markers.markers[b].positions[frame];
+            markers.markers[b].positions[frame] = kept;
+        }
+    }
+    for _ in 0..gaps {
+        let (marker, start, length) = (below(count), below(frames), below(longest));
+        markers.markers[marker].positions[start..(start + length).min(frames)].fill(Vec3::repeat(f64::NAN));
+    }
+    for _ in 0..displacements {
+        let (marker, start, length) = (below(count), below(frames), below(20));
+        let move_by = Vec3::from([(); 3].map(|()| DISPLACED * (below(2001) as f64 / 1000.0 - 1.0)));
+        markers.markers[marker].positions[start..(start + length).min(frames)].iter_mut().for_each(|p| *p += move_by);
+    }
+    markers
 }
 
 fn line(case: &Case, mean_mm: f64, ours: Timing, theirs: Result<&f64, &String>) -> String {

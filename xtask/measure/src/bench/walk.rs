@@ -136,7 +136,7 @@ fn finish(child: Child) -> Result<(), String> {
 
 /// Largest resident memory [MB] that was seen while the process ran. It is read all the time; what a process takes in
 /// its last tens of microseconds is missed.
-fn watch_memory(child: Child) -> Result<Option<f64>, String> {
+pub(super) fn watch_memory(child: Child) -> Result<Option<f64>, String> {
     let status = format!("/proc/{}/status", child.id());
     let mut peak_kb: Option<f64> = None;
     while let Some(kb) = fs::read_to_string(&status).ok().as_deref().and_then(high_water_kb) {

@@ -129,8 +129,8 @@ fn factor(subjects: &[Vec<&[Sample]>], floor: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::search::Random;
     use super::*;
+    use crate::random::Random;
 
     /// Stances whose errors are normal with `true_factor` times what the equations say, and a floor.
     fn stances(seed: u64, true_factor: f64, floor: f64) -> Vec<Vec<Sample>> {

@@ -4,46 +4,14 @@
 //! success and shrinks on failure so that one trial in five succeeds (Rechenberg's rule; unverified), and starts anew where it has
 //! become too small to matter.
 
+use crate::random::Random;
+
 /// Most numbers that one step changes.
 const MOST_CHANGED: usize = 4;
 /// Step at the start and at each new start, least and largest step: shares of a range.
 const STEP: [f64; 3] = [0.2, 0.01, 0.4];
 /// Growth of the step on success; four failures take it back.
 const GROWTH: f64 = 1.5;
-
-/// SplitMix64 (Steele, Lea, Flood 2014; unverified) and what is made of it.
-#[derive(Debug, Clone)]
-pub(super) struct Random(u64);
-
-impl Random {
-    pub(super) fn seeded(seed: u64) -> Random {
-        Random(seed)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// In [0, 1).
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// In 0..count.
-    fn below(&mut self, count: usize) -> usize {
-        ((self.unit() * count as f64) as usize).min(count - 1)
-    }
-
-    /// Normal deviate, by Box and Muller.
-    pub(super) fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.unit()).cos()
-    }
-}
 
 /// The best point found, and its cost.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,7 +11,7 @@ use ambulo_formats::table::Table;
 use ambulo_results::{CLINICAL, Convention, CycleRow, Folder, GroundOrigin, ResultsError, Summary};
 
 /// Most instants of time series that a page draws: more take memory and time in the browser, and no screen shows them.
-const MOST_INSTANTS: usize = 6_000;
+const MOST_INSTANTS: usize = 4_000;
 
 /// What is found from all rows of the motion.
 pub(super) struct AllRows {

@@ -22,6 +22,8 @@ const LEAST_JUDGED_SHARE: f64 = 0.9;
 const EDGE_S: f64 = 0.1;
 /// Measured forces that carry the body in a smaller share of the frames are not those of this motion, and no prediction takes their place.
 const LEAST_MEASURED_SHARE: f64 = 0.1;
+/// Forces that carry less of the weight than this, in all frames in which none seems to be missing, were not measured: the plates were off.
+const LEAST_CARRIED: f64 = 0.1;
 /// Error of the change of the velocity of the mass centre over an uninterrupted time [m/s]; measured: below 0.1 for straight walks, 0.36 for a
 /// turning child.
 const VELOCITY_ERROR_M_S: f64 = 0.25;
@@ -362,6 +364,7 @@ fn measure(
 /// begins or ends with missing forces has the same cause.
 fn covered(motion: &MotionAndForces<'_>, given: &mut FrameReader<'_>, limits: &FeasibilityLimits) -> Vec<bool> {
     let (mut covered, mut lacking): (Vec<bool>, Vec<bool>) = (Vec::new(), Vec::new());
+    let mut upward_n = [0.0; 2];
     let is_partly_measured = |i: usize| {
         let time_s = motion.trajectory.grid().time(i);
         motion.partly_measured.iter().any(|[from, to]| (*from..=*to).contains(&time_s))
@@ -371,7 +374,14 @@ fn covered(motion: &MotionAndForces<'_>, given: &mut FrameReader<'_>, limits: &F
         let lacks = limits.lacks_support(&frame);
         covered.push(limits.support_is_known(&frame) && !(lacks && is_partly_measured(i)));
         lacking.push(lacks);
+        if covered[i] {
+            let [carried, needed] = limits.upward_forces(&frame);
+            upward_n = [upward_n[0] + carried, upward_n[1] + needed];
+        }
     });
+    if !motion.ground.bodies.is_empty() && upward_n[0] < LEAST_CARRIED * upward_n[1] {
+        covered.fill(false);
+    }
     let most = (STEP_OFF_S / motion.trajectory.grid().step_s) as usize;
     let known = covered.clone();
     let gap_near = |i: usize| {
