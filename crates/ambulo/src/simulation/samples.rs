@@ -49,19 +49,28 @@ impl Samples {
     /// Value, first and second derivative of one function.
     #[must_use]
     pub fn at(&self, column: usize, t: f64) -> [f64; 3] {
-        let (first, u) = self.interval(column, t);
-        self.quintic(first).at(u, self.step_s)
+        self.at_place(column, self.place(t))
     }
 
     /// Value of one function.
     #[must_use]
     pub fn value(&self, column: usize, t: f64) -> f64 {
-        let (first, u) = self.interval(column, t);
-        self.quintic(first).value(u)
+        self.value_at_place(column, self.place(t))
     }
 
-    /// The entry at the start of the interval, and the elapsed share of the interval.
-    fn interval(&self, column: usize, t: f64) -> (usize, f64) {
+    /// [`Samples::at`] at a place on the grid.
+    pub(super) fn at_place(&self, column: usize, (first, u): (usize, f64)) -> [f64; 3] {
+        self.quintic(first + column).at(u, self.step_s)
+    }
+
+    /// [`Samples::value`] at a place on the grid.
+    #[inline]
+    pub(super) fn value_at_place(&self, column: usize, (first, u): (usize, f64)) -> f64 {
+        self.quintic(first + column).value(u)
+    }
+
+    /// The place of an instant on the grid: the first entry at the start of its interval, and the elapsed share of the interval.
+    pub(super) fn place(&self, t: f64) -> (usize, f64) {
         let intervals = self.rows.len() / self.columns - 1;
         let count = intervals as f64;
         let mut place = t / self.step_s;
@@ -73,9 +82,10 @@ impl Samples {
             place = place.clamp(0.0, count);
         }
         let interval = (place as usize).min(intervals - 1);
-        (interval * self.columns + column, place - interval as f64)
+        (interval * self.columns, place - interval as f64)
     }
 
+    #[inline]
     fn quintic(&self, first: usize) -> Quintic {
         Quintic::new(self.rows[first], self.rows[first + self.columns], self.step_s)
     }
