@@ -119,6 +119,7 @@ impl StepWorkspace {
             self.touch.touches.clone_from(&found);
         }
         self.found = found;
+        self.yielded = !yielding.is_empty();
         if !self.solution.convergence.converged && self.solution.lambda.iter().any(|l| l.abs() > h * unreasonable) {
             self.bound(h * unreasonable);
             solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;

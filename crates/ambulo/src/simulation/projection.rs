@@ -154,7 +154,7 @@ impl StepWorkspace {
     }
 
     fn gave_way(&self, joint: usize, coordinate: usize) -> bool {
-        !self.assembly.keys.is_empty() && self.assembly.keys.contains(&RowKey::Drive(joint, coordinate))
+        self.yielded && self.assembly.keys.contains(&RowKey::Drive(joint, coordinate))
     }
 }
 
