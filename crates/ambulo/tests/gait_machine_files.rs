@@ -2,12 +2,16 @@
 
 use crate::gait_machine::shuffled;
 use ambulo::findings::Findings;
-use ambulo::gait::machine::{WalkMachine, planned};
+use ambulo::gait::machine::{StateWatch, WalkMachine, planned};
 use ambulo::gait::{Gait, GaitError, Jet, Walk, WalkPosture};
 use ambulo::model::Side;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::numerics::{Smoothing, SplineDegree, SplineFitter};
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::simulation::ImpactLaw;
+use ambulo::simulation::StepSettings;
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, run_of_states, synthesise};
+use ambulo::simulation::walking::{GaitTargets, GroundContact, Shoes, Walker, WatchedTargets, gait_signals};
+use std::cell::Cell;
 
 const LEG: f64 = 0.92;
 const LIMP: &str = include_str!("../../../examples/gaits/limp.toml");
@@ -391,4 +395,55 @@ fn a_change_of_pace_during_another_is_refused() {
     let text = "[[machine]]\nname = \"m\"\ndrives = \"pace\"\nstate = [{ name = \"a\", activity = \"pace\", speed = 1 }, { name = \"b\", activity = \"pace\", speed = 1.4 }]\ntransition = [{ from = \"a\", to = \"b\", when = \"after 0.2 s\" }]\n";
     let error = planned(walk(text), 4.0, 60.0, &mut Findings::default()).unwrap_err().to_string();
     assert!(error.contains("after the end of the previous change"), "{error}");
+}
+
+#[test]
+fn the_run_of_states_is_told_as_it_stands_in_the_finished_walk() {
+    // The limp reads the feet of its simulation; the clock alone moves the machines of the other two.
+    for (text, mode) in
+        [(LIMP, SyntheticMode::Paper), (SUB_CYCLES, SyntheticMode::Paper), (STOP_AND_GO, SyntheticMode::Corrected)]
+    {
+        let gait = gait(text);
+        let settings = SyntheticWalkSettings { gait: &gait, build: build(), mode, cycles: 2, rate_hz: 100.0 };
+        let mut told = Vec::new();
+        run_of_states(&settings, &mut |change| told.push(change.clone()), &mut Findings::default()).unwrap();
+        assert!(told.iter().filter(|change| change.from.is_some()).count() > 20, "{told:?}");
+        assert_eq!(told, made(text, mode, 2).state_changes, "{}", gait.name);
+    }
+}
+
+#[test]
+fn a_change_of_state_is_told_before_the_next_step_of_the_simulation() {
+    let (gait, human) = (gait(LIMP), build().human().unwrap());
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
+    let step = StepSettings::default();
+    let ground = GroundContact { friction: 1.0, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking };
+    let walker =
+        Walker::new(&human, gait_signals(&walk, &human.model, 0.0, 2.0).unwrap(), &ground, walk.speed()).unwrap();
+    let mut targets = GaitTargets::new(&walk, &human.model, &[]).unwrap();
+    let (now_s, told) = (Cell::new(0.0), Cell::new(0));
+    let zero_s = 0.2;
+    let tell = &mut |change: &ambulo::gait::machine::StateChange| {
+        if change.from.is_some() {
+            assert!((zero_s + change.time_s - now_s.get()).abs() < 1e-12, "{change:?} told at {} s", now_s.get());
+            told.set(told.get() + 1);
+        }
+    };
+    let mut states = StateWatch::new([zero_s, 1.5], tell);
+    let watch = &mut |targets: &GaitTargets| {
+        now_s.set(targets.time_s());
+        states.look(targets.trace(), targets.machine().running(), targets.time_s());
+    };
+    walker
+        .walk_with(Some(WatchedTargets { targets: &mut targets, watch }), &step, 1.8, &mut Findings::default())
+        .unwrap();
+    let all = targets.trace().changes(targets.machine().running(), zero_s, 1.5);
+    assert_eq!(told.get(), all.iter().filter(|change| change.from.is_some()).count());
+    // A watch that looks once, at the end, tells of nothing but the past: every change is late.
+    let late = Cell::new(0);
+    let tell = &mut |change: &ambulo::gait::machine::StateChange| {
+        late.set(late.get() + usize::from(change.from.is_some() && zero_s + change.time_s < now_s.get() - 0.1));
+    };
+    StateWatch::new([zero_s, 1.5], tell).look(targets.trace(), targets.machine().running(), targets.time_s());
+    assert_eq!(late.get(), told.get());
 }

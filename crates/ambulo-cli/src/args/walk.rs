@@ -82,7 +82,7 @@ pub(crate) struct WalkArgs {
     /// Frame rate of the results, 20 to 5000 Hz.
     #[arg(long, value_name = "HZ", default_value_t = 100.0, allow_negative_numbers = true, value_parser = number)]
     pub(crate) rate: f64,
-    /// Only print the state machines of the gait and all changes of their states in order of time: time, machine, old and new state, and the condition that was true.
+    /// Only print the state machines of the gait and, while they run, each change of their states: time, machine, old and new state, and the condition that was true.
     #[arg(long)]
     pub(crate) states: bool,
     /// Limits of what a person can do, used for the verdict: .toml (docs/FEASIBILITY.md) [default: built in].

@@ -7,7 +7,7 @@ use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::findings::Findings;
-use ambulo::gait::machine::state_table;
+use ambulo::gait::machine::StateChange;
 use ambulo::gait::{Gait, PaceChange, Style, Walk};
 use ambulo::model::anthropometry::{Build, BuildError};
 use ambulo::motion::RecordedTable;
@@ -119,7 +119,7 @@ fn in_file<T>(result: Result<T, SyntheticError>, file: Option<&PathBuf>) -> Resu
     }
 }
 
-/// Prints the machines of the gait and the run of their states; draws the gait if a folder is given.
+/// Prints the machines of the gait and the run of their states while it happens; draws the gait if a folder is given.
 fn states(
     args: &WalkArgs,
     settings: &SyntheticWalkSettings<'_>,
@@ -128,15 +128,17 @@ fn states(
 ) -> Result<Completion> {
     let human = settings.build.human()?;
     let walk = Walk::new(settings.gait, human.dimensions.leg_length, &mut findings)?;
-    // The same remarks would be made about the same gait.
-    let changes = in_file(run_of_states(settings, &mut Findings::default()), read.first())?;
     if let Some(output) = &args.output {
         let file = gait_file(&walk)?;
         let path = output.join(&file.name);
         files::check_target(&path, read, args.replace.existing())?;
         files::write(&path, &file.bytes()?)?;
     }
-    printer::states(&state_table(&walk), &changes, &findings, args.print).map(|()| Completion::Passed)
+    // The same remarks would be made about the same gait.
+    let run = |tell: &mut dyn FnMut(&StateChange)| {
+        in_file(run_of_states(settings, tell, &mut Findings::default()), read.first())
+    };
+    printer::states(&walk, &findings, args.print, run).map(|()| Completion::Passed)
 }
 
 /// The command with the options that matter for the results.

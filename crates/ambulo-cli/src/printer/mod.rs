@@ -21,7 +21,8 @@ use crate::args::PrintArgs;
 use crate::hints;
 use ambulo::analysis::feasibility::{Verdict, VerdictState};
 use ambulo::findings::{Finding, Findings, Severity};
-use ambulo::gait::machine::{StateChange, change_table};
+use ambulo::gait::Walk;
+use ambulo::gait::machine::{ChangeTable, StateChange, state_table};
 use anyhow::Result;
 use std::borrow::Cow;
 use std::io::{ErrorKind, Write, stdout};
@@ -81,23 +82,41 @@ pub(crate) fn progress(what: &str, print: PrintArgs) {
     }
 }
 
-/// Prints the state machine of a gait.
-pub(crate) fn states(table: &str, changes: &[StateChange], findings: &Findings, print: PrintArgs) -> Result<()> {
-    if print.quiet {
-        return Ok(());
+/// Prints the state machines of a gait, then calls `run` and prints each change of state as soon as it is told.
+pub(crate) fn states(
+    walk: &Walk,
+    findings: &Findings,
+    print: PrintArgs,
+    run: impl FnOnce(&mut dyn FnMut(&StateChange)) -> Result<()>,
+) -> Result<()> {
+    let table = state_table(walk);
+    if print.quiet || print.json {
+        let mut changes = Vec::new();
+        run(&mut |change| changes.push(change.clone()))?;
+        return if print.quiet { Ok(()) } else { states_as_json(&table, &changes, findings) };
     }
+    let lines = ChangeTable::of(walk);
+    // Nothing is printed of a gait that is refused, so the machines come with the first change.
+    let heading = || {
+        print_findings(findings.as_slice());
+        print_line(&format!("{}\n\n{}", table.trim_end(), lines.header()))
+    };
+    let mut printed = None;
+    run(&mut |change| {
+        let so_far = printed.take().unwrap_or_else(heading);
+        printed = Some(so_far.and_then(|()| print_line(&lines.row(change))));
+    })?;
+    printed.unwrap_or_else(heading)
+}
+
+fn states_as_json(table: &str, changes: &[StateChange], findings: &Findings) -> Result<()> {
     print_findings(findings.as_slice());
-    if print.json {
-        let change = |change: &StateChange| {
-            let StateChange { time_s, machine, from, to, when } = change;
-            serde_json::json!({ "time_s": time_s, "machine": machine, "from": from, "to": to, "because": when })
-        };
-        let run: Vec<_> = changes.iter().map(change).collect();
-        return print_line(&serde_json::to_string_pretty(&serde_json::json!({ "states": table, "run": run }))?);
-    }
-    print_line(table.trim_end())?;
-    print_line("")?;
-    print_line(change_table(changes).trim_end())
+    let change = |change: &StateChange| {
+        let StateChange { time_s, machine, from, to, when } = change;
+        serde_json::json!({ "time_s": time_s, "machine": machine, "from": from, "to": to, "because": when })
+    };
+    let run: Vec<_> = changes.iter().map(change).collect();
+    print_line(&serde_json::to_string_pretty(&serde_json::json!({ "states": table, "run": run }))?)
 }
 
 fn print_findings(findings: &[Finding]) {

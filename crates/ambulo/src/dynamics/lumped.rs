@@ -223,14 +223,18 @@ impl LumpedGraph {
         self.targets.extend(targets.iter().zip(&self.shift).map(|(target, shift)| target - shift));
     }
 
-    /// Prepares displacements of bodies that are already placed, `off` from the positions that follow from their motion.
+    /// Prepares displacements of bodies that are already placed and turned, `off` from the positions that follow from their motion: the linear
+    /// part alone counts.
     pub(super) fn begin_placed(&mut self, full: &ConstraintGraph, off: &[Six]) {
         self.graph.terms.offset.fill(Six::zeros());
         self.beyond.fill(Six::zeros());
         self.displacements.clear();
         self.displacements.resize(self.first.len(), Six::zeros());
         for (body, off) in off.iter().enumerate() {
-            self.displacements[self.of[body]] -= carry(&full.bodies[body].times(off), &self.arm[body]);
+            // Placed bodies are off by a translation: M off is a force at the mass centre.
+            let (force, arm) = (Vec3::new(off[3], off[4], off[5]) * full.bodies[body].mass, &self.arm[body]);
+            let moment = arm.cross(&force);
+            self.displacements[self.of[body]] -= Six::new(moment.x, moment.y, moment.z, force.x, force.y, force.z);
         }
     }
 

@@ -22,7 +22,7 @@
 //! Pinned by: tests/gait_curves.rs, tests/gait_accuracy.rs.
 
 use super::jet::Jet;
-use super::quintic::{End, quintic};
+use super::quintic::{End, Polynomial};
 use super::speed_law::SpeedLaw;
 
 /// A knot of a curve; its numbers depend on the dimensionless speed.
@@ -98,11 +98,7 @@ impl CyclicCurve {
 
     /// The phase in a cycle that starts at knot 0: `phase` without whole cycles.
     fn wrapped(&self, phase: Jet, speed: f64) -> Jet {
-        let first = self.knot_phase(0, speed);
-        let whole = (phase.value - first).floor();
-        let phase = phase - whole;
-        // A tiny negative difference rounds up to a whole cycle.
-        if phase.value - first < 1.0 { phase } else { phase - 1.0 }
+        wrapped(phase, self.knot_phase(0, speed))
     }
 
     /// The segment of a phase; segment k starts at knot k.
@@ -122,6 +118,10 @@ impl CyclicCurve {
     /// The angle [rad] by the polynomial of one segment, for phases on that segment.
     #[must_use]
     pub fn on_segment(&self, k: usize, phase: Jet, speed: Jet) -> Jet {
+        self.segment(k, speed).at(self.wrapped(phase, speed.value))
+    }
+
+    fn segment(&self, k: usize, speed: Jet) -> Segment {
         let n = self.knots.len();
         let (from, to) = (&self.knots[k], &self.knots[(k + 1) % n]);
         let start = from.phase.jet(speed);
@@ -130,8 +130,8 @@ impl CyclicCurve {
             end.value += 1.0;
         }
         let width = end - start;
-        let u = (self.wrapped(phase, speed.value) - start) * width.reciprocal();
-        quintic(self.end(from, width, speed), self.end(to, width, speed), u)
+        let polynomial = Polynomial::between(self.end(from, width, speed), self.end(to, width, speed));
+        Segment { start, per_width: width.reciprocal(), polynomial }
     }
 
     fn end(&self, knot: &Knot, width: Jet, speed: Jet) -> End {
@@ -140,5 +140,111 @@ impl CyclicCurve {
             slope: knot.slope.jet(speed) * width,
             curvature: knot.curvature.jet(speed) * width * width,
         }
+    }
+}
+
+/// The phase in a cycle that starts at `first`: `phase` without whole cycles.
+fn wrapped(phase: Jet, first: f64) -> Jet {
+    let whole = (phase.value - first).floor();
+    let phase = phase - whole;
+    // A tiny negative difference rounds up to a whole cycle.
+    if phase.value - first < 1.0 { phase } else { phase - 1.0 }
+}
+
+/// One segment at one speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Segment {
+    /// Phase of its start, and 1/w.
+    start: Jet,
+    per_width: Jet,
+    polynomial: Polynomial,
+}
+
+impl Segment {
+    /// The angle [rad] at a phase in the cycle that starts at knot 0.
+    #[inline]
+    fn at(&self, phase: Jet) -> Jet {
+        self.polynomial.at((phase - self.start) * self.per_width)
+    }
+}
+
+/// A curve with the numbers of all its segments at one speed, for walks whose speed is that one most of the time. It gives the same bits as
+/// the curve; at any other speed it computes them.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SteadyCurve {
+    curve: CyclicCurve,
+    speed: Jet,
+    /// Phases of the knots [cycles].
+    phases: Vec<f64>,
+    segments: Vec<Segment>,
+}
+
+impl SteadyCurve {
+    pub(super) fn new(curve: &CyclicCurve, speed: Jet) -> SteadyCurve {
+        let knots = 0..curve.knots.len();
+        SteadyCurve {
+            phases: knots.clone().map(|k| curve.knot_phase(k, speed.value)).collect(),
+            segments: knots.map(|k| curve.segment(k, speed)).collect(),
+            curve: curve.clone(),
+            speed,
+        }
+    }
+
+    /// [`CyclicCurve::at`].
+    pub(super) fn at(&self, phase: Jet, speed: Jet) -> Jet {
+        self.on_segment(self.segment_at(phase.value, speed), phase, speed)
+    }
+
+    /// [`CyclicCurve::segment_at`].
+    pub(super) fn segment_at(&self, phase: f64, speed: Jet) -> usize {
+        if speed != self.speed {
+            return self.curve.segment_at(phase, speed.value);
+        }
+        let phase = wrapped(Jet::constant(phase), self.phases[0]).value;
+        self.phases[1..].iter().take_while(|start| **start <= phase).count()
+    }
+
+    /// [`CyclicCurve::on_segment`].
+    pub(super) fn on_segment(&self, k: usize, phase: Jet, speed: Jet) -> Jet {
+        if speed != self.speed {
+            return self.curve.on_segment(k, phase, speed);
+        }
+        self.segments[k].at(wrapped(phase, self.phases[0]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve() -> CyclicCurve {
+        let knot = |phase: f64, angle: f64| Knot {
+            name: String::new(),
+            begins: None,
+            phase: SpeedLaw { coefficients: [phase, 0.02, 0.01] },
+            angle: SpeedLaw { coefficients: [angle, 0.3, -0.1] },
+            slope: SpeedLaw { coefficients: [0.2 * angle, 0.1, 0.0] },
+            curvature: SpeedLaw::constant(0.4),
+            height_share: 0.0,
+        };
+        CyclicCurve::of(vec![knot(0.1, 0.2), knot(0.4, 1.0), knot(0.7, -0.3)])
+    }
+
+    #[test]
+    fn a_steady_curve_has_the_bits_of_the_curve_at_its_own_and_at_other_speeds() {
+        let (curve, own) = (curve(), Jet::constant(0.43));
+        let steady = SteadyCurve::new(&curve, own);
+        let bits = |jet: Jet| [jet.value, jet.rate, jet.acceleration].map(f64::to_bits);
+        for speed in [own, Jet::constant(0.5), Jet::new(0.43, 0.2, -0.1)] {
+            for k in -30..90 {
+                let phase = Jet::new(f64::from(k) / 37.0, 1.1, 0.3);
+                assert_eq!(bits(steady.at(phase, speed)), bits(curve.at(phase, speed)), "{phase:?} at {speed:?}");
+            }
+        }
+        // A curve that is steady at another speed has other numbers.
+        let other = SteadyCurve::new(&curve, Jet::constant(0.5));
+        let phase = Jet::new(0.3, 1.1, 0.3);
+        assert_ne!(other.segments[0], steady.segments[0]);
+        assert_ne!(bits(curve.at(phase, Jet::constant(0.5))), bits(steady.at(phase, own)));
     }
 }

@@ -30,11 +30,27 @@ pub struct End {
 /// h(u) between two ends; all arguments may change in time.
 #[must_use]
 pub fn quintic(from: End, to: End, u: Jet) -> Jet {
-    let (a0, s0, c0) = (from.value, from.slope, from.curvature);
-    let (s1, c1) = (to.slope, to.curvature);
-    let delta = to.value - a0;
-    let d3 = delta * 10.0 - s0 * 6.0 - s1 * 4.0 - c0 * 1.5 + c1 * 0.5;
-    let d4 = delta * -15.0 + s0 * 8.0 + s1 * 7.0 + c0 * 1.5 - c1;
-    let d5 = delta * 6.0 - s0 * 3.0 - s1 * 3.0 - c0 * 0.5 + c1 * 0.5;
-    ((((d5 * u + d4) * u + d3) * u + c0 * 0.5) * u + s0) * u + a0
+    Polynomial::between(from, to).at(u)
+}
+
+/// The coefficients of h, from a₀ to d₅.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Polynomial([Jet; 6]);
+
+impl Polynomial {
+    pub(super) fn between(from: End, to: End) -> Polynomial {
+        let (a0, s0, c0) = (from.value, from.slope, from.curvature);
+        let (s1, c1) = (to.slope, to.curvature);
+        let delta = to.value - a0;
+        let d3 = delta * 10.0 - s0 * 6.0 - s1 * 4.0 - c0 * 1.5 + c1 * 0.5;
+        let d4 = delta * -15.0 + s0 * 8.0 + s1 * 7.0 + c0 * 1.5 - c1;
+        let d5 = delta * 6.0 - s0 * 3.0 - s1 * 3.0 - c0 * 0.5 + c1 * 0.5;
+        Polynomial([a0, s0, c0 * 0.5, d3, d4, d5])
+    }
+
+    #[inline]
+    pub(super) fn at(&self, u: Jet) -> Jet {
+        let [a0, s0, c0, d3, d4, d5] = self.0;
+        ((((d5 * u + d4) * u + d3) * u + c0) * u + s0) * u + a0
+    }
 }

@@ -67,11 +67,10 @@ impl SubCycle {
         [self.from, self.to].map(|k| knots[k % knots.len()].angle.at(speed))
     }
 
-    /// The segment of this sub-cycle that is evaluated at a phase: the segment of the phase, or the last one of the sub-cycle.
+    /// The segment of this sub-cycle that is evaluated where the phase is on segment `at` of a curve: this one, or the last one of the
+    /// sub-cycle.
     #[must_use]
-    pub fn segment(&self, curve: &CyclicCurve, phase: f64, speed: f64) -> usize {
-        let at = curve.segment_at(phase, speed);
-        let knots = curve.knots().len();
+    pub fn segment(&self, at: usize, knots: usize) -> usize {
         if self.has_segment(at, knots) { at } else { (self.to - 1) % knots }
     }
 }

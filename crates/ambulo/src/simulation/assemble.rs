@@ -12,7 +12,8 @@
 //!
 //! A drive moves its coordinate to the value of its signal at the end of the step: q̇ = (s(t + h) - q)/h.
 
-use super::joint::{Frames, JointKind, MOST, rotation_vector};
+use super::joint::{Coordinates, Frames, JointKind, MOST, rotation_vector};
+use super::signal::Instant;
 use super::state::{RowKey, WorldState, rates};
 use super::world::{Closure, JointCoordinate, TreeJoint, World};
 use crate::dynamics::{ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows};
@@ -76,10 +77,12 @@ impl Prescribed {
         self.figures.extend(world.figures.iter().map(|figure| figure.poses(time_s)));
         self.first.clear();
         self.values.clear();
+        let mut instant = Instant::new(time_s);
         for joint in &world.joints {
             self.first.push(self.values.len());
-            let value = |c: &JointCoordinate| c.drive.as_ref().map_or(0.0, |drive| drive.signal.value(time_s));
-            self.values.extend(joint.coordinates.iter().map(value));
+            for coordinate in &joint.coordinates {
+                self.values.push(coordinate.drive.as_ref().map_or(0.0, |drive| instant.value(&drive.signal)));
+            }
         }
     }
 
@@ -143,12 +146,11 @@ impl Assembly {
         }
     }
 
-    /// Clears the graph and keeps its memory.
+    /// Clears the graph and keeps its memory. The caller sets the directions of every joint.
     pub(crate) fn begin(&mut self, world: &World) {
         self.graph.clear();
         self.keys.clear();
         self.slots.clear();
-        self.directions.clear();
         self.directions.resize(world.joints.len(), [Six::zeros(); MOST]);
         self.joint_of.clear();
         self.joint_of.resize(world.bodies.len(), None);
@@ -207,13 +209,18 @@ impl Assembly {
         let arm = joint.parent.map_or(Vec3::zeros(), |p| center - state.poses[p].translation);
         self.graph.terms.arm.push(arm);
         if let Some(goal) = prescribed.goal(joint) {
+            self.directions[number] = [Six::zeros(); MOST];
             self.graph.links.push(Link { parent: joint.parent, freedom: 0 });
             let offset = if instant { carried_along(state, joint) } else { following(state, joint, &goal, h) };
             self.graph.terms.offset.push(offset);
             return;
         }
-        let frames = state.frames(joint);
-        let directions = joint.kind.directions(&frames, &(center - frames.child.translation));
+        let (parent, child) = (joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]), &state.poses[joint.child]);
+        let axis = |k: usize| parent.rotation * joint.parent_from_joint.rotation.column(k);
+        let of_child = || child.rotation * joint.child_from_joint.rotation.column(1);
+        let to_center = center - child.place(joint.child_from_joint.translation);
+        let directions = &mut self.directions[number];
+        joint.kind.write_directions(axis, of_child, &to_center, directions);
         let mut offset = Six::zeros();
         let mut freedom = 0;
         let q = &state.coordinates[number];
@@ -221,16 +228,23 @@ impl Assembly {
             let gives_way = yielding.iter().any(|(j, c, _)| (*j, *c) == (number, k));
             joint.coordinates[k].drive.as_ref().filter(|_| !gives_way)
         };
-        let mut goal = [0.0; MOST];
-        for k in 0..q.len() {
-            goal[k] = drive_of(k).map_or(q[k], |_| prescribed.value(number, k));
-        }
         // During an impact, drives keep their rates.
-        let (displacement, h) =
-            if instant { (rates(state, joint, &frames), 1.0) } else { (joint.kind.displacement(q, &goal), h) };
+        let (displacement, h) = match (instant, joint.kind) {
+            (true, _) => (rates(state, joint, &state.frames(joint)), 1.0),
+            (false, JointKind::Ball | JointKind::Free) => {
+                let goal = std::array::from_fn(|k| match q.get(k) {
+                    Some(q) => drive_of(k).map_or(*q, |_| prescribed.value(number, k)),
+                    None => 0.0,
+                });
+                (joint.kind.displacement(q, &goal), h)
+            }
+            (false, _) => (Coordinates::default(), h),
+        };
+        let straight = !instant && !matches!(joint.kind, JointKind::Ball | JointKind::Free);
         for k in 0..q.len() {
             if drive_of(k).is_some() {
-                offset.axpy(displacement[k] / h, &directions[k], 1.0);
+                let displacement = if straight { prescribed.value(number, k) - q[k] } else { displacement[k] };
+                offset.axpy(displacement / h, &directions[k], 1.0);
                 continue;
             }
             freedom += 1;
@@ -241,7 +255,6 @@ impl Assembly {
         }
         self.graph.links.push(Link { parent: joint.parent, freedom });
         self.graph.terms.offset.push(offset);
-        self.directions[number] = directions;
     }
 
     /// Adds springs, motors, limits and friction of one coordinate.

@@ -106,7 +106,6 @@ impl StepWorkspace {
         let mut found = std::mem::take(&mut self.found);
         found.clone_from(&self.touch.touches);
         loop {
-            self.touch.touches.clone_from(&found);
             self.assembly.fill(world, state, prescribed, &yielding, span);
             let Assembly { graph, keys, .. } = &mut self.assembly;
             self.touch.add_rows(world, state, &self.obstacles, h, graph, keys);
@@ -117,8 +116,10 @@ impl StepWorkspace {
                 break;
             }
             yielding.extend(more);
+            self.touch.touches.clone_from(&found);
         }
         self.found = found;
+        self.yielded = !yielding.is_empty();
         if !self.solution.convergence.converged && self.solution.lambda.iter().any(|l| l.abs() > h * unreasonable) {
             self.bound(h * unreasonable);
             solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;

@@ -107,6 +107,18 @@ impl JointKind {
         }
     }
 
+    /// `world_from_C` from `world_from_P`: P T without the products by zero and one of a hinge.
+    #[inline(always)]
+    pub(crate) fn child_frame(self, parent: &Pose, q: &Coordinates) -> Pose {
+        match self {
+            JointKind::Revolute => Pose { rotation: turned(&parent.rotation, q[0]), translation: parent.translation },
+            JointKind::Planar => {
+                Pose { rotation: turned(&parent.rotation, q[2]), translation: parent.place(Vec3::new(q[0], q[1], 0.0)) }
+            }
+            _ => *parent * self.parent_from_child(q),
+        }
+    }
+
     /// Coordinates of a T that may have drifted; angles are the ones nearest to `last`.
     pub(crate) fn coordinates(self, t: &Pose, last: &[f64]) -> Coordinates {
         let (r, p) = (&t.rotation, &t.translation);
@@ -161,25 +173,38 @@ impl JointKind {
 
     /// S, world axes, as motions of a mass centre that lies at `to_center` from the origin of C.
     pub(crate) fn directions(self, frames: &Frames, to_center: &Vec3) -> [Six; MOST] {
+        let mut s = [Six::zeros(); MOST];
+        let of_parent = |k: usize| frames.parent.rotation.column(k).into_owned();
+        self.write_directions(of_parent, || frames.child.rotation.column(1).into_owned(), to_center, &mut s);
+        s
+    }
+
+    /// The same from the axes of P and the second axis of C, of which only those that the joint needs are computed. Directions beyond
+    /// [`JointKind::freedom`] stay as they are.
+    #[inline(always)]
+    pub(crate) fn write_directions(
+        self,
+        p: impl Fn(usize) -> Vec3,
+        second_of_child: impl Fn() -> Vec3,
+        to_center: &Vec3,
+        s: &mut [Six; MOST],
+    ) {
         let turn = |e: Vec3| {
             let v = e.cross(to_center);
             Six::new(e.x, e.y, e.z, v.x, v.y, v.z)
         };
         let slide = |e: Vec3| Six::new(0.0, 0.0, 0.0, e.x, e.y, e.z);
-        let p = |k: usize| frames.parent.rotation.column(k).into_owned();
-        let mut s = [Six::zeros(); MOST];
         match self {
             JointKind::Weld => {}
             JointKind::Revolute => s[0] = turn(p(2)),
             JointKind::Prismatic => s[0] = slide(p(2)),
-            JointKind::Universal => (s[0], s[1]) = (turn(p(0)), turn(frames.child.rotation.column(1).into_owned())),
+            JointKind::Universal => (s[0], s[1]) = (turn(p(0)), turn(second_of_child())),
             JointKind::Ball => (s[0], s[1], s[2]) = (turn(p(0)), turn(p(1)), turn(p(2))),
             JointKind::Planar => (s[0], s[1], s[2]) = (slide(p(0)), slide(p(1)), turn(p(2))),
             JointKind::Free => {
-                s = [turn(p(0)), turn(p(1)), turn(p(2)), slide(p(0)), slide(p(1)), slide(p(2))];
+                *s = [turn(p(0)), turn(p(1)), turn(p(2)), slide(p(0)), slide(p(1)), slide(p(2))];
             }
         }
-        s
     }
 
     /// Constrained directions, world axes: rotations that the joint forbids, then translations.
@@ -254,6 +279,14 @@ fn about_z(angle: f64) -> Mat3 {
     Mat3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
+/// R R_z(angle).
+#[inline(always)]
+fn turned(r: &Mat3, angle: f64) -> Mat3 {
+    let (sin, cos) = angle.sin_cos();
+    let [x, y, z] = [0, 1, 2].map(|k| r.column(k).into_owned());
+    Mat3::from_columns(&[x * cos + y * sin, y * cos - x * sin, z])
+}
+
 /// The rotation about z that is nearest to a rotation; the identity for half a turn about another axis.
 fn nearest_about_z(r: &Mat3) -> Mat3 {
     let (y, x) = (r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]);
@@ -314,4 +347,30 @@ fn near_vector(v: Vec3, last: &[f64]) -> Vec3 {
 fn nearest_turn(angle: f64, last: f64) -> f64 {
     let turns = (last - angle) / TAU;
     if turns.abs() < 0.5 { angle } else { angle + TAU * turns.round() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_frame_of_a_child_is_the_product_of_its_parents_frame_and_its_joint() {
+        let parent = Pose { rotation: rotation(&Vec3::new(0.3, -0.7, 1.1)), translation: Vec3::new(0.2, -0.4, 0.9) };
+        let level = Pose::at(Vec3::new(0.1, 0.2, -0.3));
+        let turned = Pose { rotation: rotation(&Vec3::new(0.0, 0.4, 0.0)), ..level };
+        let q = [0.6, -0.2, 0.35, 0.1, 0.2, -0.1];
+        let kinds = [JointKind::Weld, JointKind::Revolute, JointKind::Prismatic, JointKind::Universal];
+        for kind in kinds.into_iter().chain([JointKind::Ball, JointKind::Planar, JointKind::Free]) {
+            assert_eq!(kind.child_frame(&parent, &q), parent * kind.parent_from_child(&q), "{kind:?}");
+        }
+        for frame in [level, turned] {
+            assert_eq!(parent.with(&frame), parent * frame);
+            assert_eq!(parent.without(&frame), parent * frame.inverse());
+        }
+        assert_ne!(parent.with(&turned), parent.with(&level));
+        assert_ne!(
+            JointKind::Revolute.child_frame(&parent, &[-0.6; MOST]),
+            JointKind::Revolute.child_frame(&parent, &q)
+        );
+    }
 }

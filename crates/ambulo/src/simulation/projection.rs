@@ -119,8 +119,8 @@ impl StepWorkspace {
         state.poses[body] = match prescribed.goal(joint) {
             Some(goal) => parent * goal,
             None => {
-                let child_frame = parent * joint.parent_from_joint * joint.kind.parent_from_child(&q);
-                let pose = child_frame * joint.child_from_joint.inverse();
+                let child_frame = joint.kind.child_frame(&parent.with(&joint.parent_from_joint), &q);
+                let pose = child_frame.without(&joint.child_from_joint);
                 Pose { rotation: orthonormal(&pose.rotation), ..pose }
             }
         };
@@ -154,7 +154,7 @@ impl StepWorkspace {
     }
 
     fn gave_way(&self, joint: usize, coordinate: usize) -> bool {
-        !self.assembly.keys.is_empty() && self.assembly.keys.contains(&RowKey::Drive(joint, coordinate))
+        self.yielded && self.assembly.keys.contains(&RowKey::Drive(joint, coordinate))
     }
 }
 

@@ -10,8 +10,8 @@
 pub struct Samples {
     step_s: f64,
     columns: usize,
-    /// Value, rate and acceleration, one row per instant; the last instant of periodic functions is the first one of the next period.
-    rows: Vec<[f64; 3]>,
+    /// The polynomials, one row per interval.
+    rows: Vec<Quintic>,
     periodic: bool,
 }
 
@@ -23,11 +23,11 @@ impl Samples {
     /// If the period or the step is not above zero.
     #[must_use]
     pub fn new(columns: usize, period_s: f64, step_s: f64, functions: impl FnMut(f64, &mut [[f64; 3]])) -> Samples {
-        let mut samples = Samples::over(columns, period_s, step_s, functions);
-        let last = samples.rows.len() - columns;
-        samples.rows.copy_within(..columns, last);
-        samples.periodic = true;
-        samples
+        let (mut instants, step_s) = instants(columns, period_s, step_s, functions);
+        // The last instant is the first one of the next period.
+        let last = instants.len() - columns;
+        instants.copy_within(..columns, last);
+        Samples { rows: between(&instants, columns, step_s), step_s, columns, periodic: true }
     }
 
     /// Samples functions from time zero to `span_s`, at most `step_s` apart. Before and after it they have the values of its ends.
@@ -35,34 +35,37 @@ impl Samples {
     /// # Panics
     /// If the span or the step is not above zero.
     #[must_use]
-    pub fn over(columns: usize, span_s: f64, step_s: f64, mut functions: impl FnMut(f64, &mut [[f64; 3]])) -> Samples {
-        assert!(span_s > 0.0 && step_s > 0.0, "a span of {span_s} s in steps of {step_s} s");
-        let intervals = (span_s / step_s - 1e-9).ceil().max(1.0);
-        let step_s = span_s / intervals;
-        let mut rows = vec![[0.0; 3]; columns * (intervals as usize + 1)];
-        for (number, row) in rows.chunks_exact_mut(columns).enumerate() {
-            functions(step_s * number as f64, row);
-        }
-        Samples { step_s, columns, rows, periodic: false }
+    pub fn over(columns: usize, span_s: f64, step_s: f64, functions: impl FnMut(f64, &mut [[f64; 3]])) -> Samples {
+        let (instants, step_s) = instants(columns, span_s, step_s, functions);
+        Samples { rows: between(&instants, columns, step_s), step_s, columns, periodic: false }
     }
 
     /// Value, first and second derivative of one function.
     #[must_use]
     pub fn at(&self, column: usize, t: f64) -> [f64; 3] {
-        let (first, u) = self.interval(column, t);
-        self.quintic(first).at(u, self.step_s)
+        self.at_place(column, self.place(t))
     }
 
     /// Value of one function.
     #[must_use]
     pub fn value(&self, column: usize, t: f64) -> f64 {
-        let (first, u) = self.interval(column, t);
-        self.quintic(first).value(u)
+        self.value_at_place(column, self.place(t))
     }
 
-    /// The entry at the start of the interval, and the elapsed share of the interval.
-    fn interval(&self, column: usize, t: f64) -> (usize, f64) {
-        let intervals = self.rows.len() / self.columns - 1;
+    /// [`Samples::at`] at a place on the grid.
+    pub(super) fn at_place(&self, column: usize, (first, u): (usize, f64)) -> [f64; 3] {
+        self.rows[first + column].at(u, self.step_s)
+    }
+
+    /// [`Samples::value`] at a place on the grid.
+    #[inline]
+    pub(super) fn value_at_place(&self, column: usize, (first, u): (usize, f64)) -> f64 {
+        self.rows[first + column].value(u)
+    }
+
+    /// The place of an instant on the grid: the first entry at the start of its interval, and the elapsed share of the interval.
+    pub(super) fn place(&self, t: f64) -> (usize, f64) {
+        let intervals = self.rows.len() / self.columns;
         let count = intervals as f64;
         let mut place = t / self.step_s;
         if self.periodic {
@@ -73,15 +76,34 @@ impl Samples {
             place = place.clamp(0.0, count);
         }
         let interval = (place as usize).min(intervals - 1);
-        (interval * self.columns + column, place - interval as f64)
-    }
-
-    fn quintic(&self, first: usize) -> Quintic {
-        Quintic::new(self.rows[first], self.rows[first + self.columns], self.step_s)
+        (interval * self.columns, place - interval as f64)
     }
 }
 
+/// Value, rate and acceleration of functions at equal intervals, row by row, and the length of an interval [s].
+fn instants(
+    columns: usize,
+    span_s: f64,
+    step_s: f64,
+    mut functions: impl FnMut(f64, &mut [[f64; 3]]),
+) -> (Vec<[f64; 3]>, f64) {
+    assert!(span_s > 0.0 && step_s > 0.0, "a span of {span_s} s in steps of {step_s} s");
+    let intervals = (span_s / step_s - 1e-9).ceil().max(1.0);
+    let step_s = span_s / intervals;
+    let mut rows = vec![[0.0; 3]; columns * (intervals as usize + 1)];
+    for (number, row) in rows.chunks_exact_mut(columns).enumerate() {
+        functions(step_s * number as f64, row);
+    }
+    (rows, step_s)
+}
+
+/// The polynomials between instants, row by row.
+fn between(instants: &[[f64; 3]], columns: usize, step_s: f64) -> Vec<Quintic> {
+    instants.iter().zip(&instants[columns..]).map(|(one, next)| Quintic::new(*one, *next, step_s)).collect()
+}
+
 /// x(u) = c0 + c1 u + .. + c5 u⁵, u from 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Quintic([f64; 6]);
 
 impl Quintic {

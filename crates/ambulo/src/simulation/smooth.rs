@@ -214,6 +214,7 @@ impl Tree {
     /// Fills the graph of accelerations.
     fn fill(&self, world: &World, state: &WorldState, motion: &Motion, slope: &mut Motion, assembly: &mut Assembly) {
         assembly.begin(world);
+        assembly.directions.fill([Six::zeros(); MOST]);
         let goals = Goals::at(world, state.time_s);
         let mut of_body: Vec<Option<&Branch>> = vec![None; world.bodies.len()];
         self.outwards.iter().for_each(|branch| of_body[branch.body] = Some(branch));

@@ -111,7 +111,7 @@ impl TouchWorkspace {
         self.speeds.clear();
         for surface in &world.surfaces {
             let (owner, speed) = owner_motion(state, obstacles, surface);
-            let pose = owner * surface.owner_from_shape;
+            let pose = placed(&owner, surface);
             let reach = Vec3::repeat(MARGIN_M + step_s * speed);
             self.boxes.push(surface.shape.bounding(&pose).map(|(low, high)| (low - reach, high + reach)));
             self.poses.push(pose);
@@ -416,6 +416,15 @@ fn owner_motion(state: &WorldState, obstacles: &ObstaclePoses, surface: &Surface
     let arm =
         surface.shape.bounding(&surface.owner_from_shape).map_or(0.0, |(low, high)| low.abs().sup(&high.abs()).norm());
     (pose, twist.linear.norm() + arm * twist.angular.norm())
+}
+
+/// The pose of a surface's shape. Spheres have no axes, so they keep those of their owner.
+#[inline(always)]
+fn placed(owner: &Pose, surface: &Surface) -> Pose {
+    match surface.shape.is_sphere() {
+        true => Pose { translation: owner.place(surface.owner_from_shape.translation), ..*owner },
+        false => *owner * surface.owner_from_shape,
+    }
 }
 
 /// Whether two surfaces can be in contact: not two obstacles, not connected bodies, not an ignored pair.

@@ -75,6 +75,8 @@ pub struct StepWorkspace {
     pub(crate) prescribed: Prescribed,
     /// Contact points before any is dropped.
     pub(crate) found: Vec<Touch>,
+    /// Whether a drive gave way in the last solution of impulses.
+    pub(crate) yielded: bool,
     /// Wrench impulse on each body by its joint, at its mass centre; valid after `read_wrenches`.
     pub(crate) wrenches: Vec<Six>,
     pub(crate) step_s: f64,

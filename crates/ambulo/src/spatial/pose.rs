@@ -34,6 +34,34 @@ impl Pose {
         Pose { rotation, translation: -(rotation * self.translation) }
     }
 
+    /// `self * frame`, without a product of rotations where the frame has the axes of the one that it is fixed to.
+    #[must_use]
+    #[inline(always)]
+    pub(crate) fn with(self, frame: &Pose) -> Pose {
+        match frame.is_level() {
+            true => Pose { rotation: self.rotation, translation: self.place(frame.translation) },
+            false => self * *frame,
+        }
+    }
+
+    /// `self * frame.inverse()`, likewise.
+    #[must_use]
+    #[inline(always)]
+    pub(crate) fn without(self, frame: &Pose) -> Pose {
+        match frame.is_level() {
+            true => Pose { rotation: self.rotation, translation: self.place(-frame.translation) },
+            false => self * frame.inverse(),
+        }
+    }
+
+    /// Whether both frames have the same axes, bit for bit.
+    #[inline(always)]
+    fn is_level(&self) -> bool {
+        // All nine numbers are compared, so that the comparisons need no branches.
+        let pairs = self.rotation.as_slice().iter().zip(Pose::IDENTITY.rotation.as_slice());
+        pairs.fold(true, |level, (own, one)| level & (own.to_bits() == one.to_bits()))
+    }
+
     /// The coordinates in the outer frame of a point given in the inner frame [m].
     #[must_use]
     #[inline(always)]

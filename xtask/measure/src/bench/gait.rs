@@ -4,6 +4,7 @@ use super::timing::{Timing, cpu_us};
 use super::{Row, table, verdict};
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::findings::Findings;
+use ambulo::gait::machine::WalkMachine;
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::kinematics::Posture;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
@@ -18,6 +19,8 @@ const RATE_HZ: f64 = 100.0;
 const REQUIRED_OF_CYCLE_MS: f64 = 1.0;
 /// A step of the paper's mode takes at most this [us]: 200 times real time at 1 kHz.
 const REQUIRED_OF_STEP_US: f64 = 5.0;
+/// Largest share of a simulated step that state machines cost more than closed curves, which know no states.
+const REQUIRED_OF_MACHINES: f64 = 0.05;
 /// Time step of the simulator [s], and number of cycles.
 const STEP_S: f64 = 1e-3;
 const CYCLES: usize = 6;
@@ -33,12 +36,15 @@ pub(super) fn bench() -> Result<Vec<Row>, String> {
     let (consistent, walk) = consistent(&human)?;
     let corrected = corrected(&human, &walk)?;
     let paper = paper()?;
+    let machines = machines(&human)?;
     let row = |quantity: &str, unit, timing| Row { quantity: quantity.to_owned(), unit, timing };
     let rows = vec![
         row("gait and torques of a cycle at 100 Hz", "ms", cycle),
         row("making a walk consistent", "s", consistent),
         row("corrected mode, 1 kHz", "us/step", corrected),
         row("paper mode, 1 kHz", "us/step", paper),
+        row("posture by closed curves", "us", machines.curves),
+        row("posture by state machines", "us", machines.whole),
     ];
     println!("\nsynthetic walks");
     print!("{}", table(&rows));
@@ -54,6 +60,15 @@ pub(super) fn bench() -> Result<Vec<Row>, String> {
         times(REQUIRED_OF_STEP_US),
         verdict(paper.median, REQUIRED_OF_STEP_US)
     );
+    let shares = [machines.whole.median / paper.median, machines.more() / paper.median];
+    println!(
+        "state machines: {:.0} % of a step of the paper mode if they run in each step; {:.1} % more than closed curves, required {:.0} %: {}",
+        100.0 * shares[0],
+        100.0 * shares[1],
+        100.0 * REQUIRED_OF_MACHINES,
+        verdict(shares[1], REQUIRED_OF_MACHINES)
+    );
+    println!("the paper mode runs them for one cycle: {:.1} % of {CYCLES} cycles", 100.0 * shares[0] / CYCLES as f64);
     Ok(rows)
 }
 
@@ -116,6 +131,33 @@ fn paper() -> Result<Timing, String> {
     Ok(cpu_us(steps, || {
         black_box(paper_walk(&trial).is_ok());
     }))
+}
+
+/// Times of one posture of a walk [us].
+struct MachineTimes {
+    /// Closed curves ([`Walk::at`]).
+    curves: Timing,
+    /// The state machines, which evaluate the curves.
+    whole: Timing,
+}
+
+impl MachineTimes {
+    /// What the machines cost more than closed curves [us].
+    fn more(&self) -> f64 {
+        (self.whole.median - self.curves.median).max(0.0)
+    }
+}
+
+/// Postures of the standard gait, with and without its machines.
+fn machines(human: &Human) -> Result<MachineTimes, String> {
+    let gait = Gait::named("standard").map_err(|e| e.to_string())?;
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).map_err(|e| e.to_string())?;
+    let steps = (walk.cycle_s() / STEP_S) as usize;
+    let times = || (0..steps).map(|step| STEP_S * step as f64);
+    let curves = cpu_us(steps, || times().for_each(|t| _ = black_box(walk.at(t))));
+    let mut machine = WalkMachine::new(&walk);
+    let whole = cpu_us(steps, || times().for_each(|t| _ = black_box(machine.step(t))));
+    Ok(MachineTimes { curves, whole })
 }
 
 fn scaled(timing: Timing, factor: f64) -> Timing {

@@ -20,6 +20,6 @@ pub use machine_file::ReadColumn;
 pub(super) use machine_file::read_machines;
 pub use running_machine::RunningMachine;
 pub use settings::{Activity, Driven, MachineSettings, PASSAGE_S, StateSettings, TransitionSettings};
-pub use state_table::{StateRow, change_table, state_rows, state_table};
-pub use state_trace::{StateChange, StatePeriod, StateTrace};
+pub use state_table::{ChangeTable, StateRow, state_rows, state_table};
+pub use state_trace::{StateChange, StatePeriod, StateTrace, StateWatch};
 pub use walking::{WalkMachine, planned, walking_machine};

@@ -132,8 +132,8 @@ fn run(machine: &Machine, number: usize, inputs: &MachineInputs<'_>, after: &mut
         next = run(child, next, inputs, after);
     }
     let children = ChildOutputs { first: number + 1, names: &inputs.names[number + 1..next], outputs: after };
-    let before = inputs.before[number];
-    let taken = settled(machine, &before, inputs);
+    let before = &inputs.before[number];
+    let taken = settled(machine, before, inputs);
     let time_s = inputs.sensed.time_s;
     let output = (machine.activity)(taken.state, &MachineInputs { entered: taken.entered, ..*inputs }, &children);
     let mut passage = before.passage;
@@ -170,7 +170,7 @@ impl Settled {
 
 /// The state after all transitions of this step.
 fn settled(machine: &Machine, before: &Active, inputs: &MachineInputs<'_>) -> Settled {
-    let Active { state, interrupted, entered, cause, .. } = *before;
+    let &Active { state, interrupted, entered, cause, .. } = before;
     let mut settled = Settled { state, interrupted, entered, cause, within_s: 0.0 };
     if let Some(gate) = &machine.gate {
         let open = is_open(gate, inputs);

@@ -69,17 +69,40 @@ pub fn state_table(walk: &Walk) -> String {
     text
 }
 
-/// Changes of states as text, one line per change, in the given order. The first line of each machine has the state in which it starts.
-#[must_use]
-pub fn change_table(changes: &[StateChange]) -> String {
-    let header = ["time s", "machine", "from", "to", "because"].map(String::from);
-    let row = |StateChange { time_s, machine, from, to, when }: &StateChange| {
+/// Writes changes of states as lines of a table, one at a time: its columns are as wide as the names of the walk's machines and states, so a
+/// line does not wait for later ones.
+#[derive(Debug, Clone)]
+pub struct ChangeTable {
+    /// Widths of the columns of machines and states.
+    widths: [usize; 2],
+}
+
+impl ChangeTable {
+    /// The table of a walk.
+    #[must_use]
+    pub fn of(walk: &Walk) -> ChangeTable {
+        let rows = state_rows(&walking_machine(walk));
+        let widest = |name: fn(&StateRow) -> &str| rows.iter().map(|row| name(row).chars().count()).max().unwrap_or(0);
+        ChangeTable { widths: [widest(|row| &row.machine), widest(|row| &row.state)] }
+    }
+
+    /// The line above the changes.
+    #[must_use]
+    pub fn header(&self) -> String {
+        self.line(["time s", "machine", "from", "to", "because"])
+    }
+
+    /// The line of a change; the first one of each machine has the state in which it starts.
+    #[must_use]
+    pub fn row(&self, StateChange { time_s, machine, from, to, when }: &StateChange) -> String {
         let because = if from.is_none() { "the results begin" } else { when };
-        let from = from.as_deref().unwrap_or("-");
-        [&format!("{time_s:.3}"), machine.as_str(), from, to, because].map(String::from)
-    };
-    let rows: Vec<[String; 5]> = std::iter::once(header).chain(changes.iter().map(row)).collect();
-    aligned(&rows, 0..1)
+        self.line([&format!("{time_s:.3}"), machine, from.as_deref().unwrap_or("-"), to, because])
+    }
+
+    fn line(&self, [time, machine, from, to, because]: [&str; 5]) -> String {
+        let [machines, states] = self.widths;
+        format!("{time:>7}  {machine:<machines$}  {from:<states$}  {to:<states$}  {because}").trim_end().to_owned()
+    }
 }
 
 /// Rows of text as aligned columns; columns of numbers are right-aligned.

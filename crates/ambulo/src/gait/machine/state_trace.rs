@@ -92,3 +92,34 @@ impl StateTrace {
         start.chain(inside.map(|change| StateChange { time_s: change.time_s - zero_s, ..change.clone() })).collect()
     }
 }
+
+/// Tells of the states and changes of a trace while it grows: the same as [`StateTrace::changes`], each in the step in which it happens.
+pub struct StateWatch<'a> {
+    /// First and last instant [s]; times that are told count from the first one.
+    ends_s: [f64; 2],
+    /// Number of changes of the trace that were told or left out, once the first instant is reached.
+    seen: Option<usize>,
+    tell: &'a mut dyn FnMut(&StateChange),
+}
+
+impl<'a> StateWatch<'a> {
+    /// Tells of what happens from a first to a last instant [s].
+    pub fn new(ends_s: [f64; 2], tell: &'a mut dyn FnMut(&StateChange)) -> StateWatch<'a> {
+        StateWatch { ends_s, seen: None, tell }
+    }
+
+    /// Tells of what is new in a trace after a step at a time [s].
+    pub fn look(&mut self, trace: &StateTrace, running: &RunningMachine, time_s: f64) {
+        let [zero_s, end_s] = self.ends_s;
+        match self.seen {
+            None if time_s < zero_s => return,
+            None => trace.changes(running, zero_s, end_s).iter().for_each(&mut *self.tell),
+            Some(seen) => {
+                let inside = trace.changes[seen..].iter().filter(|change| change.time_s < end_s);
+                inside
+                    .for_each(|change| (self.tell)(&StateChange { time_s: change.time_s - zero_s, ..change.clone() }));
+            }
+        }
+        self.seen = Some(trace.changes.len());
+    }
+}

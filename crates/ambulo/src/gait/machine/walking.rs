@@ -21,7 +21,7 @@ use super::running_machine::RunningMachine;
 use super::settings::Driven;
 use crate::findings::Findings;
 use crate::gait::arms::ArmCurves;
-use crate::gait::cyclic_curve::CyclicCurve;
+use crate::gait::cyclic_curve::{CyclicCurve, SteadyCurve};
 use crate::gait::error::GaitError;
 use crate::gait::jet::Jet;
 use crate::gait::joint::{LegJoint, WalkPart};
@@ -155,34 +155,33 @@ fn curve_machine(
     angle: impl Fn(Jet, &Clock) -> Jet + Send + Sync + 'static,
 ) -> Machine {
     let side = part.side();
-    let curve = Arc::new(curve.clone());
-    let sub_cycles = Arc::new(SubCycle::of(&curve));
+    let sub_cycles = Arc::new(SubCycle::of(curve));
     let start = walk.first_clock();
     let speed = walk.curve_speed(&start);
+    let steady = Arc::new(SteadyCurve::new(curve, speed));
     let state = |part: &SubCycle| {
-        let bounds = part.bounds(&curve, speed.value).map(|value| angle(Jet::constant(value), &start).value);
-        let span = Span { window: part.window(&curve, speed.value), bounds: Some(bounds) };
+        let bounds = part.bounds(curve, speed.value).map(|value| angle(Jet::constant(value), &start).value);
+        let span = Span { window: part.window(curve, speed.value), bounds: Some(bounds) };
         State { span: Some(span), ..State::named(&part.name) }
     };
     let count = sub_cycles.len();
     let transition = |k: usize| {
-        let (walk, curve, parts) = (Arc::clone(walk), Arc::clone(&curve), Arc::clone(&sub_cycles));
-        let end = parts[k].to % curve.knots().len();
-        let when = curve.knots()[end].name.clone();
+        let (walk, steady, parts) = (Arc::clone(walk), Arc::clone(&steady), Arc::clone(&sub_cycles));
+        let knots = curve.knots().len();
+        let when = curve.knots()[parts[k].to % knots].name.clone();
         Transition::new(k, (k + 1) % count, when, move |inputs: &MachineInputs<'_>| {
-            let speed = walk.curve_speed(inputs.clock).value;
-            let segment = curve.segment_at(inputs.clock.phase_of(side).value, speed);
-            !parts[k].has_segment(segment, curve.knots().len())
+            let segment = steady.segment_at(inputs.clock.phase_of(side).value, walk.curve_speed(inputs.clock));
+            !parts[k].has_segment(segment, knots)
         })
     };
     let states = sub_cycles.iter().map(state).collect();
     let transitions: Vec<Transition> = if count > 1 { (0..count).map(transition).collect() } else { Vec::new() };
     let activity = {
-        let (walk, curve, parts) = (Arc::clone(walk), Arc::clone(&curve), Arc::clone(&sub_cycles));
+        let (walk, knots, parts) = (Arc::clone(walk), curve.knots().len(), Arc::clone(&sub_cycles));
         move |state: usize, inputs: &MachineInputs<'_>, _: &ChildOutputs<'_>| {
             let (phase, speed) = (inputs.clock.phase_of(side), walk.curve_speed(inputs.clock));
-            let segment = parts[state].segment(&curve, phase.value, speed.value);
-            angle(curve.on_segment(segment, phase, speed), inputs.clock)
+            let segment = parts[state].segment(steady.segment_at(phase.value, speed), knots);
+            angle(steady.on_segment(segment, phase, speed), inputs.clock)
         }
     };
     Machine::new(part.name(), states, activity).with_transitions(transitions)

@@ -12,7 +12,7 @@ use crate::simulation::consistent_walk::{
     ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
 };
 use crate::simulation::walking::{
-    GaitTargets, GroundContact, Release, Shoes, TorqueSeries, WalkRecording, Walker, gait_signals,
+    GaitTargets, GroundContact, Release, Shoes, TorqueSeries, WalkRecording, Walker, WatchedTargets, gait_signals,
 };
 use crate::simulation::{ImpactLaw, StepSettings};
 
@@ -132,7 +132,8 @@ fn paper(
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     let (walk, kept) = paper_plan(settings, &human, findings)?;
-    let (recording, states) = paper_run(settings, &human, &walk, &kept, findings)?;
+    let planned = Planned { human: &human, walk: &walk, kept: &kept };
+    let (recording, states) = paper_run(settings, &planned, &mut |_| {}, findings)?;
     steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None })
 }
 
@@ -145,54 +146,64 @@ fn paper_plan(
     timed(settings, &gait, human, PAPER_SKIPPED, findings)
 }
 
+/// A figure with its planned walk.
+struct Planned<'a> {
+    human: &'a Human,
+    walk: &'a Walk,
+    kept: &'a KeptPart,
+}
+
+/// Simulates a walk; tells of changes of states while machines that read the simulation run.
 fn paper_run(
     settings: &SyntheticWalkSettings<'_>,
-    human: &Human,
-    walk: &Walk,
-    kept: &KeptPart,
+    &Planned { human, walk, kept }: &Planned<'_>,
+    tell: &mut dyn FnMut(&StateChange),
     findings: &mut Findings,
 ) -> Result<(WalkRecording, StateRun), SyntheticError> {
     let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
     let signals = gait_signals(walk, &human.model, 0.0, kept.simulated_s + step.step_s)?;
     let walker = Walker::new(human, signals, &PAPER_GROUND, walk.speed())?;
-    let mut targets =
-        if walk.gait().machines_read_simulation() { Some(GaitTargets::new(walk, &human.model, &[])?) } else { None };
-    let recording = walker.walk_with(targets.as_mut(), &step, kept.simulated_s, findings)?;
-    let states = match &targets {
-        Some(targets) => kept.traced(settings, targets.trace(), targets.machine()),
-        None => kept.states(settings, walk),
-    };
-    Ok((recording, states))
+    if !walk.gait().machines_read_simulation() {
+        let recording = walker.walk(&step, kept.simulated_s, findings)?;
+        return Ok((recording, kept.states(settings, walk)));
+    }
+    let mut targets = GaitTargets::new(walk, &human.model, &[])?;
+    let mut states = kept.watch(settings, tell);
+    let watch = &mut |now: &GaitTargets| states.look(now.trace(), now.machine().running(), now.time_s());
+    let machines = WatchedTargets { targets: &mut targets, watch };
+    let recording = walker.walk_with(Some(machines), &step, kept.simulated_s, findings)?;
+    Ok((recording, kept.traced(settings, targets.trace(), targets.machine())))
 }
 
-/// The run of states of a walk: the first state of each machine, then every change in order of time. Only a gait whose machines read the
-/// simulation, in the paper's mode, is simulated for it.
+/// Tells of the run of states of a walk while it happens: the first state of each machine, then every change in order of time. Only a gait
+/// whose machines read the simulation, in the paper's mode, is simulated for it; otherwise the machines run alone.
 ///
 /// # Errors
 /// As [`synthesise`].
 pub fn run_of_states(
     settings: &SyntheticWalkSettings<'_>,
+    tell: &mut dyn FnMut(&StateChange),
     findings: &mut Findings,
-) -> Result<Vec<StateChange>, SyntheticError> {
+) -> Result<(), SyntheticError> {
     settings.check()?;
     let human = settings.build.human()?;
-    let states = match settings.mode {
+    match settings.mode {
         SyntheticMode::Paper => {
             let (walk, kept) = paper_plan(settings, &human, findings)?;
             if walk.gait().machines_read_simulation() {
-                paper_run(settings, &human, &walk, &kept, findings)?.1
+                paper_run(settings, &Planned { human: &human, walk: &walk, kept: &kept }, tell, findings)?;
             } else {
                 // Machines that drive coordinates which the figure does not have are refused as in a simulation.
                 GaitTargets::new(&walk, &human.model, &[])?;
-                kept.states(settings, &walk)
+                kept.states_told(settings, &walk, tell);
             }
         }
         SyntheticMode::Optimal | SyntheticMode::Predicted | SyntheticMode::Corrected => {
             let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
-            kept.states(settings, &walk)
+            kept.states_told(settings, &walk, tell);
         }
-    };
-    Ok(states.changes)
+    }
+    Ok(())
 }
 
 /// Replays torques without feedback: the gait is walked in the paper's mode, then its joints and its trunk are let go at a nominal strike of the

@@ -2,7 +2,7 @@
 
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
 use crate::findings::Findings;
-use crate::gait::machine::{StateChange, StatePeriod, StateTrace, WalkMachine, planned};
+use crate::gait::machine::{StateChange, StatePeriod, StateTrace, StateWatch, WalkMachine, planned};
 use crate::gait::{Gait, PaceRamp, Style, Walk};
 use crate::kinematics::Trajectory;
 use crate::model::anthropometry::{Human, SegmentTable};
@@ -190,14 +190,35 @@ impl KeptPart {
 
     /// The states of a walk whose machines read the clock alone.
     pub(super) fn states(&self, settings: &SyntheticWalkSettings<'_>, walk: &Walk) -> StateRun {
+        self.states_told(settings, walk, &mut |_| {})
+    }
+
+    /// The same; tells of each change while the machines run.
+    pub(super) fn states_told(
+        &self,
+        settings: &SyntheticWalkSettings<'_>,
+        walk: &Walk,
+        tell: &mut dyn FnMut(&StateChange),
+    ) -> StateRun {
         let ([first_s, last_s], step_s) = (self.ends_s(settings), settings.step_s());
+        let mut watch = self.watch(settings, tell);
         let (mut machine, mut trace) = (WalkMachine::new(walk), StateTrace::default());
         for step in 0..=((last_s - first_s) / step_s) as usize {
             let time_s = first_s + step_s * step as f64;
             machine.step(time_s);
             trace.add(machine.running(), time_s);
+            watch.look(&trace, machine.running(), time_s);
         }
         self.traced(settings, &trace, &machine)
+    }
+
+    /// Tells of changes in time of the kept motion.
+    pub(super) fn watch<'a>(
+        &self,
+        settings: &SyntheticWalkSettings<'_>,
+        tell: &'a mut dyn FnMut(&StateChange),
+    ) -> StateWatch<'a> {
+        StateWatch::new(self.ends_s(settings), tell)
     }
 
     /// The states of a trace in time of the kept motion.

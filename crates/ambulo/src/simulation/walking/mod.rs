@@ -21,7 +21,7 @@ pub use feet::{FootRecord, ToeRecord};
 pub use figure::{GroundContact, Shoes, Walker, WalkingError};
 pub(super) use recording::loads;
 pub use recording::{Excerpt, ExcerptRows, FootImpact, WalkRecording};
-pub use run::{Release, Released};
+pub use run::{Release, Released, WatchedTargets};
 pub use signals::{GaitTargets, gait_signals};
 pub use slip::StanceSlip;
 pub(super) use slip::worst_slip;

@@ -9,6 +9,7 @@ use crate::findings::Findings;
 use crate::kinematics::Trajectory;
 use crate::model::{BodyId, BySide, Side};
 use crate::motion::TimeGrid;
+use crate::simulation::signal::Instant;
 use crate::simulation::{Impact, Integrator, Owner, Signal, StepSettings, StepWorkspace, World, WorldState, step};
 use crate::spatial::{Pose, Twist, Vec3};
 
@@ -22,6 +23,14 @@ pub struct Release<'a> {
     pub torques: &'a [TorqueSeries],
     /// Time at which the drives of these coordinates and the hand at the trunk let go [s].
     pub time_s: f64,
+}
+
+/// Targets that are computed from step to step, and who looks at their machines after each step.
+pub struct WatchedTargets<'a> {
+    /// The targets.
+    pub targets: &'a mut GaitTargets,
+    /// Called after each step of the machines, before the figure moves.
+    pub watch: &'a mut dyn FnMut(&GaitTargets),
 }
 
 /// A walk whose drives have let go.
@@ -74,7 +83,7 @@ impl Walker {
     /// As [`Walker::walk`].
     pub fn walk_with(
         &self,
-        mut targets: Option<&mut GaitTargets>,
+        mut machines: Option<WatchedTargets<'_>>,
         settings: &StepSettings,
         duration_s: f64,
         findings: &mut Findings,
@@ -89,7 +98,7 @@ impl Walker {
             // Times are computed from the row, so that rounding does not accumulate.
             state.time_s = step_s * row as f64;
             let before = RootBefore::of(&world, &state);
-            if let Some(targets) = &mut targets {
+            if let Some(WatchedTargets { targets, watch }) = &mut machines {
                 recorder.read_targets(targets, state.time_s);
                 // The posture at the end of this step, with angles and loads of the last one.
                 targets.measure(|id| recorder.targets[id][0], |_| 0.0);
@@ -97,6 +106,7 @@ impl Walker {
                     Some(loaded) => targets.step_with(state.time_s + step_s, loaded),
                     None => targets.step(state.time_s + step_s),
                 }
+                watch(targets);
                 self.aim(&mut world, targets, state.time_s + step_s);
             }
             let convergence = step(&world, &mut state, &settings, &mut w, findings)?;
@@ -307,14 +317,16 @@ impl<'a> Recorder<'a> {
             self.impacts.push(foot_impact(self.walker, impact));
         }
         self.record_root(before, after, w);
-        for (id, (columns, placed)) in self.columns.iter_mut().zip(&self.walker.placed).enumerate() {
+        let mut instant = Instant::new(before.time_s);
+        let Recorder { walker, targets, columns, efforts, .. } = &mut *self;
+        for (id, (columns, placed)) in columns.iter_mut().zip(&walker.placed).enumerate() {
             let effort = placed.sense * w.effort(placed.joint, placed.joint, placed.coordinate);
-            self.efforts[id].push(effort);
+            efforts[id].push(effort);
             let driven = (placed.joint, placed.coordinate) != (0, 0) && (placed.joint, placed.coordinate) != (0, 1);
             if driven {
-                let values = match self.targets.get(id) {
+                let values = match targets.get(id) {
                     Some(values) => *values,
-                    None => self.walker.signals[id].at(before.time_s),
+                    None => instant.at(&walker.signals[id]),
                 };
                 columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
             }

@@ -20,6 +20,7 @@ pub struct GaitTargets {
     /// Values, rates and accelerations.
     columns: [Vec<f64>; 3],
     trace: StateTrace,
+    time_s: f64,
 }
 
 impl GaitTargets {
@@ -70,6 +71,7 @@ impl GaitTargets {
             columns: [defaults.clone(), vec![0.0; defaults.len()], vec![0.0; defaults.len()]],
             defaults,
             trace: StateTrace::default(),
+            time_s: 0.0,
         })
     }
 
@@ -97,6 +99,7 @@ impl GaitTargets {
     }
 
     fn write(&mut self, posture: &WalkPosture, time_s: f64) {
+        self.time_s = time_s;
         self.trace.add(self.machine.running(), time_s);
         let [q, qd, qdd] = &mut self.columns;
         self.coordinates.write(posture, q, qd, qdd);
@@ -127,6 +130,12 @@ impl GaitTargets {
     #[must_use]
     pub fn trace(&self) -> &StateTrace {
         &self.trace
+    }
+
+    /// Time of the last step [s]; before it, zero.
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        self.time_s
     }
 
     /// The machine.
