@@ -82,11 +82,15 @@ pub(crate) fn moving_on_soles(
 /// The activity that is recognised in a motion of some seconds.
 fn recognised(places: Places, seconds: f64) -> Activity {
     let human = man();
-    let model = &human.model;
     let trajectory = moving(&human, places, seconds);
+    recognised_in(&human, &trajectory)
+}
+
+fn recognised_in(human: &Human, trajectory: &Trajectory) -> Activity {
+    let model = &human.model;
     let soles = BySide::from_fn(|side| human.sole(side));
-    let falls = footfalls(model, &trajectory, &soles, &mut Findings::default());
-    activity(model, &trajectory, &soles, human.dimensions.leg_length, &falls)
+    let falls = footfalls(model, trajectory, &soles, &mut Findings::default());
+    activity(model, trajectory, &soles, human.dimensions.leg_length, &falls)
 }
 
 #[track_caller]
@@ -157,6 +161,35 @@ fn rising_from_a_seat_behind_the_feet_is_sit_to_stand() {
         [[-0.45 * (1.0 - up), 0.52 + 0.38 * up], [0.0; 2], [0.0; 2]]
     };
     assert_kind(rises, 3.5, ActivityKind::SitToStand);
+}
+
+/// A child of the same shape: lengths are smaller by one factor, times by its root, so that the forces are similar too.
+#[test]
+fn a_child_does_the_same_as_an_adult() {
+    let sits = |t: f64| {
+        let up = smooth((t - 1.0) / 1.5);
+        [[-0.45 * (1.0 - up), 0.52 + 0.38 * up], [0.0; 2], [0.0; 2]]
+    };
+    let stands = |t: f64| [[0.0, 0.9 + 0.003 * (TAU * 0.3 * t).sin()], [0.0; 2], [0.0; 2]];
+    let kinds: [(Places, ActivityKind); 3] =
+        [(stands, ActivityKind::Stand), (squat, ActivityKind::Squat), (sits, ActivityKind::SitToStand)];
+    let adult = man();
+    let size = 0.6;
+    let build = Build {
+        table: SegmentTable::DeLevaMale,
+        mass: 72.6 * f64::powi(size, 3),
+        height: 1.80 * size,
+        toe_joint: false,
+    };
+    let child = build.human().unwrap();
+    assert!((child.dimensions.leg_length - size * adult.dimensions.leg_length).abs() < 1e-12);
+    for (places, expected) in kinds {
+        let small = |t: f64| places(t / size.sqrt()).map(|place| place.map(|x| size * x));
+        let trajectory = moving_on_soles(&child, |t| (small(t), [0.0; 2]), 5.0 * size.sqrt());
+        let found = recognised_in(&child, &trajectory);
+        assert_eq!(found.kind, expected, "{found:?}");
+        assert_eq!(recognised(places, 5.0).kind, expected);
+    }
 }
 
 #[test]

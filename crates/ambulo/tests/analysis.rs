@@ -4,6 +4,7 @@ use crate::free_bodies::{DOWN_Y, free_bodies};
 use ambulo::analysis::{
     Agreement, Analysis, AnalysisSettings, ComparisonError, Contact, Curve, Cycle, Event, EventKind, MassSource,
     SHORTEST_CONTACT_S, analyse, compare, contacts_from_force, cycles, events, over_cycle, peak, residual,
+    residual_sizes,
 };
 use ambulo::dynamics::{LoadSeries, Workspace, inverse};
 use ambulo::findings::{Code, Findings};
@@ -270,6 +271,31 @@ fn the_residual_of_a_body_at_rest_is_its_weight_and_zero_on_a_plate() {
     assert_near(half.force_rms_n, 70.0 * 9.81 * (150.0 / 301.0_f64).sqrt(), 1e-9, "root mean square [N]");
 }
 
+#[test]
+fn the_residual_of_each_frame_is_the_weight_that_the_plate_does_not_carry() {
+    let model = free_bodies(DOWN_Y, &[("pelvis", 50.0)]);
+    let columns = vec![[vec![0.0; FRAMES], vec![0.0; FRAMES], vec![0.0; FRAMES]]; 6];
+    let trajectory = Trajectory::new(&model, grid(), columns).unwrap();
+    let weight = 50.0 * 9.81;
+    let share = |frame: usize| frame as f64 / (FRAMES - 1) as f64;
+    // Carried beside the centre: the moment of what is carried is left.
+    let wrench = |frame| {
+        let force = Vec3::new(0.0, share(frame) * weight, 0.0);
+        Wrench { force, moment: Vec3::new(0.1, 0.0, 0.0).cross(&force) }
+    };
+    let load = LoadSeries {
+        body: model.body("pelvis").unwrap(),
+        points: vec![Vec3::zeros(); FRAMES],
+        wrenches: (0..FRAMES).map(wrench).collect(),
+    };
+    let sizes = residual_sizes(&model, &inverse(&mut Workspace::new(&model), &trajectory, &[load]));
+    assert_eq!(sizes.len(), FRAMES);
+    for (frame, [force, moment]) in sizes.into_iter().enumerate() {
+        assert_near(force, (1.0 - share(frame)) * weight, 1e-10, "force [N]");
+        assert_near(moment, 0.1 * share(frame) * weight, 1e-10, "moment [N.m]");
+    }
+}
+
 const MASS: f64 = 70.0;
 
 /// A body of 70 kg over two feet without mass.
@@ -331,6 +357,36 @@ fn the_mass_is_the_mean_vertical_force_over_whole_cycles() {
         let sides: Vec<_> = analysis.cycles.iter().map(|c| (c.side, c.number)).collect();
         assert_eq!(sides, [(Side::Right, 1), (Side::Right, 2), (Side::Left, 1), (Side::Left, 2)]);
     }
+}
+
+#[test]
+fn loads_that_a_file_of_two_feet_cannot_keep_apart_are_named() {
+    let model = free_bodies(DOWN_Y, &[("torso", MASS), ("calcn_r", 0.0), ("toes_r", 0.0), ("calcn_l", 0.0)]);
+    let mut motion = sliding(1.3, 0.0);
+    motion.columns.resize(24, Some(vec![0.0; FRAMES]));
+    let [right, left] = &alternating(&model, 1.0)[..] else { panic!("two feet") };
+    let on = |load: &ForceRecording, body: &str, share: f64| ForceRecording {
+        name: body.into(),
+        body: model.body(body).unwrap(),
+        force: load.force.iter().map(|force| force * share).collect(),
+        ..load.clone()
+    };
+    let said = |plates: &[ForceRecording]| {
+        let (_, findings) = run(&model, &motion, plates);
+        let of =
+            |code: Code| findings.as_slice().iter().filter(|f| f.code == code).map(|f| f.message.clone()).collect();
+        [of(Code::LoadsNoSide), of(Code::LoadsSeveralBodies)] as [Vec<String>; 2]
+    };
+    assert!(said(&[right.clone(), left.clone()]).iter().all(Vec::is_empty));
+    let [no_side, several] = said(&[on(right, "calcn_r", 0.7), on(right, "toes_r", 0.3), left.clone()]);
+    assert!(no_side.is_empty());
+    assert!(
+        matches!(&several[..], [one] if one.contains("calcn_r and toes_r") && one.contains("right")),
+        "{several:?}"
+    );
+    let [no_side, several] = said(&[right.clone(), on(left, "calcn_l", 0.9), on(left, "torso", 0.1)]);
+    assert!(matches!(&no_side[..], [one] if one.contains("`torso`")), "{no_side:?}");
+    assert!(several.is_empty());
 }
 
 #[test]

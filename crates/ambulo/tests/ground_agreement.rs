@@ -23,14 +23,14 @@ use ambulo::spatial::Vec3;
 use std::sync::Arc;
 use std::sync::LazyLock;
 
-static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
+pub(crate) static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
     let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
     let gait = Gait::named("free").unwrap();
     let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
     synthesise(&order, &mut Findings::default()).unwrap()
 });
 
-fn predicted(plates: &[ForceRecording]) -> PredictedAnalysis {
+pub(crate) fn predicted(plates: &[ForceRecording]) -> PredictedAnalysis {
     let soles = Person::of_human(&WALK.human).soles;
     let order = PredictionInput { soles: &soles, settings: &PredictSettings::default(), plates_filter: None };
     let (trajectory, mut findings) = (WALK.trajectory.clone(), Findings::default());

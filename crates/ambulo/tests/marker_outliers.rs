@@ -188,6 +188,29 @@ fn labels_exchanged_from_the_first_frame_are_found() {
     }
 }
 
+/// Two reflections that merge: a label is put on the marker of another, which keeps its own.
+#[test]
+fn a_label_on_the_marker_of_another_is_a_lost_marker_and_not_an_exchange() {
+    let Some(subject) = rajagopal() else { return };
+    let place = |name: &str| subject.markers.markers.iter().position(|m| m.name == name).unwrap();
+    for [a, b] in [["R.Heel", "R.Toe"], ["R.Toe", "R.Heel"], ["L.Knee", "L.SH1"], ["L.SH1", "L.Knee"]] {
+        let (i, j) = (place(a), place(b));
+        let (mut wild, mut lost) = (subject.markers.clone(), subject.markers.clone());
+        for frame in 40..60 {
+            wild.markers[i].positions[frame] = wild.markers[j].positions[frame];
+            lost.markers[i].positions[frame] = Vec3::repeat(f64::NAN);
+        }
+        let (fit, findings) = fitted(&subject, &wild, OutlierDetection::On);
+        let (difference, angle) = largest_difference(&subject, &fitted(&subject, &lost, OutlierDetection::On).0, &fit);
+        println!("{a} on {b}: {difference:.1e} deg at {angle} from its loss");
+        let jumped =
+            |name: &str| findings.as_slice().iter().any(|f| f.code == Code::MarkersJump && f.message.contains(name));
+        assert!(jumped(a) && !jumped(b), "{a} on {b}: {:?}", findings.as_slice());
+        assert!(!findings.has(Code::MarkersSwap), "{a} on {b}: {:?}", findings.as_slice());
+        assert!(difference < 1e-4, "{a} on {b}: {difference} deg at {angle}");
+    }
+}
+
 /// The recording with swapped labels, gaps, jumps and frozen markers: `count` faults of up to a sixth of its length.
 fn damaged(subject: &Subject, count: usize, seed: u64) -> MarkerRecording {
     let mut r = Random::new(seed);

@@ -165,6 +165,45 @@ fn standing_upright_passes_and_leaning_beyond_the_toes_does_not() {
     }
 }
 
+/// Without a margin a point inside the soles is exactly at the limit.
+#[test]
+fn who_leans_too_far_for_half_of_the_time_exceeds_the_limit_for_half_of_it() {
+    let human = man();
+    let height = human.model.coordinates().iter().find(|c| c.name == "pelvis_ty").unwrap().default_value;
+    let lean = -0.35_f64;
+    let leaning = [
+        ("pelvis_tilt", lean),
+        ("pelvis_tx", -lean.sin() * height),
+        ("pelvis_ty", lean.cos() * height),
+        ("ankle_angle_r", -lean),
+        ("ankle_angle_l", -lean),
+    ];
+    let [upright, leaning] = [still(&human, &[]), still(&human, &leaning)];
+    let grid = TimeGrid { frames: 2 * upright.grid().frames, ..upright.grid() };
+    let rest = || vec![0.0; grid.frames];
+    let values = |id| [upright.values(id), leaning.values(id)].concat();
+    let columns = human.model.coordinate_ids().map(|id| [values(id), rest(), rest()]).collect();
+    let trajectory = Trajectory::new(&human.model, grid, columns).unwrap();
+    let soles = Person::of_human(&human).soles;
+    let prediction = prediction(&human.model, &trajectory, &soles);
+    let mut findings = Findings::default();
+    let evidence = CheckedPrediction {
+        model: &human.model,
+        trajectory: &trajectory,
+        soles: &soles,
+        prediction: &prediction,
+        cycles: &[],
+        thresholds: &Thresholds { sole_margin_m: 0.0, ..Thresholds::default() },
+        plate_mass: None,
+    };
+    let checks = prediction_checks(&evidence, &mut findings);
+    let reason = checks.reasons.iter().find(|reason| reason.check == Check::CenterOfPressure).unwrap();
+    let (_, after) = reason.message.split_once("exceeded for ").unwrap();
+    let percent: f64 = after.split(' ').next().unwrap().parse().unwrap();
+    // The window of the low-pass is 0.2 s wide, in 4 s.
+    assert!((percent - 50.0).abs() < 5.0, "{}", reason.message);
+}
+
 #[test]
 fn sitting_is_detected() {
     let (checks, findings) = of_posture(&[

@@ -1,7 +1,9 @@
 //! Weighing: closed forms, and people of known mass.
 
+use crate::ground_agreement::{WALK, predicted};
 use crate::plug_in_gait::PEOPLE;
 use crate::shared_data::data;
+use ambulo::analysis::{Analysis, Mass, MassSource, PredictedAnalysis};
 use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
 use ambulo::model::anthropometry::{Build, SegmentTable};
@@ -12,6 +14,7 @@ use ambulo::study::{
     Recording, Settings, Source, standing_trial,
 };
 use std::path::Path;
+use std::sync::Arc;
 
 const G: f64 = 9.80665;
 
@@ -75,6 +78,52 @@ fn a_model_that_is_15_percent_too_light_is_named() {
     assert_eq!((outcome.mass.state, outcome.mass.source), (MassState::Contradicted, MassWitness::Model));
     assert!((outcome.mass.plates_kg.unwrap() - 70.0).abs() < 0.2, "{:?}", outcome.mass);
     assert!(findings.has(Code::MassContradicted), "{:?}", findings.as_slice());
+}
+
+/// A walk that was measured by plates which say `factor` times the force, before anybody is weighed.
+fn unweighed(walk: &PredictedAnalysis, factor: f64) -> PredictedAnalysis {
+    let PredictedAnalysis { analysis, prediction, measured } = walk.clone();
+    let stated = Mass { kg: WALK.human.model.mass(), source: MassSource::Model };
+    let mut measured: Analysis = measured.unwrap();
+    for foot in Arc::make_mut(&mut measured.ground.bodies) {
+        foot.force.iter_mut().for_each(|force| *force *= factor);
+    }
+    let without = |analysis: Analysis| Analysis { mass: stated, ..analysis };
+    PredictedAnalysis { analysis: without(analysis), prediction, measured: Some(without(measured)) }
+}
+
+#[test]
+fn any_gait_cycle_on_the_plates_weighs_a_walker() {
+    let model = &WALK.human.model;
+    let stated = model.mass();
+    let walk = predicted(&WALK.loads);
+    let masses = |factor: f64, window_s, standing_kg| {
+        let weighed = unweighed(&walk, factor).weighed(model, window_s, standing_kg);
+        [weighed.analysis.mass, weighed.measured.unwrap().mass]
+    };
+    let cycle = walk.measured.as_ref().unwrap().cycles[0];
+    let cycle_s = cycle.end_s - cycle.start_s;
+    for factor in [0.97, 1.0, 1.04] {
+        // From any instant on, not from strike to strike.
+        for share in [0.1, 0.25, 0.6] {
+            let start_s = walk.analysis.trajectory.grid().start_s + share * cycle_s;
+            for mass in masses(factor, Some([start_s, start_s + 1.1 * cycle_s]), Some(1.01 * stated)) {
+                assert_eq!(mass.source, MassSource::Plates, "{factor} from {start_s} s");
+                // A frame more or less than a cycle is 1 % of it, at up to 1.2 body weights.
+                assert!((mass.kg / stated - factor).abs() < 0.005, "{factor} from {start_s} s: {} kg", mass.kg);
+            }
+            for window_s in [None, Some([start_s, start_s + 0.8 * cycle_s])] {
+                for mass in masses(factor, window_s, Some(1.01 * stated)) {
+                    assert_eq!(mass, Mass { kg: 1.01 * stated, source: MassSource::Standing }, "shorter than a cycle");
+                }
+            }
+        }
+    }
+    // Somebody else, or somebody who also stands beside the plates.
+    let window_s = Some([0.1 * cycle_s, 1.3 * cycle_s]);
+    for mass in masses(0.9, window_s, Some(1.1 * stated)).into_iter().chain(masses(1.1, window_s, None)) {
+        assert_eq!(mass, Mass { kg: stated, source: MassSource::Model });
+    }
 }
 
 fn laboratory_file(path: &Path) -> LaboratoryFile {
