@@ -215,12 +215,8 @@ impl Assembly {
             self.graph.terms.offset.push(offset);
             return;
         }
-        let (parent, child) = (joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]), &state.poses[joint.child]);
-        let axis = |k: usize| parent.rotation * joint.parent_from_joint.rotation.column(k);
-        let of_child = || child.rotation * joint.child_from_joint.rotation.column(1);
-        let to_center = center - child.place(joint.child_from_joint.translation);
         let directions = &mut self.directions[number];
-        joint.kind.write_directions(axis, of_child, &to_center, directions);
+        write_directions(joint, state, directions);
         let mut offset = Six::zeros();
         let mut freedom = 0;
         let q = &state.coordinates[number];
@@ -312,6 +308,15 @@ impl Assembly {
             add(RowKey::UpperLimit(number, coordinate), ((upper - q) / h).max(0.0), 0.0, f64::NEG_INFINITY, 0.0);
         }
     }
+}
+
+/// Writes the directions of a joint's coordinates at the centre of its child.
+fn write_directions(joint: &TreeJoint, state: &WorldState, directions: &mut [Six; MOST]) {
+    let (parent, child) = (joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]), &state.poses[joint.child]);
+    let axis = |k: usize| parent.rotation * joint.parent_from_joint.rotation.column(k);
+    let of_child = || child.rotation * joint.child_from_joint.rotation.column(1);
+    let to_center = child.translation - child.place(joint.child_from_joint.translation);
+    joint.kind.write_directions(axis, of_child, &to_center, directions);
 }
 
 /// ω - ω⁻ of a free body: one Newton step of I (ω - ω⁻) + h ω × I ω = 0 at ω⁻.
