@@ -77,6 +77,7 @@ fn corrected(
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
+    refuse_unknown_coordinates(&walk, &human)?;
     let own = ConsistentWalkSettings::default();
     let changing = make_changing_walk(&human, &walk, &own)?;
     let mut corrections = Vec::new();
@@ -89,6 +90,12 @@ fn corrected(
     let recording = changing.simulate(&human, &own, settings.step_s(), kept.simulated_s, findings)?;
     let made = Made { recording: &recording, states: kept.states(settings, &walk), correction: first };
     steady(settings, &kept, human, walk, made)
+}
+
+/// Refuses machines that drive or read coordinates which the figure does not have, as a simulation does.
+fn refuse_unknown_coordinates(walk: &Walk, human: &Human) -> Result<(), SyntheticError> {
+    GaitTargets::new(walk, &human.model, &[])?;
+    Ok(())
 }
 
 /// Warns if motions need forces from outside.
@@ -179,13 +186,13 @@ pub fn run_of_states(
             if walk.gait().machines_read_simulation() {
                 paper_run(settings, &Planned { human: &human, walk: &walk, kept: &kept }, tell, findings)?;
             } else {
-                // Machines that drive coordinates which the figure does not have are refused as in a simulation.
-                GaitTargets::new(&walk, &human.model, &[])?;
+                refuse_unknown_coordinates(&walk, &human)?;
                 kept.states_told(settings, &walk, tell);
             }
         }
         SyntheticMode::Optimal | SyntheticMode::Predicted | SyntheticMode::Corrected => {
             let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
+            refuse_unknown_coordinates(&walk, &human)?;
             kept.states_told(settings, &walk, tell);
         }
     }
