@@ -14,7 +14,6 @@ mod optimal;
 mod walk;
 
 pub use crate::numerics::Progress;
-pub use crate::simulation::consistent_walk::CorrectionReport;
 pub use modes::{predict, replay, run_of_states, synthesise};
 pub use settings::{MOST_CYCLES, RATES_HZ, SyntheticError, SyntheticMode, SyntheticWalkSettings};
-pub use walk::{PaceReached, PredictionReport, SyntheticWalk, WalkReport};
+pub use walk::{CorrectionReport, PaceReached, PredictionReport, SyntheticWalk, WalkReport};
