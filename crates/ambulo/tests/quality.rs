@@ -2,9 +2,10 @@
 
 use crate::plug_in_gait::PEOPLE;
 use crate::shared_data::data;
+use ambulo::analysis::feasibility::VerdictState;
 use ambulo::findings::Findings;
 use ambulo::motion::filter::LowPass;
-use ambulo::motion::{Motion, Smoother};
+use ambulo::motion::{Motion, PlateRecording, Smoother};
 use ambulo::spatial::Vec3;
 use ambulo::study::{
     self, GroundSettings, MarkerBody, Measure, Quality, QualityLimits, QualityState, Recording, Settings, Source,
@@ -22,7 +23,7 @@ const fn spoiled(what: &'static str, measure: Measure, spoil: fn(&mut Source, &m
     Spoiled { what, measure, spoil }
 }
 
-const SPOILED: [Spoiled; 8] = [
+const SPOILED: [Spoiled; 10] = [
     spoiled("a body of 85 % of the mass", Measure::Mass, |source, _| {
         let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
         let MarkerBody::BuiltIn { mass_kg: Some(mass_kg), .. } = &mut markers.body else { panic!("no stated mass") };
@@ -31,6 +32,8 @@ const SPOILED: [Spoiled; 8] = [
     }),
     spoiled("plates at 0.6 of the force", Measure::ResidualForce, |source, _| scale_plates(source, 0.6)),
     spoiled("plates at 1.4 times the force", Measure::ResidualForce, |source, _| scale_plates(source, 1.4)),
+    spoiled("plates that were off", Measure::SilentPlates, |source, _| scale_plates(source, 0.0)),
+    spoiled("plates with the signals of each other", Measure::UnassignedForces, |source, _| exchange_plates(source)),
     spoiled("a walk on another scale than the standing trial", Measure::MarkerFit, |source, _| {
         each_marker(source, |_, position| *position *= 1.1);
     }),
@@ -52,6 +55,23 @@ fn scale_plates(source: &mut Source, factor: f64) {
         plate.force.iter_mut().for_each(|force| *force *= factor);
         plate.moment.iter_mut().for_each(|moment| *moment *= factor);
     }
+}
+
+/// The plates keep their places and record what the other one measured.
+fn exchange_plates(source: &mut Source) {
+    let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
+    let [first, second] = &mut markers.trial.recording.plates[..] else { panic!("not two plates") };
+    let apart = second.center() - first.center();
+    for (corner, other) in first.corners.iter_mut().zip(&mut second.corners) {
+        (*corner, *other) = (*other, *corner);
+    }
+    let moved = |plate: &mut PlateRecording, by: Vec3| {
+        for (moment, force) in plate.moment.iter_mut().zip(&plate.force) {
+            *moment += by.cross(force);
+        }
+    };
+    moved(first, apart);
+    moved(second, -apart);
 }
 
 /// Moves every marker of the walk, as a function of time [s] and its position in the laboratory.
@@ -99,6 +119,32 @@ fn spoiled_copies_are_never_good_and_the_reason_names_what_is_wrong() {
             assert_ne!(quality.state, QualityState::Good, "{}: {what}", person.name);
             assert!(found.iter().any(|(found, _)| found == measure), "{}: {what}: {found:?}", person.name);
         }
+    }
+}
+
+#[test]
+fn errors_of_the_data_are_not_held_against_the_movement_and_nothing_is_called_feasible_on_them() {
+    let Some(data) = data() else { return };
+    let cases: [(&str, fn(&mut Source)); 5] = [
+        ("0.6 of the force", |source| scale_plates(source, 0.6)),
+        ("1.4 of the force", |source| scale_plates(source, 1.4)),
+        ("off", |source| scale_plates(source, 0.0)),
+        ("exchanged", exchange_plates),
+        ("markers of another scale", |source| each_marker(source, |_, position| *position *= 1.3)),
+    ];
+    for person in &PEOPLE[..3] {
+        for (what, spoil) in cases {
+            let mut source = person.source(&data);
+            spoil(&mut source);
+            let verdict = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap().verdict;
+            println!("{} {what}: {:?} {:?}", person.name, verdict.state, verdict.undecided);
+            assert_eq!(verdict.state, VerdictState::NotJudged, "{} {what}: {:?}", person.name, verdict.reasons);
+        }
+        // What the forces of the right size do not cause is the movement's fault.
+        let mut source = person.source(&data);
+        each_marker(&mut source, |_, position| position.z += 0.1);
+        let verdict = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap().verdict;
+        assert_eq!(verdict.state, VerdictState::Infeasible, "{} above its plates", person.name);
     }
 }
 
