@@ -121,6 +121,8 @@ fn columns_of_a_force_table_are_recognised_in_any_spelling_and_assigned_by_the_c
         ),
         (["GRF_Right_F", "CoP_Right_", "Moment_Right_"], ["GRF_left_F", "CoP_left_", "Moment_left_"]),
         (["FP7_F", "FP7_P", "FP7_M"], ["FP12_F", "FP12_P", "FP12_M"]),
+        (["Force_1_", "Center_of_Pressure_1_", "Torque_1_"], ["Force_2_", "Center_of_Pressure_2_", "Torque_2_"]),
+        (["F1", "P1", "M1"], ["F2", "P2", "M2"]),
     ];
     for (right, left) in spellings {
         let mut text = bench.text("walk_grf.mot");

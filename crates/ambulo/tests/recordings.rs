@@ -3,6 +3,7 @@
 use crate::free_bodies::{DOWN_Y, ball, coordinate_ids, free, free_bodies, weld};
 use ambulo::findings::{Code, Findings, Severity};
 use ambulo::kinematics::{Trajectory, TrajectoryError};
+use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{Body, Coordinate, CoordinateKind, Drive, Function, Model};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{
@@ -72,6 +73,32 @@ fn whole_turns_are_removed_from_angles() {
     assert_eq!(codes(&findings), [(Code::MotionUnwrapped, 1)], "{findings:?}");
     assert!(findings.as_slice()[0].message.contains("and once more"), "{findings:?}");
     assert_near(columns(&motion)[7], 177f64.to_radians(), 1e-9, "the frame that was off");
+}
+
+#[test]
+fn whole_turns_that_bring_an_angle_into_the_range_of_its_joint_are_removed() {
+    let knee = |change: &dyn Fn(usize) -> f64| {
+        let row = |i: usize| format!("{}\t{}\t0\t0\n", 0.01 * i as f64, -20.0 - i as f64 + change(i));
+        let names = "time\tknee_angle_r\thip_flexion_r\thip_flexion_l\n";
+        let table = storage("inDegrees=yes\n", &format!("{names}{}", (0..20).map(row).collect::<String>()));
+        let build = Build { table: SegmentTable::DeLevaMale, mass: 70.0, height: 1.75, toe_joint: false };
+        let model = build.human().unwrap().model;
+        let mut findings = Findings::default();
+        let motion = coordinates_from_table(&model, &table, "knee", &mut findings).unwrap();
+        (motion.columns[model.coordinate("knee_angle_r").unwrap().index()].clone().unwrap(), findings)
+    };
+    let (right, none) = knee(&|_| 0.0);
+    assert!(none.as_slice().is_empty(), "{none:?}");
+    // Most of the frames, all of them, and the other direction.
+    let changes: [&dyn Fn(usize) -> f64; 3] = [&|i| if i >= 5 { 360.0 } else { 0.0 }, &|_| 720.0, &|_| -360.0];
+    for change in changes {
+        let (found, findings) = knee(change);
+        assert_eq!(codes(&findings), [(Code::MotionUnwrapped, 1)], "{findings:?}");
+        assert!(found.iter().zip(&right).all(|(found, right)| (found - right).abs() < 1e-9), "{found:?}");
+    }
+    // An angle that no whole turn brings into the range stays.
+    let (outside, findings) = knee(&|_| 180.0);
+    assert!(findings.as_slice().is_empty() && (outside[0] - 160f64.to_radians()).abs() < 1e-9, "{findings:?}");
 }
 
 #[test]

@@ -330,6 +330,9 @@ codes! {
     LoadsUnderOtherFoot "loads.under_other_foot" Warning
         "A load lies under the other foot than the one that its file or its name states; it was used as stated."
         "Correct the body of the load, or leave out the statement, so that the centre of pressure decides.";
+    LoadsOtherHeight "loads.other_height" Warning
+        "The foot that carries a load of a force table is far above or below its centre of pressure."
+        "Check that forces and motion have the same origin; on stairs, that the points have the height of their step.";
     LoadsUnassigned "loads.unassigned" Warning
         "A load of a force table is near neither foot and was left out at this time."
         "State the foot, or check that forces and motion have the same origin and clock.";

@@ -1,7 +1,8 @@
 //! Which foot is under a measured load, by its centre of pressure: for force tables, whose columns do not show the corners of plates.
 //!
 //! As for force plates of a C3D ([`super::plates`]), each time during which a load carries more than 20 N belongs to the foot that is
-//! nearest to the centre of pressure, averaged over the load, within 0.2 m. Height counts, as on stairs. The feet are the soles of the model.
+//! nearest to the centre of pressure, averaged over the load, within 0.2 m. Height counts, as on stairs; only where no foot is near does a foot
+//! above or below the centre of pressure carry the load, because forces act on somebody. The feet are the soles of the model.
 //! Pinned by: ambulo-cli/tests/plates.rs
 
 use super::measured::{center_of_pressure, surface_height};
@@ -30,14 +31,27 @@ pub(crate) struct LoadedSpan {
     pub(crate) span: [f64; 2],
     /// Mean distance of each foot from the centre of pressure [m]; not a number outside the motion.
     pub(crate) distance_m: BySide<f64>,
+    /// Of this, the distance along the ground [m].
+    level_m: BySide<f64>,
 }
 
 impl LoadedSpan {
-    /// The foot under the load.
+    /// The foot on the load, or else the foot above or below it.
     pub(crate) fn side(&self) -> Option<Side> {
-        let near = self.distance_m.iter().filter(|(_, distance)| **distance <= FARTHEST_M);
-        near.min_by(|a, b| a.1.total_cmp(b.1)).map(|(side, _)| side)
+        nearest(&self.distance_m).or_else(|| nearest(&self.level_m))
     }
+
+    /// The foot that carries the load although it is this far above or below the centre of pressure [m].
+    pub(crate) fn at_another_height(&self) -> Option<(Side, f64)> {
+        let side = nearest(&self.level_m).filter(|_| nearest(&self.distance_m).is_none())?;
+        let off_m = (self.distance_m[side].powi(2) - self.level_m[side].powi(2)).max(0.0).sqrt();
+        Some((side, OFF_SURFACE_M + off_m))
+    }
+}
+
+fn nearest(distance_m: &BySide<f64>) -> Option<Side> {
+    let near = distance_m.iter().filter(|(_, distance)| **distance <= FARTHEST_M);
+    near.min_by(|a, b| a.1.total_cmp(b.1)).map(|(side, _)| side)
 }
 
 impl FootPaths {
@@ -77,31 +91,34 @@ impl FootPaths {
         let from = load.times.partition_point(|&t| t < span[0]);
         let to = load.times.partition_point(|&t| t <= span[1]);
         let height = surface_height(load, self.up);
-        let (mut sum, mut weight) = (BySide { right: 0.0, left: 0.0 }, 0.0);
+        let mut sum = BySide { right: [0.0; 2], left: [0.0; 2] };
+        let mut weight = 0.0;
         for i in (from..to).filter(|&i| vertical[i] > 0.0) {
             let moment = load.moment[i] + load.point[i].cross(&load.force[i]);
             let (center, _) = center_of_pressure(load.force[i], moment, self.up, height);
             let Some(distance) = self.distances(center, load.times[i]) else { continue };
-            sum = BySide {
-                right: sum.right + vertical[i] * distance.right,
-                left: sum.left + vertical[i] * distance.left,
-            };
+            sum = BySide::from_fn(|side| [0, 1].map(|k| sum[side][k] + vertical[i] * distance[side][k]));
             weight += vertical[i];
         }
         let peak = vertical[from..to].iter().copied().fold(0.0, f64::max);
-        (peak >= least_n && weight > 0.0).then(|| LoadedSpan { span, distance_m: sum.map(|sum| sum / weight) })
+        (peak >= least_n && weight > 0.0).then(|| LoadedSpan {
+            span,
+            distance_m: sum.map(|[distance, _]| distance / weight),
+            level_m: sum.map(|[_, level]| level / weight),
+        })
     }
 
-    /// Distances of a centre of pressure from both feet [m]; `None` outside the motion or without a centre of pressure.
-    fn distances(&self, center: Vec3, time_s: f64) -> Option<BySide<f64>> {
+    /// Distances of a centre of pressure from both feet, with and without height [m]; `None` outside the motion or without a centre of pressure.
+    fn distances(&self, center: Vec3, time_s: f64) -> Option<BySide<[f64; 2]>> {
         let frame = ((time_s - self.grid.start_s) / self.grid.step_s).round();
         let is_known = center.iter().all(|x| x.is_finite()) && frame >= 0.0 && frame < self.grid.frames as f64;
         is_known.then(|| BySide::from_fn(|side| self.distance(&self.lines[side][frame as usize], center)))
     }
 
-    /// Distance along the ground, and by how much the foot is too high or too low for the surface [m].
-    fn distance(&self, [rear, tip]: &[Vec3; 2], center: Vec3) -> f64 {
+    /// Distance along the ground and by how much the foot is too high or too low for the surface, together; then only the first [m].
+    fn distance(&self, [rear, tip]: &[Vec3; 2], center: Vec3) -> [f64; 2] {
         let above = (rear - center).dot(&self.up).min((tip - center).dot(&self.up));
-        level_distance(center, [*rear, *tip], self.up).hypot((above.abs() - OFF_SURFACE_M).max(0.0))
+        let level = level_distance(center, [*rear, *tip], self.up);
+        [level.hypot((above.abs() - OFF_SURFACE_M).max(0.0)), level]
     }
 }

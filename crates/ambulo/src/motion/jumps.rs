@@ -25,11 +25,21 @@ struct Limits {
 
 const ROTATION: Limits = Limits { fastest: 30.0, bounds: [0.1, 0.3] };
 
-/// Removes changes of angles by whole turns, with a note for each column.
+/// Removes changes of angles by whole turns, and whole turns that bring an angle into its range, with a note for each column.
 pub(super) fn without_whole_turns(model: &Model, motion: &mut Motion, findings: &mut Findings) {
     for (coordinate, column) in model.coordinates().iter().zip(&mut motion.columns) {
         let (CoordinateKind::Rotation, Some(column)) = (coordinate.kind, column) else { continue };
         let turns = unwrapped(column);
+        let beyond = coordinate.range.map_or(0.0, |range| turns_beyond(column, range));
+        column.iter_mut().for_each(|x| *x -= beyond * TAU);
+        if turns.is_empty() && beyond != 0.0 {
+            let message = format!(
+                "`{}` was beyond its range by whole turns, {:+.0} deg; they were removed",
+                coordinate.name,
+                beyond * 360.0
+            );
+            findings.report(Code::MotionUnwrapped, message);
+        }
         if let [first, ..] = turns[..] {
             let message = format!(
                 "`{}` jumps by a whole turn {}{}; the turns were removed",
@@ -111,6 +121,14 @@ pub(super) fn unwrapped(column: &mut [f64]) -> Vec<usize> {
     let usual = median(removed).unwrap_or(0.0).round();
     column.iter_mut().for_each(|x| *x += usual * TAU);
     found
+}
+
+/// Whole turns by which most of the angles are outside a range that they would be inside without; zero if there are none.
+fn turns_beyond(column: &[f64], [low, high]: [f64; 2]) -> f64 {
+    let Some(usual) = median(column.iter().copied()) else { return 0.0 };
+    let turns = ((usual - 0.5 * (low + high)) / TAU).round();
+    let is_inside = |angle: f64| (low..=high).contains(&angle);
+    if !is_inside(usual) && is_inside(usual - turns * TAU) { turns } else { 0.0 }
 }
 
 /// The frames after sudden changes of an angle [rad].

@@ -2,7 +2,8 @@
 //!
 //! A load is a force, a point and a moment of three columns each, whose names differ in one word: `ground_force_vx`, `ground_force_px`,
 //! `ground_torque_x`; `ground_force_2_vx`, `ground_force_2_px`, `ground_force_2_mx`; `1_ground_force_vx`; `R_ground_force_vx`. Without these
-//! words, a name holds what belongs to this load alone: a number, a side in any spelling, or nothing.
+//! words, a name holds what belongs to this load alone: a number, a side in any spelling, or nothing. This may also follow the axis, as in
+//! `ground_force_vx_r` and `Fx1`.
 //! Pinned by: ambulo-cli/tests/plates.rs
 
 use crate::model::Side;
@@ -32,10 +33,32 @@ enum Kind {
 }
 
 /// Words that belong to no load in particular.
-const COMMON_WORDS: [&str; 14] = [
-    "ground", "reaction", "force", "forces", "torque", "torques", "moment", "moments", "grf", "cop", "point", "plate",
-    "fp", "foot",
+const COMMON_WORDS: [&str; 22] = [
+    "ground",
+    "reaction",
+    "force",
+    "forces",
+    "torque",
+    "torques",
+    "moment",
+    "moments",
+    "free",
+    "grf",
+    "grm",
+    "cop",
+    "center",
+    "centre",
+    "of",
+    "pressure",
+    "point",
+    "plate",
+    "fp",
+    "foot",
+    "position",
+    "application",
 ];
+const MOMENT_WORDS: [&str; 6] = ["torque", "torques", "moment", "moments", "free", "grm"];
+const POINT_WORDS: [&str; 5] = ["cop", "point", "pressure", "position", "application"];
 
 impl LoadColumns {
     /// The load on a body.
@@ -50,7 +73,37 @@ impl LoadColumns {
     }
 }
 
-/// The loads of a table, in the order of their forces. A load needs a force, and a point or a moment.
+/// The table with the axis at the end of each name: the number or side of a load may follow the axis, as in `ground_force_vx_r` or `Fx1`,
+/// and is put before the name. `None` if no name has such a part.
+pub(super) fn with_axis_last(table: &Table) -> Option<Table> {
+    let (names, columns): (Vec<&str>, Vec<&[f64]>) = table.columns().unzip();
+    let has = |name: &str| names.contains(&name);
+    let mut renamed: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+    for name in &names {
+        let places = name.char_indices().rev().filter(|(_, letter)| letter.eq_ignore_ascii_case(&'x'));
+        let of_axes = places.map(|(at, letter)| {
+            ["x", "y", "z"]
+                .map(|axis| {
+                    let axis = if letter.is_uppercase() { axis.to_uppercase() } else { axis.to_owned() };
+                    format!("{}{axis}{}", &name[..at], &name[at + 1..])
+                })
+                .map(|whole| (whole, at))
+        });
+        let Some(vector) = of_axes.into_iter().find(|axes| axes.iter().all(|(whole, _)| has(whole))) else { continue };
+        for (whole, at) in &vector {
+            let Some(index) = names.iter().position(|name| name == whole) else { continue };
+            let after = whole[at + 1..].trim_matches(|c: char| !c.is_alphanumeric());
+            let before = if after.is_empty() { String::new() } else { format!("{after}_") };
+            renamed[index] = format!("{before}{}{}", &whole[..*at], whole[*at..=*at].to_lowercase());
+        }
+    }
+    let is_new = renamed.iter().zip(&names).any(|(new, old)| new != old);
+    let columns = renamed.into_iter().zip(columns).map(|(name, column)| (name, column.to_vec())).collect();
+    is_new.then(|| Table::new("ground forces", columns).ok()).flatten()
+}
+
+/// The loads of a table, in the order of their forces. A load needs a force, and a point or a moment; one whose names are a single letter
+/// with its number or side, such as `F1x`, needs a point.
 pub(super) fn load_columns(table: &Table) -> Vec<LoadColumns> {
     let stems = table.names().iter().skip(1).filter_map(|name| name.strip_suffix('x'));
     let is_vector = |stem: &&str| ["y", "z"].iter().all(|axis| table.column(&format!("{stem}{axis}")).is_some());
@@ -73,33 +126,43 @@ pub(super) fn load_columns(table: &Table) -> Vec<LoadColumns> {
         moment: other(Kind::Moment, key),
         key: key.clone(),
     });
-    loads.filter(|load| load.point.is_some() || load.moment.is_some()).collect()
+    loads.filter(|load| load.point.is_some() || load.moment.is_some() && !is_bare(&words(&load.force))).collect()
 }
 
 /// Kind and key of the columns `<stem>x`, `<stem>y`, `<stem>z`; `None` if they are no part of a load.
 fn meaning(stem: &str) -> Option<(Kind, String)> {
     let mut words = words(stem);
     let is_any = |words: &[String], of: &[&str]| words.iter().any(|word| of.contains(&word.as_str()));
-    if !is_any(&words, &COMMON_WORDS) {
+    let bare = is_bare(&words);
+    if !is_any(&words, &COMMON_WORDS) && !bare {
         return None;
     }
-    let by_letter = match words.last().map(String::as_str) {
-        Some("v" | "f") => Some(Kind::Force),
-        Some("p") => Some(Kind::Point),
-        Some("m" | "t") => Some(Kind::Moment),
+    let letter = |word: &String| match word.as_str() {
+        "v" | "f" => Some(Kind::Force),
+        "p" => Some(Kind::Point),
+        "m" | "t" => Some(Kind::Moment),
         _ => None,
     };
+    let place = if bare { words.iter().position(|word| letter(word).is_some()) } else { words.len().checked_sub(1) };
+    let by_letter = place.and_then(|place| Some((place, letter(words.get(place)?)?)));
     let kind = match by_letter {
-        Some(kind) => {
-            words.pop();
+        Some((place, kind)) => {
+            words.remove(place);
             kind
         }
-        None if is_any(&words, &["torque", "torques", "moment", "moments"]) => Kind::Moment,
-        None if is_any(&words, &["cop", "point"]) => Kind::Point,
+        None if is_any(&words, &MOMENT_WORDS) => Kind::Moment,
+        None if is_any(&words, &POINT_WORDS) => Kind::Point,
         None => Kind::Force,
     };
     words.retain(|word| !COMMON_WORDS.contains(&word.as_str()));
     Some((kind, words.join("_")))
+}
+
+/// Whether a name is a letter for its quantity, with nothing but a number or a side: `F1`, `r_P`.
+fn is_bare(words: &[String]) -> bool {
+    let is_letter = |word: &&String| ["f", "p", "m", "t"].contains(&word.as_str());
+    let is_key = |word: &String| word.parse::<u32>().is_ok() || side(word).is_some();
+    words.iter().filter(is_letter).count() == 1 && words.iter().all(|word| is_letter(&word) || is_key(word))
 }
 
 /// The words of a name in lower case: parts between other signs than letters and digits, between letters and digits, and in camel case.
@@ -126,5 +189,34 @@ fn side(key: &str) -> Option<Side> {
         (true, false) => Some(Side::Right),
         (false, true) => Some(Side::Left),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Key, side, force, point and moment of the loads in a table with these names, each for x, y and z at the place of `*`.
+    fn found(names: &[&str]) -> Vec<(String, Option<Side>, bool, bool)> {
+        let axes = names.iter().flat_map(|name| ["x", "y", "z"].map(|axis| name.replace('*', axis)));
+        let columns = std::iter::once("time".to_owned()).chain(axes).map(|name| (name, vec![0.0, 1.0])).collect();
+        let table = Table::new("loads", columns).unwrap();
+        let table = with_axis_last(&table).unwrap_or(table);
+        load_columns(&table).into_iter().map(|l| (l.key, l.side, l.point.is_some(), l.moment.is_some())).collect()
+    }
+
+    #[test]
+    fn the_side_or_number_of_a_load_may_follow_the_axis() {
+        let whole = |key: &str, side| (key.to_owned(), side, true, true);
+        let loads = found(&["ground_force_v*_r", "ground_force_p*_r", "ground_torque_*_r"]);
+        assert_eq!(loads, [whole("r", Some(Side::Right))]);
+        let loads = found(&["F*1", "P*1", "M*1", "F*2", "P*2", "M*2"]);
+        assert_eq!(loads, [whole("1", None), whole("2", None)]);
+        let loads = found(&["Force_L_*", "Center_of_Pressure_L_*", "Torque_L_*"]);
+        assert_eq!(loads, [whole("l", Some(Side::Left))]);
+        // Forces and moments of a plate about its own origin have no known place.
+        assert_eq!(found(&["F*1", "M*1"]), []);
+        // Columns of something else are no loads.
+        assert_eq!(found(&["pelvis_t*", "head_*"]), []);
     }
 }

@@ -1,7 +1,7 @@
 //! Ground forces as a table: which columns act on which body, and in which axes they are.
 
 use super::error::StudyError;
-use super::force_columns::{LoadColumns, load_columns};
+use super::force_columns::{LoadColumns, load_columns, with_axis_last};
 use super::source::ForceTable;
 use crate::findings::{Code, Findings, and_more_times};
 use crate::ground::{FootPaths, LoadedSpan};
@@ -37,8 +37,10 @@ impl Walker<'_> {
             self.report_other_feet(&forces, paths.as_ref(), findings);
             return Ok(forces);
         }
+        let renamed = with_axis_last(table);
+        let (stated, table) = (table, renamed.as_ref().unwrap_or(table));
         let columns = load_columns(table);
-        let unknown = || StudyError::ForceColumns { found: table.names().iter().map(ToString::to_string).collect() };
+        let unknown = || StudyError::ForceColumns { found: stated.names().iter().map(ToString::to_string).collect() };
         let feet = self.model.anatomy().feet().filter(|_| !columns.is_empty()).ok_or_else(unknown)?;
         let name = |body: BodyId| self.model.bodies()[body.index()].name.as_str();
         let of = |load: &LoadColumns| load.on_body(name(feet[load.side.unwrap_or(Side::Right)]));
@@ -148,7 +150,8 @@ fn divided(
     spans: &[LoadedSpan],
     findings: &mut Findings,
 ) -> Vec<(Side, ForceRecording)> {
-    for LoadedSpan { span: [from, to], distance_m: BySide { right, left } } in
+    report_other_heights(load, spans, findings);
+    for LoadedSpan { span: [from, to], distance_m: BySide { right, left }, .. } in
         spans.iter().filter(|s| s.side().is_none())
     {
         let message = format!(
@@ -173,6 +176,19 @@ fn divided(
         whose.contains(&Some(side)).then_some((side, own))
     };
     Side::BOTH.into_iter().filter_map(of_side).collect()
+}
+
+/// Reports loads that lie under a foot at another height than theirs.
+fn report_other_heights(load: &LoadColumns, spans: &[LoadedSpan], findings: &mut Findings) {
+    let found: Vec<(&LoadedSpan, (Side, f64))> =
+        spans.iter().filter_map(|span| Some((span, span.at_another_height()?))).collect();
+    let Some((LoadedSpan { span: [from, to], .. }, (side, off_m))) = found.first() else { return };
+    let message = format!(
+        "`{}...`, {from:.3}-{to:.3} s: the sole of the {side} foot is {off_m:.2} m above or below its centre of pressure{}; the load acts on this foot. hint: check that forces and motion have the same origin",
+        load.prefix,
+        and_more_times(found.len())
+    );
+    findings.report(Code::LoadsOtherHeight, message);
 }
 
 /// Brings forces of a table to the axes of the world: from those of the markers, or not at all where they are upright as they are.
