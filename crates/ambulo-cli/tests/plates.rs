@@ -78,6 +78,43 @@ fn the_user_can_assign_a_foot_to_a_plate() {
     assert!(run.stderr.contains("--plate 12") && run.stderr.contains("9 force plates"), "{}", run.stderr);
 }
 
+#[test]
+fn a_body_that_hovers_above_the_forces_of_a_table_keeps_them_and_is_infeasible() {
+    let bench = Workbench::new("hovering");
+    bench.write(
+        "table.mot",
+        bench
+            .text("walk_grf.mot")
+            .replace("ground_force_r_", "ground_force_1_")
+            .replace("ground_torque_r_", "ground_torque_1_")
+            .replace("ground_force_l_", "ground_force_2_")
+            .replace("ground_torque_l_", "ground_torque_2_"),
+    );
+    let on_the_ground = bench.text("walk.mot");
+    let judged = |lifted_m: f64| {
+        let (head, rows) = on_the_ground.split_once("endheader\n").unwrap();
+        let mut rows = rows.lines();
+        let names: Vec<&str> = rows.next().unwrap().split('\t').collect();
+        let vertical = names.iter().position(|name| *name == "pelvis_ty").unwrap();
+        let lift = |row: &str| {
+            let mut cells: Vec<String> = row.split('\t').map(str::to_owned).collect();
+            cells[vertical] = (cells[vertical].trim().parse::<f64>().unwrap() + lifted_m).to_string();
+            cells.join("\t")
+        };
+        let rows: Vec<String> = rows.map(lift).collect();
+        bench.write("lifted.mot", format!("{head}endheader\n{}\n{}\n", names.join("\t"), rows.join("\n")));
+        let args = ["forces", "lifted.mot", "--model", "figure.osim", "--grf", "table.mot", "--verbose"];
+        let run = bench.run(&args).done();
+        let summary: Value = serde_json::from_slice(&bench.read("out/summary.json")).unwrap();
+        (
+            summary["verdict"]["state"].as_str().unwrap().to_owned(),
+            run.stderr.contains("above or below its centre of pressure"),
+        )
+    };
+    assert_eq!(judged(0.0), ("feasible".to_owned(), false));
+    assert_eq!(judged(0.3), ("infeasible".to_owned(), true));
+}
+
 /// The arguments of a run without filters on a table of forces, without statements about its columns.
 const ON_TABLE: [&str; 13] = [
     "forces",

@@ -129,6 +129,28 @@ fn a_man_who_stands_stands() {
     assert_kind(|t| [[0.0, 0.9 + 0.003 * (TAU * 0.3 * t).sin()], [0.0; 2], [0.0; 2]], 3.0, ActivityKind::Stand);
 }
 
+#[test]
+fn a_part_of_a_stride_is_a_walk_and_its_speed_tells_it_from_standing_and_running() {
+    // Half a second of single support: one foot on the ground, the other swings past it.
+    let gliding = |speed: f64| {
+        let human = man();
+        let trajectory = moving_on_soles(
+            &human,
+            |t| {
+                let place = speed * (t - 0.25);
+                ([[place, 0.88], [0.0, 0.0], [2.0 * place, 0.06]], [0.0; 2])
+            },
+            0.5,
+        );
+        let soles = BySide::from_fn(|side| human.sole(side));
+        let falls = footfalls(&human.model, &trajectory, &soles, &mut Findings::default());
+        activity(&human.model, &trajectory, &soles, human.dimensions.leg_length, &falls).kind
+    };
+    assert_eq!(gliding(1.2), ActivityKind::Walk);
+    assert_eq!(gliding(0.1), ActivityKind::Stand);
+    assert_eq!(gliding(3.0), ActivityKind::Run);
+}
+
 fn squat(t: f64) -> [[f64; 2]; 3] {
     let low = 0.5 - 0.5 * (TAU * 0.4 * t).cos();
     [[-0.05 - 0.05 * low, 0.9 - 0.25 * low], [-0.1, 0.0], [-0.1, 0.0]]

@@ -174,7 +174,7 @@ fn judging_an_instant_allocates_nothing() {
         feet: BySide { right: Some(foot), left: Some(foot) },
         residual: Wrench::ZERO,
         ground_velocity: Vec3::zeros(),
-        ground_height: -0.9,
+        ground_height: BySide { right: -0.9, left: -0.9 },
         walking: true,
     };
     let mut measured = 0;

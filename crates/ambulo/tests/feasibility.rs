@@ -150,7 +150,7 @@ impl Standing {
             feet: self.feet,
             residual: self.residual,
             ground_velocity: self.ground_velocity,
-            ground_height: 0.0,
+            ground_height: BySide { right: 0.0, left: 0.0 },
             walking: self.walking,
         };
         let mut list = Vec::new();

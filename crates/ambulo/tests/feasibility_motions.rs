@@ -2,6 +2,7 @@
 //!
 //! Recordings are looked for as tests/opensim_parity.rs does; without them their tests report `skipped` and pass.
 
+use crate::activity::{moving, stepping};
 use crate::common::assert_near;
 use crate::feasibility::{GRAVITY, man};
 use crate::shared_data::data;
@@ -19,7 +20,7 @@ use ambulo::model::{Model, Side, from_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window, coordinates_from_table, force_recordings};
 use ambulo::spatial::Vec3;
-use ambulo::study::{self, LaboratoryFile, MarkerBody, MarkerSource, Settings, Source};
+use ambulo::study::{self, ForceFilter, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Settings, Source};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
@@ -55,6 +56,7 @@ fn measured<'a>(
         device: None,
         predicted: None,
         partly_measured: &[],
+        stances: None,
         activity,
         cutoff_hz: None,
         forces_are_predicted: false,
@@ -258,6 +260,7 @@ fn frames_without_measured_forces_are_judged_on_predicted_ones() {
             device: None,
             predicted,
             partly_measured: &[],
+            stances: None,
             activity: ActivityKind::Stand,
             cutoff_hz: None,
             forces_are_predicted: false,
@@ -606,4 +609,56 @@ fn the_same_walk_at_twice_the_pace_is_infeasible() {
         println!("{name}: {:?}", checks(&found));
         assert_eq!(found.state, VerdictState::Infeasible, "{name}");
     }
+}
+
+// ---- stairs ----
+
+/// The coordinates of a man who climbs steps of 0.17 m, on the frames of his motion, all lifted by a height [m].
+fn climbing(human: &Human, lifted_m: f64) -> Motion {
+    let trajectory = moving(human, |t| stepping(t, 1.4, 0.65, [0.6, 0.34], 0.8), 5.0);
+    let vertical = human.model.coordinate("pelvis_ty").unwrap();
+    let lift = |id| if id == vertical { lifted_m } else { 0.0 };
+    let column = |id| trajectory.values(id).iter().map(|value| value + lift(id)).collect();
+    let columns = human.model.coordinate_ids().map(|id| Some(column(id))).collect();
+    Motion { origin: "climbs".to_owned(), times: trajectory.grid().times(), columns }
+}
+
+/// The forces of an outcome on both feet between two times, as plates under these steps measure them; elsewhere there are no plates.
+fn loads_between(outcome: &study::Outcome, [from, to]: [f64; 2]) -> Vec<ForceRecording> {
+    let times = outcome.analysis.trajectory.grid().times();
+    let on_plates = |values: &[Vec3]| -> Vec<Vec3> {
+        let inside = |(value, t): (&Vec3, &f64)| if (from..=to).contains(t) { *value } else { Vec3::zeros() };
+        values.iter().zip(&times).map(inside).collect()
+    };
+    let load = |foot: &BodyForces| ForceRecording {
+        name: "plate".to_owned(),
+        body: foot.body,
+        force_frame: None,
+        point_frame: None,
+        times: times.clone(),
+        force: on_plates(&foot.force),
+        point: vec![Vec3::zeros(); times.len()],
+        moment: on_plates(&foot.moment),
+    };
+    outcome.analysis.ground.bodies.iter().map(load).collect()
+}
+
+#[test]
+fn a_foot_on_a_step_without_a_plate_is_on_unmeasured_ground_and_a_body_that_hovers_is_not() {
+    let human = man();
+    let settings = Settings { force_filter: ForceFilter::Off, ..Settings::default() };
+    let run = |source: &Source| study::run(source, &settings, &mut Findings::default()).unwrap();
+    let whole = run(&Source::coordinates(human.model.clone(), climbing(&human, 0.0)));
+    assert_eq!(whole.activity.kind, ActivityKind::StairsUp, "{:?}", whole.activity);
+    // Plates under the steps in the middle only: the others are higher and lower than these.
+    let loads = loads_between(&whole, [1.7, 3.3]);
+    let verdict = |lifted_m: f64| {
+        let source = Source::coordinates(human.model.clone(), climbing(&human, lifted_m));
+        run(&source.with_forces(MeasuredForces::OnBodies(loads.clone()))).verdict
+    };
+    let on_stairs = verdict(0.0);
+    assert!(on_stairs.frames_predicted > 100, "{}", on_stairs.frames_predicted);
+    assert_ne!(on_stairs.state, VerdictState::Infeasible, "{:?}", on_stairs.reasons);
+    let hovers = verdict(0.3);
+    assert_eq!(hovers.state, VerdictState::Infeasible, "{:?}", hovers.undecided);
 }

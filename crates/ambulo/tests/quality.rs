@@ -28,7 +28,7 @@ const fn spoiled(what: &'static str, measure: Measure, spoil: fn(&mut Source, &m
     Spoiled { what, measure, spoil }
 }
 
-const SPOILED: [Spoiled; 9] = [
+const SPOILED: [Spoiled; 11] = [
     spoiled("a body of 85 % of the mass", Measure::Mass, |source, _| {
         let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
         let MarkerBody::BuiltIn { mass_kg: Some(mass_kg), .. } = &mut markers.body else { panic!("no stated mass") };
@@ -37,6 +37,8 @@ const SPOILED: [Spoiled; 9] = [
     }),
     spoiled("plates at 0.6 of the force", Measure::ResidualForce, |source, _| scale_plates(source, 0.6)),
     spoiled("plates at 1.4 times the force", Measure::ResidualForce, |source, _| scale_plates(source, 1.4)),
+    spoiled("plates that were off", Measure::SilentPlates, |source, _| scale_plates(source, 0.0)),
+    spoiled("plates with the signals of each other", Measure::UnassignedForces, |source, _| exchange_plates(source)),
     spoiled("a walk on another scale than the standing trial", Measure::MarkerFit, |source, _| {
         each_marker(source, |_, position| *position *= 1.1);
     }),
@@ -71,6 +73,23 @@ fn scale_plates(source: &mut Source, factor: f64) {
 fn each_plate(source: &mut Source, change: impl Fn(&mut PlateRecording)) {
     let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
     markers.trial.recording.plates.iter_mut().for_each(change);
+}
+
+/// The plates keep their places and record what the other one measured.
+fn exchange_plates(source: &mut Source) {
+    let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
+    let [first, second] = &mut markers.trial.recording.plates[..] else { panic!("not two plates") };
+    let apart = second.center() - first.center();
+    for (corner, other) in first.corners.iter_mut().zip(&mut second.corners) {
+        (*corner, *other) = (*other, *corner);
+    }
+    let moved = |plate: &mut PlateRecording, by: Vec3| {
+        for (moment, force) in plate.moment.iter_mut().zip(&plate.force) {
+            *moment += by.cross(force);
+        }
+    };
+    moved(first, apart);
+    moved(second, -apart);
 }
 
 /// Moves every marker of the walk, as a function of time [s] and its position in the laboratory.
@@ -167,6 +186,32 @@ fn forces_of_a_treadmill_that_are_late_are_outside_the_soles_and_the_quality_say
     };
     assert_eq!(found(0.0), None);
     assert!(found(0.1).is_some_and(|outside_m| outside_m > 0.03));
+}
+
+#[test]
+fn errors_of_the_data_are_not_held_against_the_movement_and_nothing_is_called_feasible_on_them() {
+    let Some(data) = data() else { return };
+    let cases: [(&str, fn(&mut Source)); 5] = [
+        ("0.6 of the force", |source| scale_plates(source, 0.6)),
+        ("1.4 of the force", |source| scale_plates(source, 1.4)),
+        ("off", |source| scale_plates(source, 0.0)),
+        ("exchanged", exchange_plates),
+        ("markers of another scale", |source| each_marker(source, |_, position| *position *= 1.3)),
+    ];
+    for person in &PEOPLE[..3] {
+        for (what, spoil) in cases {
+            let mut source = person.source(&data);
+            spoil(&mut source);
+            let verdict = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap().verdict;
+            println!("{} {what}: {:?} {:?}", person.name, verdict.state, verdict.undecided);
+            assert_eq!(verdict.state, VerdictState::NotJudged, "{} {what}: {:?}", person.name, verdict.reasons);
+        }
+        // What the forces of the right size do not cause is the movement's fault.
+        let mut source = person.source(&data);
+        each_marker(&mut source, |_, position| position.z += 0.1);
+        let verdict = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap().verdict;
+        assert_eq!(verdict.state, VerdictState::Infeasible, "{} above its plates", person.name);
+    }
 }
 
 #[test]

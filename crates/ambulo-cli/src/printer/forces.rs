@@ -73,9 +73,12 @@ fn outline(summary: &Summary) -> Result<()> {
         let quantity = summary.times_and_distances.quantities.iter().find(|quantity| quantity.quantity == name)?;
         Some(quantity.both.as_ref()?.mean)
     };
+    // The straight line between the ends of a curved path says little about the walk.
+    let along_path = summary.times_and_distances.path_speed_m_s.map(|speed| format!("{speed:.2} m/s along the path"));
+    let speed = along_path.or(summary.speed_m_s.map(|speed| format!("{speed:.2} m/s")));
     let walk = [
         summary.activity.map(|activity| activity.words()),
-        summary.speed_m_s.map(|speed| format!("{speed:.2} m/s")),
+        speed,
         mean("cadence").map(|cadence| format!("{cadence:.0} steps/min")),
         mean("step_length").map(|length| format!("steps of {length:.2} m")),
     ];

@@ -287,6 +287,9 @@ codes! {
     PlatesTwoFeet "plates.two_feet" Warning
         "Two feet were on one plate at the same time; this load was assigned to neither foot."
         "State the foot of the plate, if all of the load belongs to one.";
+    PlatesSilent "plates.silent" Warning
+        "A force plate, or a whole force table, shows no load although feet stood on the ground there."
+        "Check that the plate was switched on and that the forces are those of this trial; or switch the plate off.";
     PlatesUnassigned "plates.unassigned" Warning
         "The load of a plate could not be assigned to a foot."
         "State the foot of the plate.";

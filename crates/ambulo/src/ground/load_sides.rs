@@ -5,7 +5,7 @@
 //! above or below the centre of pressure carry the load, because forces act on somebody. The feet are the soles of the model.
 //! Pinned by: ambulo-cli/tests/plates.rs
 
-use super::measured::{center_of_pressure, surface_height};
+use super::measured::{Surface, center_of_pressure};
 use super::phases::contacts_from_force;
 use super::plates::{FARTHEST_M, VIBRATION};
 use crate::kinematics::{Trajectory, each_body_motion};
@@ -90,12 +90,12 @@ impl FootPaths {
     fn judged(&self, load: &ForceRecording, vertical: &[f64], span: [f64; 2], least_n: f64) -> Option<LoadedSpan> {
         let from = load.times.partition_point(|&t| t < span[0]);
         let to = load.times.partition_point(|&t| t <= span[1]);
-        let height = surface_height(load, self.up);
+        let surface = Surface::of(load, self.up);
         let mut sum = BySide { right: [0.0; 2], left: [0.0; 2] };
         let mut weight = 0.0;
         for i in (from..to).filter(|&i| vertical[i] > 0.0) {
             let moment = load.moment[i] + load.point[i].cross(&load.force[i]);
-            let (center, _) = center_of_pressure(load.force[i], moment, self.up, height);
+            let (center, _) = center_of_pressure(load.force[i], moment, self.up, surface.height(load.times[i]));
             let Some(distance) = self.distances(center, load.times[i]) else { continue };
             sum = BySide::from_fn(|side| [0, 1].map(|k| sum[side][k] + vertical[i] * distance[side][k]));
             weight += vertical[i];

@@ -17,6 +17,7 @@
 //! Source: force-plate statics; derived above.
 //! Pinned by: tests/ground_measured.rs, tests/opensim_parity.rs
 
+use super::phases::contacts_from_force;
 use crate::dynamics::LoadSeries;
 use crate::findings::{Code, Findings};
 use crate::kinematics::{Trajectory, each_body_motion};
@@ -24,6 +25,7 @@ use crate::model::{BodyId, Model, Side};
 use crate::motion::filter::{LowPass, low_pass};
 use crate::motion::gaps::rows_around;
 use crate::motion::{ForceRecording, MotionError, TimeGrid, Window, interpolate};
+use crate::numerics::median;
 use crate::spatial::{Pose, Vec3, Wrench};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -225,7 +227,8 @@ fn resampled(
     }
     let vector =
         |k: usize| (0..grid.frames).map(|i| Vec3::new(columns[k][i], columns[k + 1][i], columns[k + 2][i])).collect();
-    let surface_height = vec![surface_height(recording, up); grid.frames];
+    let surface = Surface::of(recording, up);
+    let surface_height = (0..grid.frames).map(|i| surface.height(grid.time(i))).collect();
     Ok(Series { body: recording.body, force: vector(0), moment: vector(3), surface_height })
 }
 
@@ -285,12 +288,37 @@ fn low_pass_all(recording: &ForceRecording, columns: &mut [Vec<f64>; 6], filter:
     Ok(())
 }
 
-/// Median height of the loaded points above the world's origin [m].
-pub(super) fn surface_height(recording: &ForceRecording, up: Vec3) -> f64 {
-    let loaded = recording.force.iter().zip(&recording.point).filter(|(f, _)| f.dot(&up) > CENTER_OF_PRESSURE_LOAD_N);
-    let mut heights: Vec<f64> = loaded.map(|(_, p)| p.dot(&up)).filter(|h| h.is_finite()).collect();
-    heights.sort_by(f64::total_cmp);
-    heights.get(heights.len() / 2).copied().unwrap_or(0.0)
+/// Height of the surface under a load, which changes from contact to contact if one load carries feet on several steps of stairs.
+pub(super) struct Surface {
+    /// Loaded times with their heights, in order of time.
+    contacts: Vec<([f64; 2], f64)>,
+}
+
+impl Surface {
+    pub(super) fn of(recording: &ForceRecording, up: Vec3) -> Surface {
+        let ForceRecording { times, force, point, .. } = recording;
+        let vertical: Vec<f64> = force.iter().map(|force| force.dot(&up)).collect();
+        let height_over = |[from, to]: [f64; 2]| {
+            let samples = times.partition_point(|t| *t < from)..times.partition_point(|t| *t <= to);
+            let loaded = samples.filter(|i| vertical[*i] > CENTER_OF_PRESSURE_LOAD_N);
+            median(loaded.map(|i| point[i].dot(&up)))
+        };
+        let ends = [times.first(), times.last()].map(|t| t.copied().unwrap_or(0.0));
+        let spans = contacts_from_force(times, &vertical).into_iter().map(|contact| contact.span(ends[0], ends[1]));
+        let contacts: Vec<_> = spans.filter_map(|span| Some((span, height_over(span)?))).collect();
+        match contacts.is_empty() {
+            true => Surface { contacts: height_over(ends).map(|height| (ends, height)).into_iter().collect() },
+            false => Surface { contacts },
+        }
+    }
+
+    /// Height above the world's origin at the contact that is nearest in time [m].
+    pub(super) fn height(&self, t: f64) -> f64 {
+        let next = self.contacts.partition_point(|([_, to], _)| *to < t);
+        let around = [next.checked_sub(1), Some(next)].into_iter().flatten().filter_map(|i| self.contacts.get(i));
+        let apart = |([from, to], _): &&([f64; 2], f64)| (from - t).max(t - to).max(0.0);
+        around.min_by(|a, b| apart(a).total_cmp(&apart(b))).map_or(0.0, |(_, height)| *height)
+    }
 }
 
 /// Force, moment about the origin and surface height of one sensor, one entry per frame each.

@@ -13,6 +13,16 @@ use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 
+/// Loads on the feet, and how much of the measured load was left out.
+#[derive(Default)]
+pub(super) struct TableForces {
+    pub(super) forces: Vec<ForceRecording>,
+    /// Loaded times without a foot [s].
+    pub(super) unassigned: Vec<[f64; 2]>,
+    /// How long loads carried something, all together [s].
+    pub(super) loaded_s: f64,
+}
+
 /// The body on whose feet the forces act, in its motion.
 pub(super) struct Walker<'a> {
     pub(super) model: &'a Model,
@@ -30,12 +40,12 @@ impl Walker<'_> {
         &self,
         ForceTable { table, loads }: &ForceTable,
         findings: &mut Findings,
-    ) -> Result<Vec<ForceRecording>, StudyError> {
+    ) -> Result<TableForces, StudyError> {
         let paths = self.foot_paths();
         if let Some(stated) = loads {
             let forces = self.read(stated, table, findings)?;
             self.report_other_feet(&forces, paths.as_ref(), findings);
-            return Ok(forces);
+            return Ok(TableForces { forces, ..TableForces::default() });
         }
         let renamed = with_axis_last(table);
         let (stated, table) = (table, renamed.as_ref().unwrap_or(table));
@@ -47,9 +57,9 @@ impl Walker<'_> {
         let recognised =
             ExternalLoads { name: "feet".into(), datafile: None, forces: columns.iter().map(of).collect() };
         let forces = self.read(&recognised, table, findings)?;
-        let forces = self.on_feet(forces, &columns, paths.as_ref(), findings).ok_or_else(unknown)?;
-        self.report_other_feet(&forces, paths.as_ref(), findings);
-        Ok(forces)
+        let found = self.on_feet(forces, &columns, paths.as_ref(), findings).ok_or_else(unknown)?;
+        self.report_other_feet(&found.forces, paths.as_ref(), findings);
+        Ok(found)
     }
 
     fn read(
@@ -72,25 +82,29 @@ impl Walker<'_> {
         columns: &[LoadColumns],
         paths: Option<&FootPaths>,
         findings: &mut Findings,
-    ) -> Option<Vec<ForceRecording>> {
+    ) -> Option<TableForces> {
         let feet = self.model.anatomy().feet()?;
         let spans = match paths {
             Some(paths) => paths.spans(&forces),
             None => vec![Vec::new(); forces.len()],
         };
         let is_shown = spans.iter().any(|spans| !spans.is_empty());
-        let (mut out, mut taken) = (Vec::new(), Vec::new());
+        let (mut out, mut taken) = (TableForces::default(), Vec::new());
         for ((force, load), spans) in forces.into_iter().zip(columns).zip(&spans) {
             let by_name = load.side.or_else(|| usual_side(load, columns).filter(|_| !is_shown));
             let parts = match by_name {
                 Some(side) => vec![(side, force)],
                 None if !is_shown => return None,
-                None => divided(&force, load, spans, findings),
+                None => {
+                    out.loaded_s += spans.iter().map(|s| s.span[1] - s.span[0]).sum::<f64>();
+                    out.unassigned.extend(spans.iter().filter(|s| s.side().is_none()).map(|s| s.span));
+                    divided(&force, load, spans, findings)
+                }
             };
             for (side, force) in parts {
                 let how = if by_name.is_some() { "" } else { " by the centre of pressure" };
                 taken.push(format!("`{}...` on {}{how}", load.prefix, self.model.bodies()[feet[side].index()].name));
-                out.push(ForceRecording { body: feet[side], ..force });
+                out.forces.push(ForceRecording { body: feet[side], ..force });
             }
         }
         findings.report(Code::LoadsGuessed, format!("taken as ground forces: {}", taken.join(", ")));

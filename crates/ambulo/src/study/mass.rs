@@ -15,6 +15,8 @@ use serde::{Deserialize, Serialize};
 
 /// Masses that differ by less, as a share, are one person's: clothes and shoes, a scale at home, a plate's calibration.
 const SAME_PERSON: f64 = 0.05;
+/// The mass of a body that was made with a mass differs from it by roundings only, as a share.
+const SAME_MASS: f64 = 1e-6;
 /// Masses differ if their difference is more than this many standard errors.
 const STANDARD_ERRORS: f64 = 2.0;
 /// Standard error of a stated mass, as a share: twice it is [`SAME_PERSON`].
@@ -33,7 +35,7 @@ pub struct BodyMass {
     pub state: MassState,
     /// The mass that forces are computed with [kg].
     pub kg: f64,
-    /// Where this mass comes from.
+    /// Where this mass comes from: the source that gave exactly this mass, otherwise the model.
     pub source: MassWitness,
     /// Where the mass comes from that results are normalised by; it can differ from `kg` by up to 5 %.
     pub normalised_by: MassSource,
@@ -219,7 +221,7 @@ impl BodyMass {
     /// From all sources; `model_kg` is the mass that the forces are computed with.
     pub(super) fn of(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>) -> BodyMass {
         let moving = combined(&motion);
-        let chosen = known.decided(&motion).filter(|chosen| (chosen.kg / model_kg - 1.0).abs() < SAME_PERSON);
+        let chosen = known.decided(&motion).filter(|chosen| (chosen.kg / model_kg - 1.0).abs() < SAME_MASS);
         let source = chosen.map_or(MassWitness::Model, |chosen| chosen.by);
         let used = MassEstimate { by: source, kg: model_kg, error_kg: 0.0, times: 1, time_s: None };
         let plates = on_plates(known, moving, &used);
@@ -252,6 +254,17 @@ impl BodyMass {
         combined(&motion)
     }
 
+    /// What the force plates say.
+    pub(super) fn on_plates(&self) -> Option<MassEstimate> {
+        let (kg, error_kg) = (self.plates_kg?, self.plates_error_kg?);
+        Some(MassEstimate { by: self.source, kg, error_kg, times: 1, time_s: None })
+    }
+
+    /// Difference of the used mass from a weighing, less the standard error, as a share.
+    pub(super) fn disagreement(&self, weighing: &MassEstimate) -> f64 {
+        ((weighing.kg - self.kg).abs() - weighing.error_kg) / self.kg
+    }
+
     /// The estimate of one source.
     #[must_use]
     pub fn by(&self, source: MassWitness) -> Option<&MassEstimate> {
@@ -267,13 +280,21 @@ impl BodyMass {
             return;
         }
         let found: Vec<String> = others.iter().map(MassEstimate::in_words).collect();
-        let why = match (self.state, others.iter().all(|other| other.kg < self.kg)) {
-            (MassState::Contradicted, false) => "the body is not this person's: every force is wrong in proportion",
-            (MassState::Contradicted, true) => {
+        let is_confirmed = self.by(MassWitness::Standing).is_some_and(|standing| standing.agrees(&used));
+        let why = match (self.state, is_confirmed, others.iter().all(|other| other.kg < self.kg)) {
+            (_, true, true) => {
+                "the standing trial confirms the mass, so a part of the weight was next to the plates, or they measure too little"
+            }
+            (_, true, false) => {
+                "the standing trial confirms the mass, so the plates carried something else, or they measure too much"
+            }
+            (MassState::Contradicted, false, true) => {
                 "either the body is not this person's, or a part of the weight was next to the plates"
             }
-            (_, true) => "the other weighing confirms it, so a part of the weight was next to the plates",
-            (_, false) => "the other sources confirm it",
+            (MassState::Contradicted, false, false) => {
+                "the body is not this person's: every force is wrong in proportion"
+            }
+            (_, false, _) => "the other sources confirm it",
         };
         let message = format!(
             "forces are computed with {:.1} kg ({}), but the ground forces carry {}: {why}",
@@ -297,17 +318,16 @@ fn combined(estimates: &[MassEstimate]) -> Option<MassEstimate> {
     Some(MassEstimate { kg, error_kg: birge * best.error_kg, ..best.clone() })
 }
 
-/// Mass by the plates. Where standing and motion disagree, the one that agrees with the used mass is believed, otherwise the heavier:
-/// a load next to the plates makes a person lighter.
+/// Mass by the plates. Where standing and motion disagree, the motion counts, since its forces are those that moments are computed from; where
+/// neither agrees with the used mass, the heavier: a load next to the plates makes a person lighter.
 fn on_plates(known: &KnownMass, moving: Option<MassEstimate>, used: &MassEstimate) -> Option<MassEstimate> {
     match (known.standing.clone(), moving) {
         (Some(standing), Some(moving)) if standing.agrees(&moving) => {
             Some(if moving.error_kg < standing.error_kg { moving } else { standing })
         }
         (Some(standing), Some(moving)) => {
-            let heavier = if standing.kg > moving.kg { &standing } else { &moving };
-            let confirmed = [&standing, &moving].into_iter().find(|one| one.agrees(used));
-            Some(confirmed.unwrap_or(heavier).clone())
+            let is_known = standing.agrees(used) || moving.agrees(used);
+            Some(if is_known || moving.kg > standing.kg { moving } else { standing })
         }
         (one, None) | (None, one) => one,
     }
@@ -434,11 +454,14 @@ mod tests {
             (MassState::Contradicted, MassWitness::Model, Some(70.0))
         );
         let beside = BodyMass::of(70.0, &known(Some(70.0), Some(70.3)), moving(42.0));
-        assert_eq!((beside.state, beside.plates_kg), (MassState::Weighed, Some(70.3)));
+        assert_eq!((beside.state, beside.plates_kg), (MassState::Contradicted, Some(42.0)), "not by these plates");
         let mut findings = Findings::default();
         beside.report(&mut findings);
         let said = &findings.as_slice()[0].message;
         assert!(said.contains("42.0 kg") && said.contains("next to the plates"), "{said}");
+        // The source is the model where the body has another mass than the plates, even if it could be this person's.
+        let own = BodyMass::of(68.0, &KnownMass::default(), moving(70.0));
+        assert_eq!((own.state, own.source), (MassState::Weighed, MassWitness::Model));
         let unknown = BodyMass::of(70.0, &KnownMass::default(), Vec::new());
         assert_eq!(unknown.state, MassState::Unknown);
         assert_eq!(BodyMass::of(70.0, &known(Some(70.0), None), Vec::new()).state, MassState::Stated);

@@ -19,6 +19,7 @@ mod events;
 mod force_columns;
 mod force_filter;
 mod force_table;
+mod idle_forces;
 mod laboratory_file;
 mod mass;
 mod observation;

@@ -1,7 +1,8 @@
 //! From a source to a body whose coordinates are known over time, with the measured forces under its feet.
 
 use super::error::StudyError;
-use super::force_table::Walker;
+use super::force_table::{TableForces, Walker};
+use super::idle_forces::{IdleForces, is_loaded};
 use super::laboratory_file::LaboratoryFile;
 use super::mass::{KnownMass, MassEstimate, report_decided};
 use super::outcome::Tracking;
@@ -31,6 +32,8 @@ pub(super) struct Observation<'s> {
     pub(super) person: Person,
     pub(super) motion: ObservedMotion<'s>,
     pub(super) forces: Vec<ForceRecording>,
+    /// Measured forces that do not carry the person.
+    pub(super) idle: IdleForces,
     pub(super) origin: Origin,
     /// Estimates of the body mass that do not need the motion.
     pub(super) known_mass: KnownMass,
@@ -141,6 +144,7 @@ impl Source {
                 person: made.person.clone(),
                 motion: ObservedMotion::Complete(&made.trajectory),
                 forces: made.loads.clone(),
+                idle: IdleForces::default(),
                 origin: Origin::Simulation { rule: made.rule },
                 known_mass: KnownMass::stated(Some(made.model.mass())),
             }),
@@ -160,14 +164,14 @@ impl Source {
         let model = self.loaded(&self.stated.applied(model, findings)?)?;
         let of_model = Person::of_model(&model);
         let person = Person { estimated: self.stated.height_m.is_none(), ..of_model };
-        let forces = match &self.forces {
-            _ if settings.ground == GroundSettings::NoContact => Vec::new(),
+        let (forces, idle) = match &self.forces {
+            _ if settings.ground == GroundSettings::NoContact => (Vec::new(), IdleForces::default()),
             MeasuredForces::InRecording => {
                 let message = "no ground forces were given; they are predicted from the motion";
                 findings.report(Code::GroundPredicted, message);
-                Vec::new()
+                (Vec::new(), IdleForces::default())
             }
-            MeasuredForces::OnBodies(forces) => forces.clone(),
+            MeasuredForces::OnBodies(forces) => (forces.clone(), IdleForces::default()),
             MeasuredForces::Table(table) => {
                 let walker = Walker {
                     model: &model,
@@ -176,7 +180,7 @@ impl Source {
                     window: settings.window,
                     world_from_lab: None,
                 };
-                walker.forces_of_table(table, findings)?
+                carrying(walker.forces_of_table(table, findings)?, findings)
             }
         };
         Ok(Observation {
@@ -184,6 +188,7 @@ impl Source {
             model,
             motion: ObservedMotion::Recorded(motion),
             forces,
+            idle,
             origin: Origin::Coordinates,
             known_mass: KnownMass::stated(self.stated.mass_kg),
         })
@@ -208,6 +213,7 @@ impl Source {
             model: self.loaded(&body.human.model)?,
             motion: ObservedMotion::Recorded(Cow::Owned(body.fit.motion.clone())),
             forces: Vec::new(),
+            idle: IdleForces::default(),
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
                 fit: Box::new(body.fit),
@@ -229,12 +235,17 @@ impl Source {
         if !matches!(markers.body, MarkerBody::Model { .. }) {
             body.subject.model = self.loaded(&body.subject.model)?;
         }
-        let forces = self.forces_under(&body, settings, findings)?;
+        let (forces, mut idle) = self.forces_under(&body, settings, findings)?;
+        if matches!(self.forces, MeasuredForces::InRecording) && settings.ground != GroundSettings::NoContact {
+            idle = IdleForces::of_plates(&body, markers);
+            idle.report(findings);
+        }
         Ok(Observation {
             model: body.subject.model.clone(),
             person: body.subject.person.clone(),
             motion: ObservedMotion::Recorded(Cow::Owned(body.fit.motion.clone())),
             forces,
+            idle,
             known_mass: known,
             origin: Origin::Markers(Box::new(Followed { body, listed: markers.trial.events.clone() })),
         })
@@ -246,10 +257,10 @@ impl Source {
         body: &BodyInMotion,
         settings: &Settings,
         findings: &mut Findings,
-    ) -> Result<Vec<ForceRecording>, StudyError> {
+    ) -> Result<(Vec<ForceRecording>, IdleForces), StudyError> {
         match &self.forces {
-            _ if settings.ground == GroundSettings::NoContact => Ok(Vec::new()),
-            MeasuredForces::OnBodies(forces) => Ok(forces.clone()),
+            _ if settings.ground == GroundSettings::NoContact => Ok((Vec::new(), IdleForces::default())),
+            MeasuredForces::OnBodies(forces) => Ok((forces.clone(), IdleForces::default())),
             MeasuredForces::Table(table) => {
                 let whole = body.longest_without_gap_s();
                 let walker = Walker {
@@ -259,9 +270,9 @@ impl Source {
                     window: whole.map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) }),
                     world_from_lab: Some(&body.laboratory.world_from_lab),
                 };
-                walker.forces_of_table(table, findings)
+                Ok(carrying(walker.forces_of_table(table, findings)?, findings))
             }
-            MeasuredForces::InRecording => Ok(plate_forces(body, findings)),
+            MeasuredForces::InRecording => Ok((plate_forces(body, findings), IdleForces::default())),
         }
     }
 
@@ -296,7 +307,7 @@ impl Source {
         let unheard = &mut Findings::default();
         let any_kg = known.stated.as_ref().map_or(ANY_MASS_KG, |stated| stated.kg);
         let body = self.follow(&markers.with_mass(any_kg), settings, unheard, &mut Progress::default())?;
-        let forces = self.forces_under(&body, settings, unheard)?;
+        let (forces, _) = self.forces_under(&body, settings, unheard)?;
         let model = &body.subject.model;
         let whole = body
             .longest_without_gap_s()
@@ -383,6 +394,14 @@ impl MarkerSource {
             measurements: BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name))),
         })
     }
+}
+
+/// The forces of a table, without those of one that never carries anything: they are then predicted.
+fn carrying(found: TableForces, findings: &mut Findings) -> (Vec<ForceRecording>, IdleForces) {
+    let idle = IdleForces::of_table(&found);
+    idle.report(findings);
+    let is_predicted = !found.forces.iter().any(is_loaded);
+    (if is_predicted { Vec::new() } else { found.forces }, idle)
 }
 
 /// The forces of the file's plates on the feet; a note where there are none.

@@ -8,8 +8,9 @@
 //! filtered apart. The other limits are chosen here, so that clean walks are inside and spoiled copies of them outside.
 //! Pinned by: tests/quality.rs
 
+use super::idle_forces::IdleForces;
+use super::mass::BodyMass;
 use super::outcome::{ForceOrigin, Tracking};
-use crate::analysis::PredictionChecks;
 use crate::analysis::feasibility::{Check, LARGE_RESIDUAL_BW, Reason, Verdict};
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
@@ -55,6 +56,10 @@ pub enum Measure {
     GroundForces,
     /// Share of the motion with measured ground forces.
     MeasuredForces,
+    /// Share of the measured load that lies under no foot.
+    UnassignedForces,
+    /// Share of the stances on force plates that show no load.
+    SilentPlates,
     /// Distance of markers or joints from the fitted body.
     MarkerFit,
     /// Distance of standing markers from the scaled model.
@@ -88,11 +93,13 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 14] = [
+    pub const ALL: [Measure; 16] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
         Measure::MeasuredForces,
+        Measure::UnassignedForces,
+        Measure::SilentPlates,
         Measure::MarkerFit,
         Measure::Scaling,
         Measure::ScaleFactors,
@@ -114,6 +121,8 @@ impl Measure {
             Measure::ResidualMoment => AtMost(0.6, 1.2),
             Measure::GroundForces => AtLeast(0.9, 0.5),
             Measure::MeasuredForces => AtLeast(0.1, 0.02),
+            Measure::UnassignedForces => AtMost(0.1, 0.5),
+            Measure::SilentPlates => AtMost(0.0, 0.9),
             Measure::MarkerFit => AtMost(0.02, 0.04),
             Measure::Scaling => AtMost(0.035, 0.06),
             Measure::ScaleFactors => AtMost(1.35, 1.7),
@@ -135,6 +144,8 @@ impl Measure {
             Measure::ResidualMoment => "residual_moment",
             Measure::GroundForces => "ground_forces",
             Measure::MeasuredForces => "measured_forces",
+            Measure::UnassignedForces => "unassigned_forces",
+            Measure::SilentPlates => "silent_plates",
             Measure::MarkerFit => "marker_fit",
             Measure::Scaling => "scaling",
             Measure::ScaleFactors => "scale_factors",
@@ -158,6 +169,8 @@ impl Measure {
             Measure::ResidualMoment => "residual moment about the root, rms over the same frames, per body mass",
             Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
+            Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
+            Measure::SilentPlates => "share of the stances on force plates that show no load",
             Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
@@ -188,12 +201,19 @@ impl Measure {
             Measure::LowCutoff => "Hz",
             Measure::GroundForces
             | Measure::MeasuredForces
+            | Measure::UnassignedForces
+            | Measure::SilentPlates
             | Measure::ScaleFactors
             | Measure::Mass
             | Measure::Gaps
             | Measure::Jumps
             | Measure::HighCutoff => "1",
         }
+    }
+
+    /// Whether a value is beyond the second limit.
+    pub(super) fn is_bad(self, value: f64) -> bool {
+        self.limits().judge(value).is_some_and(|(state, _)| state == QualityState::Bad)
     }
 
     /// A reason, if the value is beyond the limits. `message` gets the limit of good data.
@@ -280,8 +300,8 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) rate_hz: f64,
     pub(super) force_origin: ForceOrigin,
     pub(super) tracking: Option<&'a Tracking>,
-    /// Of predicted forces.
-    pub(super) checks: Option<&'a PredictionChecks>,
+    pub(super) mass: &'a BodyMass,
+    pub(super) idle: &'a IdleForces,
     pub(super) verdict: &'a Verdict,
 }
 
@@ -290,7 +310,8 @@ impl QualityEvidence<'_> {
         let of_forces = [self.residual_force(), self.residual_moment(), self.ground_forces(), self.measured_forces()];
         let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
         let of_motion = [self.gaps(), self.sliding(), self.center_of_pressure(), self.jumps(), self.cutoff()];
-        Quality::of(of_forces.into_iter().chain(of_body).chain(of_motion).flatten())
+        let of_plates = [self.unassigned_forces(), self.silent_plates()];
+        Quality::of(of_forces.into_iter().chain(of_plates).chain(of_body).chain(of_motion).flatten())
     }
 
     fn residual_force(&self) -> Option<QualityReason> {
@@ -334,17 +355,31 @@ impl QualityEvidence<'_> {
         })
     }
 
+    fn unassigned_forces(&self) -> Option<QualityReason> {
+        let (share, [from, to]) = self.idle.unassigned()?;
+        Measure::UnassignedForces.reason(share, |limit| {
+            format!(
+                "{} of the measured load lies under no foot, first from {from:.3} to {to:.3} s (at most {}): forces and motion may not belong together",
+                percent(share),
+                percent(limit)
+            )
+        })
+    }
+
+    fn silent_plates(&self) -> Option<QualityReason> {
+        let (share, first) = self.idle.silent()?;
+        Measure::SilentPlates.reason(share, |_| {
+            format!("no load was measured in {} of the stances on force plates, first {first}", percent(share))
+        })
+    }
+
     fn fit(&self) -> Option<&MarkerFit> {
-        match self.tracking? {
-            Tracking::Markers(tracked) => Some(&tracked.body.fit),
-            Tracking::Skeleton { fit, .. } => Some(fit),
-        }
+        self.tracking.map(fit_of)
     }
 
     fn marker_fit(&self) -> Option<QualityReason> {
         let fit = self.fit()?;
-        let squares: Vec<f64> = fit.rms_m.iter().filter(|rms| rms.is_finite()).map(|rms| rms * rms).collect();
-        let rms_m = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        let rms_m = marker_fit_rms_m(self.tracking?);
         Measure::MarkerFit.reason(rms_m, |limit| {
             let known = fit.errors.iter().filter(|error| error.rms_m.is_finite());
             let farthest = known.max_by(|a, b| a.rms_m.total_cmp(&b.rms_m));
@@ -390,17 +425,14 @@ impl QualityEvidence<'_> {
     }
 
     fn mass(&self) -> Option<QualityReason> {
-        let (ratio, error) = match self.force_origin {
-            ForceOrigin::Measured => self.verdict.fit.weighed.map(|weighed| (weighed.ratio, weighed.error))?,
-            _ => (self.checks?.contradicting_mass_ratio()?, 0.0),
-        };
-        Measure::Mass.reason((ratio - 1.0).abs() - error, |limit| {
-            let body_kg = self.model.mass();
+        let weighing = self.mass.on_plates()?;
+        Measure::Mass.reason(self.mass.disagreement(&weighing), |limit| {
             format!(
-                "force plates carry {:.1} kg, the body has {body_kg:.1} kg (at most {} apart, and {} for the error of weighing)",
-                ratio * body_kg,
+                "force plates carry {:.1} kg, the body has {:.1} kg (at most {} apart, and {:.1} kg for the error of weighing)",
+                weighing.kg,
+                self.mass.kg,
                 percent(limit),
-                percent(error)
+                weighing.error_kg
             )
         })
     }
@@ -479,6 +511,20 @@ impl QualityEvidence<'_> {
         };
         low.or_else(high)
     }
+}
+
+fn fit_of(tracking: &Tracking) -> &MarkerFit {
+    match tracking {
+        Tracking::Markers(tracked) => &tracked.body.fit,
+        Tracking::Skeleton { fit, .. } => fit,
+    }
+}
+
+/// Distance of markers or joints from the fitted body, rms over frames [m].
+pub(super) fn marker_fit_rms_m(tracking: &Tracking) -> f64 {
+    let known = fit_of(tracking).rms_m.iter().filter(|rms| rms.is_finite());
+    let squares: Vec<f64> = known.map(|rms| rms * rms).collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
 fn percent(share: f64) -> String {

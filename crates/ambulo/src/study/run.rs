@@ -1,15 +1,16 @@
 //! The road from a recording to forces.
 
 use super::error::StudyError;
+use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 use super::prediction::{Found, predicted, with_markers};
-use super::quality::QualityEvidence;
+use super::quality::{Measure, QualityEvidence, marker_fit_rms_m};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
-use crate::analysis::activity::{Activity, ActivityKind, activity};
-use crate::analysis::feasibility::{self, MotionAndForces, Person, PredictedForces, Verdict};
+use crate::analysis::activity::{ActivityKind, activity};
+use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
     self, Adjustable, Analysis, AnalysisError, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
     analyse_with_progress, reduce_residual, times_and_distances,
@@ -17,7 +18,7 @@ use crate::analysis::{
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::dynamics::{Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings};
-use crate::ground::footfalls::footfalls;
+use crate::ground::footfalls::{Footfalls, footfalls};
 use crate::ground::predict::predict;
 use crate::model::Model;
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
@@ -77,17 +78,20 @@ fn road(
     let processing = processing(&observation, settings, findings);
     let found = forces(&observation, processing, settings, findings, progress)?;
     let mass = body_mass(&observation, &found.analysis, findings);
-    let Observation { model, person, motion, origin, .. } = observation;
+    let Observation { model, person, motion, origin, idle, .. } = observation;
     let Found { analysis, prediction, measured_events } = found;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, reduction) = residual_reduced(&model, analysis, processing, settings, &force_origin, findings)?;
     let model = reduction.as_ref().map_or(model, |reduced| reduced.model.clone());
     progress.end(Stage::ResidualReduction)?;
     let device = device.map(|device| worn(&device, &analysis, findings));
-    let activity = recognised(&model, &person, &analysis, prediction.as_ref(), processing, findings);
+    report_missing_cycles(&analysis, findings);
+    let stances = stances(&model, &person, &analysis, prediction.as_ref(), processing);
+    let activity = activity(&model, &analysis.trajectory, &person.soles, person.leg_length_m, &stances);
     report_untested_prediction(activity.kind, &force_origin, findings);
     let judged = Judged {
         activity: activity.kind,
+        stances: &stances,
         cutoff_hz: processing.smoother.cutoff_hz(),
         model: &model,
         person: &person,
@@ -95,10 +99,12 @@ fn road(
         device: device.as_deref(),
         checks: prediction.as_ref().map(|found| &found.checks),
     };
-    let verdict = judged.verdict(settings, &force_origin, &origin.partly_measured(), findings);
+    let partly_measured = origin.partly_measured();
+    let tracking = tracking(origin, measured_events);
+    let mut verdict = judged.verdict(settings, &force_origin, &partly_measured, findings);
+    set_aside_what_data_explain(&mut verdict, tracking.as_ref(), &mass, &idle, &force_origin);
     progress.end(Stage::Feasibility)?;
     let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
-    let tracking = tracking(origin, measured_events);
     let evidence = QualityEvidence {
         model: &model,
         motion: motion.recorded(),
@@ -106,7 +112,8 @@ fn road(
         smoother: processing.smoother,
         force_origin,
         tracking: tracking.as_ref(),
-        checks: prediction.as_ref().map(|found| &found.checks),
+        mass: &mass,
+        idle: &idle,
         verdict: &verdict,
     };
     Ok(Outcome {
@@ -154,20 +161,44 @@ fn report_missing_cycles(analysis: &Analysis, findings: &mut Findings) {
     }
 }
 
-/// Recognises the activity from the stances in this motion, which are detected if they are not known; reports a recording without a whole gait cycle.
-fn recognised(
+/// The stances in this motion, which are detected if they are not known.
+fn stances<'p>(
     model: &Model,
     person: &Person,
     analysis: &Analysis,
-    prediction: Option<&PredictedGround>,
+    prediction: Option<&'p PredictedGround>,
     processing: analysis::AnalysisSettings,
-    findings: &mut Findings,
-) -> Activity {
-    report_missing_cycles(analysis, findings);
+) -> Cow<'p, Footfalls> {
     let known = prediction.and_then(|found| found.stances(analysis, processing));
     let detect = || footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
-    let footfalls = known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed);
-    activity(model, &analysis.trajectory, &person.soles, person.leg_length_m, &footfalls)
+    known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)
+}
+
+/// Drops reasons against the movement that errors of the data explain: a body that does not follow its markers, force plates that carry
+/// another weight than the body's, measured forces that belong to no foot. No movement changes the mean force on the ground from the weight.
+fn set_aside_what_data_explain(
+    verdict: &mut Verdict,
+    tracking: Option<&Tracking>,
+    mass: &BodyMass,
+    idle: &IdleForces,
+    force_origin: &ForceOrigin,
+) {
+    if let Some(rms_m) = tracking.map(marker_fit_rms_m).filter(|rms_m| Measure::MarkerFit.is_bad(*rms_m)) {
+        let why = format!("the motion is not known: the recorded points are {:.0} mm from the body (rms)", 1e3 * rms_m);
+        verdict.set_aside(|_| true, why);
+    }
+    let carried = mass.in_motion().filter(|_| *force_origin == ForceOrigin::Measured);
+    let of_weight = |check| matches!(check, Check::Support | Check::Acceleration | Check::Pull);
+    if let Some(carried) = carried.filter(|carried| Measure::Mass.is_bad(mass.disagreement(carried))) {
+        let why = format!(
+            "the force plates carry {:.1} kg, the body has {:.1} kg: body or plates are wrong, whatever the movement",
+            carried.kg, mass.kg
+        );
+        verdict.set_aside(of_weight, why);
+    }
+    if let Some(why) = idle.undecided() {
+        verdict.set_aside(|_| false, why);
+    }
 }
 
 /// Reports ground forces that are predicted for an activity without validation.
@@ -189,6 +220,7 @@ fn report_untested_prediction(activity: ActivityKind, force_origin: &ForceOrigin
 /// The motion, forces and limits that a verdict judges.
 struct Judged<'a> {
     activity: ActivityKind,
+    stances: &'a Footfalls,
     cutoff_hz: Option<f64>,
     model: &'a Model,
     person: &'a Person,
@@ -208,7 +240,7 @@ impl Judged<'_> {
         partly_measured: &[[f64; 2]],
         findings: &mut Findings,
     ) -> Verdict {
-        let Judged { activity, cutoff_hz, model, person, analysis, device, checks } = *self;
+        let Judged { activity, stances, cutoff_hz, model, person, analysis, device, checks } = *self;
         let Analysis { trajectory, forces, ground, .. } = analysis;
         let evidence = MotionAndForces {
             model,
@@ -218,6 +250,7 @@ impl Judged<'_> {
             device,
             predicted: None,
             partly_measured,
+            stances: Some(stances),
             activity,
             cutoff_hz,
             forces_are_predicted: matches!(force_origin, ForceOrigin::Predicted { .. }),

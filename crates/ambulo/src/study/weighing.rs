@@ -55,6 +55,8 @@ pub(super) struct Carried<'a> {
     windows: Vec<[f64; 2]>,
     /// Foot strikes and foot offs, from forces where there are some.
     events: Vec<Event>,
+    /// Those of the forces alone.
+    force_events: Vec<Event>,
     /// Stances that were measured from strike to off [s].
     stances: BySide<Vec<[f64; 2]>>,
     /// Times with a load on each foot [s].
@@ -100,6 +102,7 @@ impl<'a> Carried<'a> {
             velocity,
             windows: Vec::new(),
             events: Vec::new(),
+            force_events: Vec::new(),
             stances: whole,
             loaded,
         };
@@ -107,12 +110,13 @@ impl<'a> Carried<'a> {
             Some(body) => {
                 carried.windows = body.on_plates.windows.clone();
                 carried.stances = BySide::from_fn(|side| body.on_plates.measured_stances(side));
-                carried.events = with_events(body.measured_events(), &body.feet.events);
+                carried.force_events = body.measured_events();
+                carried.events = with_events(carried.force_events.clone(), &body.feet.events);
             }
             None => {
                 let falls = footfalls(model, trajectory, soles, &mut Findings::default());
-                let by_force = carried.loaded_events(&contacts);
-                carried.events = with_events(by_force, &falls.events());
+                carried.force_events = carried.loaded_events(&contacts);
+                carried.events = with_events(carried.force_events.clone(), &falls.events());
                 let seen = BySide::from_fn(|side| {
                     falls.of(side).map(|fall| fall.contact().span(recorded[0], recorded[1])).collect()
                 });
@@ -170,19 +174,12 @@ impl<'a> Carried<'a> {
         let mut spans = Vec::new();
         for side in Side::BOTH {
             for kind in [EventKind::Strike, EventKind::Off] {
-                let times: Vec<f64> = self.times_of(side, kind);
+                let times: Vec<f64> = times_of(&self.events, side, kind);
                 spans.extend(times.windows(2).map(|pair| [pair[0], pair[1]]));
             }
         }
         spans.retain(|span| self.inside_a_window(*span, windows));
         spans
-    }
-
-    fn times_of(&self, side: Side, kind: EventKind) -> Vec<f64> {
-        let mut times: Vec<f64> =
-            self.events.iter().filter(|e| e.side == side && e.kind == kind).map(|e| e.time_s).collect();
-        times.sort_by(f64::total_cmp);
-        times
     }
 
     fn inside_a_window(&self, span: [f64; 2], windows: &[[f64; 2]]) -> bool {
@@ -305,17 +302,28 @@ impl<'a> Carried<'a> {
         Some(MassEstimate { by: MassWitness::HalfStrides, kg, error_kg: share * kg, times, time_s: Some(ends) })
     }
 
-    /// Median time of a stride [s].
+    /// Median time of a stride [s]: of the forces, if they show one. Events of forces and motion together would give half strides where the
+    /// forces are on the wrong feet.
     fn stride_s(&self) -> Option<f64> {
-        let mut strides: Vec<f64> = Vec::new();
-        for side in Side::BOTH {
-            for kind in [EventKind::Strike, EventKind::Off] {
-                strides.extend(self.times_of(side, kind).windows(2).map(|pair| pair[1] - pair[0]));
-            }
-        }
-        strides.sort_by(f64::total_cmp);
-        strides.get(strides.len() / 2).copied()
+        median_stride_s(&self.force_events).or_else(|| median_stride_s(&self.events))
     }
+}
+
+fn times_of(events: &[Event], side: Side, kind: EventKind) -> Vec<f64> {
+    let mut times: Vec<f64> = events.iter().filter(|e| e.side == side && e.kind == kind).map(|e| e.time_s).collect();
+    times.sort_by(f64::total_cmp);
+    times
+}
+
+fn median_stride_s(events: &[Event]) -> Option<f64> {
+    let mut strides: Vec<f64> = Vec::new();
+    for side in Side::BOTH {
+        for kind in [EventKind::Strike, EventKind::Off] {
+            strides.extend(times_of(events, side, kind).windows(2).map(|pair| pair[1] - pair[0]));
+        }
+    }
+    strides.sort_by(f64::total_cmp);
+    strides.get(strides.len() / 2).copied()
 }
 
 fn contacts_of(model: &Model, forces: &[ForceRecording], up: Vec3, side: Side) -> Vec<Contact> {

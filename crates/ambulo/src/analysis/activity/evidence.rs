@@ -28,6 +28,8 @@ pub(super) struct Evidence {
     pub(super) steps: usize,
     /// Path of the pelvis over the floor [m].
     pub(super) path_m: f64,
+    /// Mean speed along this path [m/s].
+    pub(super) speed_m_s: f64,
     /// Median share of stance in a cycle.
     pub(super) duty_factor: Option<f64>,
     /// Longest flight [s].
@@ -74,9 +76,11 @@ impl Evidence {
         let flight = longest_flight(model, trajectory, footfalls, inner.start);
         let heights: Vec<f64> = instants.iter().map(|instant| instant.height).collect();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]))?;
+        let path_m = path(instants, grid);
         Some(Evidence {
             steps: footfalls.falls.iter().filter(|fall| fall.strike_s.is_some()).count(),
-            path_m: path(instants, grid),
+            path_m,
+            speed_m_s: path_m / ((instants.len() - 1) as f64 * grid.step_s),
             duty_factor: duty_factor(footfalls),
             flight_s: flight.map_or(0.0, |[from, to]| to - from),
             leaves_with_both_feet: flight.is_some_and(|span| together(footfalls, span)),

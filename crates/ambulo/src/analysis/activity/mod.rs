@@ -9,10 +9,10 @@
 //! | `run` | steps with duty factor below one half, so that the stances of the two feet do not overlap (Alexander 1989) |
 //! | `stairs_up`, `stairs_down` | steps that rise or fall by more than 0.08 m each, on average |
 //! | `turn` | steps while the pelvis turns by more than 45 degrees |
-//! | `walk` | steps that carry the body further than L/2 over the floor, or over the belt of a treadmill |
+//! | `walk` | steps that carry the body further than L/2 over the floor, or over the belt of a treadmill; in a recording of a part of a stride, a pelvis that travels faster than 0.15 √(g L) at an even height |
 //! | `sit_to_stand` | the pelvis rises or falls by a quarter of L, and at its lowest the mass centre is behind both feet: a seat carries it |
 //! | `squat` | the pelvis falls by a tenth of L while the knees bend by more than 30 degrees, with the mass centre over the feet |
-//! | `stand` | the pelvis stays within a tenth of L |
+//! | `stand` | the pelvis stays within a tenth of L in height, and does not travel |
 //! | `other` | everything else, and bodies without feet |
 //!
 //! Sources: Alexander, "Optimization and gaits in the locomotion of vertebrates", Physiol Rev 69:1199, 1989 (duty factor); ISO 21542 and
@@ -39,6 +39,11 @@ const LEAST_RISER_M: f64 = 0.08;
 const TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
 /// A person who walks moves further than this share of the leg length.
 const LEAST_PATH: f64 = 0.5;
+/// The pelvis of a person who walks travels faster than this share of √(g L), 0.45 m/s for an adult: the slowest group of Schwartz 2008 walks at
+/// 0.17.
+const LEAST_SPEED: f64 = 0.15;
+/// Above this share of √(g L) people run: Froude number one half (Alexander 1989).
+const RUNNING_SPEED: f64 = 0.7;
 /// The pelvis of a person who stands stays within this share of the leg length.
 const STANDING: f64 = 0.1;
 /// From the height of a seat the pelvis rises by at least this share of the leg length: the thigh is half of it and becomes vertical.
@@ -187,10 +192,15 @@ pub fn activity(
 
 fn kind(found: &Evidence, leg_m: f64, gravity: f64) -> ActivityKind {
     let flies = found.flight_s > LEAST_FLIGHT * (leg_m / gravity).sqrt();
-    let steps = found.steps >= 2 && found.path_m > LEAST_PATH * leg_m;
+    let lowers = found.pelvis_range_m > STANDING * leg_m;
+    let travels = found.speed_m_s > LEAST_SPEED * (leg_m * gravity).sqrt();
+    let part_of_a_stride = found.steps < 2 && travels && !lowers && !flies;
+    let steps = found.steps >= 2 && found.path_m > LEAST_PATH * leg_m || part_of_a_stride;
     if steps {
-        let runs =
-            found.duty_factor.map_or(flies, |share| (RUNNING_DUTY_FACTOR[0]..RUNNING_DUTY_FACTOR[1]).contains(&share));
+        let is_fast = found.speed_m_s > RUNNING_SPEED * (leg_m * gravity).sqrt();
+        let runs = found.duty_factor.map_or(flies || part_of_a_stride && is_fast, |share| {
+            (RUNNING_DUTY_FACTOR[0]..RUNNING_DUTY_FACTOR[1]).contains(&share)
+        });
         return match found {
             _ if flies && found.leaves_with_both_feet => ActivityKind::Jump,
             _ if runs => ActivityKind::Run,
@@ -200,7 +210,6 @@ fn kind(found: &Evidence, leg_m: f64, gravity: f64) -> ActivityKind {
             _ => ActivityKind::Walk,
         };
     }
-    let lowers = found.pelvis_range_m > STANDING * leg_m;
     match found {
         _ if flies => ActivityKind::Jump,
         _ if found.steps >= 2 && found.turn_rad > TURN_RAD => ActivityKind::Turn,

@@ -13,7 +13,7 @@ use crate::model::{BySide, CoordinateId, CoordinateKind, Drive, Model, Side};
 use crate::spatial::{Vec3, Wrench, level_distance};
 
 /// A sole point lower than this above the ground [m] ...
-const NEAR_GROUND_M: f64 = 0.06;
+pub(super) const NEAR_GROUND_M: f64 = 0.06;
 /// ... and slower than this relative to it [m/s] may be in contact (AnyBody's prediction of ground forces uses 0.04 m and 0.8 m/s for nodes
 /// of a fitted sole; ours are estimates).
 const NEAR_GROUND_M_S: f64 = 0.8;
@@ -67,8 +67,8 @@ pub struct Frame<'a> {
     pub residual: Wrench,
     /// Velocity of the ground [m/s]: the belt velocity on a treadmill.
     pub ground_velocity: Vec3,
-    /// Height of the ground above the world's origin [m].
-    pub ground_height: f64,
+    /// Height of the ground under each foot, above the world's origin [m].
+    pub ground_height: BySide<f64>,
     /// Whether a foot should be on the ground at all times: the person walks.
     pub walking: bool,
 }
@@ -187,7 +187,7 @@ impl FeasibilityLimits {
             let body = &frame.bodies[point.body.index()];
             let place = body.pose.place(point.place);
             let velocity = body.twist.velocity_at(place - body.center) - frame.ground_velocity;
-            place.dot(&self.up) - frame.ground_height < NEAR_GROUND_M && velocity.norm() < NEAR_GROUND_M_S
+            place.dot(&self.up) - frame.ground_height[side] < NEAR_GROUND_M && velocity.norm() < NEAR_GROUND_M_S
         })
     }
 }

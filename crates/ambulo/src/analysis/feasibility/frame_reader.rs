@@ -1,5 +1,6 @@
 //! The frames of a motion with its forces, one after the other.
 
+use super::floor_heights::FloorHeights;
 use super::frame::{FootFrame, Frame};
 use super::ground_speed::over_ground;
 use super::motion_and_forces::MotionAndForces;
@@ -17,7 +18,7 @@ pub(super) struct FrameReader<'a> {
     feet: BySide<Option<Cow<'a, BodyForces>>>,
     roots: Roots,
     ground_velocity: Vec3,
-    ground_height: f64,
+    ground_height: FloorHeights,
     walking: bool,
     q: Vec<f64>,
     qd: Vec<f64>,
@@ -40,8 +41,8 @@ impl<'a> FrameReader<'a> {
             motion: *motion,
             forces,
             roots: Roots::of(model),
-            ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
-            ground_height: ground_height(&feet.as_ref().map(Option::as_deref), up),
+            ground_velocity: over.map(|o| o.ground).or(motion.stances.map(|s| s.floor_velocity)).unwrap_or_default(),
+            ground_height: FloorHeights::of(motion, &feet.as_ref().map(Option::as_deref)),
             walking: motion.activity.keeps_a_foot_down(),
             feet,
             q,
@@ -69,7 +70,7 @@ impl<'a> FrameReader<'a> {
             feet: self.feet.as_ref().map(|foot| foot.as_ref().map(|f| foot_frame(f, i))),
             residual: self.roots.residual(|body| self.forces.reactions[body.index()][i]),
             ground_velocity: self.ground_velocity,
-            ground_height: self.ground_height,
+            ground_height: self.ground_height.at(trajectory.grid().time(i)),
             walking: self.walking,
         }
     }
@@ -77,12 +78,4 @@ impl<'a> FrameReader<'a> {
 
 fn foot_frame(foot: &BodyForces, frame: usize) -> FootFrame {
     FootFrame { force: foot.force[frame], center_of_pressure: foot.center_of_pressure[frame] }
-}
-
-/// Median height of the centres of pressure [m].
-fn ground_height(feet: &BySide<Option<&BodyForces>>, up: Vec3) -> f64 {
-    let centers = feet.values().flatten().flat_map(|foot| &foot.center_of_pressure);
-    let mut heights: Vec<f64> = centers.map(|p| p.dot(&up)).filter(|h| h.is_finite()).collect();
-    heights.sort_by(f64::total_cmp);
-    heights.get(heights.len() / 2).copied().unwrap_or(0.0)
 }

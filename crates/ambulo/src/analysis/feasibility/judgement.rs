@@ -8,7 +8,7 @@ use super::person::Person;
 use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
 use super::verdict::{
-    Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState, Weighed,
+    Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState,
     undecided_by_other_support,
 };
 use crate::findings::{Code, Findings};
@@ -24,9 +24,6 @@ const EDGE_S: f64 = 0.1;
 const LEAST_MEASURED_SHARE: f64 = 0.1;
 /// Forces that carry less of the weight than this, in all frames in which none seems to be missing, were not measured: the plates were off.
 const LEAST_CARRIED: f64 = 0.1;
-/// Error of the change of the velocity of the mass centre over an uninterrupted time [m/s]; measured: below 0.1 for straight walks, 0.36 for a
-/// turning child.
-const VELOCITY_ERROR_M_S: f64 = 0.25;
 /// A foot leaves the edge of a force plate within this time [s].
 const STEP_OFF_S: f64 = 0.15;
 
@@ -78,7 +75,7 @@ pub fn check(
         frames_predicted: coverage.predicted.iter().filter(|predicted| **predicted).count(),
         mass_kg: thresholds.mass_kg.unwrap_or(person.mass_kg),
         height_m: thresholds.height_m.unwrap_or(person.height_m),
-        fit: coverage.fit(&limits, grid.step_s),
+        fit: coverage.fit(&limits),
     }
 }
 
@@ -203,10 +200,6 @@ struct Coverage {
     residual_nm2: f64,
     /// Speeds of loaded soles along the ground [m/s].
     slips: Vec<f64>,
-    /// Sums of the upward forces that the feet carry and that the motion needs [N].
-    upward_n: [f64; 2],
-    /// Number of uninterrupted times with the given ground forces.
-    runs: usize,
     /// Acceleration of the mass centre by the motion and by these forces.
     acceleration: AccelerationRatio,
 }
@@ -247,22 +240,14 @@ impl Coverage {
         findings.report(Code::FeasibilityUnmeasuredSupport, message);
     }
 
-    /// Body mass by the ground forces; `gravity` in m/s².
-    fn weighed(&self, gravity: f64, step_s: f64) -> Option<Weighed> {
-        let [carried, needed] = self.upward_n;
-        let error = VELOCITY_ERROR_M_S * (self.runs as f64).sqrt() / (gravity * self.judged_as_given as f64 * step_s);
-        (carried > 0.0 && needed > 0.0).then(|| Weighed { ratio: carried / needed, error })
-    }
-
     /// How well motion and ground forces fit together.
-    fn fit(&self, limits: &FeasibilityLimits, step_s: f64) -> FitOfForces {
+    fn fit(&self, limits: &FeasibilityLimits) -> FitOfForces {
         let rms = |squares: f64| (self.judged_as_given > 0).then(|| (squares / self.judged_as_given as f64).sqrt());
         FitOfForces {
             residual_force_bw: rms(self.residual_n2).map(|force_n| force_n / limits.weight),
             residual_moment_nm_kg: rms(self.residual_nm2).map(|moment_nm| moment_nm / limits.mass),
             complete_share: self.judged_as_given as f64 / self.counted.max(1) as f64,
             sliding_m_s: lower_quartile(&self.slips),
-            weighed: self.weighed(limits.weight / limits.mass, step_s),
         }
     }
 
@@ -281,8 +266,7 @@ impl Coverage {
                 100.0 * LEAST_JUDGED_SHARE
             ));
         }
-        let FitOfForces { residual_force_bw, complete_share: measured, .. } =
-            self.fit(limits, motion.trajectory.grid().step_s);
+        let FitOfForces { residual_force_bw, complete_share: measured, .. } = self.fit(limits);
         if !motion.ground.bodies.is_empty() && self.counted > 0 && measured < LEAST_MEASURED_SHARE {
             list.push(format!(
                 "the measured ground forces carry the body in {:.0} % of the frames; they may not be those of this motion",
@@ -350,9 +334,6 @@ fn measure(
                 coverage.residual_n2 += frame.residual.force.norm_squared();
                 coverage.residual_nm2 += frame.residual.moment.norm_squared();
                 coverage.acceleration.add(i, &frame);
-                let [carried, needed] = limits.upward_forces(&frame);
-                coverage.upward_n = [coverage.upward_n[0] + carried, coverage.upward_n[1] + needed];
-                coverage.runs += usize::from(i == inner.start || !coverage.covered[i - 1]);
             }
         }
     });

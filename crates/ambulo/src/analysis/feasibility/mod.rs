@@ -5,6 +5,7 @@
 //! An infeasible motion is a result, not an error. A motion is called feasible only if nearly all of it was judged. Defaults, their sources and the file format of [`Thresholds`]: docs/FEASIBILITY.md.
 
 mod acceleration_ratio;
+mod floor_heights;
 mod frame;
 mod frame_reader;
 mod ground_speed;
@@ -22,6 +23,6 @@ pub use motion_and_forces::{MotionAndForces, PredictedForces};
 pub use person::Person;
 pub use strength::{Hill, StrengthCurve};
 pub use thresholds::Thresholds;
-pub use verdict::{Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState, Weighed};
+pub use verdict::{Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState};
 
 pub(super) use ground_speed::over_ground;

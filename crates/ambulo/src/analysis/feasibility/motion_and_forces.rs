@@ -3,6 +3,7 @@
 use crate::analysis::activity::ActivityKind;
 use crate::dynamics::Forces;
 use crate::ground::GroundForces;
+use crate::ground::footfalls::Footfalls;
 use crate::kinematics::Trajectory;
 use crate::model::Model;
 
@@ -23,6 +24,9 @@ pub struct MotionAndForces<'a> {
     pub predicted: Option<PredictedForces<'a>>,
     /// Times in which a force plate measured only a part of a foot's load [s]. A lack of support in them is the plate's, not the motion's.
     pub partly_measured: &'a [[f64; 2]],
+    /// The stances that the motion shows: a foot may stand on unmeasured ground at the height of its stance, as on stairs, and the belt moves as
+    /// they do where no load shows it. `None` if unknown.
+    pub stances: Option<&'a Footfalls>,
     /// The activity: walking and standing keep a foot on the ground, running and jumping do not.
     pub activity: ActivityKind,
     /// Cut-off of the low-pass filter of the motion [Hz]; `None` without a filter.

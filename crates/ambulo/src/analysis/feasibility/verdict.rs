@@ -177,17 +177,6 @@ pub struct FitOfForces {
     ///
     /// [`Thresholds::sliding_load_bw`]: super::Thresholds::sliding_load_bw
     pub sliding_m_s: Option<f64>,
-    /// Body mass by the ground forces.
-    pub weighed: Option<Weighed>,
-}
-
-/// Body mass by the ground forces of a motion: the upward impulse of the ground is m (g t + Δv), with Δv from the motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weighed {
-    /// Mass by the ground forces over that of the body.
-    pub ratio: f64,
-    /// Its error, from the error of the velocity of the mass centre.
-    pub error: f64,
 }
 
 impl Verdict {
@@ -195,8 +184,14 @@ impl Verdict {
     /// person, so the verdict is undecided, and reasons that come from these forces are dropped.
     pub fn add_unsupported(&mut self, found: &[Reason]) {
         let Some(first) = found.first() else { return };
-        self.undecided.push(undecided_by_other_support(&first.message));
-        self.reasons.retain(|reason| matches!(reason.check, Check::Range | Check::Pull));
+        let is_explained = |check| !matches!(check, Check::Range | Check::Pull);
+        self.set_aside(is_explained, undecided_by_other_support(&first.message));
+    }
+
+    /// Drops reasons that have a cause other than the movement; `why` the verdict is then undecided.
+    pub fn set_aside(&mut self, is_explained: impl Fn(Check) -> bool, why: String) {
+        self.reasons.retain(|reason| !is_explained(reason.check));
+        self.undecided.push(why);
         self.state = VerdictState::of(&self.reasons, &self.undecided);
     }
 }

@@ -120,13 +120,6 @@ impl PredictionChecks {
     pub fn mass_agrees(&self) -> Option<bool> {
         self.get(mass::NAME)?.passed
     }
-
-    /// Mass on the force plates over the mass of the body, where the two disagree.
-    #[must_use]
-    pub fn contradicting_mass_ratio(&self) -> Option<f64> {
-        let check = self.get(mass::NAME)?;
-        check.value.filter(|_| check.passed == Some(false))
-    }
 }
 
 /// Checks a prediction. A failed check is a finding; forces that do not act through the feet are also reasons for the verdict.

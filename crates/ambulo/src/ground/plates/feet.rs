@@ -56,6 +56,12 @@ impl Feet<'_> {
         is_over && off_level_m(&line, plate) == 0.0 && self.stands(side, time_s)
     }
 
+    /// Whether heel and toe are over the plate, at the height of a foot that stands on it.
+    pub(super) fn is_inside(&self, side: Side, plate: &PlateRecording, time_s: f64) -> bool {
+        let Some(line) = self.line(side, time_s) else { return false };
+        line.iter().all(|p| plate.depth_inside(*p) > OVER_EDGE_M) && off_level_m(&line, plate) == 0.0
+    }
+
     fn stands(&self, side: Side, time_s: f64) -> bool {
         self.stances(side).iter().any(|s| s[0] <= time_s && time_s <= s[1])
     }

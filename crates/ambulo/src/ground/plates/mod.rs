@@ -88,6 +88,19 @@ pub struct FeetOnPlates {
     pub contacts: Vec<PlateContact>,
     /// Instrumented windows: times when the whole load of both feet was measured [s], the longest first.
     pub windows: Vec<[f64; 2]>,
+    /// Stances on plates that show no load in the whole trial.
+    pub silent: Vec<SilentStance>,
+}
+
+/// A foot that stands on a plate without a load: the plate was off, or its signal is of another trial.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SilentStance {
+    /// Index of the plate.
+    pub plate: usize,
+    /// The foot.
+    pub side: Side,
+    /// Foot strike and foot off by the motion [s].
+    pub span: [f64; 2],
 }
 
 /// Assigns each contact to a foot. Markers and plates are in the world's axes. `assigned` has the plates (by index) of
@@ -117,7 +130,22 @@ pub fn feet_on_plates(
     if windows.is_empty() && !found.is_empty() {
         findings.report(Code::PlatesNoWindow, "there is no time at which the whole load of both feet was measured: the total force and the residual force at the pelvis cannot be checked");
     }
-    FeetOnPlates { contacts: found, windows }
+    let is_silent = |index: &usize| found.iter().all(|contact| contact.plate != *index);
+    let without_load = (0..plates.len()).filter(is_silent);
+    let silent = without_load.flat_map(|index| silent_stances(&feet, index, &plates[index])).collect();
+    FeetOnPlates { contacts: found, windows, silent }
+}
+
+/// Whole stances with heel and toe inside a plate in the middle of the stance.
+fn silent_stances(feet: &feet::Feet<'_>, plate: usize, recording: &PlateRecording) -> Vec<SilentStance> {
+    let of_side = |side: Side| {
+        let whole = feet.motion.contacts_of(side).into_iter().filter_map(|c| Some([c.strike_s?, c.off_s?]));
+        let stands = move |[from, to]: &[f64; 2]| {
+            [0.3, 0.45, 0.6].into_iter().all(|share| feet.is_inside(side, recording, from + share * (to - from)))
+        };
+        whole.filter(stands).map(move |span| SilentStance { plate, side, span }).collect::<Vec<_>>()
+    };
+    Side::BOTH.into_iter().flat_map(of_side).collect()
 }
 
 fn report(plates: &[PlateRecording], found: &[PlateContact], findings: &mut Findings) {
