@@ -236,7 +236,7 @@ fn damaged(subject: &Subject, count: usize, seed: u64) -> MarkerRecording {
 
 /// Most linear solves of a fit: those of the budget, and of the last step, which tries up to 16.
 fn most_solves(frames: usize) -> usize {
-    36 * frames + 5000 + 16
+    32 * frames + 3200 + 16
 }
 
 fn rms(fit: &MarkerFit) -> f64 {

@@ -1,24 +1,23 @@
-//! Bounds the time of a fit by the number of its linear solves, each of which takes about 8 µs for a full body.
+//! Bounds the time of a fit by the number of its linear solves, each of which takes about 6.5 µs for a full body of 43 unknowns.
 //!
 //! A frame with all its markers takes about five solves, and what it leaves may be used by later frames. Swapped labels, jumps and gaps take
-//! more; frames for which nothing is left are reported. Fits are exact as long as there is enough left; then they are approximated where
-//! their result only serves another fit.
+//! more; frames for which nothing is left are reported.
 //!
 //! Pinned by: tests/marker_outliers.rs
 
 /// Solves to find the posture of the first frame from nothing: 64 placements of the rigid model and fits of the best. Recordings without
 /// faults take about 800; more are needed to start joint by joint, or with swapped labels in the first frame.
-const TO_BEGIN: usize = 5000;
+const TO_BEGIN: usize = 3200;
 /// To find the posture again after a gap.
 const TO_BEGIN_AGAIN: usize = 800;
+/// What the first frame leaves for the others at most.
+const LEFT_OF_BEGINNING: usize = 2800;
 /// Solves per frame while frames are fitted one after the other: what the detection of jumps may take, so that the body is not lost.
-const PER_FRAME: usize = 30;
+const PER_FRAME: usize = 26;
 /// Solves per frame for what follows, besides those that were not needed: misplaced markers, and frames that lack markers.
 const PER_FRAME_AFTERWARDS: usize = 6;
 /// Solves that the detection of jumps leaves for the fit of the same frame.
 const RESERVE: usize = 8;
-/// With fewer solves left, the fits in the detection of jumps are not exact: exact ones take up to 100 in a frame.
-const AMPLE: usize = 200;
 /// Share of the remaining solves that frames without all markers may use for their offsets; what follows needs the others.
 const SHARE_OF_OFFSETS: f64 = 0.7;
 /// Where the part of a frame is larger than most frames need, one frame may take several parts.
@@ -33,8 +32,6 @@ pub(super) struct Budget {
     set_aside: usize,
     /// Frames among which the rest is divided.
     parts: usize,
-    /// Solves that are left when half of a part is spent.
-    half_of_part: usize,
 }
 
 impl Budget {
@@ -58,6 +55,11 @@ impl Budget {
 
     pub(super) fn is_spent(&self) -> bool {
         self.left() == 0
+    }
+
+    /// The posture of the first frame is found.
+    pub(super) fn end_beginning(&mut self) {
+        self.granted = self.spent + self.left().min(LEFT_OF_BEGINNING);
     }
 
     /// Adds what one more frame may take.
@@ -91,18 +93,7 @@ impl Budget {
         let part = rest / self.parts.max(1) as f64;
         let part = if part > LARGE_PART { (TIMES_LARGE_PART * part).min(rest) } else { part };
         self.parts = self.parts.saturating_sub(1);
-        self.half_of_part = part as usize / 2;
         self.keep_back(self.left() - part as usize);
-    }
-
-    /// Whether enough is left for exact fits in the detection of jumps.
-    pub(super) fn is_ample(&self) -> bool {
-        self.left() > AMPLE
-    }
-
-    /// Whether the first half of the part of a frame is left.
-    pub(super) fn has_half_of_part(&self) -> bool {
-        self.left() > self.half_of_part
     }
 
     /// Gives back what was kept back.

@@ -20,7 +20,7 @@
 use super::frames::Frames;
 use super::problem::FitProblem;
 use super::skin_motion::{LEAST_DRIFT, OffsetDrift, SkinMotion};
-use super::solve::{Outcome, STEPS};
+use super::solve::Outcome;
 use crate::numerics::BandMatrix;
 use crate::spatial::Vec3;
 use std::f64::consts::TAU;
@@ -35,7 +35,7 @@ const LOSS: f64 = 3.0;
 const DRIFT: f64 = LEAST_DRIFT;
 /// Maximum number of fits of a frame, each with the offsets of the posture before.
 const PASSES: usize = 30;
-/// Steps of each of these fits where few linear solves are left: the offsets change with the posture, so that only the last one must be exact.
+/// Steps of each of these fits: the offsets change with the posture, so that only the last one must be exact.
 const STEPS_BETWEEN: usize = 1;
 /// The posture has converged when no unknown moves by more from one fit to the next [rad or m].
 const REST: f64 = 1e-7;
@@ -199,8 +199,7 @@ fn refit_run(
             frames.set_targets(frame, &offsets);
             let known = known_offsets(problem, frames, frame);
             let before = x.clone();
-            let steps = if problem.solver.budget.has_half_of_part() { STEPS } else { STEPS_BETWEEN };
-            outcome = Some(problem.approach_offsets(&known, &mut x, steps));
+            outcome = Some(problem.approach_offsets(&known, &mut x, STEPS_BETWEEN));
             let moved = x.iter().zip(&before).map(|(now, before)| (now - before).abs()).fold(0.0, f64::max);
             if let Some(outcome) = &mut outcome {
                 outcome.ran_out = problem.solver.budget.is_spent() && moved > NEARLY_AT_REST;

@@ -17,7 +17,7 @@
 //!
 //! Source: T.-W. Lu, J.J. O'Connor 1999, J. Biomech. 32:129-134 (global optimisation) (unverified).
 //! Cost: about 10 µs per step, three or four steps per frame; `cargo xtask bench-markers`.
-//! The number of linear solves is bounded by 36 per frame and 5000 for the first (`budget`).
+//! The number of linear solves is bounded by 32 per frame and 3200 for the first (`budget`).
 //! Not handled: markers fixed to ground; weights that vary in time.
 //! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_misplaced.rs, tests/marker_outliers.rs, tests/marker_smoothing.rs
 

@@ -11,7 +11,7 @@
 use super::frames::{FEWEST, Frames};
 use super::problem::FitProblem;
 use super::settings::OutlierDetection;
-use super::solve::{Outcome, STEPS};
+use super::solve::Outcome;
 use super::start;
 use crate::spatial::Vec3;
 
@@ -31,7 +31,7 @@ const BACK: f64 = 0.8;
 /// Distance at which the weight of a marker is a quarter while a frame is fitted again [m].
 const SCALE: f64 = 0.020;
 const REWEIGHTINGS: usize = 10;
-/// Steps of a fit with these weights where few linear solves are left: the weights change with the posture, so that it need not be exact.
+/// Steps of a fit with these weights: they change with the posture, so that it need not be exact.
 const STEPS_BETWEEN: usize = 2;
 /// The weights are settled when a reweighting moves no unknown by more [rad or m].
 const SETTLED: f64 = 1e-4;
@@ -132,8 +132,11 @@ fn fit_frame(
             Some(last) => start::posture(problem, frames.posture(last)),
             None => start::posture(problem, default),
         };
-        if outliers == OutlierDetection::On && memory.last[0].is_none() {
-            exchange_in_first(problem, frames, memory, frame);
+        if memory.last[0].is_none() {
+            if outliers == OutlierDetection::On {
+                exchange_in_first(problem, frames, memory, frame);
+            }
+            problem.solver.budget.end_beginning();
         }
     }
     let knows_offsets = memory.last[0].is_some();
@@ -299,10 +302,9 @@ fn robust(problem: &mut FitProblem<'_>, memory: &mut Tracking) {
             problem.frame_weights[i] = if r.is_finite() { memory.weights[i] / (share * share) } else { 0.0 };
         }
         memory.trial.copy_from_slice(&x);
-        let is_ample = problem.solver.budget.is_ample();
-        problem.approach_offsets(&memory.usable, &mut x, if is_ample { STEPS } else { STEPS_BETWEEN });
+        problem.approach_offsets(&memory.usable, &mut x, STEPS_BETWEEN);
         let moved = x.iter().zip(&memory.trial).any(|(now, before)| (now - before).abs() > SETTLED);
-        if !is_ample && !moved && scale <= SCALE {
+        if !moved && scale <= SCALE {
             break;
         }
     }

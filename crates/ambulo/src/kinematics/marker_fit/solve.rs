@@ -15,8 +15,10 @@ use super::budget::Budget;
 use super::normal::{Normal, Targets, cost};
 use super::tree::MarkerTree;
 
-/// The iteration ends when no unknown moves by more [rad or m].
+/// The iteration ends when the next step would move no unknown by more [rad or m].
 const SMALL_STEP: f64 = 1e-7;
+/// After a step that is shorter, the next ones shrink at least as much as it did [rad or m].
+const NEAR: f64 = 0.01;
 /// Maximum number of steps.
 pub(super) const STEPS: usize = 60;
 /// Damping of directions that no marker determines, as a share of the largest diagonal entry; they do not move.
@@ -118,6 +120,7 @@ impl Solver {
         let mut total = markers + bounds.spring_cost(x);
         let mut damping = 0.0;
         let mut steps = 0;
+        let mut before = f64::INFINITY;
         while steps < most_steps && !self.budget.is_spent() {
             self.gather(tree, targets, bounds, x);
             let Some((after, longest)) = self.step(tree, targets, bounds, x, total, &mut damping) else {
@@ -127,7 +130,9 @@ impl Solver {
             steps += 1;
             markers = after;
             total = markers + bounds.spring_cost(x);
-            if longest < SMALL_STEP {
+            let ratio = if before < NEAR { (longest / before).min(1.0) } else { 1.0 };
+            before = longest;
+            if longest * ratio < SMALL_STEP {
                 return Outcome { cost: markers, steps, converged: true, ran_out: false };
             }
         }
