@@ -172,10 +172,11 @@ fn twin(outcome: &Outcome, change: Change) -> Result<Verdict, String> {
         columns[id].iter_mut().for_each(|height| *height += LIFT_M);
     }
     let mut loads = loads(&outcome.analysis.ground, &times);
-    if change == Change::WrongFoot
-        && let [first, second] = &mut loads[..]
-    {
-        std::mem::swap(&mut first.body, &mut second.body);
+    if change == Change::WrongFoot {
+        let feet = model.anatomy().feet().ok_or("the body has no feet")?;
+        for load in &mut loads {
+            load.body = if load.body == feet.right { feet.left } else { feet.right };
+        }
     }
     let columns = columns.into_iter().map(Some).collect();
     let motion = Motion { origin: format!("twin, {}", change.name()), times: times.clone(), columns };
