@@ -67,6 +67,9 @@ fn the_torques_are_replayed(bench: &Workbench) {
     let findings = bench.json("replay/summary.json")["findings"].clone();
     assert!(findings.as_array().unwrap().iter().any(|finding| finding["code"] == "walk.replay_fell"), "{findings}");
     assert!(bench.text("replay/report.html").contains("the figure falls 0."));
+    assert!(!run.stderr.contains("computed for a figure of"), "{}", run.stderr);
+    let other = ["walk", "--torques", "paper/torques.toml", "--mass", "90", "-v", "-o", "other"];
+    bench.run(&other).infeasible().reports(&["the torques were computed for a figure of", "this one has 90.0 kg"]);
     let refused = |more: &[&str], words: &[&str]| bench.run(&[&replay[..], more].concat()).refused(words);
     refused(&["--mode", "corrected"], &["--torques", "expected the mode paper"]);
     refused(&["--gait", "free"], &["found no torques of the gait `free`", "standard, long, short, goose"]);

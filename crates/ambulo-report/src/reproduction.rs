@@ -127,10 +127,11 @@ fn torques_toml<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -
                 let list = |values: &[f64]| values.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
                 let _ = write!(
                     text,
-                    "\n[[torque]]\nmode = \"{mode}\"\ngait = \"{gait}\"\ncoordinate = \"{}\"\ncycle_s = {:?}\nmean = {:.6}\n\
+                    "\n[[torque]]\nmode = \"{mode}\"\ngait = \"{gait}\"\ncoordinate = \"{}\"\ncycle_s = {:?}\nbody_kg = {:.3}\nmean = {:.6}\n\
                      cosine = [{}]\nsine = [{}]\nr_squared = {:.6}\n",
                     series.coordinate,
                     series.cycle_s,
+                    series.body_kg,
                     series.mean,
                     list(&series.cosine),
                     list(&series.sine),

@@ -179,6 +179,7 @@ fn a_figure_without_drives_and_torques_falls_like_a_pendulum_that_is_let_go() {
     let still = |coordinate: &str| TorqueSeries {
         coordinate: coordinate.to_owned(),
         cycle_s,
+        body_kg: 72.6,
         mean: 0.0,
         cosine: [0.0; HARMONICS],
         sine: [0.0; HARMONICS],

@@ -30,6 +30,7 @@ fn series(steady: &Steady<'_>, coordinate: String) -> TorqueSeries {
     let mut found = TorqueSeries {
         coordinate,
         cycle_s,
+        body_kg: steady.run.recording.model.mass(),
         mean: mean(torque),
         cosine: along(f64::cos),
         sine: along(f64::sin),

@@ -223,6 +223,7 @@ pub fn replay(
     if !walk.is_steady() {
         return Err(SyntheticError::Replay { gait: gait.name });
     }
+    report_other_figure(torques, human.model.mass(), findings);
     let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
     let release_s = REPLAY_SKIPPED as f64 * walk.cycle_s();
     let duration_s = release_s + settings.cycles as f64 * walk.cycle_s();
@@ -245,6 +246,20 @@ pub fn replay(
     );
     let states = kept.states(settings, &walk);
     steady(settings, &kept, human, walk, Made { recording: &released.recording, states, correction: None })
+}
+
+/// Torques hold a figure of the mass that they were computed for.
+fn report_other_figure(torques: &[TorqueSeries], body_kg: f64, findings: &mut Findings) {
+    /// Masses that differ by less, as a share, are one figure's.
+    const SAME_FIGURE: f64 = 0.01;
+    let is_other = |series: &&TorqueSeries| (series.body_kg / body_kg - 1.0).abs() > SAME_FIGURE;
+    if let Some(series) = torques.iter().find(is_other) {
+        let message = format!(
+            "the torques were computed for a figure of {:.1} kg, this one has {body_kg:.1} kg: they do not carry it as they carried the other. hint: use that figure, or compute the torques for this one",
+            series.body_kg
+        );
+        findings.report(Code::WalkReplayFigure, message);
+    }
 }
 
 /// Cycles before torques are replayed.

@@ -18,6 +18,8 @@ pub struct TorqueSeries {
     pub coordinate: String,
     /// Duration of the cycle [s].
     pub cycle_s: f64,
+    /// Mass of the figure that needed these torques [kg].
+    pub body_kg: f64,
     /// [N.m].
     pub mean: f64,
     /// First to last harmonic [N.m].
@@ -50,7 +52,7 @@ impl TorqueSeries {
         root.only(&[&["torque"]])?;
         let (mut series, mut gaits) = (Vec::<TorqueSeries>::new(), Vec::<String>::new());
         for table in root.tables("torque")? {
-            table.only(&[&["mode", "gait", "coordinate", "cycle_s", "mean", "cosine", "sine", "r_squared"]])?;
+            table.only(&[&["mode", "gait", "coordinate", "cycle_s", "body_kg", "mean", "cosine", "sine", "r_squared"]])?;
             let mode = table.need("mode", "the mode in which the torques were computed")?.filled_text()?;
             let own = table.need("gait", "the gait whose torques they are")?.filled_text()?;
             let found = read_series(&table)?;
@@ -97,6 +99,7 @@ fn read_series(table: &Table<'_>) -> Result<TorqueSeries, TomlError> {
     Ok(TorqueSeries {
         coordinate: table.need("coordinate", "a coordinate of the model")?.filled_text()?,
         cycle_s,
+        body_kg: table.need("body_kg", "the mass of the figure [kg]")?.above_zero()?,
         mean: torque("mean")?,
         cosine: harmonics("cosine")?,
         sine: harmonics("sine")?,
