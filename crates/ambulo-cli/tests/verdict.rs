@@ -72,7 +72,7 @@ fn plates_without_a_load_are_not_called_feasible() {
     let verdict = bench.json("out/summary.json")["verdict"].clone();
     assert_eq!(verdict["state"], "not_judged");
     let why = verdict["undecided"].to_string();
-    assert!(why.contains("carry the body in 0 % of the frames"), "{why}");
+    assert!(why.contains("no force was measured where a foot stood"), "{why}");
 }
 
 #[test]

@@ -433,7 +433,7 @@ codes! {
         "Nothing to do: torques that know nothing of the motion do not keep a figure upright.";
     WalkReplayFigure "walk.replay_figure" Warning
         "The replayed torques were computed for a figure of another mass."
-        "Use the figure of the torques (`--figure`, `--mass`), or compute the torques for this one.";
+        "Use the figure that the torques were computed for, or compute torques for this one.";
     DriveGaveWay "drive.gave_way" Warning
         "A drive without a largest force would need an unreasonable one, above 1,000 times the total weight; it gave way."
         "Prescribe a motion that the other constraints allow, or give the drive a largest force.";

@@ -52,7 +52,17 @@ impl TorqueSeries {
         root.only(&[&["torque"]])?;
         let (mut series, mut gaits) = (Vec::<TorqueSeries>::new(), Vec::<String>::new());
         for table in root.tables("torque")? {
-            table.only(&[&["mode", "gait", "coordinate", "cycle_s", "body_kg", "mean", "cosine", "sine", "r_squared"]])?;
+            table.only(&[&[
+                "mode",
+                "gait",
+                "coordinate",
+                "cycle_s",
+                "body_kg",
+                "mean",
+                "cosine",
+                "sine",
+                "r_squared",
+            ]])?;
             let mode = table.need("mode", "the mode in which the torques were computed")?.filled_text()?;
             let own = table.need("gait", "the gait whose torques they are")?.filled_text()?;
             let found = read_series(&table)?;
