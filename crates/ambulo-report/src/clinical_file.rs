@@ -123,7 +123,9 @@ impl<'a> Curves<'a> {
             ClinicalGroup::Moments => {
                 Some(scaled(&forces.generalized[self.coordinate(quantity, side)?.index()], factor))
             }
-            ClinicalGroup::Powers => Some(scaled(&forces.powers[self.coordinate(quantity, side)?.index()], factor)),
+            ClinicalGroup::Powers => {
+                Some(scaled(&self.analysis.powers(self.model).column(self.coordinate(quantity, side)?), factor))
+            }
             ClinicalGroup::Ground => {
                 let axis = ground_axis(&quantity.coordinates[side])?;
                 let column = format!("ground_force_{}_v{axis}", side.letter());

@@ -68,13 +68,13 @@ fn coordinate_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, id: Coordi
         CoordinateKind::Coupled => ("rad", "N.m"),
     };
     let position = |i: usize| if position_unit == "deg" { values[i].to_degrees() } else { values[i] };
-    let (force_values, powers) = (&analysis.forces.generalized[id.index()], &analysis.forces.powers[id.index()]);
+    let (force_values, powers) = (&analysis.forces.generalized[id.index()], analysis.powers(model));
     let what = if coordinate.kind == CoordinateKind::Translation { "position" } else { "angle" };
     let force = coordinate.kind.force_suffix();
     vec![
         row(format!("{stem}_{what}"), position_unit, cycle, grid, position),
         row(format!("{stem}_{force}"), force_unit, cycle, grid, |i| force_values[i]),
-        row(format!("{stem}_power"), "W", cycle, grid, |i| powers[i]),
+        row(format!("{stem}_power"), "W", cycle, grid, |i| powers.at(id, i)),
     ]
 }
 

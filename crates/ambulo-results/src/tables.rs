@@ -74,8 +74,11 @@ pub(crate) fn moments<'a>(
 
 /// `powers.sto`: power of the generalised force of each coordinate [W].
 pub(crate) fn powers<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<TableRows<'a>, Error> {
-    let names = model.coordinates().iter().map(|c| format!("{}_power", c.name));
-    let columns = names.zip(&analysis.forces.powers).map(|(name, values)| column(name, values));
+    let powers = Rc::new(analysis.powers(model));
+    let columns = model.coordinate_ids().map(|id| -> LazyColumn<'a> {
+        let powers = Rc::clone(&powers);
+        (format!("{}_power", model.coordinates()[id.index()].name), Box::new(move |i| powers.at(id, i)))
+    });
     rows("Joint Powers", analysis, columns)
 }
 

@@ -71,6 +71,8 @@ impl Contents {
 fn contents(outcome: &Outcome) -> Contents {
     let mut contents = Contents::default();
     contents.add("analysis", &outcome.analysis);
+    let powers = outcome.analysis.powers(&outcome.body);
+    contents.add("powers", &outcome.body.coordinate_ids().map(|id| powers.column(id)).collect::<Vec<_>>());
     contents.add("activity", &outcome.activity);
     contents.add("times_and_distances", &outcome.times_and_distances);
     contents.add("prediction", &outcome.prediction);

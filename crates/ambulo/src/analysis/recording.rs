@@ -6,7 +6,7 @@ use super::feasibility::{Verdict, over_ground};
 use super::plausibility;
 use super::progress::{Progress, Stage, Stopped};
 use super::residual::{Residual, residual_within};
-use crate::dynamics::{Forces, ReactionReader, Workspace, inverse_with_residual};
+use crate::dynamics::{Forces, JointPowers, ReactionReader, Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings};
 use crate::ground::predict::PredictError;
 use crate::ground::{self, BodyForces, GroundForces};
@@ -51,7 +51,7 @@ pub struct Analysis {
     pub adjusted: bool,
     /// The ground forces at the times of the trajectory.
     pub ground: GroundForces,
-    /// Joint forces, powers, and the reactions in the joints to ground.
+    /// Joint forces, and the reactions in the joints to ground.
     pub forces: Forces,
     /// Foot strikes and foot offs inside the trajectory, in order of time.
     pub events: Vec<Event>,
@@ -90,6 +90,12 @@ pub enum MassSource {
 }
 
 impl Analysis {
+    /// The powers of the generalised forces.
+    #[must_use]
+    pub fn powers(&self, model: &Model) -> JointPowers<'_> {
+        JointPowers::new(model, &self.trajectory, &self.forces.generalized)
+    }
+
     /// The reactions in all joints; [`Analysis::forces`] has those of the joints to ground only.
     #[must_use]
     pub fn reactions(&self, model: &Model) -> ReactionReader<'_> {

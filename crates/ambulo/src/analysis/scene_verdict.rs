@@ -116,10 +116,6 @@ fn ground(recording: &WalkRecording) -> GroundForces {
 /// components keep the figure in its plane, and its translations are free.
 fn forces(recording: &WalkRecording) -> Forces {
     let WalkRecording { model, trajectory, efforts, .. } = recording;
-    let powers = model.coordinate_ids().map(|id| {
-        let pairs = efforts[id.index()].iter().zip(trajectory.rates(id));
-        pairs.map(|(effort, rate)| effort * rate).collect()
-    });
     let mut reactions = vec![Vec::new(); model.bodies().len()];
     each_body_motion(model, trajectory, |frame, bodies| {
         for (index, body) in model.bodies().iter().enumerate() {
@@ -129,7 +125,7 @@ fn forces(recording: &WalkRecording) -> Forces {
             reactions[index].push(JointReaction { center, wrench: Wrench { moment, force: Vec3::zeros() } });
         }
     });
-    Forces { generalized: efforts.clone(), powers: powers.collect(), reactions }
+    Forces { generalized: efforts.clone(), reactions }
 }
 
 /// Moment about the rotation axis of the root, world axes [N.m].

@@ -66,8 +66,6 @@ pub struct JointReaction {
 pub struct Forces {
     /// Generalised forces [N.m or N]: one column per coordinate, one entry per frame.
     pub generalized: Vec<Vec<f64>>,
-    /// Power of each generalised force [W]: one column per coordinate.
-    pub powers: Vec<Vec<f64>>,
     /// Reaction in the joint of each body: one column per body. From [`inverse_with_residual`] only the joints to ground have one, the other
     /// columns are empty.
     pub reactions: Vec<Vec<JointReaction>>,
@@ -122,7 +120,6 @@ struct Kernel<const N: usize> {
     force: Vec<V3<N>>,
     moment: Vec<V3<N>>,
     tau: Vec<[f64; N]>,
-    power: Vec<[f64; N]>,
 }
 
 impl LoadSeries {
@@ -248,7 +245,6 @@ fn collect(
     let column = |_| Vec::with_capacity(frames);
     let mut forces = Forces {
         generalized: (0..plan.coordinates).map(column).collect(),
-        powers: (0..plan.coordinates).map(column).collect(),
         reactions: plan.segments.iter().map(room_for).collect(),
     };
     for first in (0..frames).step_by(SIDE_BY_SIDE) {
@@ -256,10 +252,6 @@ fn collect(
         kernel.solve_block(plan, *arch, trajectory, loads, first);
         for (column, tau) in forces.generalized.iter_mut().zip(&kernel.tau) {
             column.extend_from_slice(&tau[..count]);
-        }
-        kernel.fill_powers(plan);
-        for (column, power) in forces.powers.iter_mut().zip(&kernel.power) {
-            column.extend_from_slice(&power[..count]);
         }
         for (i, column) in forces.reactions.iter_mut().enumerate().filter(|(i, _)| has_reaction(&plan.segments[*i])) {
             column.extend((0..count).map(|lane| kernel.reaction(i, lane)));
@@ -341,7 +333,6 @@ impl<const N: usize> Kernel<N> {
             force: vec![V3::ZERO; bodies + 1],
             moment: vec![V3::ZERO; bodies + 1],
             tau: vec![[0.0; N]; plan.coordinates],
-            power: vec![[0.0; N]; plan.coordinates],
         }
     }
 
@@ -402,22 +393,6 @@ impl<const N: usize> Kernel<N> {
         JointReaction {
             center: state.center.lane(lane) - state.to_center.lane(lane),
             wrench: Wrench { moment: self.moment[body + 1].lane(lane), force: self.force[body + 1].lane(lane) },
-        }
-    }
-
-    /// Fills `power` with τ times its conjugate speed: the rate of the coordinate, or for ball-like joints the angular velocity
-    /// about the axes of F.
-    fn fill_powers(&mut self, plan: &Plan) {
-        for (power, (tau, rate)) in self.power.iter_mut().zip(self.tau.iter().zip(&self.scratch.qd)) {
-            *power = (Lanes(*tau) * Lanes(*rate)).0;
-        }
-        for (i, segment) in plan.segments.iter().enumerate() {
-            if let Some(spherical) = &segment.spherical {
-                let V3(omega) = sweep::relative_omega(segment, i, &self.scratch);
-                for (&coordinate, omega) in spherical.coordinates.iter().zip(omega) {
-                    self.power[coordinate] = (Lanes(self.tau[coordinate]) * omega).0;
-                }
-            }
         }
     }
 }

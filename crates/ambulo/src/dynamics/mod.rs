@@ -6,6 +6,7 @@
 
 mod inverse;
 mod inverse_derivatives;
+mod joint_powers;
 mod roots;
 
 mod block;
@@ -44,6 +45,7 @@ pub use inverse::{
 };
 pub use inverse_derivatives::{CurvedJointError, InverseDerivatives, inverse_derivatives};
 pub(crate) use inverse_derivatives::{DerivativeKernel, Spatial};
+pub use joint_powers::JointPowers;
 pub use problem::{Method, SolverSettings};
 pub(crate) use roots::Roots;
 pub use solve::{GraphWorkspace, solve_graph, undetermined_rows};

@@ -4,7 +4,7 @@ use super::floor_heights::FloorHeights;
 use super::frame::{FootFrame, Frame};
 use super::ground_speed::over_ground;
 use super::motion_and_forces::MotionAndForces;
-use crate::dynamics::{Forces, Roots};
+use crate::dynamics::{Forces, JointPowers, Roots};
 use crate::ground::{BodyForces, GroundForces, feet};
 use crate::kinematics::BodyMotion;
 use crate::model::BySide;
@@ -15,6 +15,7 @@ use std::borrow::Cow;
 pub(super) struct FrameReader<'a> {
     motion: MotionAndForces<'a>,
     forces: &'a Forces,
+    powers: JointPowers<'a>,
     feet: BySide<Option<Cow<'a, BodyForces>>>,
     roots: Roots,
     ground_velocity: Vec3,
@@ -40,6 +41,7 @@ impl<'a> FrameReader<'a> {
         FrameReader {
             motion: *motion,
             forces,
+            powers: JointPowers::new(model, motion.trajectory, &forces.generalized),
             roots: Roots::of(model),
             ground_velocity: over.map(|o| o.ground).or(motion.stances.map(|s| s.floor_velocity)).unwrap_or_default(),
             ground_height: FloorHeights::of(motion, &feet.as_ref().map(Option::as_deref)),
@@ -56,7 +58,7 @@ impl<'a> FrameReader<'a> {
         let MotionAndForces { model, trajectory, device, .. } = self.motion;
         for (c, id) in model.coordinate_ids().enumerate() {
             (self.q[c], self.qd[c]) = (trajectory.values(id)[i], trajectory.rates(id)[i]);
-            (self.tau[c], self.power[c]) = (self.forces.generalized[c][i], self.forces.powers[c][i]);
+            (self.tau[c], self.power[c]) = (self.forces.generalized[c][i], self.powers.at(id, i));
             if let Some(device) = device {
                 self.tau[c] -= device[c][i];
             }
