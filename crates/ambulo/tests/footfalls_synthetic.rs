@@ -87,30 +87,29 @@ impl Moving {
     }
 }
 
-/// A walk that touches the ground at known times, made once.
+/// A walk in the sagittal plane that touches the ground at known times, made once.
 fn synthetic() -> &'static SyntheticWalk {
     static WALK: OnceLock<SyntheticWalk> = OnceLock::new();
-    WALK.get_or_init(|| {
-        let gait = Gait::named("free").unwrap();
-        let order = SyntheticWalkSettings {
-            gait: &gait,
-            build: MAN,
-            mode: SyntheticMode::Corrected,
-            cycles: 6,
-            rate_hz: 100.0,
-        };
-        synthesise(&order, &mut Findings::default()).unwrap()
-    })
+    WALK.get_or_init(|| synthesised(SyntheticMode::Corrected))
+}
+
+fn synthesised(mode: SyntheticMode) -> SyntheticWalk {
+    let gait = Gait::named("free").unwrap();
+    let order = SyntheticWalkSettings { gait: &gait, build: MAN, mode, cycles: 6, rate_hz: 100.0 };
+    synthesise(&order, &mut Findings::default()).unwrap()
 }
 
 fn walk() -> Moving {
-    let walk = synthetic();
+    moving(synthetic())
+}
+
+fn moving(walk: &SyntheticWalk) -> Moving {
     Moving::new(&walk.human.model, Person::of_human(&walk.human).soles, &walk.trajectory)
 }
 
 /// Strikes and offs of the forces under the walk, those next to the ends left out.
-fn known(moving: &Moving) -> Vec<Event> {
-    let (walk, mut events) = (synthetic(), Vec::new());
+fn known(walk: &SyntheticWalk) -> Vec<Event> {
+    let mut events = Vec::new();
     for side in Side::BOTH {
         let of_side = |name: &str| Side::of_name(name) == Some(side);
         let loads = walk.loads.iter().filter(|load| of_side(&walk.human.model.bodies()[load.body.index()].name));
@@ -122,7 +121,8 @@ fn known(moving: &Moving) -> Vec<Event> {
             events.extend(contact.off_s.map(|t| event(EventKind::Off, t)));
         }
     }
-    let inside = moving.grid.start_s + 0.15..moving.grid.end_s() - 0.15;
+    let grid = walk.trajectory.grid();
+    let inside = grid.start_s + 0.15..grid.end_s() - 0.15;
     events.retain(|e| inside.contains(&e.time_s));
     events
 }
@@ -145,8 +145,9 @@ fn assert_same(a: &[Event], b: &[Event], within_s: f64) {
 
 #[test]
 fn the_contacts_of_a_synthetic_walk_are_found() {
-    let walk = walk();
-    let (known, found) = (known(&walk), walk.footfalls());
+    let synthetic = synthesised(SyntheticMode::Optimal);
+    let walk = moving(&synthetic);
+    let (known, found) = (known(&synthetic), walk.footfalls());
     let events = found.events();
     for event in &known {
         println!("{event:?} off by {:.1} ms", 1e3 * farthest(&[*event], &events));
@@ -249,7 +250,7 @@ fn in_a_reversed_walk_strikes_and_offs_are_exchanged() {
         kind: if e.kind == EventKind::Strike { EventKind::Off } else { EventKind::Strike },
         time_s: forwards.grid.start_s + forwards.grid.end_s() - e.time_s,
     };
-    let known: Vec<Event> = known(&forwards).iter().map(turn).collect();
+    let known: Vec<Event> = known(synthetic()).iter().map(turn).collect();
     let far = farthest(&known, &backwards.footfalls().events());
     println!("backwards: {:.1} ms", 1e3 * far);
     assert!(far < 0.06, "{far} s");

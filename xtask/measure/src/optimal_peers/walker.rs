@@ -68,7 +68,7 @@ impl Walker {
         // Without the ball, between heel and toe.
         let soles: Vec<ContactSphere> =
             human.soles.iter().filter(|sole| !sole.name.starts_with("ball")).cloned().collect();
-        let WalkProblem { mut problem, guess } =
+        let WalkProblem { mut problem, guess, .. } =
             WalkProblem::new(&human, &soles, SHOES, &walk, &costs).map_err(|e| e.to_string())?;
         let first = problem.at(&guess).map_err(|e| e.to_string())?;
         problem.terms = terms(&problem, &first);

@@ -175,15 +175,8 @@ fn changing(
             (gait_signals(&walk, model, start_s, duration_s).map_err(|e| wrong(&e))?, None)
         }
         FigureWalkMode::Corrected => {
-            if !gait.is_symmetric() {
-                let message = format!(
-                    "found mode \"corrected\" for the gait `{}`, whose sides differ or whose joints machines drive; expected mode \"curves\"",
-                    gait.name
-                );
-                return Err(entry.place.error(message));
-            }
             let walk = make_changing_walk(human, &walk, &ConsistentWalkSettings::default()).map_err(|e| wrong(&e))?;
-            (walk.signals(human, start_s, duration_s), walk.start(model, start_s))
+            (walk.signals(human, start_s, duration_s), Some(walk.start(model, start_s)))
         }
     };
     let [mut q, mut qd, qdd] = [0, 1, 2].map(|d| signals.iter().map(|signal| signal.at(0.0)[d]).collect::<Vec<f64>>());
@@ -234,8 +227,7 @@ fn along_curves(walk: &Walk, human: &Human, phase: f64) -> Motion {
 }
 
 fn corrected(walk: &ConsistentWalk, model: &Model, phase: f64) -> Motion {
-    let mut motion = walk.motion();
-    let write = |t: f64, [q, qd, qdd]: &mut [Vec<f64>; 3]| motion.write(t, q, qd, qdd);
+    let write = |t: f64, posture: &mut [Vec<f64>; 3]| walk.write(t, posture);
     let (signals, [mut q, qd, _]) = sampled(model, walk.walk().cycle_s(), phase, write);
     if let Some(forward) = model.coordinate("pelvis_tx") {
         q[forward.index()] = 0.0;
