@@ -15,12 +15,9 @@ use crate::optimal::{
 };
 use crate::simulation::walking::{WalkRecording, Walker, WalkingError};
 use crate::simulation::{Integrator, Signal, StepSettings};
-use crate::spatial::Vec3;
 
 /// Factor of the slip that costs 1 in a change: soles then slip by 3.5 mm in its worst stance, instead of 8 to 14 mm with 2.
 const PASSAGE_SLIP: f64 = 0.25;
-/// Knot intervals per half cycle of a change, and instants of each: finer splines than those of steady walks slip less.
-const PASSAGE_KNOTS: (usize, usize) = (32, 2);
 /// Steps of the new pace after a change in which the walk settles.
 const SETTLING_STEPS: f64 = 1.0;
 
@@ -75,12 +72,12 @@ const BETWEEN: usize = 10;
 
 /// The solution of a passage, from its guess; if too much is left at the root, also from softer shoes on, and then the better of both.
 fn solved(problem: &WalkProblem) -> Result<Solution, ConsistentWalkError> {
-    let near = problem.solve(&NEAR_STAGES)?;
+    let near = problem.solve_coarse_first(&NEAR_STAGES)?;
     let left = near.root_forces(BETWEEN)?.0;
     if left <= LARGEST_BETWEEN {
         return Ok(near);
     }
-    let far = problem.solve(&FINE_STAGES)?;
+    let far = problem.solve_coarse_first(&FINE_STAGES)?;
     Ok(if far.root_forces(BETWEEN)?.0 < left { far } else { near })
 }
 
@@ -134,8 +131,7 @@ impl ChangingWalk {
             return Err(ConsistentWalkError::Order);
         };
         let passage = Passage { change: number, start_s: ramp.start_s, duration_s, ends: [before, after] };
-        let (knots, per_knot) = PASSAGE_KNOTS;
-        let costs = WalkCosts { slip: PASSAGE_SLIP * settings.costs.slip, knots, per_knot, ..settings.costs };
+        let costs = WalkCosts { slip: PASSAGE_SLIP * settings.costs.slip, ..settings.costs };
         let problem = WalkProblem::passage(human, &human.soles, settings.shoes, &walk, &costs, &passage)?;
         let solution = solved(&problem)?;
         Ok(Change { start_s: ramp.start_s, duration_s, paces, solution })
@@ -211,12 +207,12 @@ impl ChangingWalk {
         })
     }
 
-    /// Place [m] and velocity [m/s] of the root at a time [s].
+    /// Coordinates, rates and accelerations at a time [s].
     #[must_use]
-    pub fn start(&self, model: &Model, time_s: f64) -> [Vec3; 2] {
+    pub fn posture(&self, model: &Model, time_s: f64) -> [Vec<f64>; 3] {
         let mut posture = [(); 3].map(|()| vec![0.0; model.coordinates().len()]);
         self.write(time_s, &mut posture);
-        root_of(model, &posture)
+        posture
     }
 
     /// Simulates `duration_s` on the soft shoes of the settings, from the posture and with the velocity of the walk at time zero. Only joints and
@@ -234,8 +230,9 @@ impl ChangingWalk {
     ) -> Result<WalkRecording, WalkingError> {
         let step = StepSettings { step_s, integrator: Integrator::Impulse, ..StepSettings::default() };
         let signals = self.signals(human, 0.0, duration_s + step_s);
-        let [place, velocity] = self.start(&human.model, 0.0);
+        let posture = self.posture(&human.model, 0.0);
+        let [place, velocity] = root_of(&human.model, &posture);
         let walker = Walker::new(human, signals, &soft_ground(settings.shoes), self.walk.speed())?;
-        walker.starting_at(place, velocity).walk(&step, duration_s, findings)
+        walker.starting_at(place, velocity).moving_as(&posture).walk(&step, duration_s, findings)
     }
 }

@@ -38,7 +38,7 @@ pub fn make_consistent_walk(
     let span = if walk.is_symmetric() { Span::MirroredHalfCycle } else { Span::Cycle };
     let problem = WalkProblem::over(span, human, &human.soles, settings.shoes, walk, &settings.costs)?;
     let stages: &[Continuation] = if walk.gait().follows_people() { &STAGES } else { &FINE_STAGES };
-    let solution = problem.solve(stages)?;
+    let solution = problem.solve_coarse_first(stages)?;
     Ok(ConsistentWalk { walk: walk.clone(), problem, solution })
 }
 
@@ -92,7 +92,8 @@ impl ConsistentWalk {
         let mut posture = [(); 3].map(|()| vec![0.0; model.coordinates().len()]);
         self.write(0.0, &mut posture);
         let [place, velocity] = root_of(model, &posture);
-        Ok(Walker::new(human, self.signals(model), ground, velocity.x)?.starting_at(place, velocity))
+        let walker = Walker::new(human, self.signals(model), ground, velocity.x)?;
+        Ok(walker.starting_at(place, velocity).moving_as(&posture))
     }
 
     /// Simulates `cycles` cycles on the soft shoes of the settings. Only joints and trunk are driven.
