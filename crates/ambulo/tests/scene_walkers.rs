@@ -106,8 +106,8 @@ fn a_walker_follows_its_consistent_walk() {
     let speed = (place(&scene, "ann/pelvis").x - start) / 1.2;
     println!("{speed:.4} m/s, the trunk is held with {trunk:.2} N.m at most");
     assert!((speed - 1.2).abs() < 0.02, "{speed} m/s");
-    // At a strike, for a millisecond: half of what is taken to be in balance.
-    assert!(trunk < 0.75 * 60.0, "{trunk} N.m");
+    // A sixth of what is taken to be in balance. It was 42 N.m in the first step, which had half of the change of velocity.
+    assert!(trunk < 10.0, "{trunk} N.m");
     assert_eq!(verdict(&scene).state, VerdictState::Feasible);
 }
 

@@ -70,6 +70,8 @@ pub struct WalkCosts {
     pub acceleration: f64,
     /// The same for that of the toes [rad/s²].
     pub toes: f64,
+    /// The same for those of the arms, and of other joints that are not named here [rad/s²].
+    pub arms: f64,
     /// The same for pelvis, trunk and hips in the frontal and the transverse plane [rad].
     pub plane: f64,
     /// The same for the ground force of a foot, forward and up [body weights].
@@ -86,8 +88,8 @@ pub struct WalkCosts {
 
 impl WalkCosts {
     /// For a figure in the sagittal plane, in any gait. Fewer splines with more instants each leave less of the forces at the root between the
-    /// instants, which a simulation feels. Toes must be slow: they are so light that shaking them by 1,000 to 5,000 rad/s² was the cheapest way to
-    /// supply what the splines leave at the root between foot strikes, and the solver then found no smoother walk.
+    /// instants, which a simulation feels. Toes and arms must be slow: they are so light that shaking them, toes by 1,000 to 5,000 rad/s², is the
+    /// cheapest way to supply what the splines leave at the root, and the solver then finds no smoother walk.
     #[must_use]
     pub fn planar() -> WalkCosts {
         WalkCosts {
@@ -95,6 +97,7 @@ impl WalkCosts {
             per_knot: 4,
             ankle: DEGREE,
             toes: 20.0,
+            arms: 3.0,
             force: [0.02, 0.02],
             others: 1.0,
             slip: 0.01,
@@ -113,6 +116,7 @@ impl Default for WalkCosts {
             ankle: 1.25 * DEGREE,
             acceleration: 30.0,
             toes: 90.0,
+            arms: 10.0,
             plane: 1.0 * DEGREE,
             force: [0.02, 0.04],
             others: 0.0,
@@ -328,7 +332,7 @@ impl Builder<'_> {
                 Some(Movement::SubtalarInversion) => self.follow(id, 3.0 * DEGREE, 30.0),
                 Some(Movement::TrunkLean) => self.trunk(id),
                 Some(Movement::TrunkObliquity | Movement::TrunkRotation) => self.follow(id, costs.plane, 10.0),
-                _ => self.follow(id, 3.0 * DEGREE, 10.0),
+                _ => self.follow(id, 3.0 * DEGREE, costs.arms),
             }
         }
         if let Some((id, _)) = anatomy.coordinate(Movement::PelvisForward, None) {

@@ -16,7 +16,8 @@ use crate::optimal::{
 use crate::simulation::walking::{WalkRecording, Walker, WalkingError};
 use crate::simulation::{Integrator, Signal, StepSettings};
 
-/// Factor of the slip that costs 1 in a change: soles then slip by 3.5 mm in its worst stance, instead of 8 to 14 mm with 2.
+/// Factor of the slip that costs 1 in a change: from 1.2 to 1.6 m/s within two steps, soles then slip by at most 2 mm, and less is left at the root
+/// than with 0.5 or 1.
 const PASSAGE_SLIP: f64 = 0.25;
 /// Steps of the new pace after a change in which the walk settles.
 const SETTLING_STEPS: f64 = 1.0;
