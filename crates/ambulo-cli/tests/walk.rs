@@ -141,12 +141,9 @@ fn the_walk_of_the_papers_mode_is_infeasible() {
 #[test]
 fn a_gait_that_cannot_be_made_consistent_gives_a_warning_and_a_verdict() {
     let bench = Workbench::empty("walk_fast_parade");
-    bench.write(
-        "fast.toml",
-        "name = \"fast parade\"\nbase = \"parade\"\ncadence_scale = 1.2\nstep_length_scale = 1.0\n",
-    );
+    bench.write("fast.toml", "name = \"long parade\"\nbase = \"parade\"\nspeed = 4.5\nstep_length = 2.8\n");
     let run = bench.run(&["walk", "--gait", "fast.toml", "--cycles", "1", "-o", "out"]).infeasible();
-    run.reports(&["warning: no small change makes this gait dynamically consistent", "hint: "]);
+    run.reports(&["warning: found no motion near this gait that needs no force from outside", "hint: "]);
     let findings = bench.json("out/summary.json")["findings"].clone();
     assert!(findings.as_array().unwrap().iter().any(|f| f["code"] == "walk.not_consistent"), "{findings}");
 }
@@ -158,11 +155,13 @@ fn machines_of_a_gait_file_drive_the_walk_and_their_states_are_written() {
     for name in ["limp", "stop-and-go", "sub-cycles"] {
         bench.write(&format!("{name}.toml"), std::fs::read(examples.join(format!("{name}.toml"))).unwrap());
     }
-    // Sides that differ are walked in the mode of the paper, unless the other mode is asked for.
-    bench.run(&["walk", "--gait", "limp.toml", "--cycles", "2", "--quiet", "-o", "limp"]).infeasible();
+    // Sides that differ are corrected over a whole cycle; the mode of the paper walks them as they are.
+    bench.run(&["walk", "--gait", "limp.toml", "--cycles", "1", "--quiet", "-o", "limp"]);
+    assert_eq!(bench.json("limp/summary.json")["ground"]["rule"], "soft shoes");
+    bench
+        .run(&["walk", "--gait", "limp.toml", "--mode", "paper", "--cycles", "2", "--quiet", "-o", "limp"])
+        .infeasible();
     assert_eq!(bench.json("limp/summary.json")["ground"]["rule"], "rigid soles");
-    let refused = ["walk", "--gait", "limp.toml", "--mode", "corrected", "-o", "limp"];
-    bench.run(&refused).refused(&["sides that differ", "use the mode `paper`"]);
     let states = bench.text("limp/states.csv");
     assert!(states.starts_with("machine,state,start_s,end_s\nwalk,"), "{states}");
     assert!(states.contains("\nbalancing arm,lifted,"), "{states}");

@@ -2,7 +2,7 @@
 
 use crate::gait_machine::shuffled;
 use ambulo::findings::Findings;
-use ambulo::gait::machine::{StateWatch, WalkMachine, planned};
+use ambulo::gait::machine::{StateWatch, WalkMachine, planned, repeats};
 use ambulo::gait::{Gait, GaitError, Jet, Walk, WalkPosture};
 use ambulo::model::Side;
 use ambulo::model::anthropometry::{Build, SegmentTable};
@@ -165,19 +165,23 @@ fn left_and_right_are_edited_apart() {
 }
 
 #[test]
-fn sides_that_differ_are_not_corrected_and_equal_changes_are() {
-    let gait = gait(LIMP);
-    let settings = SyntheticWalkSettings {
-        gait: &gait,
+fn sides_that_differ_are_corrected_if_their_machines_repeat_what_they_do() {
+    assert!(repeats(&walk(LIMP)) && repeats(&walk(SUB_CYCLES)) && repeats(&walk(STOP_AND_GO)));
+    let once = "[[machine]]\nname = \"nod\"\ndrives = \"left elbow\"\nstate = [{ name = \"a\" }, { name = \"b\", activity = \"constant\", angle_deg = 40 }]\ntransition = [{ from = \"a\", to = \"b\", when = \"time >= 10 s\" }]\n";
+    assert!(!repeats(&walk(once)));
+    let settings = |gait| SyntheticWalkSettings {
+        gait,
         build: build(),
         mode: SyntheticMode::Corrected,
         cycles: 1,
         rate_hz: 100.0,
     };
-    let error = synthesise(&settings, &mut Findings::default()).unwrap_err().to_string();
-    assert!(error.contains("sides that differ") && error.contains("hint: use the mode `paper`"), "{error}");
+    let error = synthesise(&settings(&gait(once)), &mut Findings::default()).unwrap_err().to_string();
+    assert!(error.contains("otherwise from cycle to cycle") && error.contains("the mode `paper`"), "{error}");
+    let limp = made(LIMP, SyntheticMode::Corrected, 1);
+    assert!(limp.report.correction.is_some());
     let bent = made("[[joint]]\njoint = \"knee\"\nangle_deg = 3\n", SyntheticMode::Corrected, 1);
-    assert!(bent.report.correction.is_some());
+    assert!(bent.report.correction.unwrap().parameters < limp.report.correction.unwrap().parameters);
 }
 
 #[test]

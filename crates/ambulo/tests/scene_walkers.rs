@@ -106,8 +106,8 @@ fn a_walker_follows_its_consistent_walk() {
     let speed = (place(&scene, "ann/pelvis").x - start) / 1.2;
     println!("{speed:.4} m/s, the trunk is held with {trunk:.2} N.m at most");
     assert!((speed - 1.2).abs() < 0.02, "{speed} m/s");
-    // At a strike, for a millisecond: a third of what is taken to be in balance.
-    assert!(trunk < 0.5 * 60.0, "{trunk} N.m");
+    // A sixth of what is taken to be in balance. It was 42 N.m in the first step, which had half of the change of velocity.
+    assert!(trunk < 10.0, "{trunk} N.m");
     assert_eq!(verdict(&scene).state, VerdictState::Feasible);
 }
 
@@ -300,8 +300,15 @@ fn a_figure_with_motors_stays_near_its_walk() {
     let leg = build.human().unwrap().dimensions.leg_length;
     let gait = Gait { pace: Pace { speed: Some(Speed::MetersPerSecond(1.2)), ..gait.pace }, ..gait };
     let walk = Walk::new(&gait, leg, &mut Findings::default()).unwrap();
-    let lag = (0..600).map(|row| angles("arm_flex_r")[row] - walk.at(0.001 * row as f64).shoulders[0].value);
-    let lag = lag.map(f64::abs).fold(0.0, f64::max);
+    let human = build.human().unwrap();
+    let consistent = make_consistent_walk(&human, &walk, &ConsistentWalkSettings::default()).unwrap();
+    let shoulder = human.model.coordinate("arm_flex_r").unwrap().index();
+    let mut posture = [(); 3].map(|()| vec![0.0; human.model.coordinates().len()]);
+    let mut planned = |row: usize| {
+        consistent.write(0.001 * row as f64, &mut posture);
+        posture[0][shoulder]
+    };
+    let lag = (0..600).map(|row| (angles("arm_flex_r")[row] - planned(row)).abs()).fold(0.0, f64::max);
     println!("lags by {:.2} deg at most", lag.to_degrees());
     // Gravity and inertia over stiffness: some 5 N.m over 100 N.m/rad.
     assert!(lag > 0.0 && lag < 0.08, "{lag} rad");

@@ -155,7 +155,7 @@ fn gaits_take_the_mode_that_can_compute_them() {
     assert_eq!(mode(&|_, build| build.toe_joint = false), SyntheticMode::Corrected);
     assert_eq!(mode(&|gait, _| *gait = Gait::named("standard").unwrap()), SyntheticMode::Corrected);
     let limp = "base = \"free\"\n[[joint]]\njoint = \"right knee\"\nangle_deg = 3\n";
-    assert_eq!(mode(&|gait, _| *gait = Gait::from_toml(limp).unwrap()), SyntheticMode::Paper);
+    assert_eq!(mode(&|gait, _| *gait = Gait::from_toml(limp).unwrap()), SyntheticMode::Corrected);
 }
 
 #[test]
@@ -252,17 +252,18 @@ fn the_correction_is_reported() {
     }
     let [forward, up] = report.adjustment.pelvis;
     assert!(forward.largest < 0.1 && up.largest < 0.1 && up.rms > 0.0, "{forward:?} {up:?}");
-    assert!(report.progress.iter().all(|stage| stage.to <= stage.from), "{:?}", report.progress);
+    // Multipliers grow from stage to stage, so costs of different stages cannot be compared.
+    assert!(report.progress.iter().any(|stage| stage.iterations > 0 && stage.to < stage.from), "{:?}", report.progress);
 }
 
 #[test]
 fn a_gait_that_cannot_be_made_consistent_gives_a_warning() {
-    // Straight knees at the pace of the standard gait.
+    // Steps of three leg lengths: every foot lands out of reach of the hip that stands on the other one.
     let (mut gait, mut findings) = (Gait::named("parade").unwrap(), Findings::default());
-    (gait.pace.length_scale, gait.pace.cadence_scale) = (1.0, 1.0);
+    gait.pace = gait.pace.with(Some(4.5), Some(2.8), None);
     synthesise(&order(&gait, MAN, SyntheticMode::Corrected), &mut findings).unwrap();
     let found = findings.as_slice().iter().find(|finding| finding.code == Code::WalkNotConsistent);
-    assert!(found.is_some_and(|finding| finding.message.contains("no small change")), "{findings:?}");
+    assert!(found.is_some_and(|finding| finding.message.contains("found no motion near this gait")), "{findings:?}");
 }
 
 #[test]

@@ -5,9 +5,7 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, PaceChange, Walk};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::simulation::Signal;
-use ambulo::simulation::consistent_walk::{
-    ChangingWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
-};
+use ambulo::simulation::consistent_walk::{ChangingWalk, ConsistentWalkSettings, make_changing_walk};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use std::sync::LazyLock;
 
@@ -45,28 +43,39 @@ fn mean_speed(walk: &SyntheticWalk, end_s: f64, cycle_s: f64) -> f64 {
     (forward[to] - forward[from]) / ((to - from) as f64 * STEP_S)
 }
 
+/// The state at the start of a change is that of the walk before, to rounding, and that at its end is that of the walk after; one instant later the
+/// walk before is elsewhere.
 #[test]
-fn a_change_to_the_same_pace_changes_nothing() {
+fn a_change_begins_and_ends_in_the_states_of_both_walks() {
     let human = BUILD.human().unwrap();
-    let changing = changing(&human, &gait(1.2, &[(1.0, 1.2)]));
-    let walk = Walk::new(&gait(1.2, &[]), human.dimensions.leg_length, &mut Findings::default()).unwrap();
-    let steady = make_consistent_walk(&human, &walk, &ConsistentWalkSettings::default()).unwrap();
-    assert_eq!(changing.paces().len(), 1);
-    let root = ["pelvis_tx", "pelvis_ty"].map(|name| human.model.coordinate(name).unwrap().index());
-    let pairs = changing.signals(&human, 0.0, 4.0).into_iter().zip(steady.signals(&human.model));
-    for (k, (a, b)) in pairs.enumerate().filter(|(k, _)| !root.contains(k)) {
-        for i in 0..80 {
-            let t = 0.0473 * f64::from(i);
-            let (a, b) = (a.at(t), b.at(t));
-            // Both are interpolated between other instants: accelerations differ by what a jump of the third derivative makes in 1 ms.
-            for (d, allowed) in [1e-8, 1e-5, 2.0].into_iter().enumerate() {
-                assert_near(a[d], b[d], allowed, &format!("coordinate {k}, derivative {d}, at {t} s"));
+    let walk = Walk::new(&gait(1.2, &[(1.0, 1.6)]), human.dimensions.leg_length, &mut Findings::default()).unwrap();
+    let changing = make_changing_walk(&human, &walk, &ConsistentWalkSettings::default()).unwrap();
+    let forward = human.model.coordinate("pelvis_tx").unwrap().index();
+    let read = |t: f64| {
+        let mut posture = [(); 3].map(|()| vec![0.0; human.model.coordinates().len()]);
+        changing.write(t, &mut posture);
+        posture
+    };
+    let own = |pace: usize, t: f64| {
+        let steady = &changing.paces()[pace];
+        let mut posture = read(t);
+        steady.write(walk.clock(t).phase.value * steady.walk().cycle_s(), &mut posture);
+        posture
+    };
+    let end_s = 1.0 + changing.changes().next().unwrap().problem().duration_s;
+    for (pace, t) in [(0, 1.0), (1, end_s - 1e-9)] {
+        let (found, expected) = (read(t), own(pace, t));
+        for (d, allowed) in [1e-8, 1e-5, 1e-3].into_iter().enumerate() {
+            for k in (0..found[d].len()).filter(|k| *k != forward) {
+                assert_near(found[d][k], expected[d][k], allowed, &format!("coordinate {k}, derivative {d} at {t} s"));
             }
         }
     }
+    let (found, before) = (read(1.5), own(0, 1.5));
+    assert!(found[0].iter().zip(&before[0]).any(|(a, b)| (a - b).abs() > 0.02));
 }
 
-/// Accelerations have slopes of at most 1e5 rad/s³, so across 2 µs they differ by 0.2 where they are continuous; a break of the
+/// Accelerations have slopes of up to 6e5 rad/s³ (toes), so across 0.2 µs they differ by 0.12 where they are continuous; a break of the
 /// correction or of the ramps would be tens of rad/s².
 #[test]
 fn targets_have_no_break_in_their_accelerations() {
@@ -76,10 +85,10 @@ fn targets_have_no_break_in_their_accelerations() {
     for (coordinate, signal) in coordinates {
         for i in 1..9000 {
             let t = 1e-3 * f64::from(i);
-            let ([x, v, a], [y, w, b]) = (signal.at(t - 1e-6), signal.at(t + 1e-6));
+            let ([x, v, a], [y, w, b]) = (signal.at(t - 1e-7), signal.at(t + 1e-7));
             let name = &coordinate.name;
-            assert_near(y - x, 1e-6 * (v + w), 1e-9, &format!("{name} at {t} s"));
-            assert_near(w, v, 1e-3, &format!("rate of {name} at {t} s"));
+            assert_near(y - x, 1e-7 * (v + w), 1e-10, &format!("{name} at {t} s"));
+            assert_near(w - v, 1e-7 * (a + b), 1e-6, &format!("rate of {name} at {t} s"));
             assert_near(b, a, 0.5, &format!("acceleration of {name} at {t} s"));
         }
     }
@@ -103,12 +112,11 @@ fn a_change_of_speed_within_two_steps_is_reached_with_little_slip() {
     assert_near(change.start_s, 2.0, 1e-9, "start");
     assert_near(reached, expected, 0.03 * expected, "speed reached");
     assert_near(mean_speed(&FASTER, 2.0, report.cycle_s), 1.2, 0.04, "speed before the change");
-    // Asked were 3 mm; with one ramp of all angles over both steps, double supports included, it was 10.8 mm.
-    assert!(slip < 4e-3, "{slip} m");
+    assert!(slip < 3e-3, "{slip} m");
 }
 
 #[test]
-fn the_trunk_is_held_during_a_change() {
+fn nothing_holds_the_trunk_during_a_change() {
     let human = &FASTER.human;
     let effort = &FASTER.efforts[human.model.coordinate("pelvis_tilt").unwrap().index()];
     let rms = |from_s: f64, to_s: f64| {
@@ -118,9 +126,8 @@ fn the_trunk_is_held_during_a_change() {
     let change = FASTER.report.changes[0];
     let (during, before) = (rms(change.start_s, change.start_s + change.duration_s), rms(0.2, change.start_s));
     println!("trunk torque: {during:.1} N.m rms during the change, {before:.1} before");
-    // The force that accelerates 75 kg by 0.4 m/s turns the body with 26 N.m on average, which planar feet that keep their plan do not
-    // balance. Asked were 40 N.m.
-    assert!((20.0..60.0).contains(&during), "{during}");
+    // With the angles of the gait and no plan of the change, it was 54 N.m: the force that accelerates 75 kg by 0.4 m/s turns the body.
+    assert!(during < 10.0, "{during}");
     assert!(before < 8.0, "{before}");
 }
 

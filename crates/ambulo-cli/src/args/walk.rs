@@ -42,10 +42,10 @@ three dimensions, but follows no curves of people: muscles work as little as the
 and devices are allowed. `corrected` (or --planar)
 walks in the sagittal plane: it changes the gait by a few degrees until it has no residual forces, and simulates it on soft shoes. `paper`
 drives the joints with the unchanged curves, holds the trunk upright and has rigid soles, as Faure, Debunne, Cani and Multon did in 1997.
-`optimal` and `corrected` take gaits whose sides do the same half a cycle apart, `optimal` only those with the curves of people and a
-constant pace; a gait file whose sides differ, or whose joints machines drive, is walked in the mode `paper`. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
+`optimal` takes gaits with the curves of people and a constant pace; `corrected` takes any gait whose machines do the same in every cycle,
+the others are walked in the mode `paper`. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
 step with straight knees; without --style they use style 1997 in the mode
-`paper` and style knots in the mode `corrected`. If no small change makes a gait dynamically consistent, a warning says so.
+`paper` and style knots in the mode `corrected`. If no motion near a gait is dynamically consistent, a warning says so.
 
 Two of --speed, --step-length and --cadence determine the third. With one of them, the others follow from the usual relation of step length
 and cadence to speed (docs/GAITS.md, which also describes gait files). In both cases the gait's own values are ignored.

@@ -9,7 +9,7 @@ use crate::toml_reader::TomlError;
 
 /// Largest root mean square of the forces at the root between the instants of a problem [body weights, body weights × leg length]. Walks of people
 /// leave at most 0.003 (docs/measured/OPTIMAL_WALK.md); a body that hops between the instants leaves more.
-pub(super) const LARGEST_BETWEEN: f64 = 0.01;
+pub const LARGEST_BETWEEN: f64 = 0.01;
 
 /// Why a figure cannot walk by optimal motion.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

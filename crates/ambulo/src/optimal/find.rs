@@ -16,7 +16,7 @@ use crate::model::full_body::full_body;
 
 /// Largest force and moment at the root that count as none [body weights, body weights × leg length].
 pub const NO_ROOT_FORCE: f64 = 1e-4;
-/// Larger forces at the root mean that no walk was found; those between are reported with the walk.
+/// Larger forces at the root mean that no walk was found [body weights, body weights × leg length]; those between are reported with the walk.
 const LARGEST_ROOT_FORCE: f64 = 1e-3;
 /// Instants per knot interval at which the forces at the root between the instants of the problem are judged.
 const BETWEEN: usize = 10;

@@ -39,7 +39,7 @@ mod walk;
 
 pub use conditions::{Device, Load, LoadPlace, WalkConditions};
 pub use effort::{Effort, Exponential};
-pub use error::{OptimalWalkError, Overload};
+pub use error::{LARGEST_BETWEEN, OptimalWalkError, Overload};
 pub use find::{NO_ROOT_FORCE, OptimalWalk};
 pub use forward::Drift;
 pub use layout::Span;
@@ -52,4 +52,4 @@ pub use predict::{Prediction, metabolic_power};
 pub use problem::Problem;
 pub use solution::{Progress, Sample, SoleContact, Solution, Unbalanced};
 pub use solve::Continuation;
-pub use walk::{STAGES, WalkCosts, WalkProblem, soles_with_width};
+pub use walk::{FINE_STAGES, Passage, PassageEnd, STAGES, WalkCosts, WalkProblem, soles_with_width};

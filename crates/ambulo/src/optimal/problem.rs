@@ -120,6 +120,15 @@ impl Problem {
         unknowns
     }
 
+    /// The same problem with every second instant of each knot interval.
+    pub(super) fn every_second(&self) -> Problem {
+        let mut terms = self.terms.clone();
+        for term in &mut terms {
+            term.targets = term.targets.iter().step_by(2).copied().collect();
+        }
+        Problem { terms, instants_per_knot: self.instants_per_knot / 2, ..self.clone() }
+    }
+
     pub(super) fn layout(&self) -> Layout {
         Layout::new(&self.model, self.span, self.knots, self.instants_per_knot)
     }

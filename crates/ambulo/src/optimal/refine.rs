@@ -134,7 +134,8 @@ mod tests {
         let smooth = HuntCrossley { friction_curve: FrictionCurve::Smooth, ..HuntCrossley::MOCO_2D_GAIT };
         let shoes = HuntCrossley { onset: Onset::Published, ..smooth };
         let costs = WalkCosts { knots: 8, per_knot: 1, ..WalkCosts::default() };
-        let WalkProblem { mut problem, guess } = WalkProblem::new(&human, &human.soles, shoes, &walk, &costs).unwrap();
+        let WalkProblem { mut problem, guess, .. } =
+            WalkProblem::new(&human, &human.soles, shoes, &walk, &costs).unwrap();
         // Without corners; all kinds of terms remain.
         for term in &mut problem.terms {
             term.bound = Bound::Near;

@@ -36,6 +36,8 @@ const LEAST_DAMPING: f64 = 1e-7;
 const MORE_DAMPING: f64 = 10.0;
 /// Factors of the damping after a step, and the ratios of decrease and predicted decrease above which they are used.
 const LESS_DAMPING: [(f64, f64); 2] = [(0.75, 0.1), (0.25, 0.5)];
+/// Entry of the diagonal of an unknown that keeps its value: it then moves by less than rounding.
+const HELD: f64 = 1e40;
 /// Attempts per step to lower the cost.
 const TRIES: usize = 12;
 /// Accuracy of the first height over the ground, a share of the length of the body.
@@ -47,7 +49,20 @@ impl Problem {
     /// # Errors
     /// If the model has joints that are not hinges or slides.
     pub fn solve(&self, guess: &[f64], stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
-        let mut method = Method::new(self)?;
+        self.solve_keeping(guess, stages, &[])
+    }
+
+    /// As [`Problem::solve`], but the unknowns with the numbers `kept` keep the value of the first guess.
+    ///
+    /// # Errors
+    /// As [`Problem::solve`].
+    pub fn solve_keeping(
+        &self,
+        guess: &[f64],
+        stages: &[Continuation],
+        kept: &[usize],
+    ) -> Result<Solution, CurvedJointError> {
+        let mut method = Method::new(self, kept)?;
         let mut unknowns = guess.to_vec();
         let (mut progress, mut slack) = (Vec::new(), 1.0);
         method.transcription.evaluate(&unknowns);
@@ -123,16 +138,18 @@ impl Problem {
 }
 
 struct Method<'a> {
+    /// Numbers of the unknowns that keep their value.
+    kept: &'a [usize],
     transcription: Transcription<'a>,
     normal: NormalEquations,
     damping: f64,
 }
 
 impl<'a> Method<'a> {
-    fn new(problem: &'a Problem) -> Result<Method<'a>, CurvedJointError> {
+    fn new(problem: &'a Problem, kept: &'a [usize]) -> Result<Method<'a>, CurvedJointError> {
         let transcription = Transcription::new(problem)?;
         let normal = NormalEquations::new(&transcription.layout);
-        Ok(Method { transcription, normal, damping: FIRST_DAMPING })
+        Ok(Method { kept, transcription, normal, damping: FIRST_DAMPING })
     }
 
     fn cost(&mut self, unknowns: &[f64]) -> f64 {
@@ -162,6 +179,10 @@ impl<'a> Method<'a> {
         let mut matrix = empty_matrix(&layout);
         let mut right = vec![0.0; unknowns.len()];
         self.normal.fold(&layout, &mut matrix, &mut right);
+        for &k in self.kept {
+            matrix.add(k, k, HELD);
+            right[k] = 0.0;
+        }
         let diagonal = matrix.diagonal();
         self.transcription.exchange_base();
         for _ in 0..TRIES {
@@ -179,6 +200,7 @@ impl<'a> Method<'a> {
                 let negative: Vec<f64> = change.iter().map(|d| -d).collect();
                 self.transcription.curvature_of_root(&negative, &mut self.normal);
                 let mut bend = self.normal.fold_right(&layout);
+                self.kept.iter().for_each(|&k| bend[k] = 0.0);
                 factor.solve(&mut bend);
                 for (d, b) in change.iter_mut().zip(&bend) {
                     *d += b;

@@ -1,17 +1,22 @@
 //! The problem of walking: a figure walks at a given speed with mean curves of healthy people as targets.
 
+mod passage;
+mod targets;
+
+pub use passage::{Passage, PassageEnd};
+
 use super::layout::Span;
 use super::objective::{Bound, Quantity, Term};
 use super::problem::Problem;
 use super::solution::Solution;
 use super::solve::Continuation;
 use crate::contact::HuntCrossley;
-use crate::gait::machine::WalkMachine;
-use crate::gait::{GroundForceLaws, Jet, JointMomentLaws, JointMoments, OtherPlaneLaws, Walk, WalkCoordinates};
+use crate::gait::{JointMoments, Walk};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, Model, Movement, Side};
 use crate::spatial::Vec3;
 use crate::toml_reader::TomlError;
+use targets::{Target, Targets, settled_s};
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
@@ -22,6 +27,8 @@ pub struct WalkProblem {
     pub problem: Problem,
     /// Unknowns of the target motion, the first guess.
     pub guess: Vec<f64>,
+    /// Numbers of the unknowns that keep their first guess.
+    pub kept: Vec<usize>,
 }
 
 /// Contact spheres of a figure in three dimensions: each sphere of the planar figure is replaced by a medial and a lateral one.
@@ -47,7 +54,7 @@ pub fn soles_with_width(human: &Human) -> Vec<ContactSphere> {
 }
 
 /// Resolution and costs of a walk.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WalkCosts {
     /// Knot intervals per half cycle.
     pub knots: usize,
@@ -61,16 +68,42 @@ pub struct WalkCosts {
     pub ankle: f64,
     /// The same for the angular accelerations of these joints [rad/s²].
     pub acceleration: f64,
+    /// The same for that of the toes [rad/s²].
+    pub toes: f64,
+    /// The same for those of the arms, and of other joints that are not named here [rad/s²].
+    pub arms: f64,
     /// The same for pelvis, trunk and hips in the frontal and the transverse plane [rad].
     pub plane: f64,
     /// The same for the ground force of a foot, forward and up [body weights].
     pub force: [f64; 2],
+    /// Weight of the ground forces of people in a gait whose curves are not those of people; 0 leaves them out.
+    pub others: f64,
     /// The same for the joint moments of [`JointMomentLaws`] [body weight × leg length].
     pub moment: f64,
     /// Rate of a joint moment that costs 1 [N.m/kg per cycle].
     pub moment_rate: f64,
     /// Slip velocity of a loaded sphere that costs 1 [m/s].
     pub slip: f64,
+}
+
+impl WalkCosts {
+    /// For a figure in the sagittal plane, in any gait. Fewer splines with more instants each leave less of the forces at the root between the
+    /// instants, which a simulation feels. Toes and arms must be slow: they are so light that shaking them, toes by 1,000 to 5,000 rad/s², is the
+    /// cheapest way to supply what the splines leave at the root, and the solver then finds no smoother walk.
+    #[must_use]
+    pub fn planar() -> WalkCosts {
+        WalkCosts {
+            knots: 24,
+            per_knot: 4,
+            ankle: DEGREE,
+            toes: 20.0,
+            arms: 3.0,
+            force: [0.02, 0.02],
+            others: 1.0,
+            slip: 0.01,
+            ..WalkCosts::default()
+        }
+    }
 }
 
 impl Default for WalkCosts {
@@ -82,8 +115,11 @@ impl Default for WalkCosts {
             knee: 2.0 * DEGREE,
             ankle: 1.25 * DEGREE,
             acceleration: 30.0,
+            toes: 90.0,
+            arms: 10.0,
             plane: 1.0 * DEGREE,
             force: [0.02, 0.04],
+            others: 0.0,
             moment: 0.006,
             moment_rate: 3.0,
             slip: 0.02,
@@ -103,25 +139,24 @@ pub const STAGES: [Continuation; 8] = [
     Continuation { stiffness: 1.0, creep: 1.0, slack: 0.00003, updates: 6, steps: 10, gain: 1e-3 },
 ];
 
-/// Clearance is required from the first share of the cycle after foot off until the second share before the next foot strike: heel, ball, toes.
-const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]];
-/// Largest extension of the toes in the first guess [rad].
-const TOES_LIMIT: f64 = 0.8;
+/// Stages of the solution of a gait that is far from those of people, such as a step with straight knees: friction becomes steeper in more stages of
+/// more steps.
+pub const FINE_STAGES: [Continuation; 11] = [
+    Continuation { stiffness: 0.25, creep: 50.0, slack: 0.05, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 0.5, creep: 25.0, slack: 0.02, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 16.0, slack: 0.01, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 10.0, slack: 0.005, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 6.0, slack: 0.003, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 4.0, slack: 0.002, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 2.5, slack: 0.001, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.6, slack: 0.001, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.001, updates: 0, steps: 40, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0003, updates: 2, steps: 20, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0001, updates: 4, steps: 20, gain: 1e-3 },
+];
+
 /// Smallest height of a swinging sole [m].
 const CLEARANCE: f64 = 0.008;
-
-/// Targets at one instant.
-struct Target {
-    posture: [Vec<f64>; 3],
-    /// Ground force of the right and of the left foot: forward, up [body weights].
-    forces: [[f64; 2]; 2],
-    /// Moments at the joints of the right and of the left leg.
-    moments: [JointMoments; 2],
-    /// Extension of the toes, right and left [rad].
-    toes: [f64; 2],
-    /// Whether heel, ball and toes of the right and of the left foot must be clear of the ground.
-    swing: [[bool; 3]; 2],
-}
 
 struct Builder<'a> {
     model: &'a Model,
@@ -156,37 +191,30 @@ impl WalkProblem {
         walk: &Walk,
         costs: &WalkCosts,
     ) -> Result<WalkProblem, TomlError> {
-        let model = &human.model;
-        let forward = model.anatomy().coordinate(Movement::PelvisForward, None).map(|(id, _)| id);
         let halves = if span == Span::MirroredHalfCycle { 1 } else { 2 };
         let duration_s = 0.5 * walk.cycle_s() * halves as f64;
-        let mut problem = Problem {
-            model: model.clone(),
-            soles: soles.to_vec(),
-            levels_m: Vec::new(),
-            shoes,
+        let distance = walk.speed() * duration_s;
+        let empty = Problem {
             span,
             duration_s,
-            travel: forward.map(|id| (id, walk.speed() * duration_s)),
+            travel: forward(&human.model).map(|id| (id, distance)),
             knots: costs.knots * halves,
-            instants_per_knot: costs.per_knot,
-            length_m: human.dimensions.leg_length,
-            terms: Vec::new(),
+            ..empty(human, soles, shoes, costs)
         };
-        let phases: Vec<f64> = problem.shares().iter().map(|share| 0.5 * halves as f64 * share).collect();
-        let targets = targets(human, walk, &phases)?;
-        let mut builder = Builder { model, targets, terms: Vec::new() };
-        builder.posture(costs);
-        builder.forces(&problem, walk, costs);
-        builder.moment_rates(walk, costs);
-        builder.feet(&problem, costs);
-        let Builder { targets, terms, .. } = builder;
-        problem.terms = terms;
-        let mut guess = problem.fitted(&targets.iter().map(|target| target.posture[0].clone()).collect::<Vec<_>>());
-        if let Some((height, _)) = model.anatomy().coordinate(Movement::PelvisUp, None) {
+        let start_s = settled_s(walk);
+        let times: Vec<f64> = empty.shares().iter().map(|share| start_s + share * duration_s).collect();
+        let builder = Builder::new(human, walk, &times)?;
+        let coordinates: Vec<Vec<f64>> = builder.targets.iter().map(|target| target.posture[0].clone()).collect();
+        Ok(WalkProblem::guessed(builder.problem(empty, walk, costs), &coordinates))
+    }
+
+    /// A problem with the first guess that fits coordinates at its instants, at the height at which the ground carries the body.
+    fn guessed(problem: Problem, coordinates: &[Vec<f64>]) -> WalkProblem {
+        let mut guess = problem.fitted(coordinates);
+        if let Some((height, _)) = problem.model.anatomy().coordinate(Movement::PelvisUp, None) {
             let _ = problem.settle(&mut guess, height);
         }
-        Ok(WalkProblem { problem, guess })
+        WalkProblem { problem, guess, kept: Vec::new() }
     }
 
     /// Solves the problem.
@@ -194,77 +222,61 @@ impl WalkProblem {
     /// # Errors
     /// If the figure has joints that are not hinges or slides.
     pub fn solve(&self, stages: &[Continuation]) -> Result<Solution, crate::dynamics::CurvedJointError> {
-        self.problem.solve(&self.guess, stages)
+        self.problem.solve_keeping(&self.guess, stages, &self.kept)
+    }
+
+    /// As [`WalkProblem::solve`], in less time where a knot interval has many instants: the first stages, which only make a better guess, count every
+    /// second instant. All count from the last stage before the first update of multipliers on.
+    ///
+    /// # Errors
+    /// As [`WalkProblem::solve`].
+    pub fn solve_coarse_first(&self, stages: &[Continuation]) -> Result<Solution, crate::dynamics::CurvedJointError> {
+        let exact = stages.iter().position(|stage| stage.updates > 0).unwrap_or_default();
+        let (coarse, fine) = stages.split_at(exact.saturating_sub(1));
+        if coarse.is_empty() || !self.problem.instants_per_knot.is_multiple_of(2) {
+            return self.solve(stages);
+        }
+        let first = self.problem.every_second().solve_keeping(&self.guess, coarse, &self.kept)?;
+        let mut found = self.problem.solve_keeping(first.unknowns(), fine, &self.kept)?;
+        found.progress.splice(0..0, first.progress);
+        Ok(found)
     }
 }
 
-fn targets(human: &Human, walk: &Walk, phases: &[f64]) -> Result<Vec<Target>, TomlError> {
-    let (forces, planes) = (GroundForceLaws::built_in()?, OtherPlaneLaws::built_in()?);
-    let moments = JointMomentLaws::built_in()?;
-    let model = &human.model;
-    let coordinates = WalkCoordinates::of(model);
-    let mut machine = WalkMachine::new(walk);
-    let count = model.coordinates().len();
-    let speed = walk.curve_speed(&walk.clock(0.0)).value;
-    let target = |&phase: &f64| {
-        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
-        let [q, qd, qdd] = &mut posture;
-        let at = machine.step(phase * walk.cycle_s());
-        coordinates.write(&at, q, qd, qdd);
-        let rate = 1.0 / walk.cycle_s();
-        let moving = Jet { value: phase, rate, acceleration: 0.0 };
-        trunk_with_pelvis(model, &mut posture);
-        write_planes(model, &planes.at(moving, Jet::constant(speed)), &mut posture);
-        if let Some((id, _)) = model.anatomy().coordinate(Movement::PelvisUp, None) {
-            posture[0][id.index()] = human.dimensions.leg_length;
-        }
-        let mut of_side = [(&at.right, 0.0), (&at.left, 0.5)].into_iter().map(|(leg, ahead)| {
-            let place = (phase + ahead) % 1.0;
-            let pitch = leg.hip.value - at.pelvis_tilt.value - leg.knee.value + leg.ankle.value;
-            let stands = place < at.phases.foot_off;
-            let toes = if stands { (-pitch).clamp(0.0, TOES_LIMIT) } else { 0.0 };
-            let [up, fore] = forces.at(place, speed);
-            let swings = |[after, before]: [f64; 2]| place > at.phases.foot_off + after && place < 1.0 - before;
-            ([fore, up], toes, SWING_MARGINS.map(swings))
-        });
-        let (right, left) = (of_side.next(), of_side.next());
-        let ((a, b, c), (d, e, f)) = (right.unwrap_or_default(), left.unwrap_or_default());
-        let moments = [0.0, 0.5].map(|ahead| moments.at((phase + ahead) % 1.0, speed));
-        Target { posture, forces: [a, d], moments, toes: [b, e], swing: [c, f] }
-    };
-    Ok(phases.iter().map(target).collect())
+/// Coordinate of forward motion.
+fn forward(model: &Model) -> Option<CoordinateId> {
+    model.anatomy().coordinate(Movement::PelvisForward, None).map(|(id, _)| id)
 }
 
-/// Adds the tilt of the pelvis to the target of the lumbar joint, because the trunk angles of the tables are relative to the pelvis, while the
-/// gait takes trunk lean as relative to the world. (In the other two planes, the third harmonics of trunk and pelvis cancel, as they do if the
-/// trunk is relative to the pelvis.)
-fn trunk_with_pelvis(model: &Model, posture: &mut [Vec<f64>; 3]) {
-    let of = |movement: Movement| model.anatomy().coordinate(movement, None).map(|(id, _)| id.index());
-    if let (Some(tilt), Some(lumbar)) = (of(Movement::PelvicTilt), of(Movement::TrunkLean)) {
-        for values in posture {
-            values[lumbar] += values[tilt];
-        }
+/// A problem of a figure that has no span and no terms yet.
+fn empty(human: &Human, soles: &[ContactSphere], shoes: HuntCrossley, costs: &WalkCosts) -> Problem {
+    Problem {
+        model: human.model.clone(),
+        soles: soles.to_vec(),
+        levels_m: Vec::new(),
+        shoes,
+        span: Span::Single,
+        duration_s: 1.0,
+        travel: None,
+        knots: costs.knots,
+        instants_per_knot: costs.per_knot,
+        length_m: human.dimensions.leg_length,
+        terms: Vec::new(),
     }
 }
 
-/// Writes the angles of pelvis, trunk and hips outside the sagittal plane.
-fn write_planes(model: &Model, planes: &crate::gait::OtherPlanes, posture: &mut [Vec<f64>; 3]) {
-    let anatomy = model.anatomy();
-    let mut put = |movement: Movement, side: Option<Side>, angle: Jet| {
-        if let Some((id, sign)) = anatomy.coordinate(movement, side) {
-            for (values, part) in posture.iter_mut().zip([angle.value, angle.rate, angle.acceleration]) {
-                values[id.index()] = sign * part;
-            }
-        }
-    };
-    let [obliquity, rotation] = planes.pelvis;
-    put(Movement::PelvicObliquity, None, obliquity);
-    put(Movement::PelvicRotation, None, rotation);
-    put(Movement::TrunkObliquity, None, planes.trunk[0]);
-    put(Movement::TrunkRotation, None, planes.trunk[1]);
-    for (side, [adduction, rotation]) in Side::BOTH.into_iter().zip(planes.hips) {
-        put(Movement::HipAdduction, Some(side), adduction);
-        put(Movement::HipRotation, Some(side), rotation);
+impl<'a> Builder<'a> {
+    fn new(human: &'a Human, walk: &Walk, times_s: &[f64]) -> Result<Builder<'a>, TomlError> {
+        Ok(Builder { model: &human.model, targets: Targets::new(human, walk)?.at(times_s), terms: Vec::new() })
+    }
+
+    /// The problem with the terms of a walk.
+    fn problem(mut self, empty: Problem, walk: &Walk, costs: &WalkCosts) -> Problem {
+        self.posture(costs);
+        self.forces(&empty, walk, costs);
+        self.moment_rates(walk, costs);
+        self.feet(&empty, costs);
+        Problem { terms: self.terms, ..empty }
     }
 }
 
@@ -306,7 +318,7 @@ impl Builder<'_> {
                     let toes = self.targets.iter().map(|t| Some(t.toes[side])).collect();
                     self.add(&name, Quantity::Position(vec![(id, 1.0)]), toes, 8.0 * DEGREE, Bound::Near);
                     let still = self.constant(0.0);
-                    self.add(&name, Quantity::Acceleration(vec![(id, 1.0)]), still, 90.0, Bound::Near);
+                    self.add(&name, Quantity::Acceleration(vec![(id, 1.0)]), still, costs.toes, Bound::Near);
                 }
                 Some(Movement::PelvisForward | Movement::PelvisUp | Movement::PelvisRight) => {
                     let still = self.constant(0.0);
@@ -320,7 +332,7 @@ impl Builder<'_> {
                 Some(Movement::SubtalarInversion) => self.follow(id, 3.0 * DEGREE, 30.0),
                 Some(Movement::TrunkLean) => self.trunk(id),
                 Some(Movement::TrunkObliquity | Movement::TrunkRotation) => self.follow(id, costs.plane, 10.0),
-                _ => self.follow(id, 3.0 * DEGREE, 10.0),
+                _ => self.follow(id, 3.0 * DEGREE, costs.arms),
             }
         }
         if let Some((id, _)) = anatomy.coordinate(Movement::PelvisForward, None) {
@@ -349,18 +361,21 @@ impl Builder<'_> {
             let toes = Quantity::GroundForce(spheres_of(problem, side, "toe"), 1);
             self.add("force under the toes", toes, self.constant(0.0), 0.15 * weight, Bound::Near);
         }
-        if !walk.gait().follows_people() {
+        let share = if walk.gait().follows_people() { 1.0 } else { costs.others };
+        if share <= 0.0 {
             return;
         }
         for (k, side) in Side::BOTH.into_iter().enumerate() {
             let spheres = spheres_of(problem, side, "");
             for axis in 0..2 {
                 let targets = self.targets.iter().map(|t| Some(t.forces[k][axis] * weight)).collect();
-                let deviation = costs.force[axis] * weight;
+                let deviation = costs.force[axis] * weight / share.sqrt();
                 self.add("ground force", Quantity::GroundForce(spheres.clone(), axis), targets, deviation, Bound::Near);
             }
         }
-        self.moments(problem, costs);
+        if walk.gait().follows_people() {
+            self.moments(problem, costs);
+        }
     }
 
     fn moment_rates(&mut self, walk: &Walk, costs: &WalkCosts) {

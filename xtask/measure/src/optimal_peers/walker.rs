@@ -9,7 +9,7 @@ use ambulo::contact::{HuntCrossley, Onset};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::{Build, ContactSphere, SegmentTable};
-use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
+use ambulo::model::{CoordinateId, CoordinateKind, Model, Movement, Side};
 use ambulo::optimal::{Bound, Continuation, Problem, Quantity, Sample, Solution, Term, WalkCosts, WalkProblem};
 use cpu_time::ThreadTime;
 use serde_json::{Value, json};
@@ -68,8 +68,9 @@ impl Walker {
         // Without the ball, between heel and toe.
         let soles: Vec<ContactSphere> =
             human.soles.iter().filter(|sole| !sole.name.starts_with("ball")).cloned().collect();
-        let WalkProblem { mut problem, guess } =
+        let WalkProblem { mut problem, mut guess, .. } =
             WalkProblem::new(&human, &soles, SHOES, &walk, &costs).map_err(|e| e.to_string())?;
+        lean_with_pelvis(&problem, &mut guess);
         let first = problem.at(&guess).map_err(|e| e.to_string())?;
         problem.terms = terms(&problem, &first);
         Ok(Walker { problem, guess })
@@ -149,6 +150,16 @@ impl Walker {
             "guess_samples": samples(&first, problem.duration_s)?,
             "solution_samples": samples(&solved.solution, problem.duration_s)?,
         }))
+    }
+}
+
+/// Adds the tilt of the pelvis to the lumbar angle: in the mean curves of people the trunk's angle is relative to the pelvis, while the gait of a
+/// planar figure takes it as relative to the world. Both are sums of the same splines.
+fn lean_with_pelvis(problem: &Problem, guess: &mut [f64]) {
+    let of = |movement| problem.model.anatomy().coordinate(movement, None).map(|(id, _)| id.index());
+    let (Some(tilt), Some(lumbar)) = (of(Movement::PelvicTilt), of(Movement::TrunkLean)) else { return };
+    for block in guess.chunks_mut(problem.model.coordinates().len()) {
+        block[lumbar] += block[tilt];
     }
 }
 

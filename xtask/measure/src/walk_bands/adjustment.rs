@@ -38,13 +38,13 @@ pub(super) fn adjustments(human: &Human, walk: &ConsistentWalk) -> Vec<Adjustmen
     let mut departures: Vec<Vec<f64>> = Vec::with_capacity(INSTANTS);
     for k in 0..INSTANTS {
         let time_s = walk.walk().cycle_s() * k as f64 / INSTANTS as f64;
-        let (mut before, mut after) = (zeros(), zeros());
+        let (mut before, mut posture) = (zeros(), [zeros(), zeros(), zeros()]);
         gait.write(&walk.walk().at(time_s), &mut before, &mut rates, &mut accelerations);
-        walk.write(time_s, &mut after, &mut rates, &mut accelerations);
+        walk.write(time_s, &mut posture);
         if let Some(forward) = model.coordinate("pelvis_tx") {
             before[forward.index()] = walk.walk().speed() * time_s;
         }
-        departures.push(after.iter().zip(&before).map(|(after, before)| after - before).collect());
+        departures.push(posture[0].iter().zip(&before).map(|(after, before)| after - before).collect());
     }
     let of = |&(name, what, without_mean): &(&'static str, &'static str, bool)| {
         let id = model.coordinate(name)?.index();

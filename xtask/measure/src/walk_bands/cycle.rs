@@ -105,10 +105,10 @@ pub(super) fn walk(build: &Build, speed: f64) -> Result<Cycle, String> {
         slip: recording.stance_slip(last.row((CYCLES - 2) as f64) as usize).ok_or("no whole stance in two cycles")?,
         flight_s: flying as f64 * STEP_S,
         trunk: [rms(&trunk[..FINE]), trunk.iter().fold(0.0, |most, torque| torque.abs().max(most))],
-        parameters: consistent.parameters(),
+        parameters: consistent.solution().unknowns().len(),
         adjustments: adjustments(&human, &consistent),
         consistent_s,
-        iterations: consistent.progress.iter().map(|stage| stage.iterations).sum(),
+        iterations: consistent.solution().progress.iter().map(|stage| stage.steps).sum(),
         times_real_time: recording.grid().frames as f64 * STEP_S / simulated_s,
         unsolved_steps: recording.unsolved_steps,
     })

@@ -22,4 +22,4 @@ pub use running_machine::RunningMachine;
 pub use settings::{Activity, Driven, MachineSettings, PASSAGE_S, StateSettings, TransitionSettings};
 pub use state_table::{ChangeTable, StateRow, state_rows, state_table};
 pub use state_trace::{StateChange, StatePeriod, StateTrace, StateWatch};
-pub use walking::{WalkMachine, planned, walking_machine};
+pub use walking::{WalkMachine, planned, repeats, walking_machine};

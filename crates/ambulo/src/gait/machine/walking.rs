@@ -381,7 +381,40 @@ pub fn planned(walk: Walk, cycles: f64, longest_s: f64, findings: &mut Findings)
     Ok((machine.walk, longest_s))
 }
 
+/// Cycles until machines repeat what they do, cycles in which this is judged, and instants of each.
+const JUDGED: (usize, usize, usize) = (4, 20, 500);
+/// Difference of an angle from one cycle to the next that is none [rad]: a transition may be noticed one instant later.
+const SAME_ANGLE: f64 = 0.03;
+
+/// Whether the machines of a walk that move joints do the same in every cycle of its first pace, after the first four of 24 cycles.
+#[must_use]
+pub fn repeats(walk: &Walk) -> bool {
+    if !walk.gait().machines.iter().any(|machine| machine.drives.moves_a_joint()) {
+        return true;
+    }
+    let (settling, judged, instants) = JUDGED;
+    let mut machine = WalkMachine::new(walk);
+    let mut angles = Vec::new();
+    for step in 0..(settling + judged) * instants {
+        let time_s = walk.cycle_s() * step as f64 / instants as f64;
+        let mut at = machine.angles(time_s);
+        at.extend(machine.coordinates().map(|(_, jet)| jet.value));
+        angles.push(at);
+    }
+    let settled = &angles[settling * instants..];
+    let same = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_ANGLE);
+    settled.iter().zip(&settled[instants..]).all(same)
+}
+
 impl WalkMachine {
+    /// All angles of the posture after a step to a time [s].
+    fn angles(&mut self, time_s: f64) -> Vec<f64> {
+        let at = self.step(time_s);
+        let legs = [at.right, at.left].into_iter().flat_map(|leg| [leg.hip, leg.knee, leg.ankle]);
+        let others = [at.pelvis_tilt, at.trunk_lean].into_iter().chain(at.shoulders).chain(at.elbows);
+        legs.chain(others).map(|jet| jet.value).collect()
+    }
+
     /// Whether no machine of the pace can leave its state any more.
     fn is_final(&self) -> bool {
         self.walk.gait().machines.iter().filter(|settings| settings.drives == Driven::Pace).all(|settings| {

@@ -20,7 +20,8 @@ use crate::findings::{Code, Findings};
 use crate::simulation::energy::EnergyWatch;
 use crate::simulation::start::start;
 use crate::simulation::state::WorldState;
-use crate::simulation::workspace::{StepSettings, StepWorkspace};
+use crate::simulation::walking::half_a_step_earlier;
+use crate::simulation::workspace::{Integrator, StepSettings, StepWorkspace};
 use crate::simulation::world::{
     Closure, ContactLaw, JointCoordinate, JointDrive, Motor, Obstacle, ObstaclePath, Owner, RigidBody, Surface,
     TreeJoint, World,
@@ -124,6 +125,7 @@ impl Scene {
         let settings = settings(file, changes);
         let trees = |error: crate::dynamics::LinkError| Place { line: 1, key: "joint".into() }.error(error.to_string());
         start(&world, &mut state, &settings.solver, findings).map_err(trees)?;
+        start_half_a_step_earlier(&mut state, &walkers, &settings);
         let watch = EnergyWatch::new(&world, &state).filter(|_| file.events.is_empty());
         Ok(Scene {
             settings,
@@ -154,6 +156,19 @@ fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings {
         integrator: file.integrator,
         projection: file.projection,
         solver: file.solver,
+    }
+}
+
+/// Gives figures whose motion before the start is known the velocities of half a time step earlier, where velocities are those of the middle of a
+/// step ([`crate::simulation::walking::Walker::moving_as`]).
+fn start_half_a_step_earlier(state: &mut WorldState, figures: &[PlacedFigure], settings: &StepSettings) {
+    if settings.integrator != Integrator::Impulse {
+        return;
+    }
+    for figure in figures {
+        for (twist, acceleration) in state.twists[figure.first_body..].iter_mut().zip(&figure.accelerations) {
+            *twist = half_a_step_earlier(*twist, *acceleration, settings.step_s);
+        }
     }
 }
 

@@ -44,6 +44,8 @@ struct Motion {
     signals: Vec<Signal>,
     /// Coordinates and their rates at the start.
     start: [Vec<f64>; 2],
+    /// Accelerations at the start, if the motion before it is known.
+    accelerations: Option<Vec<f64>>,
     /// Targets that are computed from step to step, and the time of the gait at the start of the scene [s].
     live: Option<(Box<GaitTargets>, f64)>,
 }
@@ -67,12 +69,14 @@ pub(super) fn add(
         motion.signals.push(Signal::Constant(coordinate.default_value));
         motion.start[0].push(coordinate.default_value);
         motion.start[1].push(0.0);
+        motion.accelerations.iter_mut().for_each(|all| all.push(0.0));
     }
     let model = &human.model;
     own_starts(built, model, &mut motion);
     let rest = vec![0.0; model.coordinates().len()];
     let [q, qd] = &motion.start;
-    let motions = body_motion(model, Posture { q, qd, qdd: &rest });
+    let motions = body_motion(model, Posture { q, qd, qdd: motion.accelerations.as_ref().unwrap_or(&rest) });
+    let accelerations = motion.accelerations.iter().flat_map(|_| motions.iter().map(|m| m.acceleration)).collect();
     let (first_body, figure) = (world.bodies.len(), world.figures.len());
     let mut placed = vec![Placed { body: first_body, coordinate: 0 }; model.coordinates().len()];
     for id in model.body_ids() {
@@ -91,14 +95,16 @@ pub(super) fn add(
     let live = motion.live.map(|(targets, start_s)| LiveTargets { targets, figure, start_s });
     let recorder = || FigureRecorder::new(&entry.name, &human, placed.clone(), soles, live);
     let recorder = built.walk.is_some().then(|| Recorder::Walk(Box::new(recorder())));
-    Ok((PlacedFigure { figure, first_body, name: entry.name.clone(), placed: Some(placed) }, recorder))
+    let name = entry.name.clone();
+    Ok((PlacedFigure { figure, first_body, name, placed: Some(placed), accelerations }, recorder))
 }
 
 /// Upright standing: every coordinate has its default value.
 fn standing(model: &Model) -> Motion {
     let values: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
     let rest = vec![0.0; values.len()];
-    Motion { signals: values.iter().map(|value| Signal::Constant(*value)).collect(), start: [values, rest], live: None }
+    let signals = values.iter().map(|value| Signal::Constant(*value)).collect();
+    Motion { signals, start: [values, rest], accelerations: None, live: None }
 }
 
 fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -> Result<Motion, SceneError> {
@@ -175,26 +181,25 @@ fn changing(
             (gait_signals(&walk, model, start_s, duration_s).map_err(|e| wrong(&e))?, None)
         }
         FigureWalkMode::Corrected => {
-            if !gait.is_symmetric() {
-                let message = format!(
-                    "found mode \"corrected\" for the gait `{}`, whose sides differ or whose joints machines drive; expected mode \"curves\"",
-                    gait.name
-                );
-                return Err(entry.place.error(message));
-            }
             let walk = make_changing_walk(human, &walk, &ConsistentWalkSettings::default()).map_err(|e| wrong(&e))?;
-            (walk.signals(human, start_s, duration_s), walk.start(model, start_s))
+            (walk.signals(human, start_s, duration_s), Some(walk.posture(model, start_s)))
         }
     };
     let [mut q, mut qd, qdd] = [0, 1, 2].map(|d| signals.iter().map(|signal| signal.at(0.0)[d]).collect::<Vec<f64>>());
-    match root {
-        Some([place, velocity]) => set_root(model, &mut q, &mut qd, [0.0, place.y], [velocity.x, velocity.y]),
+    match &root {
+        Some(posture) => {
+            [q, qd] = [posture[0].clone(), posture[1].clone()];
+            if let Some(forward) = model.coordinate("pelvis_tx") {
+                q[forward.index()] = 0.0;
+            }
+        }
         None => {
             let height = standing_height(human, &q, &qd, &qdd);
             set_root(model, &mut q, &mut qd, [0.0, height], [walk.speed(), 0.0]);
         }
     }
-    Ok(Motion { signals, start: [q, qd], live })
+    let accelerations = root.map(|[_, _, accelerations]| accelerations);
+    Ok(Motion { signals, start: [q, qd], accelerations, live })
 }
 
 /// Sets place [m] and velocity [m/s] of the root, forwards and up.
@@ -230,17 +235,16 @@ fn along_curves(walk: &Walk, human: &Human, phase: f64) -> Motion {
     let (signals, [mut q, mut qd, qdd]) = sampled(model, walk.cycle_s(), phase, write);
     let height = standing_height(human, &q, &qd, &qdd);
     set_root(model, &mut q, &mut qd, [0.0, height], [walk.speed(), 0.0]);
-    Motion { signals, start: [q, qd], live: None }
+    Motion { signals, start: [q, qd], accelerations: None, live: None }
 }
 
 fn corrected(walk: &ConsistentWalk, model: &Model, phase: f64) -> Motion {
-    let mut motion = walk.motion();
-    let write = |t: f64, [q, qd, qdd]: &mut [Vec<f64>; 3]| motion.write(t, q, qd, qdd);
-    let (signals, [mut q, qd, _]) = sampled(model, walk.walk().cycle_s(), phase, write);
+    let write = |t: f64, posture: &mut [Vec<f64>; 3]| walk.write(t, posture);
+    let (signals, [mut q, qd, qdd]) = sampled(model, walk.walk().cycle_s(), phase, write);
     if let Some(forward) = model.coordinate("pelvis_tx") {
         q[forward.index()] = 0.0;
     }
-    Motion { signals, start: [q, qd], live: None }
+    Motion { signals, start: [q, qd], accelerations: Some(qdd), live: None }
 }
 
 /// A periodic motion as signals that begin at a phase, with coordinates, rates and accelerations at the start. The signals of the root's
@@ -307,6 +311,9 @@ fn own_starts(built: &BuiltFigure, model: &Model, motion: &mut Motion) {
     for own in &built.coordinates {
         let Some(id) = model.coordinate(&own.name) else { continue };
         let [q, qd] = &mut motion.start;
+        if let Some(accelerations) = motion.accelerations.as_mut().filter(|_| own.starts[0] || own.starts[1]) {
+            accelerations[id.index()] = 0.0;
+        }
         if own.starts[0] {
             // Zero unless a rate is given.
             (q[id.index()], qd[id.index()]) = (own.acting.start, own.acting.rate);

@@ -19,7 +19,7 @@ use crate::model::{Body, BodyId, CoordinateId, Displacement, Drive, JointAxis, M
 use crate::simulation::joint::rotation;
 use crate::simulation::signal::Signal;
 use crate::simulation::world::{Figure, Follows, JointCoordinate, Owner, RigidBody, Surface, TreeJoint, World};
-use crate::spatial::{Mat3, Pose, Vec3, Wrench};
+use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
 /// Largest cosine of the angle between axes that should be perpendicular.
 const SQUARE_SLACK: f64 = 1e-6;
@@ -37,6 +37,8 @@ pub(super) struct PlacedFigure {
     pub(super) name: String,
     /// For a built-in figure: the joint coordinate of each coordinate of its model.
     pub(super) placed: Option<Vec<Placed>>,
+    /// Accelerations of its bodies at the start, if its motion before that is known.
+    pub(super) accelerations: Vec<Twist>,
 }
 
 /// A figure under construction.
@@ -81,7 +83,10 @@ pub(super) fn add(
     let recorder = || MotionRecorder::new(&entry.name, &model, signals.clone(), follows, first_body);
     let recorder = is_judged.then(|| Recorder::Motion(Box::new(recorder())));
     world.figures.push(Figure { model, coordinates: signals });
-    Ok((PlacedFigure { figure, first_body, name: entry.name.clone(), placed: None }, recorder))
+    Ok((
+        PlacedFigure { figure, first_body, name: entry.name.clone(), placed: None, accelerations: Vec::new() },
+        recorder,
+    ))
 }
 
 /// The model with its ground moved.

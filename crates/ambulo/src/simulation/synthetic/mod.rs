@@ -14,6 +14,7 @@ mod optimal;
 mod walk;
 
 pub use crate::numerics::Progress;
+pub use crate::simulation::consistent_walk::CorrectionReport;
 pub use modes::{predict, replay, run_of_states, synthesise};
 pub use settings::{MOST_CYCLES, RATES_HZ, SyntheticError, SyntheticMode, SyntheticWalkSettings};
-pub use walk::{CorrectionReport, PaceReached, PredictionReport, SyntheticWalk, WalkReport};
+pub use walk::{PaceReached, PredictionReport, SyntheticWalk, WalkReport};

@@ -2,22 +2,22 @@
 
 use super::optimal::{optimal, predicted};
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
-use super::walk::{CORRECTED_SKIPPED, CorrectionReport, KeptPart, Made, StateRun, SyntheticWalk, steady, timed};
+use super::walk::{CORRECTED_SKIPPED, KeptPart, Made, StateRun, SyntheticWalk, steady, timed};
 use crate::findings::{Code, Findings};
 use crate::gait::machine::StateChange;
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
-use crate::optimal::WalkConditions;
+use crate::optimal::{LARGEST_BETWEEN, Solution, WalkConditions};
 use crate::simulation::consistent_walk::{
-    ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
+    ConsistentWalk, ConsistentWalkError, ConsistentWalkSettings, make_changing_walk,
 };
 use crate::simulation::walking::{
     GaitTargets, GroundContact, Release, Shoes, TorqueSeries, WalkRecording, Walker, WatchedTargets, gait_signals,
 };
 use crate::simulation::{ImpactLaw, StepSettings};
 
-/// Largest residual of a consistent walk, rms: force as a share of body weight, moment of body weight times leg length.
-const LARGEST_RESIDUAL: [f64; 2] = [0.01, 0.005];
+/// Instants per knot interval at which forces at the root between the instants of a solution are judged.
+const BETWEEN: usize = 10;
 /// Cycles before the paper's walk repeats.
 const PAPER_SKIPPED: usize = 2;
 /// The paper's ground: rigid soles, and a coefficient of friction of 1 (section 4.3).
@@ -76,53 +76,46 @@ fn corrected(
     human: Human,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
-    if !settings.gait.is_symmetric() {
-        return Err(SyntheticError::Asymmetric { gait: settings.gait.name.clone() });
-    }
     let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
-    let consistent_settings = ConsistentWalkSettings::default();
-    if walk.pace_ramps().is_empty() {
-        let consistent = make_consistent_walk(&human, &walk, &consistent_settings)?;
-        let correction = correction_report(&consistent, &human, &consistent_settings, findings)?;
-        let cycles = kept.simulated_s / walk.cycle_s();
-        let recording = consistent.simulate(&human, &consistent_settings, settings.step_s(), cycles, findings)?;
-        let made = Made { recording: &recording, states: kept.states(settings, &walk), correction: Some(correction) };
-        return steady(settings, &kept, human, walk, made);
-    }
-    let changing = make_changing_walk(&human, &walk, &consistent_settings)?;
+    refuse_unknown_coordinates(&walk, &human)?;
+    let own = ConsistentWalkSettings::default();
+    let changing = make_changing_walk(&human, &walk, &own)?;
     let mut corrections = Vec::new();
     for pace in changing.paces() {
-        corrections.push(correction_report(pace, &human, &consistent_settings, findings)?);
+        corrections.push(pace.report()?);
     }
+    let solutions = changing.paces().iter().map(ConsistentWalk::solution).chain(changing.changes());
+    report_residuals(solutions, findings)?;
     let first = corrections.into_iter().next();
-    let recording = changing.simulate(&human, &consistent_settings, settings.step_s(), kept.simulated_s, findings)?;
+    let recording = changing.simulate(&human, &own, settings.step_s(), kept.simulated_s, findings)?;
     let made = Made { recording: &recording, states: kept.states(settings, &walk), correction: first };
     steady(settings, &kept, human, walk, made)
 }
 
-/// Reports the change of the gait; warns if residual forces remain.
-fn correction_report(
-    consistent: &ConsistentWalk,
-    human: &Human,
-    settings: &ConsistentWalkSettings,
+/// Refuses machines that drive or read coordinates which the figure does not have, as a simulation does.
+fn refuse_unknown_coordinates(walk: &Walk, human: &Human) -> Result<(), SyntheticError> {
+    GaitTargets::new(walk, &human.model, &[])?;
+    Ok(())
+}
+
+/// Warns if motions need forces from outside.
+fn report_residuals<'a>(
+    solutions: impl Iterator<Item = &'a Solution>,
     findings: &mut Findings,
-) -> Result<CorrectionReport, SyntheticError> {
-    let residual = consistent.residual(human, &settings.shoes)?;
-    let weight = human.model.mass() * human.model.gravity().norm();
-    let allowed = [LARGEST_RESIDUAL[0] * weight, LARGEST_RESIDUAL[1] * weight * human.dimensions.leg_length];
-    if residual[0].rms > allowed[0] || residual[1].rms > allowed[1] {
+) -> Result<(), ConsistentWalkError> {
+    for solution in solutions {
+        let (left, _) = solution.root_forces(BETWEEN)?;
+        if left <= LARGEST_BETWEEN {
+            continue;
+        }
         let message = format!(
-            "no small change makes this gait dynamically consistent: a residual force of {:.1} N and a residual moment of {:.1} N.m (rms) remain at the root; expected at most {:.1} N and {:.1} N.m. The walk gets them from outside, and the verdict judges it. hint: choose another speed, step length or style",
-            residual[0].rms, residual[1].rms, allowed[0], allowed[1]
+            "found no motion near this gait that needs no force from outside: {:.1} % of body weight (rms) are left at the root; expected at most {:.1} %. The walk gets them from outside, and the verdict judges it. hint: choose another speed, step length or style",
+            100.0 * left,
+            100.0 * LARGEST_BETWEEN
         );
         findings.report(Code::WalkNotConsistent, message);
     }
-    Ok(CorrectionReport {
-        parameters: consistent.parameters(),
-        adjustment: consistent.adjustment(&human.model),
-        residual,
-        progress: consistent.progress.clone(),
-    })
+    Ok(())
 }
 
 /// The paper's mode: joints follow the gait, the trunk is held upright, and impacts of the rigid soles cancel the whole velocity.
@@ -193,13 +186,13 @@ pub fn run_of_states(
             if walk.gait().machines_read_simulation() {
                 paper_run(settings, &Planned { human: &human, walk: &walk, kept: &kept }, tell, findings)?;
             } else {
-                // Machines that drive coordinates which the figure does not have are refused as in a simulation.
-                GaitTargets::new(&walk, &human.model, &[])?;
+                refuse_unknown_coordinates(&walk, &human)?;
                 kept.states_told(settings, &walk, tell);
             }
         }
         SyntheticMode::Optimal | SyntheticMode::Predicted | SyntheticMode::Corrected => {
             let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
+            refuse_unknown_coordinates(&walk, &human)?;
             kept.states_told(settings, &walk, tell);
         }
     }

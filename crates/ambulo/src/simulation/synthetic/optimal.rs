@@ -1,22 +1,18 @@
 //! The optimal mode: a walk in three dimensions, read from its solution. Nothing is simulated, because the solution has no force from outside.
 
 use super::settings::{SyntheticError, SyntheticWalkSettings};
-use super::walk::{CORRECTED_SKIPPED, CorrectionReport, KeptPart, PredictionReport, SyntheticWalk, WalkReport, timed};
+use super::walk::{CORRECTED_SKIPPED, KeptPart, PredictionReport, SyntheticWalk, WalkReport, timed};
 use crate::findings::Findings;
 use crate::gait::Walk;
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{BodyId, CoordinateId, CoordinateKind, Model, Side};
 use crate::motion::TimeGrid;
-use crate::numerics::Progress;
 use crate::optimal::{OptimalWalk, OptimalWalkError, Sample, Solution, WalkConditions, metabolic_power};
 use crate::simulation::ContactForce;
-use crate::simulation::consistent_walk::{Adjustment, Magnitude};
+use crate::simulation::consistent_walk::{CorrectionReport, Magnitude};
 use crate::simulation::walking::{FootRecord, loads, worst_slip};
 use crate::spatial::Vec3;
-
-/// Instants per cycle at which the solution is compared with the gait.
-const INSTANTS: usize = 200;
 
 pub(super) fn optimal(
     settings: &SyntheticWalkSettings<'_>,
@@ -76,7 +72,7 @@ fn made(
     let frame_times: Vec<f64> = grid.times().iter().map(|time_s| start_s + time_s).collect();
     let tilt = cycle.root_turning();
     let report = WalkReport {
-        correction: Some(correction(&found, &walk)?),
+        correction: Some(CorrectionReport::of(&found.problem, &found.solution, walk.cycle_s())?),
         trunk_torque: Magnitude::of(cycle.samples.iter().map(|sample| sample.forces[tilt])),
         slip: worst_slip(&cycle.feet(STRIDES_OF_SLIP * cycle.samples.len()), cycle.step_s, 0),
         flight_s: cycle.step_s * (0..rows).filter(|row| !feet.iter().any(|foot| foot.loaded(*row))).count() as f64,
@@ -183,52 +179,4 @@ fn bodies(human: &Human, side: Side) -> [Option<BodyId>; 2] {
     let mut own = human.soles.iter().filter(|sole| sole.side == side).map(|sole| sole.body);
     let heel = own.next();
     [heel, own.find(|body| Some(*body) != heel)]
-}
-
-/// Difference of the solution from the curves of the gait, remaining forces at the root, and the course of the solution.
-fn correction(found: &OptimalWalk, walk: &Walk) -> Result<CorrectionReport, SyntheticError> {
-    let wrong = OptimalWalkError::from;
-    let curves = found.problem.problem.at(&found.problem.guess).map_err(wrong)?;
-    let times: Vec<f64> = (0..INSTANTS).map(|k| walk.cycle_s() * k as f64 / INSTANTS as f64).collect();
-    let samples = found.solution.samples(&times).map_err(wrong)?;
-    let from_outside = |turns: bool| {
-        let root = found.problem.problem.root();
-        let of = |sample: &Sample| {
-            let own = root.iter().filter(|(_, is_turning)| *is_turning == turns);
-            own.map(|(id, _)| sample.forces[id.index()].powi(2)).sum::<f64>().sqrt()
-        };
-        Magnitude::of(samples.iter().map(of))
-    };
-    let stages = found.solution.progress.iter();
-    Ok(CorrectionReport {
-        parameters: found.solution.unknowns().len(),
-        adjustment: adjustment(&found.human.model, [&curves, &found.solution], &times),
-        residual: [from_outside(false), from_outside(true)],
-        progress: stages.map(|s| Progress { iterations: s.steps, from: s.from, to: s.cost }).collect(),
-    })
-}
-
-fn adjustment(model: &Model, [curves, found]: [&Solution; 2], times: &[f64]) -> Adjustment {
-    let count = model.coordinates().len();
-    let mut differences = vec![Vec::with_capacity(times.len()); count];
-    let [mut before, mut after] = [(); 2].map(|()| [(); 3].map(|()| vec![0.0; count]));
-    for &time_s in times {
-        curves.write(time_s, &mut before);
-        found.write(time_s, &mut after);
-        for (column, (new, old)) in differences.iter_mut().zip(after[0].iter().zip(&before[0])) {
-            column.push(new - old);
-        }
-    }
-    let path = |name: &str| {
-        let Some(id) = model.coordinate(name) else { return Magnitude::default() };
-        let column = &differences[id.index()];
-        let mean = column.iter().sum::<f64>() / column.len() as f64;
-        Magnitude::of(column.iter().map(|x| x - mean))
-    };
-    let listed = model.coordinates().iter().zip(&differences).filter(|(coordinate, _)| {
-        let is_left = Side::split_name(&coordinate.name).is_some_and(|(side, _)| side == Side::Left);
-        coordinate.kind == CoordinateKind::Rotation && !is_left
-    });
-    let angles = listed.map(|(c, column)| (c.name.clone(), Magnitude::of(column.iter().copied()))).collect();
-    Adjustment { angles, pelvis: ["pelvis_tx", "pelvis_ty"].map(path) }
 }

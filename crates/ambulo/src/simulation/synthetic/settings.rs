@@ -1,6 +1,7 @@
 //! Settings of a synthetic walk.
 
 use crate::findings::Findings;
+use crate::gait::machine::repeats;
 use crate::gait::{Gait, GaitError, Walk, walking_speeds};
 use crate::kinematics::TrajectoryError;
 use crate::model::anthropometry::{Build, BuildError};
@@ -26,14 +27,14 @@ pub enum SyntheticMode {
 
 impl SyntheticMode {
     /// The mode of a gait if none is asked for: optimal for the steady gait of people on a figure with toe joints, in the range of walking
-    /// speeds and with steps near those that people prefer; corrected for another gait whose sides do the same half a cycle apart; else the
-    /// paper's.
+    /// speeds and with steps near those that people prefer; the paper's for a gait whose machines move joints otherwise from cycle to cycle;
+    /// else corrected.
     #[must_use]
     pub fn of(gait: &Gait, build: &Build, leg_length: f64) -> SyntheticMode {
         let is_optimal = gait.follows_people() && gait.pace_changes.is_empty() && build.toe_joint;
         if is_optimal && has_usual_steps(gait, leg_length).unwrap_or(false) {
             SyntheticMode::Optimal
-        } else if gait.is_symmetric() {
+        } else if has_equal_cycles(gait, leg_length) {
             SyntheticMode::Corrected
         } else {
             SyntheticMode::Paper
@@ -55,6 +56,12 @@ impl SyntheticMode {
 /// Steps that optimal walks can have, as shares of the preferred step at the same speed. Figures with longer ones hop; shorter ones were not
 /// tried.
 const STEPS: RangeInclusive<f64> = 0.7..=1.12;
+
+/// Whether a gait does the same in every cycle, apart from changes of pace.
+fn has_equal_cycles(gait: &Gait, leg_length: f64) -> bool {
+    // A gait that is no walk is refused later, whatever its mode.
+    Walk::new(gait, leg_length, &mut Findings::default()).map_or(gait.is_symmetric(), |walk| repeats(&walk))
+}
 
 /// Whether speed and steps of a gait are in the range of optimal walks.
 fn has_usual_steps(gait: &Gait, leg_length: f64) -> Result<bool, GaitError> {
@@ -130,14 +137,6 @@ pub enum SyntheticError {
     Rate {
         /// Frame rate [Hz].
         found_hz: f64,
-    },
-    /// A gait whose sides differ cannot be corrected.
-    #[error(
-        "the gait `{gait}`: found sides that differ, or joints that machines drive; expected equal sides half a cycle apart, because the correction computes half a cycle. hint: use the mode `paper`"
-    )]
-    Asymmetric {
-        /// Name of the gait.
-        gait: String,
     },
     /// An optimal walk repeats one cycle.
     #[error(

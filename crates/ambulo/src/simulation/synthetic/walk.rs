@@ -7,9 +7,8 @@ use crate::gait::{Gait, PaceRamp, Style, Walk};
 use crate::kinematics::Trajectory;
 use crate::model::anthropometry::{Human, SegmentTable};
 use crate::motion::ForceRecording;
-use crate::numerics::Progress;
 use crate::optimal::WalkConditions;
-use crate::simulation::consistent_walk::{Adjustment, Magnitude};
+use crate::simulation::consistent_walk::{CorrectionReport, Magnitude};
 use crate::simulation::walking::{ExcerptRows, StanceSlip, WalkRecording};
 
 /// A synthetic walk.
@@ -98,19 +97,6 @@ pub struct PaceReached {
     pub step_length: f64,
     /// Step frequency after the change [steps/s].
     pub step_frequency: f64,
-}
-
-/// How a walk was made dynamically consistent: by a change of the gait, or by optimal motion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CorrectionReport {
-    /// Number of free parameters.
-    pub parameters: usize,
-    /// Difference of the motion from the curves of the gait.
-    pub adjustment: Adjustment,
-    /// Remaining residual force [N] and residual moment [N.m] of the planned motion.
-    pub residual: [Magnitude; 2],
-    /// Progress of the solver.
-    pub progress: Vec<Progress>,
 }
 
 /// The kept part begins this share of a cycle before the nominal strike of the right foot, so that the strike is inside.

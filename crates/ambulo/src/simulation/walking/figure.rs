@@ -7,9 +7,9 @@ use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{Body, BodyId, CoordinateId, Displacement, Function, JointAxis, Model, Side};
 use crate::simulation::{
     ContactLaw, ImpactLaw, JointCoordinate, JointDrive, JointKind, Material, Obstacle, Owner, RigidBody, Signal,
-    Surface, TreeJoint, World, WorldError,
+    Surface, TreeJoint, World, WorldError, WorldState,
 };
-use crate::spatial::{Mat3, Pose, Vec3, Wrench};
+use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
 /// Tolerance for rounding of directions.
 const SLACK: f64 = 1e-9;
@@ -67,6 +67,8 @@ pub struct Walker {
     pub(super) feet: [BodyId; 2],
     /// The other body of each foot that has soles (the toes), right and left.
     pub(super) toes: [Option<BodyId>; 2],
+    /// Accelerations of the bodies at the start, if the motion before it is known.
+    accelerations: Vec<Twist>,
 }
 
 impl Walker {
@@ -93,6 +95,7 @@ impl Walker {
             sides: Vec::new(),
             feet: [BodyId(0); 2],
             toes: [None; 2],
+            accelerations: Vec::new(),
             model,
             signals,
         };
@@ -117,6 +120,26 @@ impl Walker {
             body.twist.linear += gain;
         }
         self
+    }
+
+    /// States that the walk goes on before its start, where it has this posture with rates and accelerations of all coordinates.
+    ///
+    /// Velocities of the simulator are those of the middle of a time step, so the walk then starts with those of half a step earlier. Otherwise the
+    /// first step has half of the change of velocity, and its joint forces lack half of the forces of inertia.
+    #[must_use]
+    pub fn moving_as(mut self, [q, qd, qdd]: &[Vec<f64>; 3]) -> Walker {
+        let motions = body_motion(&self.model, Posture { q, qd, qdd });
+        self.accelerations = motions.iter().map(|motion| motion.acceleration).collect();
+        self
+    }
+
+    /// The state at the start of a walk in steps of `step_s`.
+    pub(super) fn state(&self, world: &World, step_s: f64) -> WorldState {
+        let mut state = WorldState::new(world);
+        for (twist, acceleration) in state.twists.iter_mut().zip(&self.accelerations) {
+            *twist = half_a_step_earlier(*twist, *acceleration, step_s);
+        }
+        state
     }
 
     /// The figure's model.
@@ -252,6 +275,15 @@ impl Walker {
                 load: Wrench::ZERO,
             });
         }
+    }
+}
+
+/// Velocity of a body half a time step earlier.
+pub(in crate::simulation) fn half_a_step_earlier(twist: Twist, acceleration: Twist, step_s: f64) -> Twist {
+    let half_s = 0.5 * step_s;
+    Twist {
+        angular: twist.angular - acceleration.angular * half_s,
+        linear: twist.linear - acceleration.linear * half_s,
     }
 }
 

@@ -18,6 +18,7 @@ mod slip;
 mod torques;
 
 pub use feet::{FootRecord, ToeRecord};
+pub(super) use figure::half_a_step_earlier;
 pub use figure::{GroundContact, Shoes, Walker, WalkingError};
 pub(super) use recording::loads;
 pub use recording::{Excerpt, ExcerptRows, FootImpact, WalkRecording};

@@ -92,7 +92,7 @@ impl Walker {
         let rows = rows_of(duration_s, step_s)?;
         let settings = StepSettings { integrator: Integrator::Impulse, ..*settings };
         let mut world = self.world.clone();
-        let (mut state, mut w) = (WorldState::new(&world), StepWorkspace::default());
+        let (mut state, mut w) = (self.state(&world, step_s), StepWorkspace::default());
         let mut recorder = Recorder::new(self, rows);
         for row in 0..rows {
             // Times are computed from the row, so that rounding does not accumulate.
