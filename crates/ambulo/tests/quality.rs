@@ -191,7 +191,8 @@ fn forces_of_a_treadmill_that_are_late_are_outside_the_soles_and_the_quality_say
 #[test]
 fn errors_of_the_data_are_not_held_against_the_movement_and_nothing_is_called_feasible_on_them() {
     let Some(data) = data() else { return };
-    let cases: [(&str, fn(&mut Source)); 5] = [
+    type Spoil = fn(&mut Source);
+    let cases: [(&str, Spoil); 5] = [
         ("0.6 of the force", |source| scale_plates(source, 0.6)),
         ("1.4 of the force", |source| scale_plates(source, 1.4)),
         ("off", |source| scale_plates(source, 0.0)),

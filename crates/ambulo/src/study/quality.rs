@@ -296,8 +296,8 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) model: &'a Model,
     /// The motion before smoothing; `None` for a complete motion.
     pub(super) motion: Option<&'a Motion>,
-    pub(super) smoother: Smoother,
-    pub(super) rate_hz: f64,
+    /// The filter of the motion, and its rate [Hz].
+    pub(super) smoothed: (Smoother, f64),
     pub(super) force_origin: ForceOrigin,
     pub(super) tracking: Option<&'a Tracking>,
     pub(super) mass: &'a BodyMass,
@@ -495,17 +495,17 @@ impl QualityEvidence<'_> {
     }
 
     fn cutoff(&self) -> Option<QualityReason> {
-        let Smoother::Butterworth(filter) = self.smoother else { return None };
+        let (Smoother::Butterworth(filter), rate_hz) = self.smoothed else { return None };
         let cutoff_hz = filter.cutoff_hz;
         let low = Measure::LowCutoff.reason(cutoff_hz, |limit| {
             format!("the motion is filtered at {cutoff_hz} Hz (at least {limit} Hz): the movement itself is removed")
         });
         let high = || {
-            Measure::HighCutoff.reason(cutoff_hz / self.rate_hz, |limit| {
+            Measure::HighCutoff.reason(cutoff_hz / rate_hz, |limit| {
                 format!(
                     "the motion is filtered at {cutoff_hz} Hz (at most {} Hz with {:.0} frames per second): noise remains in the forces",
-                    limit * self.rate_hz,
-                    self.rate_hz
+                    limit * rate_hz,
+                    rate_hz
                 )
             })
         };

@@ -9,7 +9,7 @@ use super::prediction::{Found, predicted, with_markers};
 use super::quality::{Measure, QualityEvidence, marker_fit_rms_m};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
-use crate::analysis::activity::{ActivityKind, activity};
+use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
     self, Adjustable, Analysis, AnalysisError, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
@@ -73,22 +73,19 @@ fn road(
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<Outcome, StudyError> {
-    let observation = source.observe(settings, findings, progress)?;
-    let device = device(source, &observation.model, findings)?;
-    let processing = processing(&observation, settings, findings);
-    let found = forces(&observation, processing, settings, findings, progress)?;
-    let mass = body_mass(&observation, &found.analysis, findings);
-    let Observation { model, person, motion, origin, idle, .. } = observation;
-    let Found { analysis, prediction, measured_events } = found;
+    let observed = source.observe(settings, findings, progress)?;
+    let device = device(source, &observed.model, findings)?;
+    let processing = processing(&observed, settings, findings);
+    let Found { analysis, prediction, measured_events } = forces(&observed, processing, settings, findings, progress)?;
+    let mass = body_mass(&observed, &analysis, findings);
+    let Observation { model, person, motion, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
-    let (analysis, reduction) = residual_reduced(&model, analysis, processing, settings, &force_origin, findings)?;
+    let (analysis, reduction) =
+        residual_reduced(&model, analysis, processing, settings, &force_origin, findings, progress)?;
     let model = reduction.as_ref().map_or(model, |reduced| reduced.model.clone());
-    progress.end(Stage::ResidualReduction)?;
     let device = device.map(|device| worn(&device, &analysis, findings));
-    report_missing_cycles(&analysis, findings);
     let stances = stances(&model, &person, &analysis, prediction.as_ref(), processing);
-    let activity = activity(&model, &analysis.trajectory, &person.soles, person.leg_length_m, &stances);
-    report_untested_prediction(activity.kind, &force_origin, findings);
+    let activity = recognised(&model, &person, &analysis, &stances, &force_origin, findings);
     let judged = Judged {
         activity: activity.kind,
         stances: &stances,
@@ -99,17 +96,14 @@ fn road(
         device: device.as_deref(),
         checks: prediction.as_ref().map(|found| &found.checks),
     };
-    let partly_measured = origin.partly_measured();
+    let verdict = judged.verdict(settings, &force_origin, &origin.partly_measured(), findings);
     let tracking = tracking(origin, measured_events);
-    let mut verdict = judged.verdict(settings, &force_origin, &partly_measured, findings);
-    set_aside_what_data_explain(&mut verdict, tracking.as_ref(), &mass, &idle, &force_origin);
+    let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &idle, &force_origin);
     progress.end(Stage::Feasibility)?;
-    let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
     let evidence = QualityEvidence {
         model: &model,
         motion: motion.recorded(),
-        rate_hz: 1.0 / analysis.trajectory.grid().step_s,
-        smoother: processing.smoother,
+        smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
         force_origin,
         tracking: tracking.as_ref(),
         mass: &mass,
@@ -124,7 +118,7 @@ fn road(
         times_and_distances: times_and_distances(&model, &person.soles, &analysis),
         body: model,
         person,
-        analysis,
+        analysis: Analysis { verdict: Some(verdict.clone()), ..analysis },
         force_origin,
         prediction,
         residual_reduction: reduction,
@@ -174,15 +168,30 @@ fn stances<'p>(
     known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)
 }
 
+/// Recognises the activity; reports a recording without a whole gait cycle, and ground forces that are predicted for an activity without validation.
+fn recognised(
+    model: &Model,
+    person: &Person,
+    analysis: &Analysis,
+    stances: &Footfalls,
+    force_origin: &ForceOrigin,
+    findings: &mut Findings,
+) -> Activity {
+    report_missing_cycles(analysis, findings);
+    let found = activity(model, &analysis.trajectory, &person.soles, person.leg_length_m, stances);
+    report_untested_prediction(found.kind, force_origin, findings);
+    found
+}
+
 /// Drops reasons against the movement that errors of the data explain: a body that does not follow its markers, force plates that carry
 /// another weight than the body's, measured forces that belong to no foot. No movement changes the mean force on the ground from the weight.
-fn set_aside_what_data_explain(
-    verdict: &mut Verdict,
+fn without_faults_of_data(
+    mut verdict: Verdict,
     tracking: Option<&Tracking>,
     mass: &BodyMass,
     idle: &IdleForces,
     force_origin: &ForceOrigin,
-) {
+) -> Verdict {
     if let Some(rms_m) = tracking.map(marker_fit_rms_m).filter(|rms_m| Measure::MarkerFit.is_bad(*rms_m)) {
         let why = format!("the motion is not known: the recorded points are {:.0} mm from the body (rms)", 1e3 * rms_m);
         verdict.set_aside(|_| true, why);
@@ -199,6 +208,7 @@ fn set_aside_what_data_explain(
     if let Some(why) = idle.undecided() {
         verdict.set_aside(|_| false, why);
     }
+    verdict
 }
 
 /// Reports ground forces that are predicted for an activity without validation.
@@ -357,14 +367,19 @@ fn residual_reduced(
     settings: &Settings,
     force_origin: &ForceOrigin,
     findings: &mut Findings,
+    progress: &mut Progress<'_>,
 ) -> Result<(Analysis, Option<ReducedMotion>), StudyError> {
-    let Some(adjustable) = settings.residual_reduction else { return Ok((analysis, None)) };
+    let Some(adjustable) = settings.residual_reduction else {
+        progress.end(Stage::ResidualReduction)?;
+        return Ok((analysis, None));
+    };
     let (adjustable, instrumented) = match force_origin {
         ForceOrigin::Predicted { .. } => (Adjustable::Motion, None),
         _ => (adjustable, processing.instrumented),
     };
     let processing = analysis::AnalysisSettings { instrumented, ..processing };
     let (analysis, reduced) = reduce_residual(model, analysis, &processing, adjustable, findings)?;
+    progress.end(Stage::ResidualReduction)?;
     Ok((analysis, Some(reduced)))
 }
 

@@ -139,7 +139,7 @@ pub fn feet_on_plates(
 /// Whole stances with heel and toe inside a plate in the middle of the stance.
 fn silent_stances(feet: &feet::Feet<'_>, plate: usize, recording: &PlateRecording) -> Vec<SilentStance> {
     let of_side = |side: Side| {
-        let whole = feet.motion.contacts_of(side).into_iter().filter_map(|c| Some([c.strike_s?, c.off_s?]));
+        let whole = feet.motion.contacts_of(side).iter().filter_map(|c| Some([c.strike_s?, c.off_s?]));
         let stands = move |[from, to]: &[f64; 2]| {
             [0.3, 0.45, 0.6].into_iter().all(|share| feet.is_inside(side, recording, from + share * (to - from)))
         };
