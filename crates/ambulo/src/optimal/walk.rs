@@ -98,7 +98,7 @@ impl WalkCosts {
             ankle: DEGREE,
             toes: 20.0,
             arms: 3.0,
-            force: [0.02, 0.02],
+            force: [0.02, 0.01],
             others: 1.0,
             slip: 0.01,
             ..WalkCosts::default()
