@@ -36,7 +36,8 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
         let (found, allowed) = (metadata.len() >> 20, LARGEST_FILE_BYTES >> 20);
         bail!("{shown}: {found} MB; expected at most {allowed} MB. hint: is this really a motion or a model?");
     }
-    let mut bytes = Vec::new();
+    // A vector that grows takes up to twice the memory of the file.
+    let mut bytes = Vec::with_capacity(usize::try_from(metadata.len()).unwrap_or_default().saturating_add(1));
     let file = fs::File::open(path).with_context(|| format!("{shown}: cannot be opened"))?;
     // The size in the metadata may be wrong (a growing file).
     file.take(LARGEST_FILE_BYTES).read_to_end(&mut bytes).with_context(|| format!("{shown}: cannot be read"))?;

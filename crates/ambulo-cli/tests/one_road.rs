@@ -110,7 +110,7 @@ fn unnamed() -> Input {
 
 /// The files of the library: name and bytes.
 fn library_files(source: &Source, settings: &Settings, mut findings: Findings) -> (BTreeMap<String, Vec<u8>>, Value) {
-    let outcome = study::run(source, settings, &mut findings).unwrap();
+    let outcome = study::run(source.clone(), settings, &mut findings).unwrap();
     let (clinical, convention) = clinical_file(&outcome, Convention::default());
     let files = outcome_tables(&outcome, &Keep::all())
         .unwrap()

@@ -32,7 +32,7 @@ fn outcome(folder: &Path, [model, motion, forces, loads]: [&str; 4]) -> (Outcome
     let loads = Some(ExternalLoads::read(&read(loads)).unwrap().0);
     let measured = MeasuredForces::Table(ForceTable { table: table(forces), loads });
     let source = Source::coordinates(model, coordinates).with_forces(measured);
-    (study::run(&source, &Settings::default(), &mut findings).unwrap(), findings)
+    (study::run(source, &Settings::default(), &mut findings).unwrap(), findings)
 }
 
 /// The recording of the command's tests, whose pelvis has no markers on its iliac spines.

@@ -43,7 +43,7 @@
 //! let loads = Some(ExternalLoads::read(&std::fs::read("grf.xml")?)?.0);
 //! let forces = MeasuredForces::Table(ForceTable { table, loads });
 //! let source = Source::coordinates(model, motion).with_forces(forces);
-//! let outcome = study::run(&source, &Settings::default(), &mut findings)?;
+//! let outcome = study::run(source, &Settings::default(), &mut findings)?;
 //! println!("{}, body mass {:.1} kg", outcome.verdict.state.words(), outcome.analysis.mass.kg);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

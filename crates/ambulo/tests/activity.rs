@@ -171,7 +171,7 @@ fn predicted_forces_of_an_activity_without_validation_are_reported() {
         let motion = Motion { origin: "puppet".into(), times: trajectory.grid().times(), columns };
         let mut findings = Findings::default();
         let source = Source::coordinates(human.model, motion);
-        study::run(&source, &Settings::default(), &mut findings).unwrap();
+        study::run(source, &Settings::default(), &mut findings).unwrap();
         assert_eq!(findings.has(Code::PredictionUntested), is_reported, "{:?}", findings.as_slice());
     }
 }

@@ -302,7 +302,7 @@ fn study_per_frame(source: impl Fn(usize) -> Option<Source>) -> Option<[f64; 3]>
     for frames in [600, 600, 2400] {
         let source = source(frames)?;
         let mut held = [0; 2];
-        let run = || study::run(&source, &settings, &mut Findings::default()).unwrap();
+        let run = || study::run(source, &settings, &mut Findings::default()).unwrap();
         let count = allocations(|| held = bytes_held(run));
         found.push([held[0], held[1], count].map(|number| number as f64));
     }
@@ -320,7 +320,7 @@ fn a_study_holds_a_bounded_number_of_bytes_a_frame() {
     assert!(most < 3600.0 && result < 2000.0 && count < 20.0, "{result} {most} {count}");
     let coordinates = |frames: usize| {
         let source = Source::markers(walked_to_and_fro(frames)?);
-        let outcome = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap();
+        let outcome = study::run(source, &Settings::default(), &mut Findings::default()).unwrap();
         let (model, trajectory) = (outcome.body, &outcome.analysis.trajectory);
         let columns = model.coordinate_ids().map(|id| Some(trajectory.values(id).to_vec())).collect();
         let motion = Motion { origin: "walk".to_owned(), times: trajectory.grid().times(), columns };

@@ -384,7 +384,7 @@ fn a_person_with_a_heel_beside_the_plate_and_misplaced_toe_markers_is_not_called
     let trial = LaboratoryFile::from_c3d(&bytes, "TYPE-3.c3d", &mut Findings::default()).unwrap();
     let body = MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg: None, height_m: None, set: None };
     let source = Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() });
-    let outcome = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap();
+    let outcome = study::run(source, &Settings::default(), &mut Findings::default()).unwrap();
     let verdict = outcome.verdict;
     assert_eq!(verdict.state, VerdictState::NotJudged, "{:?}", verdict.reasons);
     assert!(verdict.undecided.iter().any(|why| why.contains("direction of a foot")), "{:?}", verdict.undecided);
@@ -648,7 +648,7 @@ fn loads_between(outcome: &study::Outcome, [from, to]: [f64; 2]) -> Vec<ForceRec
 fn a_foot_on_a_step_without_a_plate_is_on_unmeasured_ground_and_a_body_that_hovers_is_not() {
     let human = man();
     let settings = Settings { force_filter: ForceFilter::Off, ..Settings::default() };
-    let run = |source: &Source| study::run(source, &settings, &mut Findings::default()).unwrap();
+    let run = |source: &Source| study::run(source.clone(), &settings, &mut Findings::default()).unwrap();
     let whole = run(&Source::coordinates(human.model.clone(), climbing(&human, 0.0)));
     assert_eq!(whole.activity.kind, ActivityKind::StairsUp, "{:?}", whole.activity);
     // Plates under the steps in the middle only: the others are higher and lower than these.

@@ -42,7 +42,7 @@ fn used(forces: Vec<ForceRecording>, settings: &Settings) -> Option<LowPass> {
     let columns = vec![Some(vec![0.0; times.len()]); model.coordinates().len()];
     let motion = Motion { origin: "still".to_owned(), times, columns };
     let source = Source::coordinates(model, motion).with_forces(MeasuredForces::OnBodies(forces));
-    study::run(&source, settings, &mut Findings::default()).unwrap().processing.force_filter
+    study::run(source, settings, &mut Findings::default()).unwrap().processing.force_filter
 }
 
 fn smoothed(smoother: Smoother) -> Settings {

@@ -110,7 +110,7 @@ fn agreement(pairs: &[(f64, f64)]) -> Agreement {
 fn compared(folder: &Path, settings: &Settings) -> [Vec<Agreement>; 3] {
     let mut found = [const { Vec::new() }; 3];
     for person in &PEOPLE {
-        let outcome = study::run(&person.source(folder), settings, &mut Findings::default()).unwrap();
+        let outcome = study::run(person.source(folder), settings, &mut Findings::default()).unwrap();
         let (walk, _) = C3d::read(&person.file(folder, person.walk)).unwrap();
         for (joint, list) in JOINTS.iter().zip(&mut found) {
             list.extend(Side::BOTH.map(|side| person.agreement(&outcome, &walk, joint, side)));

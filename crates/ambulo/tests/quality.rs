@@ -104,7 +104,7 @@ fn each_marker(source: &mut Source, change: impl Fn(f64, &mut Vec3)) {
 }
 
 fn quality(source: &Source, settings: &Settings) -> Quality {
-    study::run(source, settings, &mut Findings::default()).unwrap().quality
+    study::run(source.clone(), settings, &mut Findings::default()).unwrap().quality
 }
 
 fn predicted() -> Settings {
@@ -116,7 +116,7 @@ fn walks_of_seven_people_are_good_with_measured_and_with_predicted_forces() {
     let Some(data) = data() else { return };
     for person in &PEOPLE {
         for settings in [Settings::default(), predicted()] {
-            let outcome = study::run(&person.source(&data), &settings, &mut Findings::default()).unwrap();
+            let outcome = study::run(person.source(&data), &settings, &mut Findings::default()).unwrap();
             println!("{} {:?}", person.name, outcome.verdict.fit);
             let quality = outcome.quality;
             assert_eq!(quality.state, QualityState::Good, "{}: {:?}", person.name, quality.reasons);
@@ -153,7 +153,7 @@ fn with_forces(data: &Path, change: impl FnMut(&mut ForceRecording)) -> study::O
     let mut forces = force_recordings(&model, &loads, &plates, &mut findings).unwrap();
     forces.iter_mut().for_each(change);
     let source = Source::coordinates(model, motion).with_forces(MeasuredForces::OnBodies(forces));
-    study::run(&source, &Settings::default(), &mut findings).unwrap()
+    study::run(source, &Settings::default(), &mut findings).unwrap()
 }
 
 /// Plates that were switched off say nothing about the person.
@@ -203,14 +203,14 @@ fn errors_of_the_data_are_not_held_against_the_movement_and_nothing_is_called_fe
         for (what, spoil) in cases {
             let mut source = person.source(&data);
             spoil(&mut source);
-            let verdict = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap().verdict;
+            let verdict = study::run(source, &Settings::default(), &mut Findings::default()).unwrap().verdict;
             println!("{} {what}: {:?} {:?}", person.name, verdict.state, verdict.undecided);
             assert_eq!(verdict.state, VerdictState::NotJudged, "{} {what}: {:?}", person.name, verdict.reasons);
         }
         // What the forces of the right size do not cause is the movement's fault.
         let mut source = person.source(&data);
         each_marker(&mut source, |_, position| position.z += 0.1);
-        let verdict = study::run(&source, &Settings::default(), &mut Findings::default()).unwrap().verdict;
+        let verdict = study::run(source, &Settings::default(), &mut Findings::default()).unwrap().verdict;
         assert_eq!(verdict.state, VerdictState::Infeasible, "{} above its plates", person.name);
     }
 }
@@ -218,7 +218,7 @@ fn errors_of_the_data_are_not_held_against_the_movement_and_nothing_is_called_fe
 #[test]
 fn a_jump_of_a_coordinate_is_named_with_its_frame() {
     let Some(data) = data() else { return };
-    let outcome = study::run(&PEOPLE[0].source(&data), &Settings::default(), &mut Findings::default()).unwrap();
+    let outcome = study::run(PEOPLE[0].source(&data), &Settings::default(), &mut Findings::default()).unwrap();
     let (model, grid) = (outcome.body, outcome.analysis.trajectory.grid());
     let columns = model.coordinate_ids().map(|id| Some(outcome.analysis.trajectory.values(id).to_vec()));
     let mut motion = Motion { origin: "copied".to_owned(), times: grid.times(), columns: columns.collect() };

@@ -16,7 +16,7 @@ fn standing(source: &Source) -> Option<Outcome> {
     let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
     markers.trial = markers.standing.clone()?;
     let settings = Settings { ground: GroundSettings::Predicted, ..Settings::default() };
-    study::run(&source, &settings, &mut Findings::default()).ok()
+    study::run(source, &settings, &mut Findings::default()).ok()
 }
 
 /// Centre of pressure of the feet together, and of the plates together, averaged over the recording.

@@ -24,7 +24,7 @@ fn walk() -> (Model, Analysis) {
     let plates = force_recordings(&model, &loads, &table("walk_grf.mot"), &mut findings).unwrap();
     let source = Source::coordinates(model, motion).with_forces(MeasuredForces::OnBodies(plates));
     let settings = Settings { smoother: Smoother::Off, force_filter: ForceFilter::Off, ..Settings::default() };
-    let outcome = study::run(&source, &settings, &mut findings).unwrap();
+    let outcome = study::run(source, &settings, &mut findings).unwrap();
     (outcome.body, outcome.analysis)
 }
 

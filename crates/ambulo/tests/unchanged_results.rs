@@ -136,14 +136,14 @@ fn predicted() -> Settings {
 fn a_walk_with_plates() {
     let Some(data) = data() else { return };
     let source = PEOPLE[0].source(&data);
-    compare("plates", &study::run(&source, &Settings::default(), &mut Findings::default()).unwrap());
+    compare("plates", &study::run(source, &Settings::default(), &mut Findings::default()).unwrap());
 }
 
 #[test]
 fn a_walk_whose_plates_are_compared_with_a_prediction() {
     let Some(data) = data() else { return };
     let source = PEOPLE[0].source(&data);
-    compare("prediction", &study::run(&source, &predicted(), &mut Findings::default()).unwrap());
+    compare("prediction", &study::run(source, &predicted(), &mut Findings::default()).unwrap());
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn a_synthetic_walk_as_coordinates() {
     let columns = model.coordinate_ids().map(|id| Some(trajectory.values(id).to_vec())).collect();
     let motion = Motion { origin: "walk".to_owned(), times: trajectory.grid().times(), columns };
     let source = Source::coordinates(model, motion);
-    compare("synthetic", &study::run(&source, &predicted(), &mut Findings::default()).unwrap());
+    compare("synthetic", &study::run(source, &predicted(), &mut Findings::default()).unwrap());
 }
 
 #[test]

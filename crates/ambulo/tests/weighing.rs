@@ -58,7 +58,7 @@ fn bobbing(true_kg: f64, model_kg: f64, share_on_plates: f64) -> Source {
 
 fn run(source: &Source) -> (Outcome, Findings) {
     let mut findings = Findings::default();
-    let outcome = study::run(source, &Settings::default(), &mut findings).unwrap();
+    let outcome = study::run(source.clone(), &Settings::default(), &mut findings).unwrap();
     (outcome, findings)
 }
 

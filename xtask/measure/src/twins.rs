@@ -119,7 +119,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
 }
 
 fn analysed(source: &Source, settings: &Settings) -> Result<Outcome, String> {
-    study::run(source, settings, &mut Findings::default()).map_err(|e| e.to_string())
+    study::run(source.clone(), settings, &mut Findings::default()).map_err(|e| e.to_string())
 }
 
 fn reasons(verdict: &Verdict) -> String {

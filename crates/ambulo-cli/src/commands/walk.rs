@@ -180,7 +180,7 @@ impl SyntheticRun<'_> {
             clock.lap(stage.word());
             ControlFlow::Continue(())
         };
-        let outcome = study::run_observed(&self.source(), &settings, &mut findings, &mut watch)?;
+        let outcome = study::run_observed(self.source(), &settings, &mut findings, &mut watch)?;
         let files = RunFiles {
             outcome: &outcome,
             input: input(self.walk_settings),

@@ -55,7 +55,7 @@ fn folder_of(body: &[u8], motion: &[u8], ground: &[u8], loads: &ExternalLoads, f
         ground: forces,
         ..Settings::default()
     };
-    let outcome = study::run(&source, &settings, &mut findings).unwrap();
+    let outcome = study::run(source, &settings, &mut findings).unwrap();
     let input = Input {
         motion: "recordings/walk.mot".to_owned(),
         person: None,

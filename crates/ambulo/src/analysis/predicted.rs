@@ -17,6 +17,7 @@ use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model};
 use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
+use std::borrow::Borrow;
 
 /// Inputs of a prediction, in addition to the motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,18 +57,21 @@ pub fn analyse_predicted(
     predict_and_analyse(model, motion, plates, settings, input, findings, &mut Progress::default())
 }
 
+/// A motion that is not borrowed is dropped before the forces are computed: a long recording needs its memory for them.
 pub(crate) fn predict_and_analyse(
     model: &Model,
-    motion: &Motion,
+    motion: impl Borrow<Motion>,
     plates: &[ForceRecording],
     settings: AnalysisSettings,
     input: &PredictionInput<'_>,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<PredictedAnalysis, AnalysisError> {
-    let trajectory = trajectory_within(model, motion, &[], settings, settings.window, findings)?;
+    let trajectory = trajectory_within(model, motion.borrow(), &[], settings, settings.window, findings)?;
     progress.end(Stage::Smoothing)?;
-    let prediction = match prediction_of_whole_motion(model, motion, settings, trajectory.grid(), input, findings) {
+    let whole = prediction_of_whole_motion(model, motion.borrow(), settings, trajectory.grid(), input, findings);
+    drop(motion);
+    let prediction = match whole {
         Some(prediction) => prediction?,
         None => predict(model, &trajectory, input.soles, input.settings, findings)?,
     };

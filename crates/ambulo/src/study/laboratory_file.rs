@@ -43,12 +43,17 @@ pub enum LaboratoryFileError {
 }
 
 impl LaboratoryFile {
-    /// From the bytes of a C3D; `label` names the file in findings.
+    /// From the bytes of a C3D; `label` names the file in findings. Bytes that are not borrowed are dropped as soon as they are decoded.
     ///
     /// # Errors
     /// A file that is no C3D, holds no frames, or has markers or plates that cannot be used.
-    pub fn from_c3d(bytes: &[u8], label: &str, findings: &mut Findings) -> Result<LaboratoryFile, LaboratoryFileError> {
-        let (c3d, remarks) = C3d::read(bytes)?;
+    pub fn from_c3d(
+        bytes: impl AsRef<[u8]>,
+        label: &str,
+        findings: &mut Findings,
+    ) -> Result<LaboratoryFile, LaboratoryFileError> {
+        let (c3d, remarks) = C3d::read(bytes.as_ref())?;
+        drop(bytes);
         report_remarks(label, &remarks, findings);
         if c3d.frames() == 0 {
             return Err(LaboratoryFileError::NoFrames { remark: remarks.last().map(ToString::to_string) });
@@ -74,8 +79,13 @@ impl LaboratoryFile {
     ///
     /// # Errors
     /// A file that is no TRC, or has markers that cannot be used.
-    pub fn from_trc(bytes: &[u8], label: &str, findings: &mut Findings) -> Result<LaboratoryFile, LaboratoryFileError> {
-        let (trc, remarks) = Trc::read(bytes)?;
+    pub fn from_trc(
+        bytes: impl AsRef<[u8]>,
+        label: &str,
+        findings: &mut Findings,
+    ) -> Result<LaboratoryFile, LaboratoryFileError> {
+        let (trc, remarks) = Trc::read(bytes.as_ref())?;
+        drop(bytes);
         report_remarks(label, &remarks, findings);
         let mut markers = markers_from_trc(&trc, findings)?;
         markers.name = label.to_owned();

@@ -8,7 +8,9 @@ use super::mass::{KnownMass, MassEstimate, report_decided};
 use super::outcome::Tracking;
 use super::settings::{GroundSettings, Settings};
 use super::size::StatedSize;
-use super::source::{MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source};
+use super::source::{
+    AddedMass, CompleteMotion, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source,
+};
 use super::weighing::Carried;
 use crate::analysis::feasibility::Person;
 use crate::analysis::{
@@ -24,37 +26,37 @@ use crate::model::{Model, Side};
 use crate::motion::skeleton::SkeletonRecording;
 use crate::motion::{Event, ForceRecording, Motion, SmoothSettings, Window, smooth};
 use crate::spatial::Vec3;
+use ambulo_formats::table::Table;
 use std::borrow::Cow;
 
-/// A body, its motion and the forces under its feet, as observed.
-pub(super) struct Observation<'s> {
+/// A body and the forces under its feet, as observed.
+pub(super) struct Observation {
     pub(super) model: Model,
     pub(super) person: Person,
-    pub(super) motion: ObservedMotion<'s>,
     pub(super) forces: Vec<ForceRecording>,
     /// Measured forces that do not carry the person.
     pub(super) idle: IdleForces,
     pub(super) origin: Origin,
     /// Estimates of the body mass that do not need the motion.
     pub(super) known_mass: KnownMass,
+    /// Joint moments of a worn device.
+    pub(super) device: Option<Table>,
 }
 
-/// A motion as observed.
-pub(super) enum ObservedMotion<'s> {
+/// A motion as observed; it is apart from the body, because a long one is dropped as soon as it is smoothed.
+pub(super) enum ObservedMotion {
     /// Samples, possibly with gaps.
-    Recorded(Cow<'s, Motion>),
+    Recorded(Motion),
     /// Complete, with the exact forces of a simulation.
-    Complete(&'s Trajectory),
+    Complete(Trajectory),
 }
 
-impl ObservedMotion<'_> {
-    /// The samples, if it was recorded.
-    pub(super) fn recorded(&self) -> Option<&Motion> {
-        match self {
-            ObservedMotion::Recorded(motion) => Some(motion),
-            ObservedMotion::Complete(_) => None,
-        }
-    }
+/// What is known about a recording besides the motion.
+struct Statements {
+    forces: MeasuredForces,
+    device: Option<Table>,
+    added_mass: Vec<AddedMass>,
+    stated: StatedSize,
 }
 
 /// The kind of recording that a body in motion was made from.
@@ -72,7 +74,7 @@ pub(super) struct Followed {
     pub(super) listed: Vec<Event>,
 }
 
-impl Observation<'_> {
+impl Observation {
     /// Body mass measured by force plates in a standing trial [kg].
     pub(super) fn standing_kg(&self) -> Option<f64> {
         self.known_mass.standing.as_ref().map(|standing| standing.kg)
@@ -125,53 +127,71 @@ impl Origin {
 }
 
 impl Source {
-    /// The body in motion that this source describes.
-    pub(super) fn observe<'s>(
-        &'s self,
+    /// The body and the motion that this source describes.
+    pub(super) fn observe(
+        self,
         settings: &Settings,
         findings: &mut Findings,
         progress: &mut Progress<'_>,
-    ) -> Result<Observation<'s>, StudyError> {
-        match &self.recording {
-            Recording::Coordinates { model, motion } => self.observe_coordinates(model, motion, settings, findings),
-            Recording::Markers(markers) => self.observe_markers(markers, settings, findings, progress),
-            Recording::Skeleton { skeleton, table, mass_kg } => {
-                let build = Build { table: *table, mass: *mass_kg, height: skeleton.height_m, toe_joint: true };
-                self.observe_skeleton(skeleton, &build, settings, findings, progress)
+    ) -> Result<(Observation, ObservedMotion), StudyError> {
+        let Source { recording, forces, device, added_mass, stated } = self;
+        let statements = Statements { forces, device, added_mass, stated };
+        match recording {
+            Recording::Coordinates { model, motion } => {
+                statements.observe_coordinates(&model, motion, settings, findings)
             }
-            Recording::Complete(made) => Ok(Observation {
-                model: self.loaded(&made.model)?,
-                person: made.person.clone(),
-                motion: ObservedMotion::Complete(&made.trajectory),
-                forces: made.loads.clone(),
-                idle: IdleForces::default(),
-                origin: Origin::Simulation { rule: made.rule },
-                known_mass: KnownMass::stated(Some(made.model.mass())),
-            }),
+            Recording::Markers(markers) => statements.observe_markers(*markers, settings, findings, progress),
+            Recording::Skeleton { skeleton, table, mass_kg } => {
+                let build = Build { table, mass: mass_kg, height: skeleton.height_m, toe_joint: true };
+                statements.observe_skeleton(&skeleton, &build, settings, findings, progress)
+            }
+            Recording::Complete(made) => statements.observe_complete(*made),
         }
     }
+}
 
-    fn observe_coordinates<'s>(
-        &'s self,
+impl Statements {
+    /// A model with the masses that the person carried.
+    fn loaded(&self, model: Model) -> Result<Model, StudyError> {
+        self.added_mass.iter().try_fold(model, |model, added| added.on(&model))
+    }
+
+    fn observe_complete(self, made: CompleteMotion) -> Result<(Observation, ObservedMotion), StudyError> {
+        let CompleteMotion { model, person, trajectory, loads, rule } = made;
+        let known_mass = KnownMass::stated(Some(model.mass()));
+        let observation = Observation {
+            model: self.loaded(model)?,
+            person,
+            forces: loads,
+            idle: IdleForces::default(),
+            origin: Origin::Simulation { rule },
+            known_mass,
+            device: self.device,
+        };
+        Ok((observation, ObservedMotion::Complete(trajectory)))
+    }
+
+    fn observe_coordinates(
+        self,
         model: &Model,
-        motion: &'s Motion,
+        motion: Motion,
         settings: &Settings,
         findings: &mut Findings,
-    ) -> Result<Observation<'s>, StudyError> {
+    ) -> Result<(Observation, ObservedMotion), StudyError> {
         let is_measured =
             settings.ground != GroundSettings::NoContact && !matches!(self.forces, MeasuredForces::InRecording);
         let motion = self.stated.moved(model, motion, is_measured);
-        let model = self.loaded(&self.stated.applied(model, findings)?)?;
+        let model = self.loaded(self.stated.applied(model, findings)?)?;
         let of_model = Person::of_model(&model);
         let person = Person { estimated: self.stated.height_m.is_none(), ..of_model };
-        let (forces, idle) = match &self.forces {
+        let (forces, idle) = match self.forces {
             _ if settings.ground == GroundSettings::NoContact => (Vec::new(), IdleForces::default()),
             MeasuredForces::InRecording => {
                 let message = "no ground forces were given; they are predicted from the motion";
                 findings.report(Code::GroundPredicted, message);
                 (Vec::new(), IdleForces::default())
             }
-            MeasuredForces::OnBodies(forces) => (forces.clone(), IdleForces::default()),
+            MeasuredForces::OnBodies(forces) => (forces, IdleForces::default()),
             MeasuredForces::Table(table) => {
                 let walker = Walker {
                     model: &model,
@@ -180,38 +200,33 @@ impl Source {
                     window: settings.window,
                     world_from_lab: None,
                 };
-                carrying(walker.forces_of_table(table, findings)?, findings)
+                carrying(walker.forces_of_table(&table, findings)?, findings)
             }
         };
-        Ok(Observation {
-            person,
-            model,
-            motion: ObservedMotion::Recorded(motion),
-            forces,
-            idle,
-            origin: Origin::Coordinates,
-            known_mass: KnownMass::stated(self.stated.mass_kg),
-        })
+        let origin = Origin::Coordinates;
+        let known_mass = KnownMass::stated(self.stated.mass_kg);
+        let observation = Observation { person, model, forces, idle, origin, known_mass, device: self.device };
+        Ok((observation, ObservedMotion::Recorded(motion)))
     }
 
     fn observe_skeleton(
-        &self,
+        self,
         skeleton: &SkeletonRecording,
         build: &Build,
         settings: &Settings,
         findings: &mut Findings,
         progress: &mut Progress<'_>,
-    ) -> Result<Observation<'static>, StudyError> {
+    ) -> Result<(Observation, ObservedMotion), StudyError> {
         let body = retarget(build, skeleton, findings)?;
         progress.end(Stage::Markers)?;
         if settings.ground != GroundSettings::NoContact {
             let message = "a BVH has no ground forces; they are predicted from the motion";
             findings.report(Code::GroundPredicted, message);
         }
-        Ok(Observation {
+        let motion = body.fit.motion.clone();
+        let observation = Observation {
             person: Person::of_human(&body.human),
-            model: self.loaded(&body.human.model)?,
-            motion: ObservedMotion::Recorded(Cow::Owned(body.fit.motion.clone())),
+            model: self.loaded(body.human.model)?,
             forces: Vec::new(),
             idle: IdleForces::default(),
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
@@ -219,36 +234,40 @@ impl Source {
                 fit: Box::new(body.fit),
             })),
             known_mass: KnownMass::stated(Some(build.mass)),
-        })
+            device: self.device,
+        };
+        Ok((observation, ObservedMotion::Recorded(motion)))
     }
 
     fn observe_markers(
-        &self,
-        markers: &MarkerSource,
+        self,
+        markers: MarkerSource,
         settings: &Settings,
         findings: &mut Findings,
         progress: &mut Progress<'_>,
-    ) -> Result<Observation<'static>, StudyError> {
-        let known = KnownMass::of_markers(markers);
-        let markers = &*self.with_known_mass(markers, &known, settings, findings)?;
-        let mut body = self.follow(markers, settings, findings, progress)?;
+    ) -> Result<(Observation, ObservedMotion), StudyError> {
+        let known = KnownMass::of_markers(&markers);
+        let markers = self.with_known_mass(markers, &known, settings, findings)?;
+        let mut body = self.follow(&markers, settings, findings, progress)?;
         if !matches!(markers.body, MarkerBody::Model { .. }) {
-            body.subject.model = self.loaded(&body.subject.model)?;
+            body.subject.model = self.loaded(body.subject.model)?;
         }
         let (forces, mut idle) = self.forces_under(&body, settings, findings)?;
         if matches!(self.forces, MeasuredForces::InRecording) && settings.ground != GroundSettings::NoContact {
-            idle = IdleForces::of_plates(&body, markers);
+            idle = IdleForces::of_plates(&body, &markers);
             idle.report(findings);
         }
-        Ok(Observation {
+        let motion = body.fit.motion.clone();
+        let observation = Observation {
             model: body.subject.model.clone(),
             person: body.subject.person.clone(),
-            motion: ObservedMotion::Recorded(Cow::Owned(body.fit.motion.clone())),
             forces,
             idle,
             known_mass: known,
-            origin: Origin::Markers(Box::new(Followed { body, listed: markers.trial.events.clone() })),
-        })
+            origin: Origin::Markers(Box::new(Followed { body, listed: markers.trial.events })),
+            device: self.device,
+        };
+        Ok((observation, ObservedMotion::Recorded(motion)))
     }
 
     /// The measured forces on a body that follows markers.
@@ -278,35 +297,31 @@ impl Source {
 
     /// The markers with the mass of the built-in body. Where statement and standing trial do not settle it, the force plates weigh the
     /// person in motion: the posture does not depend on the mass, so that a first body of any mass shows the velocity of the mass centre.
-    fn with_known_mass<'m>(
+    fn with_known_mass(
         &self,
-        markers: &'m MarkerSource,
+        markers: MarkerSource,
         known: &KnownMass,
         settings: &Settings,
         findings: &mut Findings,
-    ) -> Result<Cow<'m, MarkerSource>, StudyError> {
+    ) -> Result<MarkerSource, StudyError> {
         if !matches!(markers.body, MarkerBody::BuiltIn { .. }) {
-            return Ok(Cow::Borrowed(markers));
+            return Ok(markers);
         }
+        let any_kg = known.stated.as_ref().map_or(ANY_MASS_KG, |stated| stated.kg);
+        let markers = markers.with_mass(any_kg);
         let in_motion = match known.needs_motion() {
-            true => self.weighed_before(markers, known, settings)?,
+            true => self.weighed_before(&markers, settings)?,
             false => Vec::new(),
         };
         let decided = known.decided(&in_motion).ok_or(StudyError::MassUnknown)?;
         report_decided(known, &decided, findings);
-        Ok(Cow::Owned(markers.with_mass(decided.kg)))
+        Ok(markers.with_mass(decided.kg))
     }
 
     /// The ways in which the ground forces weigh a body that is only there to be weighed.
-    fn weighed_before(
-        &self,
-        markers: &MarkerSource,
-        known: &KnownMass,
-        settings: &Settings,
-    ) -> Result<Vec<MassEstimate>, StudyError> {
+    fn weighed_before(&self, markers: &MarkerSource, settings: &Settings) -> Result<Vec<MassEstimate>, StudyError> {
         let unheard = &mut Findings::default();
-        let any_kg = known.stated.as_ref().map_or(ANY_MASS_KG, |stated| stated.kg);
-        let body = self.follow(&markers.with_mass(any_kg), settings, unheard, &mut Progress::default())?;
+        let body = self.follow(markers, settings, unheard, &mut Progress::default())?;
         let (forces, _) = self.forces_under(&body, settings, unheard)?;
         let model = &body.subject.model;
         let whole = body
@@ -331,7 +346,7 @@ impl Source {
         let body = match &markers.body {
             MarkerBody::Model { model: given, mass_kg } => {
                 let size = StatedSize { mass_kg: *mass_kg, height_m: self.stated.height_m };
-                model = self.loaded(&size.applied(given, findings)?)?;
+                model = self.loaded(size.applied(given, findings)?)?;
                 BodySource::Model { model: &model, mass: *mass_kg }
             }
             MarkerBody::BuiltIn { set, .. } => {
@@ -357,12 +372,11 @@ const ANY_MASS_KG: f64 = 70.0;
 
 impl MarkerSource {
     /// The same markers with a stated mass of the built-in body [kg].
-    fn with_mass(&self, kg: f64) -> MarkerSource {
-        let mut markers = self.clone();
-        if let MarkerBody::BuiltIn { mass_kg, .. } = &mut markers.body {
+    fn with_mass(mut self, kg: f64) -> MarkerSource {
+        if let MarkerBody::BuiltIn { mass_kg, .. } = &mut self.body {
             *mass_kg = Some(kg);
         }
-        markers
+        self
     }
 
     /// The trial without what switched-off plates measured. Plates that are named must exist.

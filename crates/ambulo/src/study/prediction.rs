@@ -24,8 +24,8 @@ pub(super) struct Found {
 
 /// Predicts the ground forces, weighs the body, checks the prediction and compares it with the plates.
 pub(super) fn predicted(
-    observation: &Observation<'_>,
-    motion: &Motion,
+    observation: &Observation,
+    motion: Motion,
     processing: analysis::AnalysisSettings,
     settings: &Settings,
     findings: &mut Findings,
@@ -37,6 +37,7 @@ pub(super) fn predicted(
         settings: &settings.prediction,
         plates_filter: processing.force_filter,
     };
+    let recorded_s = motion.times.last().zip(motion.times.first()).map_or(0.0, |(last, first)| last - first);
     let predicted = predict_and_analyse(model, motion, forces, processing, &input, findings, progress)?;
     let coverage = coverage(observation, &predicted);
     let (predicted, measured_events) = completed(predicted, observation);
@@ -68,21 +69,20 @@ pub(super) fn predicted(
         );
         findings.report(Code::MassUnverified, message);
     }
-    report_weak_evidence(origin, motion, findings);
+    report_weak_evidence(origin, recorded_s, findings);
     let PredictedAnalysis { analysis, prediction, measured } = predicted;
     let prediction = PredictedGround { prediction, checks, measured, coverage, agreement };
     Ok(Found { analysis, prediction: Some(prediction), measured_events })
 }
 
 /// Reports missing evidence that makes a prediction unreliable.
-fn report_weak_evidence(origin: &Origin, motion: &Motion, findings: &mut Findings) {
+fn report_weak_evidence(origin: &Origin, recorded_s: f64, findings: &mut Findings) {
     if !origin.shows_both_feet() {
         findings.report(
             Code::PredictionFeetUnseen,
             "no marker shows where a foot points: its ankle is held, so its stances, centre of pressure and moments are guesses. hint: markers on heel and toe of both feet",
         );
     }
-    let recorded_s = motion.times.last().zip(motion.times.first()).map_or(0.0, |(last, first)| last - first);
     if recorded_s < SHORT_S {
         findings.report(
             Code::PredictionShort,
@@ -92,7 +92,7 @@ fn report_weak_evidence(origin: &Origin, motion: &Motion, findings: &mut Finding
 }
 
 /// The stances that plates measured completely; `None` without plates.
-fn coverage(observation: &Observation<'_>, predicted: &PredictedAnalysis) -> Option<PlateCoverage> {
+fn coverage(observation: &Observation, predicted: &PredictedAnalysis) -> Option<PlateCoverage> {
     let measured = predicted.measured.as_ref()?;
     match observation.origin.followed() {
         Some(Followed { body, .. }) if !body.on_plates.contacts.is_empty() => Some(body.coverage()),
@@ -101,14 +101,14 @@ fn coverage(observation: &Observation<'_>, predicted: &PredictedAnalysis) -> Opt
 }
 
 /// Events and mass of the measured forces alongside a prediction; with the events that plates measured.
-fn completed(predicted: PredictedAnalysis, observation: &Observation<'_>) -> (PredictedAnalysis, Vec<Event>) {
+fn completed(predicted: PredictedAnalysis, observation: &Observation) -> (PredictedAnalysis, Vec<Event>) {
     let PredictedAnalysis { analysis, prediction, measured } = predicted;
     let (measured, events) = measured.map(|measured| with_markers(measured, observation)).unzip();
     (PredictedAnalysis { analysis, prediction, measured }, events.unwrap_or_default())
 }
 
 /// An analysis with measured forces, with the events and the weighing that a recording of markers allows.
-pub(super) fn with_markers(analysis: Analysis, observation: &Observation<'_>) -> (Analysis, Vec<Event>) {
+pub(super) fn with_markers(analysis: Analysis, observation: &Observation) -> (Analysis, Vec<Event>) {
     let Observation { model, origin, .. } = observation;
     let Some(Followed { body, listed }) = origin.followed() else { return (analysis, Vec::new()) };
     let (mut analysis, measured_events) = with_events_of_markers(analysis, body, listed);

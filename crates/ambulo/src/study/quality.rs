@@ -291,11 +291,42 @@ impl QualityReason {
     }
 }
 
+/// Faults of a motion as recorded, before smoothing hides them.
+pub(super) struct RecordedFaults {
+    /// Share of the frames in which a coordinate is not known.
+    unknown_share: f64,
+    /// Time of the first such frame [s].
+    first_unknown_s: Option<f64>,
+    /// Number of jumps of coordinates.
+    jumps: usize,
+    /// Coordinate, frame (counted from 1) and time [s] of the first jump.
+    first_jump: Option<(String, usize, f64)>,
+}
+
+impl RecordedFaults {
+    pub(super) fn of(model: &Model, motion: &Motion) -> RecordedFaults {
+        let is_unknown = |frame: &usize| motion.columns.iter().flatten().any(|column| column[*frame].is_nan());
+        let unknown = || (0..motion.times.len()).filter(is_unknown);
+        let found = jumps(model, motion);
+        let first_jump =
+            found.iter().filter_map(|jumps| Some((jumps, *jumps.frames.first()?))).min_by_key(|(_, frame)| *frame);
+        let described = |(jumps, frame): (&Jumps, usize)| {
+            let name = model.coordinates()[jumps.coordinate.index()].name.clone();
+            (name, frame + 1, motion.times[frame])
+        };
+        RecordedFaults {
+            unknown_share: unknown().count() as f64 / motion.times.len().max(1) as f64,
+            first_unknown_s: unknown().next().map(|frame| motion.times[frame]),
+            jumps: found.iter().map(|jumps| jumps.frames.len()).sum(),
+            first_jump: first_jump.map(described),
+        }
+    }
+}
+
 /// Everything that the quality depends on.
 pub(super) struct QualityEvidence<'a> {
-    pub(super) model: &'a Model,
-    /// The motion before smoothing; `None` for a complete motion.
-    pub(super) motion: Option<&'a Motion>,
+    /// Faults of the motion before smoothing; `None` for a complete motion.
+    pub(super) recorded: Option<&'a RecordedFaults>,
     /// The filter of the motion, and its rate [Hz].
     pub(super) smoothed: (Smoother, f64),
     pub(super) force_origin: ForceOrigin,
@@ -439,15 +470,12 @@ impl QualityEvidence<'_> {
 
     fn gaps(&self) -> Option<QualityReason> {
         self.fit()?;
-        let motion = self.motion?;
-        let is_unknown = |frame: &usize| motion.columns.iter().flatten().any(|column| column[*frame].is_nan());
-        let unknown: Vec<usize> = (0..motion.times.len()).filter(is_unknown).collect();
-        let share = unknown.len() as f64 / motion.times.len().max(1) as f64;
+        let RecordedFaults { unknown_share: share, first_unknown_s, .. } = *self.recorded?;
         Measure::Gaps.reason(share, |limit| {
-            let first_s = unknown.first().map_or(f64::NAN, |frame| motion.times[*frame]);
             format!(
-                "markers are missing, so that the posture is unknown in {} of the frames, the first at {first_s:.3} s (at most {})",
+                "markers are missing, so that the posture is unknown in {} of the frames, the first at {:.3} s (at most {})",
                 percent(share),
+                first_unknown_s.unwrap_or(f64::NAN),
                 percent(limit)
             )
         })
@@ -478,18 +506,12 @@ impl QualityEvidence<'_> {
 
     fn jumps(&self) -> Option<QualityReason> {
         // Coordinates that were fitted to markers jump where few markers determine them; the distance of the markers judges these.
-        let motion = self.motion.filter(|_| self.tracking.is_none())?;
-        let found = jumps(self.model, motion);
-        let count = found.iter().map(|jumps| jumps.frames.len()).sum::<usize>();
-        let Jumps { coordinate, frames } = found.iter().min_by_key(|jumps| jumps.frames.first())?;
-        Measure::Jumps.reason(count as f64, |_| {
-            let frame = frames.first().copied().unwrap_or_default();
+        let recorded = self.recorded.filter(|_| self.tracking.is_none())?;
+        let RecordedFaults { jumps, first_jump: Some((name, frame, time_s)), .. } = recorded else { return None };
+        Measure::Jumps.reason(*jumps as f64, |_| {
             format!(
-                "coordinates jump in {count} place{}, first `{}` at frame {} ({:.3} s): forces are wrong there",
-                if count == 1 { "" } else { "s" },
-                self.model.coordinates()[coordinate.index()].name,
-                frame + 1,
-                motion.times[frame]
+                "coordinates jump in {jumps} place{}, first `{name}` at frame {frame} ({time_s:.3} s): forces are wrong there",
+                if *jumps == 1 { "" } else { "s" },
             )
         })
     }

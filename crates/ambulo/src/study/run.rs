@@ -6,7 +6,7 @@ use super::mass::BodyMass;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 use super::prediction::{Found, predicted, with_markers};
-use super::quality::{Measure, QualityEvidence, marker_fit_rms_m};
+use super::quality::{Measure, QualityEvidence, RecordedFaults, marker_fit_rms_m};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
@@ -25,7 +25,8 @@ use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table}
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 
-/// Computes the forces behind a recording. Problems that still allow results are reported in `findings`.
+/// Computes the forces behind a recording. Problems that still allow results are reported in `findings`. The recording is dropped as soon as
+/// it is not needed any more; clone it to compute it again.
 ///
 /// # Errors
 /// Recordings that give no forces: see [`StudyError`].
@@ -45,12 +46,12 @@ use std::ops::ControlFlow;
 /// let columns = vec![Some(vec![0.0; times.len()]); model.coordinates().len()];
 /// let source = Source::coordinates(model, Motion { origin: "still".to_owned(), times, columns });
 /// let settings = Settings { ground: GroundSettings::NoContact, ..Settings::default() };
-/// let outcome = study::run(&source, &settings, &mut Findings::default())?;
+/// let outcome = study::run(source, &settings, &mut Findings::default())?;
 /// let force = &outcome.analysis.forces.generalized[vertical.index()];
 /// assert!(force.iter().all(|force| (force - 72.6 * 9.80665).abs() < 1e-6));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn run(source: &Source, settings: &Settings, findings: &mut Findings) -> Result<Outcome, StudyError> {
+pub fn run(source: Source, settings: &Settings, findings: &mut Findings) -> Result<Outcome, StudyError> {
     road(source, settings, findings, &mut Progress::default())
 }
 
@@ -59,7 +60,7 @@ pub fn run(source: &Source, settings: &Settings, findings: &mut Findings) -> Res
 /// # Errors
 /// As [`run`], and [`StudyError::Stopped`] if the observer stops it.
 pub fn run_observed(
-    source: &Source,
+    source: Source,
     settings: &Settings,
     findings: &mut Findings,
     observer: &mut dyn FnMut(Stage) -> ControlFlow<()>,
@@ -68,17 +69,22 @@ pub fn run_observed(
 }
 
 fn road(
-    source: &Source,
+    source: Source,
     settings: &Settings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<Outcome, StudyError> {
-    let observed = source.observe(settings, findings, progress)?;
-    let device = device(source, &observed.model, findings)?;
-    let processing = processing(&observed, settings, findings);
-    let Found { analysis, prediction, measured_events } = forces(&observed, processing, settings, findings, progress)?;
+    let (observed, motion) = source.observe(settings, findings, progress)?;
+    let device = device(&observed, findings)?;
+    let recorded = match &motion {
+        ObservedMotion::Recorded(motion) => Some(RecordedFaults::of(&observed.model, motion)),
+        ObservedMotion::Complete(_) => None,
+    };
+    let processing = processing(&observed, recorded.is_none(), settings, findings);
+    let Found { analysis, prediction, measured_events } =
+        forces(&observed, motion, processing, settings, findings, progress)?;
     let mass = body_mass(&observed, &analysis, findings);
-    let Observation { model, person, motion, origin, idle, .. } = observed;
+    let Observation { model, person, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, reduction) =
         residual_reduced(&model, analysis, processing, settings, &force_origin, findings, progress)?;
@@ -101,8 +107,7 @@ fn road(
     let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &idle, &force_origin);
     progress.end(Stage::Feasibility)?;
     let evidence = QualityEvidence {
-        model: &model,
-        motion: motion.recorded(),
+        recorded: recorded.as_ref(),
         smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
         force_origin,
         tracking: tracking.as_ref(),
@@ -129,15 +134,15 @@ fn road(
 }
 
 /// The body mass by every source.
-fn body_mass(observation: &Observation<'_>, analysis: &Analysis, findings: &mut Findings) -> BodyMass {
+fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Findings) -> BodyMass {
     let weighed = observation.weighed_in_motion(&analysis.trajectory);
     let mass = BodyMass::of(observation.model.mass(), &observation.known_mass, weighed);
     mass.report(findings);
     mass
 }
 
-fn device(source: &Source, model: &Model, findings: &mut Findings) -> Result<Option<DeviceRecording>, StudyError> {
-    let device = source.device.as_ref().map(|table| device_from_table(model, table, findings));
+fn device(observed: &Observation, findings: &mut Findings) -> Result<Option<DeviceRecording>, StudyError> {
+    let device = observed.device.as_ref().map(|table| device_from_table(&observed.model, table, findings));
     device.transpose().map_err(StudyError::Device)
 }
 
@@ -285,7 +290,8 @@ impl Judged<'_> {
 
 /// Filters and time range for this recording.
 fn processing(
-    observation: &Observation<'_>,
+    observation: &Observation,
+    is_complete: bool,
     settings: &Settings,
     findings: &mut Findings,
 ) -> analysis::AnalysisSettings {
@@ -297,7 +303,7 @@ fn processing(
         rate_hz: None,
         instrumented: None,
     };
-    if let ObservedMotion::Complete(_) = observation.motion {
+    if is_complete {
         return as_it_is;
     }
     let force_filter = match observation.is_predicted(settings) {
@@ -327,23 +333,24 @@ fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
 
 /// Ground forces and joint forces.
 fn forces(
-    observation: &Observation<'_>,
+    observation: &Observation,
+    motion: ObservedMotion,
     processing: analysis::AnalysisSettings,
     settings: &Settings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<Found, AnalysisError> {
     let Observation { model, forces, .. } = observation;
-    let (analysis, measured_events) = match &observation.motion {
+    let (analysis, measured_events) = match motion {
         ObservedMotion::Complete(trajectory) => {
             let source = ForceSource::Simulated;
-            (analyse_measured(model, (*trajectory).clone(), forces, source, findings, progress)?, Vec::new())
+            (analyse_measured(model, trajectory, forces, source, findings, progress)?, Vec::new())
         }
         ObservedMotion::Recorded(motion) if observation.is_predicted(settings) => {
             return predicted(observation, motion, processing, settings, findings, progress);
         }
         ObservedMotion::Recorded(motion) => {
-            let analysis = analyse_with_progress(model, motion, forces, processing, findings, progress)?;
+            let analysis = analyse_with_progress(model, &motion, forces, processing, findings, progress)?;
             with_markers(analysis, observation)
         }
     };

@@ -5,7 +5,6 @@ use crate::findings::{Code, Findings};
 use crate::model::{CoordinateKind, Displacement, Model};
 use crate::motion::Motion;
 use crate::spatial::Vec3;
-use std::borrow::Cow;
 
 /// Along the vertical, rather than along the floor, if the upward part of a unit direction is larger: half a right angle.
 const UPWARD: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -51,23 +50,22 @@ impl StatedSize {
 
     /// The motion of the scaled model: recorded lengths grow with the body, so that feet stay on the floor and do not slide. Where ground
     /// forces were measured, the path along the floor is that of the laboratory and stays.
-    pub(super) fn moved<'m>(self, model: &Model, motion: &'m Motion, is_measured: bool) -> Cow<'m, Motion> {
+    pub(super) fn moved(self, model: &Model, mut motion: Motion, is_measured: bool) -> Motion {
         if self.height_m.is_none() {
-            return Cow::Borrowed(motion);
+            return motion;
         }
         let factor = self.length_factor(model);
         let up = model.up();
-        let mut moved = motion.clone();
         for body in model.bodies() {
             for axis in &body.joint.translations {
                 let Displacement::Follows(id, _) = &axis.displacement else { continue };
                 let is_length = model.coordinates()[id.index()].kind == CoordinateKind::Translation;
                 let is_path = is_measured && body.joint.parent.is_none() && axis.direction.dot(&up).abs() < UPWARD;
-                if let (true, false, Some(column)) = (is_length, is_path, &mut moved.columns[id.index()]) {
+                if let (true, false, Some(column)) = (is_length, is_path, &mut motion.columns[id.index()]) {
                     column.iter_mut().for_each(|length| *length *= factor);
                 }
             }
         }
-        Cow::Owned(moved)
+        motion
     }
 }

@@ -189,15 +189,11 @@ impl Source {
     pub fn with_forces(self, forces: MeasuredForces) -> Source {
         Source { forces, ..self }
     }
-
-    /// A model with the masses that the person carried.
-    pub(super) fn loaded(&self, model: &Model) -> Result<Model, StudyError> {
-        self.added_mass.iter().try_fold(model.clone(), |model, added| added.on(&model))
-    }
 }
 
 impl AddedMass {
-    fn on(&self, model: &Model) -> Result<Model, StudyError> {
+    /// The model with this mass.
+    pub(super) fn on(&self, model: &Model) -> Result<Model, StudyError> {
         let Some(body) = model.body(&self.body) else {
             let known = model.bodies().iter().map(|body| body.name.clone()).collect();
             return Err(StudyError::UnknownBody { found: self.body.clone(), known });

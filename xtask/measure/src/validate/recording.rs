@@ -153,7 +153,7 @@ impl Recording {
             prediction: PredictSettings { prescribed, ..PredictSettings::default() },
             ..Settings::default()
         };
-        study::run(source, &settings, &mut Findings::default()).map_err(|e| e.to_string())
+        study::run(source.clone(), &settings, &mut Findings::default()).map_err(|e| e.to_string())
     }
 
     /// Its files, read.

@@ -43,8 +43,8 @@ fn read_laboratory_file(path: &Path, findings: &mut Findings) -> Result<Laborato
     let bytes = files::read(path)?;
     let shown = path.display().to_string();
     let read = match files::ending(path).as_str() {
-        "c3d" => LaboratoryFile::from_c3d(&bytes, &shown, findings),
-        "trc" => LaboratoryFile::from_trc(&bytes, &shown, findings),
+        "c3d" => LaboratoryFile::from_c3d(bytes, &shown, findings),
+        "trc" => LaboratoryFile::from_trc(bytes, &shown, findings),
         _ => bail!("{shown}: expected markers (.c3d or .trc)"),
     };
     read.context(shown)

@@ -95,12 +95,16 @@ fn compute(args: &ForcesArgs, source: Source, reading: Reading, target: &ResultT
         clock.lap(stage.word());
         ControlFlow::Continue(())
     };
-    let outcome = study::run_observed(&source, &settings, &mut findings, &mut watch)
+    let stated = match &source.recording {
+        Recording::Markers(markers) => markers.trial.subject.clone(),
+        Recording::Coordinates { .. } | Recording::Skeleton { .. } | Recording::Complete { .. } => {
+            SubjectParameters::default()
+        }
+    };
+    let outcome = study::run_observed(source, &settings, &mut findings, &mut watch)
         .map_err(|error| errors::with_file(error, args, ground.as_deref()))?;
     let body = body_file(&outcome.body, &mut findings);
-    let input = input(args, ground.as_deref(), &source, &outcome);
-    // The page needs memory too.
-    drop(source);
+    let input = input(args, ground.as_deref(), stated, &outcome);
     let files = RunFiles {
         outcome: &outcome,
         input,
@@ -136,17 +140,11 @@ fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile<'stati
 }
 
 /// The input files and options, for the summary.
-fn input(args: &ForcesArgs, ground: Option<&Path>, source: &Source, outcome: &Outcome) -> Input {
+fn input(args: &ForcesArgs, ground: Option<&Path>, stated: SubjectParameters, outcome: &Outcome) -> Input {
     let shown = |path: &Path| path.display().to_string();
     let is_measured = outcome.force_origin == ForceOrigin::Measured
         || outcome.prediction.as_ref().is_some_and(|prediction| prediction.measured.is_some());
     let in_recording = (outcome.tracking.is_some() && is_measured).then_some(args.input.as_path());
-    let stated = match &source.recording {
-        Recording::Markers(markers) => markers.trial.subject.clone(),
-        Recording::Coordinates { .. } | Recording::Skeleton { .. } | Recording::Complete { .. } => {
-            SubjectParameters::default()
-        }
-    };
     Input {
         motion: shown(&args.input),
         person: stated.name,
