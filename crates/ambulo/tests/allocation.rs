@@ -295,16 +295,17 @@ fn walked_to_and_fro(frames: usize) -> Option<MarkerSource> {
     Some(MarkerSource { trial, standing: None, body: MarkerBody::Model { model, mass_kg: None }, plates: Vec::new() })
 }
 
-/// Bytes a frame that a study of two lengths holds at the end and at most, and allocations a frame.
+/// Bytes a frame that a study of two lengths holds at the end and at most, its source included, and allocations a frame.
 fn study_per_frame(source: impl Fn(usize) -> Option<Source>) -> Option<[f64; 3]> {
     let settings = Settings { ground: GroundSettings::Predicted, ..Settings::default() };
     let mut found = Vec::new();
     for frames in [600, 600, 2400] {
         let source = source(frames)?;
+        let [of_source, _] = bytes_held(|| source.clone());
         let mut held = [0; 2];
         let run = || study::run(source, &settings, &mut Findings::default()).unwrap();
         let count = allocations(|| held = bytes_held(run));
-        found.push([held[0], held[1], count].map(|number| number as f64));
+        found.push([held[0] + of_source, held[1] + of_source, count].map(|number| number as f64));
     }
     // The first one reads what the crate keeps.
     Some(std::array::from_fn(|k| (found[2][k] - found[1][k]) / 1800.0))
@@ -317,7 +318,7 @@ fn a_study_holds_a_bounded_number_of_bytes_a_frame() {
         return;
     };
     println!("markers: {result:.0} bytes a frame, {most:.0} while they are studied, {count:.1} allocations a frame");
-    assert!(most < 3600.0 && result < 2000.0 && count < 20.0, "{result} {most} {count}");
+    assert!(most < 3800.0 && result < 2000.0 && count < 20.0, "{result} {most} {count}");
     let coordinates = |frames: usize| {
         let source = Source::markers(walked_to_and_fro(frames)?);
         let outcome = study::run(source, &Settings::default(), &mut Findings::default()).unwrap();
