@@ -21,6 +21,7 @@ fn main() -> ExitCode {
         None => printer::guide().map(|()| Completion::Passed),
         Some(Command::Forces(args)) => commands::forces::run(&args),
         Some(Command::Walk(args)) => commands::walk::run(&args),
+        Some(Command::Sweep(args)) => commands::sweep::run(&args),
         Some(Command::Demo(args)) => commands::demo::run(&args),
         Some(Command::Simulate(args)) => commands::simulate::run(&args),
         Some(Command::Reproduce(args)) => commands::reproduce::run(&args),

@@ -53,6 +53,7 @@ fn unknown_names_are_refused_with_those_allowed() {
         (with(&FORCES, &["--keep", "moments,emg"]), "times_and_distances"),
         (with(&FORCES, &["--keep", "recording"]), "kinematics"),
         (vec!["simulate", "pendulum.toml", "--keep", "grf"], "energy"),
+        (vec!["sweep", "--keep", "grf"], "walks"),
         (vec!["reproduce", "--keep", ""], "claims"),
     ] {
         let run = bench.run(&words);
@@ -69,7 +70,7 @@ fn the_outputs_are_documented() {
     for name in ["report", "figures", "tables", "model", "recording", "summary"] {
         assert!(section.contains(&format!("`{name}`")), "{name}");
     }
-    let lists = [&Keep::OF_RUNS[..], &Keep::OF_SCENES, &Keep::OF_THE_PAPER].concat();
+    let lists = [&Keep::OF_RUNS[..], &Keep::OF_SCENES, &Keep::OF_SWEEPS, &Keep::OF_THE_PAPER].concat();
     for name in lists {
         assert!(documented.contains(&format!("`{name}")), "{name}");
     }

@@ -35,6 +35,7 @@ mod reproduce;
 mod results;
 mod simulate;
 mod summary_schema;
+mod sweep;
 mod tutorials;
 mod verdict;
 mod walk;

@@ -205,7 +205,7 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     let command = Args::command();
     let verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
-    assert_eq!(swept, ["forces", "walk", "simulate", "compare"]);
+    assert_eq!(swept, ["forces", "walk", "sweep", "simulate", "compare"]);
 }
 
 #[test]
@@ -248,6 +248,14 @@ fn walk_survives_every_number() {
     let paper =
         Base { words: &["walk", "--mode=paper", "--quiet", "-o", "out"], options: &[("cycles", "1")], only: &[] };
     sweep(&bench, "walk", &[paper]);
+}
+
+/// Slopes and loads are not tried: a predicted walk takes as long as a run may take.
+#[test]
+fn sweep_survives_every_number() {
+    let bench = Workbench::empty("sweep_walks");
+    let one = Base { words: &["sweep", "--quiet", "-o", "out"], options: &[], only: &["speed", "mass", "height"] };
+    sweep(&bench, "sweep", &[one]);
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod reproduction_page;
 mod scene_shapes;
 mod stage;
 pub mod style;
+mod sweep;
 
 pub use clinical_file::clinical_file;
 pub use exchange::{
@@ -25,3 +26,4 @@ pub use figures::{CycleFigures, FigureError, Mark, SceneCurves, gait_figure, pap
 pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;
 pub use scene_shapes::scene_shapes;
+pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};

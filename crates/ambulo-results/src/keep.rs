@@ -56,6 +56,8 @@ impl Keep {
         "energy",
         "moments",
     ];
+    /// The names for a sweep of walks.
+    pub const OF_SWEEPS: [&'static str; 6] = ["report", "figures", "tables", "summary", "sweep", "walks"];
     /// The names for the claims of the 1997 paper.
     pub const OF_THE_PAPER: [&'static str; 8] =
         ["report", "figures", "tables", "summary", "claims", "muscles", "torques", "assumptions"];

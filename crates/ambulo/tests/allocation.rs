@@ -284,7 +284,7 @@ fn walked_to_and_fro(frames: usize) -> Option<MarkerSource> {
     let mut findings = Findings::default();
     let model = Model::from_osim(&bytes("subject01_simbody.osim"), &mut findings).unwrap();
     let mut trial =
-        LaboratoryFile::from_trc(&bytes("subject01_walk1.trc"), "subject01_walk1.trc", &mut findings).unwrap();
+        LaboratoryFile::from_trc(bytes("subject01_walk1.trc"), "subject01_walk1.trc", &mut findings).unwrap();
     let markers = &mut trial.recording.markers;
     let last = markers.times.len() - 1;
     let frame = |i: usize| if (i / last).is_multiple_of(2) { i % last } else { last - i % last };

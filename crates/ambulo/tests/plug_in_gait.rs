@@ -66,8 +66,7 @@ impl Person {
     }
 
     pub(crate) fn source(&self, folder: &Path) -> Source {
-        let read =
-            |trial| LaboratoryFile::from_c3d(&self.file(folder, trial), trial, &mut Findings::default()).unwrap();
+        let read = |trial| LaboratoryFile::from_c3d(self.file(folder, trial), trial, &mut Findings::default()).unwrap();
         let (mass_kg, height_m) = (Some(self.mass_kg), Some(self.height_m));
         Source::markers(MarkerSource {
             trial: read(self.walk),

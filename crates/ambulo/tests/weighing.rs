@@ -127,7 +127,7 @@ fn any_gait_cycle_on_the_plates_weighs_a_walker() {
 }
 
 fn laboratory_file(path: &Path) -> LaboratoryFile {
-    LaboratoryFile::from_c3d(&std::fs::read(path).unwrap(), "trial", &mut Findings::default()).unwrap()
+    LaboratoryFile::from_c3d(std::fs::read(path).unwrap(), "trial", &mut Findings::default()).unwrap()
 }
 
 fn without_stated_mass(trial: &Path, standing: Option<&Path>) -> Source {

@@ -11,8 +11,8 @@ pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Adjusted, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
-pub(crate) use values::{FootColumns, ForceCutoff, PlateFoot, TimedValue};
-pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, WalkArgs, WalkMode};
+pub(crate) use values::{FootColumns, ForceCutoff, PlateFoot, TimedValue, Values};
+pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
 
@@ -30,6 +30,8 @@ pub(crate) enum Command {
     Forces(Box<ForcesArgs>),
     /// Synthesise a walk at any speed and in any style; same outputs as `forces`, no file needed.
     Walk(Box<WalkArgs>),
+    /// Compute walks at many speeds, of many bodies, on slopes and with loads: one table, and a page with envelopes.
+    Sweep(Box<SweepArgs>),
     /// Compute the forces of a built-in walk; also writes it as a recording to try the other commands on.
     Demo(DemoArgs),
     /// Simulate a scene file: poses, joint efforts, contact forces, energies.

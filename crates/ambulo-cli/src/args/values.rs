@@ -25,6 +25,11 @@ pub(super) fn outputs_of_scene() -> PossibleValuesParser {
     PossibleValuesParser::new(Keep::OF_SCENES)
 }
 
+/// Names of the outputs of a sweep.
+pub(super) fn outputs_of_sweep() -> PossibleValuesParser {
+    PossibleValuesParser::new(Keep::OF_SWEEPS)
+}
+
 /// Names of the outputs of the 1997 paper.
 pub(super) fn outputs_of_paper() -> PossibleValuesParser {
     PossibleValuesParser::new(Keep::OF_THE_PAPER)
@@ -204,6 +209,58 @@ pub(super) fn load(text: &str) -> Result<Load, String> {
     let place = LoadPlace::ALL.into_iter().find(|(name, _)| *name == place.trim()).ok_or_else(expected)?.1;
     let mass = mass.trim().trim_end_matches("kg").trim().parse().map_err(|_| expected())?;
     Ok(Load { mass, place })
+}
+
+/// Values of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Values(pub(crate) Vec<f64>);
+
+/// A longer list is a mistake.
+const MOST_VALUES: f64 = 500.0;
+
+impl FromStr for Values {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Values, String> {
+        let expected = || {
+            "expected numbers separated by commas, such as 60,80,100, or FROM:TO:STEP, such as 0.6:2.0:0.2".to_owned()
+        };
+        let numbers = |separator: char| {
+            text.split(separator).map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+        };
+        if !text.contains(':') {
+            return numbers(',').collect::<Option<Vec<f64>>>().map(Values).ok_or_else(expected);
+        }
+        let [from, to, step] =
+            numbers(':').collect::<Option<Vec<f64>>>().and_then(|range| range.try_into().ok()).ok_or_else(expected)?;
+        let steps = ((to - from) / step + 1e-9).floor();
+        if !(step > 0.0 && to >= from && steps < MOST_VALUES) {
+            return Err(format!(
+                "found {text}; expected a range that rises by a step above 0, with at most {MOST_VALUES} values"
+            ));
+        }
+        // Decimal fractions stay short: 0.6 + 2 x 0.2 is 1.
+        let rounded = |value: f64| (value * 1e9).round() / 1e9;
+        Ok(Values((0..=steps as usize).map(|i| rounded(from + i as f64 * step)).collect()))
+    }
+}
+
+/// Loads of a sweep, and where they are carried.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Loads {
+    pub(crate) masses: Values,
+    pub(crate) place: LoadPlace,
+}
+
+impl FromStr for Loads {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Loads, String> {
+        let named = text.rsplit_once(':').and_then(|(masses, place)| {
+            let (_, place) = LoadPlace::ALL.into_iter().find(|(name, _)| *name == place.trim())?;
+            Some((masses, place))
+        });
+        let (masses, place) = named.unwrap_or((text, LoadPlace::ALL[0].1));
+        Ok(Loads { masses: masses.parse()?, place })
+    }
 }
 
 /// JOINT=SHARE; the library knows the joints and checks the share.

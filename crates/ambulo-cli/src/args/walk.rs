@@ -1,6 +1,9 @@
 //! Options of `ambulo walk` and `ambulo demo`.
 
-use super::values::{TimedValue, load, number, outputs_of_demo, outputs_of_run, timed_value, weakness, whole_number};
+use super::values::{
+    Loads, TimedValue, Values, load, number, outputs_of_demo, outputs_of_run, outputs_of_sweep, timed_value, weakness,
+    whole_number,
+};
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::optimal::Load;
 use ambulo::simulation::synthetic::SyntheticMode;
@@ -93,6 +96,62 @@ pub(crate) struct WalkArgs {
     pub(crate) output: Option<PathBuf>,
     /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_run())]
+    pub(crate) keep: Vec<String>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
+    #[command(flatten)]
+    pub(crate) print: PrintArgs,
+}
+
+#[derive(Debug, Clone, ClapArgs)]
+#[command(after_help = "Examples:
+  ambulo sweep --speed 0.8:1.6:0.2 --mass 60,80,100 -o sweep
+  ambulo sweep --speed 1.2 --slope=-8,0,8 --load 0,15 -o hills
+
+Every combination of the values is one walk in three dimensions, the same as `ambulo walk` computes with these options: from the curves of
+people, or predicted if a slope, a load, a weak joint or a device is given. LIST is numbers separated by commas, or FROM:TO:STEP. A walk takes
+some seconds; walks are computed side by side, as many as there are processors.
+
+Files written to DIR: sweep.csv (angle, rate, moment, power and ground force over the gait cycle of each foot of each walk), walks.csv (one
+row per walk with the extremes of all quantities; walks that were not found, and why), figures/*.svg, summary.json, report.html (envelopes
+over all walks; open it with `ambulo view DIR`). docs/OUTPUTS.md describes the columns.
+
+Exit code: 0 if a walk was found, 2 if none was; with --check, 1 if a walk was not found or is infeasible.")]
+pub(crate) struct SweepArgs {
+    /// Walking speeds [m/s] [default: free speed].
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) speed: Option<Values>,
+    /// Body masses [kg] [default: 75, de-leva-female 60, faure-1997 80].
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) mass: Option<Values>,
+    /// Statures [m] [default: 1.75, de-leva-female 1.65, faure-1997 1.80].
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) height: Option<Values>,
+    /// Slopes of the ground [%], uphill is positive; implies predicted walks.
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) slope: Option<Values>,
+    /// Loads [kg] that are carried: on the back, half in each hand, or at the pelvis [default: back]; implies predicted walks.
+    #[arg(long, value_name = "LIST[:back|hands|pelvis]", allow_hyphen_values = true)]
+    pub(crate) load: Option<Loads>,
+    /// Share of its strength that a joint has left, in all walks, such as ankle=0.6; repeatable; implies predicted walks.
+    #[arg(long, value_name = "JOINT=SHARE", value_parser = weakness)]
+    pub(crate) weak: Vec<(String, f64)>,
+    /// Devices at joints in all walks, springs or given moments: .toml (docs/OPTIMAL.md); implies predicted walks.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) device: Option<PathBuf>,
+    /// Predict all walks: muscles work as little as they can, and no curves of people are followed.
+    #[arg(long)]
+    pub(crate) predict: bool,
+    /// Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997.
+    #[arg(long, value_name = "NAME", default_value = "de-leva-male")]
+    pub(crate) figure: String,
+    /// Folder for the results.
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub(crate) output: PathBuf,
+    /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_sweep())]
     pub(crate) keep: Vec<String>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,

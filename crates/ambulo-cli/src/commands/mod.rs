@@ -12,5 +12,6 @@ mod result_folder;
 mod run_files;
 pub(crate) mod simulate;
 mod stopwatch;
+pub(crate) mod sweep;
 pub(crate) mod view;
 pub(crate) mod walk;

@@ -10,6 +10,9 @@ use std::path::{Path, PathBuf};
 
 /// Name of the file that only `ambulo reproduce` writes.
 const CLAIMS: &str = "claims.json";
+/// Name of the file that only `ambulo sweep` writes.
+const WALKS: &str = "walks.csv";
+const OF_A_SWEEP: &str = "`ambulo sweep` wrote this folder, and its report.html cannot be written again";
 const OF_THE_PAPER: &str = "`ambulo reproduce` wrote this folder, and its report.html cannot be written again";
 const HINT: &str = "hint: `ambulo demo -o demo` writes one";
 
@@ -28,10 +31,13 @@ impl ResultFolder {
         if folder.record.files.contains_key(CLAIMS) {
             bail!("{}: {OF_THE_PAPER}", path.display());
         }
+        if folder.record.files.contains_key(WALKS) {
+            bail!("{}: {OF_A_SWEEP}", path.display());
+        }
         Ok(folder)
     }
 
-    /// The same, or the folder of `ambulo reproduce`. Finishes or undoes an interrupted run first.
+    /// The same, or the folder of `ambulo reproduce` or `ambulo sweep`. Finishes or undoes an interrupted run first.
     pub(super) fn of_any_run(path: &Path) -> Result<ResultFolder> {
         let shown = path.display();
         refuse_other_paths(path)?;

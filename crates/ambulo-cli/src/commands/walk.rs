@@ -87,16 +87,19 @@ fn asked_mode(args: &WalkArgs, conditions: &WalkConditions) -> Result<Option<Syn
     }
 }
 
+/// The devices of a file, which is added to the files that were read.
+pub(super) fn read_devices(path: Option<&Path>, read: &mut Vec<PathBuf>) -> Result<Vec<Device>> {
+    let Some(path) = path else { return Ok(Vec::new()) };
+    let shown = || path.display().to_string();
+    let text = String::from_utf8(files::read(path)?).with_context(shown)?;
+    read.push(path.to_owned());
+    Device::from_toml(&text).with_context(shown)
+}
+
 /// The conditions of a predicted walk; a device file is added to the files that were read.
 fn conditions(args: &WalkArgs, read: &mut Vec<PathBuf>) -> Result<WalkConditions> {
     let asked = &args.conditions;
-    let mut devices = Vec::new();
-    if let Some(path) = &asked.device {
-        let shown = || path.display().to_string();
-        let text = String::from_utf8(files::read(path)?).with_context(shown)?;
-        devices = Device::from_toml(&text).with_context(shown)?;
-        read.push(path.clone());
-    }
+    let devices = read_devices(asked.device.as_deref(), read)?;
     Ok(WalkConditions {
         slope: asked.slope.unwrap_or_default() / 100.0,
         load: asked.load,
@@ -180,7 +183,8 @@ impl SyntheticRun<'_> {
             clock.lap(stage.word());
             ControlFlow::Continue(())
         };
-        let outcome = study::run_observed(self.source(), &settings, &mut findings, &mut watch)?;
+        let outcome =
+            study::run_observed(source(self.walk, self.walk_settings.mode), &settings, &mut findings, &mut watch)?;
         let files = RunFiles {
             outcome: &outcome,
             input: input(self.walk_settings),
@@ -198,19 +202,6 @@ impl SyntheticRun<'_> {
         files.write(target, print)
     }
 
-    /// The walk with the ground forces of its simulation or correction.
-    fn source(&self) -> Source {
-        let SyntheticWalk { human, trajectory, loads, .. } = self.walk;
-        let made = CompleteMotion {
-            model: human.model.clone(),
-            person: Person::of_human(human),
-            trajectory: trajectory.clone(),
-            loads: loads.clone(),
-            rule: rule(self.walk_settings),
-        };
-        Source::new(Recording::Complete(Box::new(made)))
-    }
-
     /// The figure as an OpenSim model, and the picture of the gait.
     fn files(&self) -> Result<Vec<OutputFile<'static>>> {
         Ok(vec![
@@ -221,14 +212,27 @@ impl SyntheticRun<'_> {
     }
 }
 
+/// A walk with the ground forces of its simulation or correction.
+pub(super) fn source(walk: &SyntheticWalk, mode: SyntheticMode) -> Source {
+    let SyntheticWalk { human, trajectory, loads, .. } = walk;
+    let made = CompleteMotion {
+        model: human.model.clone(),
+        person: Person::of_human(human),
+        trajectory: trajectory.clone(),
+        loads: loads.clone(),
+        rule: rule(mode),
+    };
+    Source::new(Recording::Complete(Box::new(made)))
+}
+
 /// The picture of a gait.
 fn gait_file(walk: &Walk) -> Result<OutputFile<'static>> {
     Ok(OutputFile::new("figures/gait.svg", gait_figure(walk)?.into_bytes()))
 }
 
 /// How the ground forces were determined, also in double support.
-fn rule(walk_settings: &SyntheticWalkSettings<'_>) -> &'static str {
-    match walk_settings.mode {
+fn rule(mode: SyntheticMode) -> &'static str {
+    match mode {
         SyntheticMode::Optimal | SyntheticMode::Predicted | SyntheticMode::Corrected => "soft shoes",
         SyntheticMode::Paper => "rigid soles",
     }

@@ -9,12 +9,14 @@ mod report;
 mod reproduce;
 mod simulate;
 mod subject;
+mod sweep;
 mod tools;
 
 pub(crate) use forces::forces;
 pub(crate) use report::{report, view};
 pub(crate) use reproduce::reproduce;
 pub(crate) use simulate::simulate;
+pub(crate) use sweep::sweep;
 pub(crate) use tools::{ComparedColumn, EventSource, SourceAgreement, compare, convert, events, info};
 
 use crate::args::PrintArgs;
@@ -52,6 +54,7 @@ pub(crate) fn guide() -> Result<()> {
 
   ambulo demo -o demo                                        try it, no file needed
   ambulo walk --speed 1.2                                    the forces of a synthetic walk, no file needed
+  ambulo sweep --speed 0.8:1.6:0.2 --mass 60,80,100          the forces of many synthetic walks, with envelopes
   ambulo forces WALK.c3d --static STANDING.c3d               joint moments, powers, ground forces from markers and force plates
   ambulo forces MOTION.trc --mass 70                         the same without force plates: predicted ground forces
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    the same from coordinates of an OpenSim model

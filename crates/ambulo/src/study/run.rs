@@ -76,10 +76,7 @@ fn road(
 ) -> Result<Outcome, StudyError> {
     let (observed, motion) = source.observe(settings, findings, progress)?;
     let device = device(&observed, findings)?;
-    let recorded = match &motion {
-        ObservedMotion::Recorded(motion) => Some(RecordedFaults::of(&observed.model, motion)),
-        ObservedMotion::Complete(_) => None,
-    };
+    let recorded = recorded_faults(&observed.model, &motion);
     let processing = processing(&observed, recorded.is_none(), settings, findings);
     let Found { analysis, prediction, measured_events } =
         forces(&observed, motion, processing, settings, findings, progress)?;
@@ -102,15 +99,17 @@ fn road(
         device: device.as_deref(),
         checks: prediction.as_ref().map(|found| &found.checks),
     };
-    let verdict = judged.verdict(settings, &force_origin, &origin.partly_measured(), findings);
+    let mut verdict = judged.verdict(settings, &force_origin, &origin.partly_measured(), findings);
     let tracking = tracking(origin, measured_events);
-    let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &idle, &force_origin);
+    drop_faults_of_data(&mut verdict, tracking.as_ref(), &mass, &idle, &force_origin);
     progress.end(Stage::Feasibility)?;
+    let smoothed = (processing.smoother, analysis.trajectory.grid().rate_hz());
+    let (recorded, tracked) = (recorded.as_ref(), tracking.as_ref());
     let evidence = QualityEvidence {
-        recorded: recorded.as_ref(),
-        smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
+        recorded,
+        smoothed,
         force_origin,
-        tracking: tracking.as_ref(),
+        tracking: tracked,
         mass: &mass,
         idle: &idle,
         verdict: &verdict,
@@ -131,6 +130,14 @@ fn road(
         verdict,
         processing: Processing::of(&processing),
     })
+}
+
+/// Faults of a recorded motion, before it is smoothed.
+fn recorded_faults(model: &Model, motion: &ObservedMotion) -> Option<RecordedFaults> {
+    match motion {
+        ObservedMotion::Recorded(motion) => Some(RecordedFaults::of(model, motion)),
+        ObservedMotion::Complete(_) => None,
+    }
 }
 
 /// The body mass by every source.
@@ -190,13 +197,13 @@ fn recognised(
 
 /// Drops reasons against the movement that errors of the data explain: a body that does not follow its markers, force plates that carry
 /// another weight than the body's, measured forces that belong to no foot. No movement changes the mean force on the ground from the weight.
-fn without_faults_of_data(
-    mut verdict: Verdict,
+fn drop_faults_of_data(
+    verdict: &mut Verdict,
     tracking: Option<&Tracking>,
     mass: &BodyMass,
     idle: &IdleForces,
     force_origin: &ForceOrigin,
-) -> Verdict {
+) {
     if let Some(rms_m) = tracking.map(marker_fit_rms_m).filter(|rms_m| Measure::MarkerFit.is_bad(*rms_m)) {
         let why = format!("the motion is not known: the recorded points are {:.0} mm from the body (rms)", 1e3 * rms_m);
         verdict.set_aside(|_| true, why);
@@ -213,7 +220,6 @@ fn without_faults_of_data(
     if let Some(why) = idle.undecided() {
         verdict.set_aside(|_| false, why);
     }
-    verdict
 }
 
 /// Reports ground forces that are predicted for an activity without validation.
