@@ -85,51 +85,88 @@ fn road(
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, reduction) =
         residual_reduced(&model, analysis, processing, settings, &force_origin, findings, progress)?;
-    let model = reduction.as_ref().map_or(model, |reduced| reduced.model.clone());
-    let device = device.map(|device| worn(&device, &analysis, findings));
-    let stances = stances(&model, &person, &analysis, prediction.as_ref(), processing);
-    let activity = recognised(&model, &person, &analysis, &stances, &force_origin, findings);
-    let judged = Judged {
-        activity: activity.kind,
-        stances: &stances,
-        cutoff_hz: processing.smoother.cutoff_hz(),
-        model: &model,
-        person: &person,
-        analysis: &analysis,
-        device: device.as_deref(),
-        checks: prediction.as_ref().map(|found| &found.checks),
-    };
-    let mut verdict = judged.verdict(settings, &force_origin, &origin.partly_measured(), findings);
-    let tracking = tracking(origin, measured_events);
-    drop_faults_of_data(&mut verdict, tracking.as_ref(), &mass, &idle, &force_origin);
-    progress.end(Stage::Feasibility)?;
-    let smoothed = (processing.smoother, analysis.trajectory.grid().rate_hz());
-    let (recorded, tracked) = (recorded.as_ref(), tracking.as_ref());
-    let evidence = QualityEvidence {
-        recorded,
-        smoothed,
-        force_origin,
-        tracking: tracked,
-        mass: &mass,
-        idle: &idle,
-        verdict: &verdict,
-    };
-    Ok(Outcome {
-        quality: evidence.quality(),
-        mass: mass.computed_with(model.mass(), analysis.mass.source),
-        tracking,
-        activity,
-        times_and_distances: times_and_distances(&model, &person.soles, &analysis),
-        body: model,
+    let computed = Computed {
+        body: reduction.as_ref().map_or(model, |reduced| reduced.model.clone()),
+        device: device.map(|device| worn(&device, &analysis, findings)),
+        partly_measured: origin.partly_measured(),
+        tracking: tracking(origin, measured_events),
         person,
-        analysis: Analysis { verdict: Some(verdict.clone()), ..analysis },
-        force_origin,
+        analysis,
         prediction,
-        residual_reduction: reduction,
-        device,
-        verdict,
-        processing: Processing::of(&processing),
-    })
+        reduction,
+        mass,
+        idle,
+        recorded,
+        processing,
+        force_origin,
+    };
+    let outcome = computed.judged(settings, findings);
+    progress.end(Stage::Feasibility)?;
+    Ok(outcome)
+}
+
+/// Everything that was computed, before it is judged.
+struct Computed {
+    body: Model,
+    person: Person,
+    analysis: Analysis,
+    prediction: Option<PredictedGround>,
+    reduction: Option<ReducedMotion>,
+    device: Option<Vec<Vec<f64>>>,
+    mass: BodyMass,
+    idle: IdleForces,
+    tracking: Option<Tracking>,
+    /// Times in which a force plate measured only a part of a foot's load [s].
+    partly_measured: Vec<[f64; 2]>,
+    recorded: Option<RecordedFaults>,
+    processing: analysis::AnalysisSettings,
+    force_origin: ForceOrigin,
+}
+
+impl Computed {
+    /// With activity, verdict and quality.
+    fn judged(self, settings: &Settings, findings: &mut Findings) -> Outcome {
+        let Computed { body, person, analysis, prediction, mass, tracking, processing, force_origin, .. } = self;
+        let stances = stances(&body, &person, &analysis, prediction.as_ref(), processing);
+        let activity = recognised(&body, &person, &analysis, &stances, &force_origin, findings);
+        let judged = Judged {
+            activity: activity.kind,
+            stances: &stances,
+            cutoff_hz: processing.smoother.cutoff_hz(),
+            model: &body,
+            person: &person,
+            analysis: &analysis,
+            device: self.device.as_deref(),
+            checks: prediction.as_ref().map(|found| &found.checks),
+        };
+        let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
+        let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
+        let evidence = QualityEvidence {
+            recorded: self.recorded.as_ref(),
+            smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
+            force_origin,
+            tracking: tracking.as_ref(),
+            mass: &mass,
+            idle: &self.idle,
+            verdict: &verdict,
+        };
+        Outcome {
+            quality: evidence.quality(),
+            mass: mass.computed_with(body.mass(), analysis.mass.source),
+            tracking,
+            activity,
+            times_and_distances: times_and_distances(&body, &person.soles, &analysis),
+            body,
+            person,
+            analysis: Analysis { verdict: Some(verdict.clone()), ..analysis },
+            force_origin,
+            prediction,
+            residual_reduction: self.reduction,
+            device: self.device,
+            verdict,
+            processing: Processing::of(&processing),
+        }
+    }
 }
 
 /// Faults of a recorded motion, before it is smoothed.
@@ -197,13 +234,13 @@ fn recognised(
 
 /// Drops reasons against the movement that errors of the data explain: a body that does not follow its markers, force plates that carry
 /// another weight than the body's, measured forces that belong to no foot. No movement changes the mean force on the ground from the weight.
-fn drop_faults_of_data(
-    verdict: &mut Verdict,
+fn without_faults_of_data(
+    mut verdict: Verdict,
     tracking: Option<&Tracking>,
     mass: &BodyMass,
     idle: &IdleForces,
     force_origin: &ForceOrigin,
-) {
+) -> Verdict {
     if let Some(rms_m) = tracking.map(marker_fit_rms_m).filter(|rms_m| Measure::MarkerFit.is_bad(*rms_m)) {
         let why = format!("the motion is not known: the recorded points are {:.0} mm from the body (rms)", 1e3 * rms_m);
         verdict.set_aside(|_| true, why);
@@ -220,6 +257,7 @@ fn drop_faults_of_data(
     if let Some(why) = idle.undecided() {
         verdict.set_aside(|_| false, why);
     }
+    verdict
 }
 
 /// Reports ground forces that are predicted for an activity without validation.
