@@ -188,7 +188,7 @@ pub fn study_coordinates(bytes: &[u8]) {
     let model = build.human().expect("a built-in body").model;
     let mut findings = Findings::default();
     if let Ok(motion) = coordinates_from_table(&model, &table, "recording", &mut findings) {
-        let _ = study::run(&Source::coordinates(model, motion), &Settings::default(), &mut findings);
+        let _ = study::run(Source::coordinates(model, motion), &Settings::default(), &mut findings);
     }
 }
 
@@ -202,5 +202,5 @@ pub fn study_markers(bytes: &[u8]) {
     let Ok(trial) = LaboratoryFile::from_c3d(bytes, "recording", &mut findings) else { return };
     let body = MarkerBody::BuiltIn { table: SegmentTable::DeLevaFemale, mass_kg: Some(60.0), height_m: None, set: None };
     let source = Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() });
-    let _ = study::run(&source, &Settings::default(), &mut findings);
+    let _ = study::run(source, &Settings::default(), &mut findings);
 }

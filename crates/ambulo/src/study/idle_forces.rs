@@ -1,6 +1,6 @@
-//! Measured forces that carry nobody: loads under no foot, and plates without a load under a foot.
+//! Measured forces that do not belong to the motion: loads under no foot, and plates that measure no load although a foot stands on them.
 //!
-//! Such forces are those of another trial, of other plates or of nobody, or the plates were off. The ground forces are then predicted from the
+//! They come from another trial or from other plates, or the plates were switched off. The ground forces are then predicted from the
 //! motion where none are left, but nothing is called feasible on them.
 //! Pinned by: tests/quality.rs, ambulo-cli/tests/plates.rs
 

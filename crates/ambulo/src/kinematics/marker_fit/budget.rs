@@ -1,6 +1,6 @@
 //! Bounds the time of a fit by the number of its linear solves, each of which takes about 6.5 µs for a full body of 43 unknowns.
 //!
-//! A frame with all its markers takes about five solves, and what it leaves may be used by later frames. Swapped labels, jumps and gaps take
+//! A frame with all its markers takes about five solves; later frames may use those that it does not need. Swapped labels, jumps and gaps take
 //! more; frames for which nothing is left are reported.
 //!
 //! Pinned by: tests/marker_outliers.rs
@@ -10,7 +10,7 @@
 const TO_BEGIN: usize = 3200;
 /// To find the posture again after a gap.
 const TO_BEGIN_AGAIN: usize = 800;
-/// What the first frame leaves for the others at most.
+/// Largest number of solves that the first frame does not need and that later frames may then use.
 const LEFT_OF_BEGINNING: usize = 2800;
 /// Solves per frame while frames are fitted one after the other: what the detection of jumps may take, so that the body is not lost.
 const PER_FRAME: usize = 26;
