@@ -13,6 +13,7 @@
 //! Pinned by: the tests below
 
 use pulp::{Arch, Simd, WithSimd};
+use std::array;
 
 /// A symmetric matrix. Row i stores the entries from column `first[i]` to the diagonal.
 #[derive(Debug, Clone)]
@@ -75,20 +76,55 @@ impl ProfileMatrix {
     }
 
     #[inline(always)]
-    fn factor_in_place(&mut self) -> bool {
-        for i in 0..self.first.len() {
-            let (above, rest) = self.entries.split_at_mut(self.starts[i]);
-            let begin = self.first[i];
-            let row = &mut rest[..=i - begin];
-            for j in begin..i {
-                let other = &above[self.starts[j]..=self.starts[j] + j - self.first[j]];
-                let common = begin.max(self.first[j]);
-                let (known, pivot) = (&other[common - self.first[j]..j - self.first[j]], other[j - self.first[j]]);
-                let sum = dot(&row[common - begin..j - begin], known);
-                row[j - begin] = (row[j - begin] - sum) / pivot;
+    fn factor_in_place<S: Simd>(&mut self, simd: S) -> bool {
+        let mut i = 0;
+        while i < self.first.len() {
+            let alike = i + 1 < self.first.len() && self.first[i] == self.first[i + 1];
+            let rows = if alike { 2 } else { 1 };
+            let done = if alike { self.factor_rows::<S, 2>(simd, i) } else { self.factor_rows::<S, 1>(simd, i) };
+            if !done {
+                return false;
             }
-            let (known, diagonal) = row.split_at_mut(i - begin);
-            let pivot = diagonal[0] - dot(known, known);
+            i += rows;
+        }
+        true
+    }
+
+    /// Factors the rows i to i + P - 1, which begin in the same column; `false` if a pivot is not positive.
+    #[inline(always)]
+    fn factor_rows<S: Simd, const P: usize>(&mut self, simd: S, i: usize) -> bool {
+        let ProfileMatrix { first, starts, entries } = self;
+        let (above, rest) = entries.split_at_mut(starts[i]);
+        let begin = first[i];
+        let mut rest = rest;
+        let mut rows: [&mut [f64]; P] = array::from_fn(|p| {
+            let (row, after) = std::mem::take(&mut rest).split_at_mut(i + p + 1 - begin);
+            rest = after;
+            row
+        });
+        let mut j = begin;
+        while j < i {
+            let alike = j + TOGETHER <= i && first[j..j + TOGETHER].iter().all(|column| *column == first[j]);
+            if alike {
+                eliminate::<S, P, TOGETHER>(simd, &mut rows, begin, j, first[j], above, starts);
+                j += TOGETHER;
+            } else {
+                eliminate::<S, P, 1>(simd, &mut rows, begin, j, first[j], above, starts);
+                j += 1;
+            }
+        }
+        // The rows themselves: each depends on the one before.
+        for p in 0..P {
+            let (before, own) = rows.split_at_mut(p);
+            let row = &mut *own[0];
+            for (q, other) in before.iter().enumerate() {
+                let column = i + q - begin;
+                let [[sum]] = dots(simd, [&row[..column]], [&other[..column]]);
+                row[column] = (row[column] - sum) / other[column];
+            }
+            let (known, diagonal) = row.split_at_mut(i + p - begin);
+            let [[square]] = dots(simd, [known], [known]);
+            let pivot = diagonal[0] - square;
             if !(pivot > 0.0 && pivot.is_finite()) {
                 return false;
             }
@@ -101,11 +137,92 @@ impl ProfileMatrix {
 impl ProfileFactor {
     /// Replaces the right-hand side by the solution.
     pub fn solve(&self, x: &mut [f64]) {
-        let ProfileMatrix { first, starts, entries } = &self.0;
+        Arch::new().dispatch(Solve(&self.0, x));
+    }
+}
+
+/// Lanes of a sum.
+const LANES: usize = 8;
+/// Columns that are computed together: their sums do not wait for each other.
+const TOGETHER: usize = 4;
+
+/// Entries j to j + R - 1 of `rows` that begin at column `begin`; the rows j to j + R - 1 in `above` begin at column `first`.
+#[inline(always)]
+fn eliminate<S: Simd, const P: usize, const R: usize>(
+    simd: S,
+    rows: &mut [&mut [f64]; P],
+    begin: usize,
+    j: usize,
+    first: usize,
+    above: &[f64],
+    starts: &[usize],
+) {
+    let common = begin.max(first);
+    let others: [&[f64]; R] = array::from_fn(|r| &above[starts[j + r]..=starts[j + r] + j + r - first]);
+    let own: [&[f64]; P] = array::from_fn(|p| &rows[p][common - begin..j - begin]);
+    let sums = dots(simd, own, others.map(|other| &other[common - first..j - first]));
+    for (row, sums) in rows.iter_mut().zip(&sums) {
+        for r in 0..R {
+            let (known, pivot) = others[r][j - first..].split_at(r);
+            let sum: f64 = known.iter().zip(&row[j - begin..]).map(|(a, b)| a * b).sum();
+            row[j + r - begin] = (row[j + r - begin] - sums[r] - sum) / pivot[0];
+        }
+    }
+}
+
+/// Sums of products of each of `a` with each of `b`, all of the same length.
+#[inline(always)]
+fn dots<S: Simd, const P: usize, const R: usize>(simd: S, a: [&[f64]; P], b: [&[f64]; R]) -> [[f64; R]; P] {
+    let vectors = LANES / S::F64_LANES;
+    let whole = a[0].len() / LANES * LANES;
+    let x = a.map(|a| S::as_simd_f64s(&a[..whole]).0);
+    let y = b.map(|b| S::as_simd_f64s(&b[..whole]).0);
+    let mut sums = [[[simd.splat_f64s(0.0); LANES]; R]; P];
+    for start in (0..x[0].len()).step_by(vectors) {
+        for v in 0..vectors {
+            for r in 0..R {
+                let y = y[r][start + v];
+                for p in 0..P {
+                    sums[p][r][v] = simd.add_f64s(sums[p][r][v], simd.mul_f64s(x[p][start + v], y));
+                }
+            }
+        }
+    }
+    array::from_fn(|p| {
+        array::from_fn(|r| {
+            let mut lanes = [0.0; LANES];
+            S::as_mut_simd_f64s(&mut lanes).0.copy_from_slice(&sums[p][r][..vectors]);
+            let pairs: [f64; 4] = array::from_fn(|k| lanes[k] + lanes[k + 4]);
+            let rest: f64 = a[p][whole..].iter().zip(&b[r][whole..]).map(|(x, y)| x * y).sum();
+            (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]) + rest
+        })
+    })
+}
+
+struct Factor<'a>(&'a mut ProfileMatrix);
+
+impl WithSimd for Factor<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> bool {
+        self.0.factor_in_place(simd)
+    }
+}
+
+struct Solve<'a>(&'a ProfileMatrix, &'a mut [f64]);
+
+impl WithSimd for Solve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Solve(ProfileMatrix { first, starts, entries }, x) = self;
         for i in 0..first.len() {
             let row = &entries[starts[i]..=starts[i] + i - first[i]];
             let (known, pivot) = row.split_at(i - first[i]);
-            x[i] = (x[i] - dot(known, &x[first[i]..i])) / pivot[0];
+            let [[sum]] = dots(simd, [known], [&x[first[i]..i]]);
+            x[i] = (x[i] - sum) / pivot[0];
         }
         for i in (0..first.len()).rev() {
             let row = &entries[starts[i]..=starts[i] + i - first[i]];
@@ -116,34 +233,6 @@ impl ProfileFactor {
                 *x -= a * value;
             }
         }
-    }
-}
-
-/// Lanes of a sum.
-const LANES: usize = 8;
-
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; LANES];
-    let (mut left, mut right) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    for (x, y) in left.by_ref().zip(right.by_ref()) {
-        for k in 0..LANES {
-            lanes[k] += x[k] * y[k];
-        }
-    }
-    let rest: f64 = left.remainder().iter().zip(right.remainder()).map(|(x, y)| x * y).sum();
-    let pairs = [lanes[0] + lanes[4], lanes[1] + lanes[5], lanes[2] + lanes[6], lanes[3] + lanes[7]];
-    (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]) + rest
-}
-
-struct Factor<'a>(&'a mut ProfileMatrix);
-
-impl WithSimd for Factor<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> bool {
-        self.0.factor_in_place()
     }
 }
 
