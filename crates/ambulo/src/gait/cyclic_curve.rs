@@ -22,6 +22,7 @@
 //! Pinned by: tests/gait_curves.rs, tests/gait_accuracy.rs.
 
 use super::jet::Jet;
+use super::pace_plan::whole_cycles;
 use super::quintic::{End, Polynomial};
 use super::speed_law::SpeedLaw;
 
@@ -145,7 +146,7 @@ impl CyclicCurve {
 
 /// The phase in a cycle that starts at `first`: `phase` without whole cycles.
 fn wrapped(phase: Jet, first: f64) -> Jet {
-    let whole = (phase.value - first).floor();
+    let whole = whole_cycles(phase.value - first);
     let phase = phase - whole;
     // A tiny negative difference rounds up to a whole cycle.
     if phase.value - first < 1.0 { phase } else { phase - 1.0 }
@@ -192,7 +193,22 @@ impl SteadyCurve {
 
     /// [`CyclicCurve::at`].
     pub(super) fn at(&self, phase: Jet, speed: Jet) -> Jet {
-        self.on_segment(self.segment_at(phase.value, speed), phase, speed)
+        self.at_chosen(phase, speed, |segment| segment)
+    }
+
+    /// The angle [rad] by the polynomial of the segment that `chosen` makes of the one at this phase.
+    pub(super) fn at_chosen(&self, phase: Jet, speed: Jet, chosen: impl Fn(usize) -> usize) -> Jet {
+        if speed != self.speed {
+            let segment = chosen(self.curve.segment_at(phase.value, speed.value));
+            return self.curve.on_segment(segment, phase, speed);
+        }
+        let phase = wrapped(phase, self.phases[0]);
+        self.segments[chosen(self.segment_of(phase.value))].at(phase)
+    }
+
+    /// The segment of a phase that is in the cycle of the first knot.
+    fn segment_of(&self, phase: f64) -> usize {
+        self.phases[1..].iter().take_while(|start| **start <= phase).count()
     }
 
     /// [`CyclicCurve::segment_at`].
@@ -200,16 +216,7 @@ impl SteadyCurve {
         if speed != self.speed {
             return self.curve.segment_at(phase, speed.value);
         }
-        let phase = wrapped(Jet::constant(phase), self.phases[0]).value;
-        self.phases[1..].iter().take_while(|start| **start <= phase).count()
-    }
-
-    /// [`CyclicCurve::on_segment`].
-    pub(super) fn on_segment(&self, k: usize, phase: Jet, speed: Jet) -> Jet {
-        if speed != self.speed {
-            return self.curve.on_segment(k, phase, speed);
-        }
-        self.segments[k].at(wrapped(phase, self.phases[0]))
+        self.segment_of(wrapped(Jet::constant(phase), self.phases[0]).value)
     }
 }
 

@@ -75,6 +75,8 @@ pub(super) struct PacePlan {
     law: StrideLaw,
     /// Pace before the first ramp.
     initial: SteadyPace,
+    /// Cycles per second at its law speed, which is needed at almost every instant.
+    initial_rate: Jet,
     /// Phase at time zero [cycles].
     initial_phase: f64,
     ramps: Vec<Ramp>,
@@ -93,6 +95,12 @@ pub struct Clock {
     pub cadence: Jet,
     /// 1 in walking, 0 in upright standing; between them all angles are between the two.
     pub walking: Jet,
+}
+
+/// The largest whole number of cycles that is not above a phase; as `floor`, which is a call of a function on processors without SSE 4.1.
+pub(super) fn whole_cycles(phase: f64) -> f64 {
+    let cut = phase as i64 as f64;
+    if cut > phase { cut - 1.0 } else { cut }
 }
 
 impl Default for Clock {
@@ -141,11 +149,18 @@ impl SteadyPace {
 impl PacePlan {
     /// A constant pace.
     pub(super) fn constant(law: StrideLaw, initial: SteadyPace, initial_phase: f64) -> PacePlan {
-        PacePlan { law, initial, initial_phase, ramps: Vec::new() }
+        let initial_rate = law.cycle_rate(Jet::constant(initial.law_speed));
+        PacePlan { law, initial, initial_rate, initial_phase, ramps: Vec::new() }
     }
 
     pub(super) fn law(&self) -> &StrideLaw {
         &self.law
+    }
+
+    /// [`StrideLaw::cycle_rate`].
+    pub(super) fn cycle_rate(&self, law_speed: Jet) -> Jet {
+        let is_initial = law_speed == Jet::constant(self.initial.law_speed);
+        if is_initial { self.initial_rate } else { self.law.cycle_rate(law_speed) }
     }
 
     /// Whether the pace never changes.
@@ -206,7 +221,8 @@ impl PacePlan {
     }
 
     fn steady(&self, pace: SteadyPace, phase: f64, since_s: f64) -> Clock {
-        let rate = cycle_rate(&self.law, &pace.clock(Jet::ZERO)).value;
+        let clock = pace.clock(Jet::ZERO);
+        let rate = (self.cycle_rate(clock.law_speed) * clock.cadence * clock.walking).value;
         pace.clock(Jet::new(phase + rate * since_s, rate, 0.0))
     }
 

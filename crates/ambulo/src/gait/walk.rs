@@ -20,7 +20,7 @@ use super::joint::{LegJoint, STANDING_TILT, WalkPart};
 use super::laws::{Laws, LegCurves, checked_speeds};
 use super::machine::{Driven, MachineSettings};
 use super::pace::{number, resolve};
-use super::pace_plan::{Clock, PaceChange, PacePlan, SteadyPace};
+use super::pace_plan::{Clock, PaceChange, PacePlan, SteadyPace, whole_cycles};
 use super::stride::{StrideLaw, walking_speeds};
 use crate::findings::{Code, Findings};
 use crate::model::{BySide, Side};
@@ -491,16 +491,15 @@ impl Walk {
     pub fn phases(&self, clock: &Clock) -> Phases {
         let foot_off = self.foot_off(clock);
         let cycle =
-            BySide { right: clock.phase.value, left: clock.phase.value + 0.5 }.map(|phase| phase - phase.floor());
+            BySide { right: clock.phase.value, left: clock.phase.value + 0.5 }.map(|phase| phase - whole_cycles(phase));
         Phases { cycle, stance: cycle.map(|phase| clock.stands() || phase < foot_off), foot_off }
     }
 
     /// Foot off as a share of the cycle: the duration of stance is linear in the duration of the cycle.
     #[must_use]
     pub fn foot_off(&self, clock: &Clock) -> f64 {
-        let law = self.plan.law();
-        let rate = law.cycle_rate(clock.law_speed).value * clock.cadence.value;
-        self.laws.support.share(1.0 / (rate * law.leg_time()))
+        let rate = self.plan.cycle_rate(clock.law_speed).value * clock.cadence.value;
+        self.laws.support.share(1.0 / (rate * self.plan.law().leg_time()))
     }
 }
 

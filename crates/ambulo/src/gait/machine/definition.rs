@@ -14,11 +14,17 @@ pub struct MachineInputs<'a> {
     pub clock: &'a Clock,
     /// State of the figure in this step.
     pub sensed: &'a Sensed,
+    pub(super) tree: &'a Tree<'a>,
+    /// Time [s] and steps of the figure when the machine that reads entered its state.
+    pub(super) entered: [f64; 2],
+}
+
+/// All machines as they were after the previous step, parents before children.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tree<'a> {
     pub(super) names: &'a [String],
     pub(super) states: &'a [Vec<State>],
     pub(super) before: &'a [Active],
-    /// Time [s] and steps of the figure when the machine that reads entered its state.
-    pub(super) entered: [f64; 2],
 }
 
 /// State of the figure that machines can read, apart from the clock.
@@ -108,26 +114,26 @@ pub struct ChildOutputs<'a> {
 
 impl<'a> MachineInputs<'a> {
     fn number(&self, machine: &str) -> Option<usize> {
-        self.names.iter().position(|name| name == machine)
+        self.tree.names.iter().position(|name| name == machine)
     }
 
     /// Name of the active state of a machine after the previous step.
     #[must_use]
     pub fn state(&self, machine: &str) -> Option<&'a str> {
         let number = self.number(machine)?;
-        Some(&self.states[number][self.before[number].state].name)
+        Some(&self.tree.states[number][self.tree.before[number].state].name)
     }
 
     /// Output of a machine in the previous step; zero before the first step.
     #[must_use]
     pub fn output(&self, machine: &str) -> Option<Jet> {
-        self.number(machine).map(|number| self.before[number].output)
+        self.number(machine).map(|number| self.tree.before[number].output)
     }
 
     /// Whether a machine was in a state that is marked as done.
     #[must_use]
     pub fn is_done(&self, machine: &str) -> bool {
-        self.number(machine).is_some_and(|number| self.states[number][self.before[number].state].done)
+        self.number(machine).is_some_and(|number| self.tree.states[number][self.tree.before[number].state].done)
     }
 
     /// Time since the machine that reads this entered its state [s].

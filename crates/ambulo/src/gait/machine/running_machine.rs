@@ -15,7 +15,7 @@
 //! A step does not allocate. Pinned by: tests/gait_machine.rs.
 
 use super::definition::{
-    Active, Cause, ChildOutputs, Gate, Machine, MachineInputs, Passage, Sensed, State, Transition,
+    Active, Cause, ChildOutputs, Gate, Machine, MachineInputs, Passage, Sensed, State, Transition, Tree,
 };
 use crate::gait::jet::Jet;
 use crate::gait::pace_plan::Clock;
@@ -54,8 +54,8 @@ impl RunningMachine {
     /// Runs the whole tree once.
     pub fn step(&mut self, clock: &Clock, sensed: &Sensed) {
         std::mem::swap(&mut self.before, &mut self.after);
-        let (names, states, before) = (&self.names, &self.states, &self.before);
-        let inputs = MachineInputs { clock, sensed, names, states, before, entered: [0.0; 2] };
+        let tree = Tree { names: &self.names, states: &self.states, before: &self.before };
+        let inputs = MachineInputs { clock, sensed, tree: &tree, entered: [0.0; 2] };
         run(&self.machine, 0, &inputs, &mut self.after);
     }
 
@@ -131,8 +131,8 @@ fn run(machine: &Machine, number: usize, inputs: &MachineInputs<'_>, after: &mut
     for child in &machine.children {
         next = run(child, next, inputs, after);
     }
-    let children = ChildOutputs { first: number + 1, names: &inputs.names[number + 1..next], outputs: after };
-    let before = &inputs.before[number];
+    let children = ChildOutputs { first: number + 1, names: &inputs.tree.names[number + 1..next], outputs: after };
+    let before = &inputs.tree.before[number];
     let taken = settled(machine, before, inputs);
     let time_s = inputs.sensed.time_s;
     let output = (machine.activity)(taken.state, &MachineInputs { entered: taken.entered, ..*inputs }, &children);

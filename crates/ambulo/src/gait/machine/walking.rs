@@ -89,8 +89,9 @@ fn global(walk: &Arc<Walk>) -> Machine {
     let in_window = |k: usize| {
         let walk = Arc::clone(walk);
         move |clock: &Clock| {
-            let windows = support_windows(walk.foot_off(clock));
-            (windows[k]..windows[k + 1]).contains(&walk.phases(clock).cycle.right)
+            let Phases { cycle, foot_off, .. } = walk.phases(clock);
+            let windows = support_windows(foot_off);
+            (windows[k]..windows[k + 1]).contains(&cycle.right)
         }
     };
     let next = |k: usize| {
@@ -180,8 +181,8 @@ fn curve_machine(
         let (walk, knots, parts) = (Arc::clone(walk), curve.knots().len(), Arc::clone(&sub_cycles));
         move |state: usize, inputs: &MachineInputs<'_>, _: &ChildOutputs<'_>| {
             let (phase, speed) = (inputs.clock.phase_of(side), walk.curve_speed(inputs.clock));
-            let segment = parts[state].segment(steady.segment_at(phase.value, speed), knots);
-            angle(steady.on_segment(segment, phase, speed), inputs.clock)
+            let curve = steady.at_chosen(phase, speed, |segment| parts[state].segment(segment, knots));
+            angle(curve, inputs.clock)
         }
     };
     Machine::new(part.name(), states, activity).with_transitions(transitions)
@@ -280,16 +281,22 @@ impl WalkMachine {
     /// Runs all machines once at a time [s] and returns the posture of their outputs. Feet are loaded as the gait plans, and angles are those
     /// of the previous step.
     pub fn step(&mut self, time_s: f64) -> WalkPosture {
-        let stance = self.walk.phases(&self.walk.clock(time_s)).stance;
-        self.step_with(time_s, stance)
+        let clock = self.walk.clock(time_s);
+        let phases = self.walk.phases(&clock);
+        self.step_to(time_s, &clock, phases, phases.stance)
     }
 
     /// The same with the loads that the feet have.
     pub fn step_with(&mut self, time_s: f64, loaded: BySide<bool>) -> WalkPosture {
         let clock = self.walk.clock(time_s);
+        let phases = self.walk.phases(&clock);
+        self.step_to(time_s, &clock, phases, loaded)
+    }
+
+    fn step_to(&mut self, time_s: f64, clock: &Clock, phases: Phases, loaded: BySide<bool>) -> WalkPosture {
         self.sensed.time_s = time_s - self.walk.machines_begin_s();
         self.sensed.loaded_before = std::mem::replace(&mut self.sensed.loaded, loaded);
-        self.running.step(&clock, &self.sensed);
+        self.running.step(clock, &self.sensed);
         let part = |part: WalkPart| {
             let place = WalkPart::ALL.iter().position(|own| *own == part).unwrap_or(0);
             self.running.output(self.parts[place])
@@ -306,10 +313,7 @@ impl WalkMachine {
             trunk_lean: part(WalkPart::Trunk),
             shoulders: Side::BOTH.map(|side| part(WalkPart::Shoulder(side))),
             elbows: Side::BOTH.map(|side| part(WalkPart::Elbow(side))),
-            phases: Phases {
-                stance: BySide::from(self.legs).map(|leg| self.running.state(leg) == 0),
-                ..self.walk.phases(&clock)
-            },
+            phases: Phases { stance: BySide::from(self.legs).map(|leg| self.running.state(leg) == 0), ..phases },
         }
     }
 
