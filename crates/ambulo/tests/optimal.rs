@@ -326,6 +326,38 @@ fn a_shipped_plan_is_the_best_motion() {
     assert!(cost(&again) > 0.9 * cost(&found.solution), "{} and {}", cost(&found.solution), cost(&again));
 }
 
+/// Root mean square of the part of a periodic series between two frequencies [Hz], by its harmonics.
+fn band(values: &[f64], cycle_s: f64, [low, high]: [f64; 2]) -> f64 {
+    let count = values.len() as f64;
+    let power = |harmonic: usize| {
+        let turn = |i: usize| std::f64::consts::TAU * harmonic as f64 * i as f64 / count;
+        let part =
+            |wave: fn(f64) -> f64| values.iter().enumerate().map(|(i, x)| x * wave(turn(i))).sum::<f64>() * 2.0 / count;
+        0.5 * (part(f64::cos).powi(2) + part(f64::sin).powi(2))
+    };
+    let harmonics = 1..values.len() / 2;
+    harmonics.filter(|h| (low..=high).contains(&(*h as f64 / cycle_s))).map(power).sum::<f64>().sqrt()
+}
+
+#[test]
+fn moments_of_shipped_walks_do_not_ripple() {
+    let sine: Vec<f64> = (0..400).map(|i| (std::f64::consts::TAU * 15.0 * f64::from(i) / 400.0).sin()).collect();
+    assert!((band(&sine, 1.0, [10.0, 20.0]) - 0.5_f64.sqrt()).abs() < 1e-12);
+    assert!(band(&sine, 1.0, [16.0, 20.0]) < 1e-12);
+    for (build, walk) in shipped().filter(|(_, walk)| walk.name() == "free") {
+        let found = OptimalWalk::find(&build, &walk).unwrap();
+        let times: Vec<f64> = (0..400).map(|i| walk.cycle_s() * f64::from(i) / 400.0).collect();
+        let samples = found.solution.samples(&times).unwrap();
+        for joint in ["hip_flexion_r", "knee_angle_r"] {
+            let id = found.human.model.coordinate(joint).unwrap();
+            let moment: Vec<f64> = samples.iter().map(|sample| sample.forces[id.index()] / build.mass).collect();
+            let [ripple, all] = [[10.0, 20.0], [0.0, 1000.0]].map(|range| band(&moment, walk.cycle_s(), range));
+            println!("{} {joint}: {ripple:.4} of {all:.3} N.m/kg between 10 and 20 Hz", build.table);
+            assert!(ripple < 0.025 && ripple < 0.1 * all, "{joint} {ripple} {all}");
+        }
+    }
+}
+
 #[test]
 fn a_plan_belongs_to_its_figure_speed_and_cadence_alone() {
     let (build, walk) = shipped().next().unwrap();
