@@ -9,6 +9,7 @@ use super::prediction::{Found, predicted, with_markers};
 use super::quality::{Measure, QualityEvidence, marker_fit_rms_m};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
+use super::tracked::tracked;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
@@ -24,6 +25,10 @@ use crate::model::Model;
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
+
+/// How the forces are divided between the feet by [`GroundSettings::Tracked`].
+const TRACKED: &str =
+    "tracking: feet on soft ground, near the recorded motion and near a maximum a posteriori estimate";
 
 /// Computes the forces behind a recording. Problems that still allow results are reported in `findings`.
 ///
@@ -76,7 +81,9 @@ fn road(
     let observed = source.observe(settings, findings, progress)?;
     let device = device(source, &observed.model, findings)?;
     let processing = processing(&observed, settings, findings);
-    let Found { analysis, prediction, measured_events } = forces(&observed, processing, settings, findings, progress)?;
+    let found = forces(&observed, processing, settings, findings, progress)?;
+    let (Found { analysis, prediction, measured_events }, tracked) =
+        tracked(found, &observed, settings, findings, progress)?;
     let mass = body_mass(&observed, &analysis, findings);
     let Observation { model, person, motion, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
@@ -121,6 +128,7 @@ fn road(
         analysis: Analysis { verdict: Some(verdict.clone()), ..analysis },
         force_origin,
         prediction,
+        tracked,
         residual_reduction: reduction,
         device,
         verdict,
@@ -353,6 +361,7 @@ fn forces(
 fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings: &Settings) -> ForceOrigin {
     match (origin, prediction) {
         (Origin::Simulation { rule }, _) => ForceOrigin::Simulated { rule },
+        (_, Some(_)) if settings.ground == GroundSettings::Tracked => ForceOrigin::Predicted { rule: TRACKED },
         (_, Some(predicted)) => ForceOrigin::Predicted { rule: predicted.prediction.rule },
         _ if settings.ground == GroundSettings::NoContact => ForceOrigin::None,
         _ => ForceOrigin::Measured,
