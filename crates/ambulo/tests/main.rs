@@ -81,6 +81,7 @@ mod opensim_parity;
 mod optimal;
 mod optimal_movements;
 mod optimal_prediction;
+mod optimal_track;
 mod osim_export;
 mod osim_import;
 mod plug_in_gait;

@@ -18,6 +18,7 @@ mod residual;
 mod residual_reduction;
 mod scene_verdict;
 mod times_and_distances;
+mod tracked;
 mod walking_direction;
 mod weighing;
 
@@ -51,4 +52,5 @@ pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
 pub use times_and_distances::{
     Stride, StrideQuantity, StrideStatistics, TimesAndDistances, symmetry_index, times_and_distances,
 };
+pub use tracked::track;
 pub(crate) use weighing::{weighed_standing, weighed_within};

@@ -27,6 +27,8 @@ pub enum Stage {
     Analysis,
     /// Checks of the prediction, and its comparison with the plates.
     Checks,
+    /// Tracking by feet on the ground.
+    Tracking,
     /// Residual reduction.
     ResidualReduction,
     /// Feasibility for a person.
@@ -49,6 +51,7 @@ impl Stage {
             Stage::InverseDynamics => "inverse_dynamics",
             Stage::Analysis => "analysis",
             Stage::Checks => "checks",
+            Stage::Tracking => "tracking",
             Stage::ResidualReduction => "consistency",
             Stage::Feasibility => "feasibility",
         }
@@ -102,6 +105,7 @@ mod tests {
             Stage::InverseDynamics,
             Stage::Analysis,
             Stage::Checks,
+            Stage::Tracking,
             Stage::ResidualReduction,
             Stage::Feasibility,
         ];

@@ -17,18 +17,24 @@
 //! With the momentum (n, p) of a body and its inertia (m, h = m c, J) at the origin, B depends on the angular part only:
 //! B (ω, u) = (T ω, ω × p) with T = ½ (ω_b × J - J ω_b × - v × h × - h × v × - n ×).
 //!
+//! An axis s whose displacement follows a curve f of its coordinate has S = s f', and its rates gain the terms of a changing axis:
+//!
+//!   Ψ̇_j = v_λ × S_j + s f'' q̇     Ψ̈_j = a_λ × S_j + v_λ × (v_λ × S_j) + 2 v_λ × s f'' q̇ + s (f'' q̈ + f‴ q̇²)
+//!
+//! and ∂τ_j/∂q_j also has (s f'')ᵀ f_jᶜ. These follow from the equations above by the chain rule.
+//!
 //! Source: S. Singh, R. P. Russell, P. M. Wensing, "Efficient analytical derivatives of rigid-body dynamics using spatial vector
 //! algebra", IEEE Robotics and Automation Letters 7 (2022), arXiv 2105.05102 (equations unverified; the tests compare with finite
 //! differences and an independent recursion). The form of B is ours.
 //! Cost: one pass over all pairs of links of which one carries the other.
-//! Not handled: ball-like joints and axes that follow a curve of their coordinate.
+//! Not handled: ball-like joints.
 //! Pinned by: tests/inverse_derivatives.rs
 
 use crate::kinematics::Posture;
 use crate::kinematics::lanes::{Lanes, M3, V3};
 use crate::kinematics::plan::{Plan, Source};
 use crate::kinematics::sweep::{self, Scratch};
-use crate::model::Model;
+use crate::model::{Drive, Function, Model};
 use crate::spatial::{Pose, Vec3};
 use nalgebra::DMatrix;
 use pulp::{Arch, Simd, WithSimd};
@@ -36,9 +42,7 @@ use std::array;
 
 /// A joint for which derivatives are not computed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "joint `{joint}` of the model is ball-like, or follows a curve of its coordinate; derivatives of inverse dynamics need hinges and slides"
-)]
+#[error("joint `{joint}` of the model is ball-like; derivatives of inverse dynamics need joints of hinges and slides")]
 pub struct CurvedJointError {
     /// Name of the joint.
     pub joint: String,
@@ -77,7 +81,7 @@ pub struct InverseDerivatives {
 /// ```
 ///
 /// # Errors
-/// If the model has a ball-like joint, or a joint that follows a curve of its coordinate.
+/// If the model has a ball-like joint.
 ///
 /// # Panics
 /// If the length of a slice of `posture` differs from the number of coordinates.
@@ -148,7 +152,40 @@ pub(crate) struct MovingLink {
     axis: usize,
     segment: usize,
     turns: bool,
-    slope: f64,
+    displacement: Follows,
+}
+
+/// How the displacement along an axis follows the coordinate of its link.
+#[derive(Debug, Clone)]
+enum Follows {
+    /// With a constant slope.
+    Line(f64),
+    /// By a curve, after that of a coupler if the axis belongs to a coupled coordinate.
+    Curve { coupler: Option<Function>, curve: Function },
+}
+
+impl Follows {
+    /// The first three derivatives of the displacement at a coordinate.
+    fn derivatives(&self, q: f64) -> [f64; 3] {
+        match self {
+            Follows::Line(slope) => [*slope, 0.0, 0.0],
+            Follows::Curve { coupler: None, curve } => derivatives(curve, q),
+            Follows::Curve { coupler: Some(coupler), curve } => {
+                let [g1, g2, g3] = derivatives(coupler, q);
+                let [f1, f2, f3] = derivatives(curve, coupler.at(q)[0]);
+                [f1 * g1, f2 * g1 * g1 + f1 * g2, f3 * g1.powi(3) + 3.0 * f2 * g1 * g2 + f1 * g3]
+            }
+        }
+    }
+}
+
+/// The first three derivatives of a function; the third by a difference of the second.
+fn derivatives(function: &Function, x: f64) -> [f64; 3] {
+    /// Step [rad or m].
+    const STEP: f64 = 1e-4;
+    let [_, first, second] = function.at(x);
+    let third = (function.at(x + STEP)[2] - function.at(x - STEP)[2]) / (2.0 * STEP);
+    [first, second, third]
 }
 
 /// Sums over a link and all bodies that it carries.
@@ -184,6 +221,8 @@ pub(crate) struct DerivativeKernel<const N: usize> {
     axis_rates: Vec<Spatial<N>>,
     /// Ψ̈ of the links.
     axis_accelerations: Vec<Spatial<N>>,
+    /// s f'' of the links; zero for those that do not follow a curve.
+    pub(crate) bends: Vec<Spatial<N>>,
     composites: Vec<Composite<N>>,
     /// τ of the coordinates.
     pub(crate) forces: Vec<Lanes<N>>,
@@ -192,9 +231,20 @@ pub(crate) struct DerivativeKernel<const N: usize> {
 }
 
 impl<const N: usize> DerivativeKernel<N> {
+    /// All coordinates are independent.
     pub(crate) fn new(model: &Model) -> Result<DerivativeKernel<N>, CurvedJointError> {
+        DerivativeKernel::with(model, false)
+    }
+
+    /// Coupled coordinates follow their leaders: forces and derivatives are those of the leaders. The values, rates and accelerations in
+    /// `scratch` must obey the couplers.
+    pub(crate) fn with_couplers(model: &Model) -> Result<DerivativeKernel<N>, CurvedJointError> {
+        DerivativeKernel::with(model, true)
+    }
+
+    fn with(model: &Model, coupled: bool) -> Result<DerivativeKernel<N>, CurvedJointError> {
         let plan = Plan::new(model);
-        let (links, link_of_body) = links(model, &plan)?;
+        let (links, link_of_body) = links(model, &plan, coupled)?;
         let (count, coordinates) = (links.len(), plan.coordinates);
         Ok(DerivativeKernel {
             scratch: Scratch::new(&plan),
@@ -204,6 +254,7 @@ impl<const N: usize> DerivativeKernel<N> {
             accelerations: vec![Spatial::ZERO; count],
             axis_rates: vec![Spatial::ZERO; count],
             axis_accelerations: vec![Spatial::ZERO; count],
+            bends: vec![Spatial::ZERO; count],
             composites: vec![Composite::ZERO; count],
             forces: vec![Lanes::ZERO; coordinates],
             slopes: array::from_fn(|_| vec![Lanes::ZERO; coordinates * coordinates]),
@@ -237,22 +288,34 @@ impl<const N: usize> DerivativeKernel<N> {
         let ground = Spatial { angular: V3::ZERO, linear: V3::splat(-self.plan.gravity) };
         for (k, link) in self.links.iter().enumerate() {
             let state = &self.scratch.states[link.segment + 1];
-            let direction = self.scratch.axes.direction[link.axis] * Lanes::splat(link.slope);
-            let axis = if link.turns {
-                Spatial { angular: direction, linear: (state.center - state.to_center).cross(direction) }
-            } else {
-                Spatial { angular: V3::ZERO, linear: direction }
+            let along = |factor: Lanes<N>| {
+                let direction = self.scratch.axes.direction[link.axis] * factor;
+                if link.turns {
+                    Spatial { angular: direction, linear: (state.center - state.to_center).cross(direction) }
+                } else {
+                    Spatial { angular: V3::ZERO, linear: direction }
+                }
             };
+            let [slope, bend, bend_slope] = link.derivatives(&self.scratch.q[link.coordinate]);
+            let axis = along(slope);
             let rate = Lanes(self.scratch.qd[link.coordinate]);
             let acceleration = Lanes(self.scratch.qdd[link.coordinate]);
             let (v, a) = match link.before {
                 None => (Spatial::ZERO, ground),
                 Some(before) => (self.velocities[before], self.accelerations[before]),
             };
-            let axis_rate = v.cross(axis);
+            let turned = v.cross(axis);
+            let (mut axis_rate, mut axis_acceleration) = (turned, a.cross(axis).plus(v.cross(turned)));
+            if link.is_curved() {
+                let bending = along(bend * rate);
+                axis_rate = axis_rate.plus(bending);
+                let changing = along(bend * acceleration + bend_slope * rate * rate);
+                axis_acceleration = axis_acceleration.plus(v.cross(bending).times(Lanes::splat(2.0))).plus(changing);
+                self.bends[k] = along(bend);
+            }
             self.axes[k] = axis;
             self.axis_rates[k] = axis_rate;
-            self.axis_accelerations[k] = a.cross(axis).plus(v.cross(axis_rate));
+            self.axis_accelerations[k] = axis_acceleration;
             self.velocities[k] = v.plus(axis.times(rate));
             self.accelerations[k] = a.plus(axis.times(acceleration)).plus(axis_rate.times(rate));
         }
@@ -291,6 +354,9 @@ impl<const N: usize> DerivativeKernel<N> {
             let (axis, rate, acceleration) = (self.axes[j], self.axis_rates[j], self.axis_accelerations[j]);
             let column = self.links[j].coordinate;
             self.forces[column] += axis.dot(composite.force);
+            if self.links[j].is_curved() {
+                self.slopes[0][column * count + column] += self.bends[j].dot(composite.force);
+            }
             let two = Lanes::splat(2.0);
             let by_acceleration = composite.momentum_of(axis);
             let by_rate = composite.coriolis_on(axis).plus(composite.momentum_of(rate)).times(two);
@@ -325,29 +391,59 @@ impl<const N: usize> DerivativeKernel<N> {
     }
 }
 
+impl MovingLink {
+    pub(crate) fn is_curved(&self) -> bool {
+        matches!(self.displacement, Follows::Curve { .. })
+    }
+
+    #[inline(always)]
+    fn derivatives<const N: usize>(&self, q: &[f64; N]) -> [Lanes<N>; 3] {
+        if let Follows::Line(slope) = self.displacement {
+            return [Lanes::splat(slope), Lanes::ZERO, Lanes::ZERO];
+        }
+        let found = q.map(|q| self.displacement.derivatives(q));
+        array::from_fn(|k| Lanes(found.map(|derivatives| derivatives[k])))
+    }
+}
+
 /// The moving axes of a model, carriers first, and the last one that moves each body.
-fn links(model: &Model, plan: &Plan) -> Result<(Vec<MovingLink>, Vec<Option<usize>>), CurvedJointError> {
+fn links(model: &Model, plan: &Plan, coupled: bool) -> Result<(Vec<MovingLink>, Vec<Option<usize>>), CurvedJointError> {
     let (mut links, mut link_of_body): (Vec<MovingLink>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
     for (index, (segment, body)) in plan.segments.iter().zip(model.bodies()).enumerate() {
-        let curved = || CurvedJointError { joint: body.joint.name.clone() };
         if segment.spherical.is_some() {
-            return Err(curved());
+            return Err(CurvedJointError { joint: body.joint.name.clone() });
         }
         let mut last = segment.parent.checked_sub(1).and_then(|parent| link_of_body[parent]);
         let translations = segment.translations.clone().map(|axis| (axis, false));
         for (axis, turns) in translations.chain(segment.rotations.clone().map(|axis| (axis, true))) {
-            match plan.axes[axis].source {
-                Source::Fixed(_) => {}
-                Source::Curve { .. } => return Err(curved()),
-                Source::Line { coordinate, slope, .. } => {
-                    links.push(MovingLink { coordinate, before: last, axis, segment: index, turns, slope });
-                    last = Some(links.len() - 1);
+            let (coordinate, displacement) = match &plan.axes[axis].source {
+                Source::Fixed(_) => continue,
+                Source::Curve { coordinate, function } => {
+                    (*coordinate, Follows::Curve { coupler: None, curve: function.clone() })
                 }
-            }
+                Source::Line { coordinate, slope, .. } => (*coordinate, Follows::Line(*slope)),
+            };
+            let (coordinate, displacement) = match &model.coordinates()[coordinate].drive {
+                Drive::Coupled(leader, coupler) if coupled => (leader.index(), displacement.after(coupler)),
+                _ => (coordinate, displacement),
+            };
+            links.push(MovingLink { coordinate, before: last, axis, segment: index, turns, displacement });
+            last = Some(links.len() - 1);
         }
         link_of_body.push(last);
     }
     Ok((links, link_of_body))
+}
+
+impl Follows {
+    /// The same displacement, of a coordinate that follows a coupler.
+    fn after(self, coupler: &Function) -> Follows {
+        let curve = match self {
+            Follows::Line(slope) => Function::Linear { slope, intercept: 0.0 },
+            Follows::Curve { curve, .. } => curve,
+        };
+        Follows::Curve { coupler: Some(coupler.clone()), curve }
+    }
 }
 
 /// M v for a matrix that is the same in all lanes.

@@ -152,6 +152,8 @@ mod tests {
             Quantity::RootPower { effort: effort.clone(), prices: [4.0, 0.8], smooth_w: 5.0 },
             Quantity::RootPower { effort: Effort::whole(knee), prices: [4.0, 0.8], smooth_w: 50.0 },
             Quantity::Sideways(3),
+            Quantity::LoadOffset { spheres: vec![0, 1, 2], axis: 0, points: vec![0.0, 0.05] },
+            Quantity::LoadOffset { spheres: vec![1, 3], axis: 2, points: vec![0.0, -0.02] },
             Quantity::Height(3),
         ];
         let mut evaluator = Evaluator::new(&human.model, &human.soles, &[]).unwrap();

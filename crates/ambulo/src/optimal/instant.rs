@@ -7,12 +7,13 @@
 //!
 //! The contact point of a sphere with radius r and centre p is c = (p_x, (p_y - r)/2, p_z), midway between both surfaces as in the
 //! simulator (above a surface at height h it is higher by h); its velocity is u = v + ω × c, that of the body. Coordinate q_k of link k moves the centre by ∂p/∂q_k, the velocity of S_k at p,
-//! and changes the velocity of the body by ∂V/∂q_k = S_k × (V - V_k).
+//! and changes the velocity of the body by ∂V/∂q_k = S_k × (V - V_k). An axis that follows a curve f of its coordinate adds s f'' q̇_k to the
+//! latter, and -(s f'')ᵀ W to ∂τ_k/∂q_k.
 
 use crate::contact::HuntCrossley;
 use crate::dynamics::{CurvedJointError, DerivativeKernel, Spatial};
-use crate::model::Model;
 use crate::model::anthropometry::ContactSphere;
+use crate::model::{Coordinate, Drive, Function, Model};
 use crate::spatial::Vec3;
 
 /// Instants that are evaluated side by side.
@@ -22,12 +23,13 @@ pub(super) const SIDE_BY_SIDE: usize = 8;
 pub(super) type Posture = [Vec<f64>; 3];
 
 /// Number of quantities of a contact: force on the foot along x, y, z [N], height of the sphere above its surface [m], slip along x and z [m/s],
-/// place along z [m].
-pub(super) const CONTACT: usize = 7;
+/// place along z and along x [m].
+pub(super) const CONTACT: usize = 8;
 /// Offsets of height, slip and place.
 pub(super) const HEIGHT: usize = 3;
 pub(super) const SLIP: usize = 4;
 pub(super) const PLACE: usize = 6;
+pub(super) const PLACE_X: usize = 7;
 
 /// Forces of one instant, and their derivatives.
 #[derive(Debug, Clone, Default)]
@@ -59,6 +61,8 @@ pub(super) struct Evaluator {
     levels: Vec<f64>,
     /// Links that carry each body, the one that moves the body directly first.
     chains: Vec<Vec<usize>>,
+    /// Coupled coordinates: their own number, that of their leader, and the coupler.
+    couplers: Vec<(usize, usize, Function)>,
 }
 
 /// A spatial vector of one instant.
@@ -102,7 +106,7 @@ const NO_WRENCH: One = One { angular: Vec3::new(0.0, 0.0, 0.0), linear: Vec3::ne
 impl Evaluator {
     /// `levels` are heights of surfaces, 0 where there are fewer than spheres [m].
     pub(super) fn new(model: &Model, soles: &[ContactSphere], levels: &[f64]) -> Result<Evaluator, CurvedJointError> {
-        let kernel = DerivativeKernel::new(model)?;
+        let kernel = DerivativeKernel::with_couplers(model)?;
         let chain = |mut last: Option<usize>| {
             let mut chain = Vec::new();
             while let Some(link) = last {
@@ -113,12 +117,29 @@ impl Evaluator {
         };
         let chains = kernel.link_of_body.iter().map(|&last| chain(last)).collect();
         let levels = (0..soles.len()).map(|sphere| levels.get(sphere).copied().unwrap_or(0.0)).collect();
-        Ok(Evaluator { kernel, soles: soles.to_vec(), levels, chains })
+        let coupler = |(c, coordinate): (usize, &Coordinate)| match &coordinate.drive {
+            Drive::Coupled(leader, function) => Some((c, leader.index(), function.clone())),
+            _ => None,
+        };
+        let couplers = model.coordinates().iter().enumerate().filter_map(coupler).collect();
+        Ok(Evaluator { kernel, soles: soles.to_vec(), levels, chains, couplers })
+    }
+
+    /// Coupled coordinates take the values that follow from those of their leaders.
+    fn follow_leaders(&self, [q, qd, qdd]: &mut Posture) {
+        for (follower, leader, function) in &self.couplers {
+            let (rate, acceleration) = (qd[*leader], qdd[*leader]);
+            let [value, slope, bend] = function.at(q[*leader]);
+            q[*follower] = value;
+            qd[*follower] = slope * rate;
+            qdd[*follower] = slope * acceleration + bend * rate * rate;
+        }
     }
 
     /// Computes forces, contacts and derivatives of all instants from their postures.
     pub(super) fn evaluate(&mut self, law: &HuntCrossley, instants: &mut [Instant]) {
         for block in instants.chunks_mut(SIDE_BY_SIDE) {
+            block.iter_mut().for_each(|instant| self.follow_leaders(&mut instant.posture));
             for lane in 0..SIDE_BY_SIDE {
                 let [q, qd, qdd] = &block[lane.min(block.len() - 1)].posture;
                 let scratch = &mut self.kernel.scratch;
@@ -161,6 +182,12 @@ impl Evaluator {
                 .iter()
                 .map(|&link| (self.kernel.links[link].coordinate, One::of(&self.kernel.axes[link], lane)))
                 .collect();
+            let curved = chain.iter().filter(|&&link| self.kernel.links[link].is_curved());
+            for &link in curved {
+                let c = self.kernel.links[link].coordinate;
+                let bend = One::of(&self.kernel.bends[link], lane);
+                instant.slopes[3 * self.kernel.coordinates() * c + c] -= bend.dot(wrench);
+            }
             let width = 3 * self.kernel.coordinates();
             for (j, (row, axis)) in links.iter().enumerate() {
                 instant.forces[*row] -= axis.dot(wrench);
@@ -188,17 +215,21 @@ impl Evaluator {
         let found = law.force_with_slopes(sole.radius, -height, -velocity.y, velocity);
         let force = found.force;
         contact.place = place;
-        contact.values = [force.x, force.y, force.z, height, velocity.x, velocity.z, center.z];
+        contact.values = [force.x, force.y, force.z, height, velocity.x, velocity.z, center.z, center.x];
         contact.slopes.clear();
         let mut wrenches = Vec::with_capacity(chain.len());
         for &link in chain {
             let axis = One::of(&self.kernel.axes[link], lane);
             let moved = axis.at(center);
             let shifted = Vec3::new(moved.x, 0.5 * moved.y, moved.z);
-            let turned = axis.cross(motion.minus(One::of(&self.kernel.velocities[link], lane)));
+            let mut turned = axis.cross(motion.minus(One::of(&self.kernel.velocities[link], lane)));
+            if self.kernel.links[link].is_curved() {
+                let rate = self.kernel.scratch.qd[self.kernel.links[link].coordinate][lane];
+                turned = turned.plus(One::of(&self.kernel.bends[link], lane), rate);
+            }
             let velocity_slopes = [turned.at(place) + motion.angular.cross(&shifted), axis.at(place)];
             let depth_slopes = [-moved.y, 0.0];
-            let place_slopes = [moved.z, 0.0];
+            let place_slopes = [[moved.z, moved.x], [0.0; 2]];
             let mut slopes = [[0.0; CONTACT]; 2];
             let mut wrench = [NO_WRENCH; 2];
             for part in 0..2 {
@@ -206,7 +237,8 @@ impl Evaluator {
                 let f = found.by_depth * depth_slopes[part] - found.by_rate * v.y
                     + found.by_slip[0] * v.x
                     + found.by_slip[1] * v.z;
-                slopes[part] = [f.x, f.y, f.z, -depth_slopes[part], v.x, v.z, place_slopes[part]];
+                let [z, x] = place_slopes[part];
+                slopes[part] = [f.x, f.y, f.z, -depth_slopes[part], v.x, v.z, z, x];
                 let arm = if part == 0 { shifted.cross(&force) } else { Vec3::zeros() };
                 wrench[part] = One { angular: arm + place.cross(&f), linear: f };
             }
@@ -218,6 +250,10 @@ impl Evaluator {
 }
 
 impl One {
+    fn plus(self, other: One, factor: f64) -> One {
+        One { angular: self.angular + other.angular * factor, linear: self.linear + other.linear * factor }
+    }
+
     fn minus(self, other: One) -> One {
         One { angular: self.angular - other.angular, linear: self.linear - other.linear }
     }
@@ -227,8 +263,9 @@ impl One {
 mod tests {
     use super::*;
     use crate::contact::FrictionCurve;
-    use crate::model::anthropometry::{Build, SegmentTable};
+    use crate::model::anthropometry::{Build, Human, SegmentTable};
     use crate::model::full_body::full_body;
+    use crate::model::{Displacement, JointAxis};
 
     /// An arbitrary posture and motion near the ground.
     fn instant(seed: f64, count: usize, height: f64) -> Instant {
@@ -239,14 +276,39 @@ mod tests {
         Instant { posture, ..Instant::default() }
     }
 
+    /// The figure with knees that roll along curves, and toes that follow the ankles.
+    fn curved(model: &Model) -> Model {
+        let (mut bodies, mut coordinates) = (model.bodies().to_vec(), model.coordinates().to_vec());
+        for side in ["r", "l"] {
+            let id = |name: &str| model.coordinate(&format!("{name}_{side}")).unwrap();
+            let knee = id("knee_angle");
+            let rolls = |scale: f64| Displacement::Follows(knee, Function::Polynomial(vec![scale, 0.02, -0.03, 0.0]));
+            let shank = bodies.iter_mut().find(|body| body.joint.coordinates().contains(&knee)).unwrap();
+            let directions = [Vec3::x(), Vec3::new(0.0, 0.6, 0.8), Vec3::z()];
+            let along = |k: usize| JointAxis { direction: directions[k], displacement: rolls(0.02 * k as f64) };
+            shank.joint.translations = (0..3).map(along).collect();
+            let turn = Displacement::Follows(knee, Function::Polynomial(vec![0.1, -0.2, 0.4, 0.0]));
+            shank.joint.rotations.truncate(2);
+            shank.joint.rotations.push(JointAxis { direction: Vec3::y(), displacement: turn });
+            let coupler = Function::Polynomial(vec![0.3, -0.5, 0.1]);
+            coordinates[id("mtp_angle").index()].drive = Drive::Coupled(id("ankle_angle"), coupler);
+        }
+        Model::new("curved".to_owned(), model.gravity(), bodies, coordinates, Vec::new()).unwrap()
+    }
+
     #[test]
     fn derivatives_of_forces_on_the_ground_are_their_differences() {
         let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
         let human = full_body(&build).unwrap();
+        check(&human.model, &human);
+        check(&curved(&human.model), &human);
+    }
+
+    fn check(model: &Model, human: &Human) {
         let law = HuntCrossley { friction_curve: FrictionCurve::Smooth, ..HuntCrossley::MOCO_2D_GAIT };
         // The first sphere touches a step, the others the ground.
-        let mut evaluator = Evaluator::new(&human.model, &human.soles, &[0.02]).unwrap();
-        let count = human.model.coordinates().len();
+        let mut evaluator = Evaluator::new(model, &human.soles, &[0.02]).unwrap();
+        let count = model.coordinates().len();
         let (mut touching, mut checked) = (0, 0);
         for seed in 0..6 {
             let mut at = [instant(f64::from(seed), count, 0.98 * human.dimensions.leg_length)];

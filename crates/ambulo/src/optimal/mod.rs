@@ -35,6 +35,7 @@ mod muscles;
 mod near;
 mod plan;
 mod predict;
+mod track;
 mod walk;
 
 pub use conditions::{Device, Load, LoadPlace, WalkConditions};
@@ -52,4 +53,5 @@ pub use predict::{Prediction, metabolic_power};
 pub use problem::Problem;
 pub use solution::{Progress, Sample, SoleContact, Solution, Unbalanced};
 pub use solve::Continuation;
+pub use track::{FootGuide, TRACK_STAGES, TrackError, TrackProblem, TrackSettings, TrackedFoot, TrackedMotion};
 pub use walk::{FINE_STAGES, Passage, PassageEnd, STAGES, WalkCosts, WalkProblem, soles_with_width};

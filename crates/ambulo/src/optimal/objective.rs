@@ -1,7 +1,7 @@
 //! The objective of a motion: a sum of squared deviations of quantities from their targets.
 
 use super::effort::{Effort, root_power};
-use super::instant::{CONTACT, HEIGHT, Instant, PLACE, SLIP};
+use super::instant::{CONTACT, HEIGHT, Instant, PLACE, PLACE_X, SLIP};
 use crate::model::CoordinateId;
 
 /// A quantity of one instant of a motion.
@@ -31,6 +31,16 @@ pub enum Quantity {
     ForceRate(CoordinateId),
     /// Sum of the ground forces on some spheres along x (0), y (1) or z (2) [N]. Spheres are numbered as in the problem.
     GroundForce(Vec<usize>, usize),
+    /// Moment of the vertical ground forces on some spheres about a point that moves: Σ N (c - p), with the positions c of the spheres along x
+    /// (0) or z (2) [N.m]. It is zero if the centre of pressure is at the point.
+    LoadOffset {
+        /// Numbers of the spheres.
+        spheres: Vec<usize>,
+        /// Direction: x (0) or z (2).
+        axis: usize,
+        /// Position p of the point per instant [m].
+        points: Vec<f64>,
+    },
     /// Height of a sphere above the ground [m].
     Height(usize),
     /// Sideways position of the centre of a sphere, along z [m].
@@ -92,6 +102,11 @@ impl Term {
     }
 }
 
+/// Offset of the position of a sphere along x (0) or z (2).
+fn place_along(axis: usize) -> usize {
+    if axis == 0 { PLACE_X } else { PLACE }
+}
+
 impl Quantity {
     /// The coordinate of a rate of force, which is a difference between two instants; otherwise `None`.
     pub(super) fn is_rate_of_force(&self) -> Option<CoordinateId> {
@@ -117,6 +132,10 @@ impl Quantity {
                 root_power(effort.value(instant, at) * rate, *prices, *smooth_w).0
             }
             Quantity::GroundForce(spheres, axis) => spheres.iter().map(|&s| at.contacts[s].values[*axis]).sum(),
+            Quantity::LoadOffset { spheres, axis, points } => {
+                let offset = |values: &[f64; CONTACT]| values[1] * (values[place_along(*axis)] - points[instant]);
+                spheres.iter().map(|&s| offset(&at.contacts[s].values)).sum()
+            }
             Quantity::Height(sphere) => at.contacts[*sphere].values[HEIGHT],
             Quantity::Sideways(sphere) => at.contacts[*sphere].values[PLACE],
             Quantity::Slip { sphere, axis, light_n } => {
@@ -169,6 +188,10 @@ impl Quantity {
                 Row::Full
             }
             Quantity::GroundForce(spheres, axis) => contact(spheres, &|_, slopes| slopes[*axis]),
+            Quantity::LoadOffset { spheres, axis, points } => contact(spheres, &|sphere, slopes| {
+                let (values, place) = (&at.contacts[sphere].values, place_along(*axis));
+                slopes[1] * (values[place] - points[instant]) + values[1] * slopes[place]
+            }),
             Quantity::Height(sphere) => contact(&[*sphere], &|_, slopes| slopes[HEIGHT]),
             Quantity::Sideways(sphere) => contact(&[*sphere], &|_, slopes| slopes[PLACE]),
             Quantity::Slip { sphere, axis, light_n } => contact(&[*sphere], &|sphere, slopes| {

@@ -6,6 +6,7 @@ use crate::kinematics::calibration::CalibrationError;
 use crate::kinematics::retarget::RetargetError;
 use crate::model::{ModelError, ScaleError};
 use crate::motion::MotionError;
+use crate::optimal::TrackError;
 
 /// Why a study gives no forces. [`StudyError::input`] tells which part of the source it is about.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -60,6 +61,9 @@ pub enum StudyError {
     /// Residual reduction that is not possible.
     #[error(transparent)]
     ResidualReduction(#[from] ResidualReductionError),
+    /// A motion that feet on the ground cannot make, or that is not supported.
+    #[error(transparent)]
+    Tracking(#[from] TrackError),
     /// The observer stopped the run.
     #[error(transparent)]
     Stopped(#[from] Stopped),
@@ -93,6 +97,7 @@ impl StudyError {
             | StudyError::Skeleton(_)
             | StudyError::Analysis(_)
             | StudyError::MassUnknown
+            | StudyError::Tracking(_)
             | StudyError::NoSuchPlate { .. } => Some(Input::Motion),
             StudyError::UnknownBody { .. }
             | StudyError::AddedMass(_)

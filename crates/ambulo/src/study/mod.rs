@@ -5,7 +5,7 @@
 //!           with measured forces and what the laboratory stated
 //! Settings  filters, time range, how the ground forces are found
 //!    |
-//!   run  -> markers or skeleton to a body in motion -> smoothing -> ground forces (measured or predicted)
+//!   run  -> markers or skeleton to a body in motion -> smoothing -> ground forces (measured, predicted or tracked)
 //!    |      -> inverse dynamics -> events, cycles, body mass -> checks -> residual reduction -> verdict
 //!    v
 //! Outcome   body, motion, ground forces, joint forces, events, cycles, mass, comparison with plates, verdict
@@ -30,6 +30,7 @@ mod run;
 mod settings;
 mod size;
 mod source;
+mod tracked;
 mod weighing;
 
 pub use crate::analysis::{Stage, Stopped};
@@ -37,7 +38,7 @@ pub use error::{Input, StudyError};
 pub use force_filter::ForceFilter;
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
 pub use mass::{BodyMass, MassEstimate, MassState, MassWitness, standing_mass_kg};
-pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
+pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedGround, TrackedMarkers, Tracking};
 pub use quality::{Measure, Quality, QualityLimits, QualityReason, QualityState};
 pub use run::{run, run_observed};
 pub use settings::{GroundSettings, Settings};

@@ -93,7 +93,7 @@ impl Observation {
     pub(super) fn is_predicted(&self, settings: &Settings) -> bool {
         match (&self.origin, settings.ground) {
             (Origin::Simulation { .. }, _) | (_, GroundSettings::NoContact) => false,
-            (_, GroundSettings::Predicted) => true,
+            (_, GroundSettings::Predicted | GroundSettings::Tracked) => true,
             (_, GroundSettings::MeasuredOrPredicted) => self.forces.is_empty(),
         }
     }

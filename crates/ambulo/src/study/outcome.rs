@@ -34,6 +34,8 @@ pub struct Outcome {
     pub force_origin: ForceOrigin,
     /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or are none.
     pub prediction: Option<PredictedGround>,
+    /// How the motion was changed so that feet on the ground supply its external forces; `None` where it was not.
+    pub tracked: Option<TrackedGround>,
     /// The body mass by each source, and how well it is known.
     pub mass: BodyMass,
     /// How the body follows markers or a skeleton; `None` for coordinates and complete motions.
@@ -85,6 +87,19 @@ impl Processing {
         let AnalysisSettings { smoother, force_filter, window, .. } = *settings;
         Processing { smoother, force_filter, window }
     }
+}
+
+/// A motion near the recorded one whose external forces come from feet on the ground alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrackedGround {
+    /// Residual forces at the root in the frames: root mean square and maximum [body weights, body weights × leg length].
+    pub residual: (f64, f64),
+    /// Root mean square of the changes of rotations [rad], and of the translations of the root [m].
+    pub moved: [f64; 2],
+    /// Steps of the solver.
+    pub steps: usize,
+    /// How the prediction that it started from agrees with measured forces; `None` where nothing was measured completely.
+    pub predicted: Option<GroundAgreement>,
 }
 
 /// Predicted ground forces.

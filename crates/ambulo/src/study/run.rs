@@ -4,11 +4,12 @@ use super::error::StudyError;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::observation::{Observation, ObservedMotion, Origin};
-use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
+use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedGround, TrackedMarkers, Tracking};
 use super::prediction::{Found, predicted, with_markers};
 use super::quality::{Measure, QualityEvidence, RecordedFaults, marker_fit_rms_m};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
+use super::tracked::tracked;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
@@ -24,6 +25,10 @@ use crate::model::Model;
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
+
+/// How the forces are divided between the feet by [`GroundSettings::Tracked`].
+const TRACKED: &str =
+    "tracking: feet on soft ground, near the recorded motion and near a maximum a posteriori estimate";
 
 /// Computes the forces behind a recording. Problems that still allow results are reported in `findings`. The recording is dropped as soon as
 /// it is not needed any more; clone it to compute it again.
@@ -78,8 +83,9 @@ fn road(
     let device = device(&observed, findings)?;
     let recorded = recorded_faults(&observed.model, &motion);
     let processing = processing(&observed, recorded.is_none(), settings, findings);
-    let Found { analysis, prediction, measured_events } =
-        forces(&observed, motion, processing, settings, findings, progress)?;
+    let found = forces(&observed, motion, processing, settings, findings, progress)?;
+    let (Found { analysis, prediction, measured_events }, tracked) =
+        tracked(found, &observed, settings, findings, progress)?;
     let mass = body_mass(&observed, &analysis, findings);
     let Observation { model, person, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
@@ -93,6 +99,7 @@ fn road(
         person,
         analysis,
         prediction,
+        tracked,
         reduction,
         mass,
         idle,
@@ -111,6 +118,7 @@ struct Computed {
     person: Person,
     analysis: Analysis,
     prediction: Option<PredictedGround>,
+    tracked: Option<TrackedGround>,
     reduction: Option<ReducedMotion>,
     device: Option<Vec<Vec<f64>>>,
     mass: BodyMass,
@@ -161,6 +169,7 @@ impl Computed {
             analysis: Analysis { verdict: Some(verdict.clone()), ..analysis },
             force_origin,
             prediction,
+            tracked: self.tracked,
             residual_reduction: self.reduction,
             device: self.device,
             verdict,
@@ -404,6 +413,7 @@ fn forces(
 fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings: &Settings) -> ForceOrigin {
     match (origin, prediction) {
         (Origin::Simulation { rule }, _) => ForceOrigin::Simulated { rule },
+        (_, Some(_)) if settings.ground == GroundSettings::Tracked => ForceOrigin::Predicted { rule: TRACKED },
         (_, Some(predicted)) => ForceOrigin::Predicted { rule: predicted.prediction.rule },
         _ if settings.ground == GroundSettings::NoContact => ForceOrigin::None,
         _ => ForceOrigin::Measured,

@@ -43,6 +43,9 @@ pub enum GroundSettings {
     MeasuredOrPredicted,
     /// Predicted from the motion; measured forces are compared with the prediction.
     Predicted,
+    /// As `Predicted`; then the motion is changed until feet on soft ground supply its external forces ([`crate::optimal::TrackProblem`]), near
+    /// the recorded motion and the predicted forces.
+    Tracked,
     /// None: a motion without contact, such as a swinging leg or a flight.
     NoContact,
 }

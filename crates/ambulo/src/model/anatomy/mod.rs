@@ -51,6 +51,13 @@ pub struct Leg {
     thigh_and_shank_m: f64,
 }
 
+impl Leg {
+    /// Forward and up in the frame of the foot.
+    pub(crate) fn foot_axes(&self) -> [Vec3; 2] {
+        self.foot_axes
+    }
+}
+
 /// Anatomical meaning of the parts of a model. See the [module](self).
 #[derive(Debug, Clone, Default)]
 pub struct Anatomy {

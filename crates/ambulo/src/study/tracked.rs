@@ -1,0 +1,65 @@
+//! The motion near the recorded one whose external forces come from feet on the ground alone.
+
+use super::error::StudyError;
+use super::observation::Observation;
+use super::outcome::{PredictedGround, TrackedGround};
+use super::prediction::Found;
+use super::settings::{GroundSettings, Settings};
+use crate::analysis::{ComparedAnalyses, Progress, Stage, track};
+use crate::findings::{Code, Findings};
+use crate::optimal::TrackSettings;
+
+/// Largest residual force at the root that is not reported [body weights, body weights × leg length].
+const SMALL_RESIDUAL: f64 = 0.002;
+/// Root mean square of the changes of rotations that is reported [rad].
+const LARGE_CHANGE_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
+
+/// Replaces predicted forces, and the motion, by those of tracking, if that is wanted.
+pub(super) fn tracked(
+    found: Found,
+    observation: &Observation,
+    settings: &Settings,
+    findings: &mut Findings,
+    progress: &mut Progress<'_>,
+) -> Result<(Found, Option<TrackedGround>), StudyError> {
+    let Found { analysis, prediction: Some(mut ground), measured_events } = found else { return Ok((found, None)) };
+    if settings.ground != GroundSettings::Tracked {
+        return Ok((Found { analysis, prediction: Some(ground), measured_events }, None));
+    }
+    let Observation { model, person, .. } = observation;
+    let PredictedGround { prediction, measured, coverage, .. } = &ground;
+    let (analysis, motion) = track(model, &analysis, prediction, &person.soles, &TrackSettings::default())?;
+    let compared = measured.as_ref().zip(coverage.as_ref()).and_then(|(measured, coverage)| {
+        ComparedAnalyses { model, predicted: &analysis, prediction, measured }.agreement(coverage)
+    });
+    let tracked = TrackedGround {
+        residual: motion.residual,
+        moved: motion.moved,
+        steps: motion.solution.progress.iter().map(|stage| stage.steps).sum(),
+        predicted: ground.agreement.take(),
+    };
+    ground.agreement = compared;
+    report(&tracked, findings);
+    progress.end(Stage::Tracking)?;
+    Ok((Found { analysis, prediction: Some(ground), measured_events }, Some(tracked)))
+}
+
+fn report(tracked: &TrackedGround, findings: &mut Findings) {
+    let (_, largest) = tracked.residual;
+    if largest > SMALL_RESIDUAL {
+        let message = format!(
+            "tracking leaves residual forces of up to {:.1} % of body weight (or of body weight times leg length) at the root; expected {:.1} % at most",
+            100.0 * largest,
+            100.0 * SMALL_RESIDUAL
+        );
+        findings.report(Code::TrackingResidualLeft, message);
+    }
+    let [turned, _] = tracked.moved;
+    if turned > LARGE_CHANGE_RAD {
+        let message = format!(
+            "tracking changed the rotations by {:.1} degrees (rms), more than the error of a recorded motion",
+            turned.to_degrees()
+        );
+        findings.report(Code::TrackingLargeChange, message);
+    }
+}
