@@ -14,14 +14,10 @@ use crate::gait::Walk;
 use crate::model::anthropometry::{Build, Human};
 use crate::model::full_body::full_body;
 
-/// Largest force and moment at the root that count as none [body weights, body weights × leg length].
-pub const NO_ROOT_FORCE: f64 = 1e-4;
 /// Larger forces at the root mean that no walk was found [body weights, body weights × leg length]; those between are reported with the walk.
 const LARGEST_ROOT_FORCE: f64 = 1e-3;
 /// Instants per knot interval at which the forces at the root between the instants of the problem are judged.
 const BETWEEN: usize = 10;
-/// Updates of the multipliers after the last stage of a solution that leaves forces at the root.
-const LATER_UPDATES: usize = 10;
 /// Share of its strength by which the muscles of a joint may exceed it: the cost of weakness is steep, but no constraint.
 const LARGEST_OVERLOAD: f64 = 0.05;
 
@@ -66,11 +62,7 @@ impl OptimalWalk {
                 return Ok(OptimalWalk { human, problem, solution, conditions: WalkConditions::default() });
             }
         }
-        let mut solution = problem.solve(stages)?;
-        if let (Some(last), Some(_)) = (stages.last(), solution.unbalanced(NO_ROOT_FORCE)) {
-            let longer = Continuation { updates: LATER_UPDATES, ..*last };
-            solution = problem.problem.solve(solution.unknowns(), &[longer])?;
-        }
+        let solution = problem.problem.balanced(problem.solve(stages)?, &[&Continuation::on(stages)])?;
         let found = OptimalWalk { human, problem, solution, conditions: WalkConditions::default() };
         found.check(walk)?;
         Ok(found)

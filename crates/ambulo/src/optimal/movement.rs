@@ -151,7 +151,9 @@ impl MovementProblem {
         let stages = longer(&NEAR_STAGES);
         let near = self.guided(1.0)?.solve(&self.guess, &STAGES)?;
         let far = self.guided(LESS_GUIDED)?.solve(near.unknowns(), &stages)?;
-        self.problem.solve(far.unknowns(), &stages)
+        let on = Continuation::on(&stages);
+        // Where the last stage alone is stuck, those before it lead out.
+        self.problem.balanced(self.problem.solve(far.unknowns(), &stages)?, &[&on, &stages, &on])
     }
 
     /// The problem with a cost of deviations from the first guess.

@@ -30,6 +30,13 @@ pub struct Continuation {
     pub gain: f64,
 }
 
+impl Continuation {
+    /// The last one of some stages, with more updates; none without stages.
+    pub(super) fn on(stages: &[Continuation]) -> Vec<Continuation> {
+        stages.last().map(|last| Continuation { updates: LATER_UPDATES, ..*last }).into_iter().collect()
+    }
+}
+
 const FIRST_DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-7;
 /// Factor of the damping after a step that does not lower the cost.
@@ -42,6 +49,10 @@ const HELD: f64 = 1e40;
 const TRIES: usize = 12;
 /// Accuracy of the first height over the ground, a share of the length of the body.
 const SETTLED: f64 = 1e-7;
+/// Largest force and moment at the root that count as none [body weights, body weights × leg length].
+pub const NO_ROOT_FORCE: f64 = 1e-4;
+/// Updates of the multipliers in a stage that is solved on.
+const LATER_UPDATES: usize = 10;
 
 impl Problem {
     /// Solves the problem from a first guess, stage by stage.
@@ -96,6 +107,21 @@ impl Problem {
 }
 
 impl Problem {
+    /// A solution as it is, or solved on by one attempt after the other while it leaves forces at the root.
+    pub(super) fn balanced(
+        &self,
+        mut solution: Solution,
+        attempts: &[&[Continuation]],
+    ) -> Result<Solution, CurvedJointError> {
+        for stages in attempts {
+            if solution.unbalanced(NO_ROOT_FORCE).is_none() {
+                break;
+            }
+            solution = self.solve(solution.unknowns(), stages)?;
+        }
+        Ok(solution)
+    }
+
     /// The cost of each term at given unknowns, with its name.
     #[must_use]
     pub fn costs(&self, unknowns: &[f64]) -> Vec<(String, f64)> {
