@@ -10,7 +10,7 @@ use crate::findings::{Code, Findings};
 use crate::optimal::TrackSettings;
 
 /// Largest residual force at the root that is not reported [body weights, body weights × leg length].
-const SMALL_RESIDUAL: f64 = 0.002;
+const SMALL_RESIDUAL: f64 = 0.005;
 /// Root mean square of the changes of rotations that is reported [rad].
 const LARGE_CHANGE_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
