@@ -48,8 +48,8 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
     summary.quality = Some(outcome.quality.clone());
     summary.subject = outcome.tracking.as_ref().map(subject);
     summary.consistency = outcome.residual_reduction.as_ref().map(ConsistencySummary::of);
-    summary.tracking = outcome.tracked.as_ref().map(TrackingSummary::of);
     let prediction = outcome.prediction.as_ref();
+    summary.tracking = prediction.and_then(|prediction| prediction.tracked.as_ref()).map(TrackingSummary::of);
     summary.comparison = prediction.and_then(|prediction| prediction.agreement.clone());
     summary.prediction = prediction.map(|prediction| prediction.checks.clone());
     summary.mass = outcome.mass.clone();

@@ -13,7 +13,7 @@ use super::tracked::tracked;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
-    self, Adjustable, Analysis, AnalysisError, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
+    self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
     analyse_with_progress, reduce_residual, times_and_distances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
@@ -81,9 +81,7 @@ fn road(
     let observed = source.observe(settings, findings, progress)?;
     let device = device(source, &observed.model, findings)?;
     let processing = processing(&observed, settings, findings);
-    let found = forces(&observed, processing, settings, findings, progress)?;
-    let (Found { analysis, prediction, measured_events }, tracked) =
-        tracked(found, &observed, settings, findings, progress)?;
+    let Found { analysis, prediction, measured_events } = forces(&observed, processing, settings, findings, progress)?;
     let mass = body_mass(&observed, &analysis, findings);
     let Observation { model, person, motion, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
@@ -128,7 +126,6 @@ fn road(
         analysis: Analysis { verdict: Some(verdict.clone()), ..analysis },
         force_origin,
         prediction,
-        tracked,
         residual_reduction: reduction,
         device,
         verdict,
@@ -340,7 +337,7 @@ fn forces(
     settings: &Settings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
-) -> Result<Found, AnalysisError> {
+) -> Result<Found, StudyError> {
     let Observation { model, forces, .. } = observation;
     let (analysis, measured_events) = match &observation.motion {
         ObservedMotion::Complete(trajectory) => {
@@ -348,7 +345,11 @@ fn forces(
             (analyse_measured(model, (*trajectory).clone(), forces, source, findings, progress)?, Vec::new())
         }
         ObservedMotion::Recorded(motion) if observation.is_predicted(settings) => {
-            return predicted(observation, motion, processing, settings, findings, progress);
+            let found = predicted(observation, motion, processing, settings, findings, progress)?;
+            return match settings.ground {
+                GroundSettings::Tracked => tracked(found, observation, findings, progress),
+                _ => Ok(found),
+            };
         }
         ObservedMotion::Recorded(motion) => {
             let analysis = analyse_with_progress(model, motion, forces, processing, findings, progress)?;
@@ -361,7 +362,7 @@ fn forces(
 fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings: &Settings) -> ForceOrigin {
     match (origin, prediction) {
         (Origin::Simulation { rule }, _) => ForceOrigin::Simulated { rule },
-        (_, Some(_)) if settings.ground == GroundSettings::Tracked => ForceOrigin::Predicted { rule: TRACKED },
+        (_, Some(PredictedGround { tracked: Some(_), .. })) => ForceOrigin::Predicted { rule: TRACKED },
         (_, Some(predicted)) => ForceOrigin::Predicted { rule: predicted.prediction.rule },
         _ if settings.ground == GroundSettings::NoContact => ForceOrigin::None,
         _ => ForceOrigin::Measured,
