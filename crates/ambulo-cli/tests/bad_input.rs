@@ -222,6 +222,9 @@ fn without_ground_forces_they_are_predicted_and_a_note_names_the_alternatives() 
     run.reports(&["note: no ground forces were given; they are predicted", "hint: `--grf`", "--no-ground"]);
     assert_eq!(bench.json("out/summary.json")["ground"]["source"], "predicted");
     bench.run(&[&FORCES[..4], &["--predict", "--no-ground"]].concat()).refused(&["--predict", "--no-ground"]);
+    for other in ["--predict", "--no-ground", "--consistent"] {
+        bench.run(&[&FORCES[..4], &["--track", other]].concat()).refused(&["--track", other]);
+    }
     bench.run(&[&FORCES[..4], &["--no-ground"], &RAW].concat()).done();
     assert_eq!(bench.json("out/summary.json")["ground"]["source"], "none");
     assert!(!bench.folder.join("out/grf.mot").exists(), "ground forces were written without ground contact");

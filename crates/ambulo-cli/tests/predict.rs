@@ -44,6 +44,30 @@ fn forces_are_predicted_where_none_were_measured() {
 }
 
 #[test]
+fn a_tracked_motion_agrees_with_its_forces_and_is_compared_with_plates() {
+    let bench = Workbench::new("tracked");
+    let run = ran(bench.run(&[&MOTION[..], &PLATES, &["--track"], &RAW[..2]].concat()));
+    assert!(run.stdout.contains("tracking  motion changed by"), "{}", run.stdout);
+    let summary = bench.json("out/summary.json");
+    assert_eq!(summary["ground"]["source"], "predicted");
+    assert!(
+        summary["ground"]["rule"].as_str().is_some_and(|rule| rule.starts_with("tracking")),
+        "{}",
+        summary["ground"]
+    );
+    let residual = summary["residual"]["force_rms_bw"].as_f64().unwrap();
+    assert!(
+        residual < 1e-3 && summary["tracking"]["residual_peak"].as_f64().unwrap() < 5e-3,
+        "{}",
+        summary["residual"]
+    );
+    assert!(!summary["comparison"].is_null() && !summary["tracking"]["predicted"].is_null());
+    for name in ["grf.mot", "grf_measured.mot", "kinematics.mot", "moments.sto", "powers.sto"] {
+        assert!(bench.exists(&format!("out/{name}")), "{name}");
+    }
+}
+
+#[test]
 fn all_files_share_the_samples_of_the_motion_and_name_their_columns() {
     let bench = Workbench::new("predict_columns");
     predict_with_plates(&bench, &[]);

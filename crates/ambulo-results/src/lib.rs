@@ -16,6 +16,7 @@ mod state_table;
 mod subject_summary;
 mod summary;
 mod tables;
+mod tracking_summary;
 mod walk_summary;
 mod walking_summary;
 
@@ -45,6 +46,7 @@ pub use summary::{
     ResidualSummary, Summary, summary,
 };
 pub use tables::ground_columns;
+pub use tracking_summary::TrackingSummary;
 pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkPredictionSummary, WalkSummary};
 pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
 

@@ -5,6 +5,7 @@ use crate::files::{OutputFile, output_files};
 use crate::prediction_files::prediction_files;
 use crate::subject_summary::SubjectSummary;
 use crate::summary::{GroundSource, Input, Summary, summary};
+use crate::tracking_summary::TrackingSummary;
 use crate::walking_summary::WalkingSummary;
 use crate::{Keep, TIMES_AND_DISTANCES};
 use ambulo::analysis::AnalysisSettings;
@@ -48,6 +49,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
     summary.subject = outcome.tracking.as_ref().map(subject);
     summary.consistency = outcome.residual_reduction.as_ref().map(ConsistencySummary::of);
     let prediction = outcome.prediction.as_ref();
+    summary.tracking = prediction.and_then(|prediction| prediction.tracked.as_ref()).map(TrackingSummary::of);
     summary.comparison = prediction.and_then(|prediction| prediction.agreement.clone());
     summary.prediction = prediction.map(|prediction| prediction.checks.clone());
     summary.mass = outcome.mass.clone();

@@ -4,6 +4,7 @@ use crate::consistency_summary::ConsistencySummary;
 use crate::convention::ConventionSummary;
 use crate::subject_summary::SubjectSummary;
 use crate::tables::UNLOADED_N;
+use crate::tracking_summary::TrackingSummary;
 use crate::walk_summary::WalkSummary;
 use crate::walking_summary::WalkingSummary;
 use ambulo::analysis::activity::Activity;
@@ -81,6 +82,9 @@ pub struct Summary {
     pub subject: Option<SubjectSummary>,
     /// Residual reduction; `null` if the motion was not changed.
     pub consistency: Option<ConsistencySummary>,
+    /// Tracking by feet on soft ground; `null` if the motion was not changed by it.
+    #[serde(default)]
+    pub tracking: Option<TrackingSummary>,
     /// How a synthetic walk was made; `null` for recordings.
     pub walk: Option<WalkSummary>,
     /// Computing time of each stage [ms].
@@ -329,6 +333,7 @@ pub fn summary(
         comparison: None,
         subject: None,
         consistency: None,
+        tracking: None,
         walk: None,
         timing_ms: BTreeMap::new(),
     }

@@ -201,8 +201,8 @@ fn person() -> Option<(Model, Outcome)> {
 #[test]
 fn the_forces_of_a_person_are_near_those_of_force_plates() {
     let Some((model, outcome)) = person() else { return };
-    let tracked = outcome.tracked.as_ref().unwrap();
-    let agreement = outcome.prediction.as_ref().unwrap().agreement.as_ref().unwrap();
+    let found = outcome.prediction.as_ref().unwrap();
+    let (tracked, agreement) = (found.tracked.as_ref().unwrap(), found.agreement.as_ref().unwrap());
     for foot in &agreement.feet {
         let found = [foot.vertical, foot.fore_aft, foot.lateral].map(|force| [force.rmse_bw, force.r]);
         println!("{} {found:?}", foot.side.letter());

@@ -7,11 +7,14 @@
 mod means;
 mod page;
 pub(crate) mod recording;
+mod tracking;
 pub(crate) mod trial;
 
 use crate::workspace;
 use serde_json::{Value, json};
+use std::path::Path;
 use std::process::Command;
+use tracking::Tracked;
 use trial::Trial;
 
 /// Runs the command.
@@ -31,13 +34,23 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         }
     }
     let commit = commit();
-    let page = page::text(&trials);
+    let page = page::text(&trials, &others(&trials, &data)?);
     println!("{page}");
     workspace::save("target/validation.json", &format!("{:#}\n", json(&trials, &commit)))?;
     if write {
         workspace::save("docs/measured/VALIDATION.md", &page)?;
     }
     Ok(())
+}
+
+/// Tracking of the other recordings of straight walking, which played no part in setting its weights.
+fn others(trials: &[Trial], data: &Path) -> Result<Vec<Tracked>, String> {
+    let is_new = |one: &recording::Recording| trials.iter().all(|trial| trial.label != one.label);
+    let track = |one: recording::Recording| {
+        let found = one.read(data).and_then(|source| Tracked::run(&one, &source));
+        found.map_err(|reason| format!("{}: {reason}", one.label))
+    };
+    recording::straight().into_iter().filter(is_new).map(track).collect()
 }
 
 /// The commit that the numbers come from, with a word where files differ from it.

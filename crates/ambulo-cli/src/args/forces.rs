@@ -19,11 +19,12 @@ use std::path::PathBuf;
 
 Markers (.c3d, .trc) are fitted with the built-in body, which is calibrated from --static or else from the trial itself, or with an OpenSim
 model, which --static scales. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
-were not measured, they are predicted from the motion; with --predict, the prediction is compared with the measurement.
+were not measured, they are predicted from the motion; with --predict, the prediction is compared with the measurement. With --track, motion
+and forces agree to rounding, without force plates.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
 clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body
-used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict and force plates grf_measured.mot. The
+used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict or --track and force plates grf_measured.mot. The
 results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep writes only some of them; summary.json is
 always written.
 
@@ -53,6 +54,9 @@ pub(crate) struct ForcesArgs {
     /// Predict the ground forces from the motion even if they were measured, and compare both [default without measured forces].
     #[arg(long, conflicts_with = "no_ground")]
     pub(crate) predict: bool,
+    /// Change the motion until feet on soft ground alone supply its external forces, near the recorded motion and the predicted forces (docs/OPTIMAL.md). Measured forces are only compared with the result.
+    #[arg(long, conflicts_with_all = ["no_ground", "predict", "consistent"])]
+    pub(crate) track: bool,
     /// Compute without ground forces (a swinging leg, a flight); the residual force at the root then contains the whole weight.
     #[arg(long, conflicts_with_all = ["grf", "loads"])]
     pub(crate) no_ground: bool,

@@ -9,7 +9,8 @@ use ambulo::analysis::PredictionCheck;
 use ambulo::simulation::synthetic::SyntheticMode;
 use ambulo::study::{MassState, MassWitness, Quality};
 use ambulo_results::{
-    FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Size, Summary, WalkSummary,
+    FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Size, Summary, TrackingSummary,
+    WalkSummary,
 };
 use anyhow::Result;
 use std::path::Path;
@@ -101,11 +102,23 @@ fn outline(summary: &Summary) -> Result<()> {
         let ResidualSummary { force_rms_bw, moment_rms_nm, .. } = residual;
         print_line(&format!("  residual  {:.1} % of body weight, {moment_rms_nm:.1} N.m rms", 100.0 * force_rms_bw))?;
     }
+    if let Some(tracking) = &summary.tracking {
+        print_tracking(tracking)?;
+    }
     for (i, peak) in largest_peaks(summary).enumerate() {
         let head = if i == 0 { "peaks" } else { "" };
         print_line(&format!("  {head:<9} {} {:.1} to {:.1} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
     }
     Ok(())
+}
+
+/// How far the motion was changed until feet on the ground supplied its external forces.
+fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
+    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, .. } = tracking;
+    print_line(&format!(
+        "  tracking  motion changed by {rotations_rms_deg:.1} deg and {root_rms_mm:.1} mm rms, residual at most {:.3} % of body weight, {steps} steps",
+        100.0 * residual_peak
+    ))
 }
 
 /// The three largest joint moments.
@@ -142,6 +155,9 @@ fn details(summary: &Summary) -> Result<()> {
     }
     if let Some(agreed) = &summary.consistency {
         consistency::print(agreed)?;
+    }
+    if let Some(tracking) = &summary.tracking {
+        print_tracking(tracking)?;
     }
     if let Some(prediction) = &summary.prediction {
         print_checks(&prediction.checks)?;

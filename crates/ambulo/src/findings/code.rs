@@ -419,7 +419,7 @@ codes! {
         "Residual reduction did not converge."
         "Read its results with care; wider tolerances may help.";
     TrackingResidualLeft "tracking.residual_left" Warning
-        "Tracking found no motion that feet on the ground alone can make: residual forces of more than 0.2 % of body weight are left at the root."
+        "Tracking found no motion that feet on the ground alone can make: residual forces of more than 0.5 % of body weight are left at the root."
         "Choose a shorter time, or check the size of the body and whether something else carries the person.";
     TrackingLargeChange "tracking.large_change" Warning
         "Tracking changed the rotations by more than 5 degrees (rms), more than the error of recorded motions."

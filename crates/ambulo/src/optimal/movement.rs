@@ -12,6 +12,7 @@ use super::near::{NEAR_STAGES, longer};
 use super::objective::{Bound, Quantity, Term};
 use super::problem::Problem;
 use super::solution::Solution;
+use super::solve::Continuation;
 use super::walk::{STAGES, soles_with_width};
 use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;

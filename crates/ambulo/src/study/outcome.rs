@@ -34,8 +34,6 @@ pub struct Outcome {
     pub force_origin: ForceOrigin,
     /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or are none.
     pub prediction: Option<PredictedGround>,
-    /// How the motion was changed so that feet on the ground supply its external forces; `None` where it was not.
-    pub tracked: Option<TrackedGround>,
     /// The body mass by each source, and how well it is known.
     pub mass: BodyMass,
     /// How the body follows markers or a skeleton; `None` for coordinates and complete motions.
@@ -113,8 +111,10 @@ pub struct PredictedGround {
     pub measured: Option<Analysis>,
     /// The stances that the plates measured completely; `None` without plates.
     pub coverage: Option<PlateCoverage>,
-    /// How prediction and measurement agree; `None` where nothing was measured completely.
+    /// How prediction (or tracking) and measurement agree; `None` where nothing was measured completely.
     pub agreement: Option<GroundAgreement>,
+    /// How the motion was changed so that feet on the ground supply its external forces; `None` where it was not.
+    pub tracked: Option<TrackedGround>,
 }
 
 impl PredictedGround {

@@ -71,7 +71,7 @@ pub(super) fn predicted(
     }
     report_weak_evidence(origin, recorded_s, findings);
     let PredictedAnalysis { analysis, prediction, measured } = predicted;
-    let prediction = PredictedGround { prediction, checks, measured, coverage, agreement };
+    let prediction = PredictedGround { prediction, checks, measured, coverage, agreement, tracked: None };
     Ok(Found { analysis, prediction: Some(prediction), measured_events })
 }
 

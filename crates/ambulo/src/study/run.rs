@@ -4,7 +4,7 @@ use super::error::StudyError;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::observation::{Observation, ObservedMotion, Origin};
-use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedGround, TrackedMarkers, Tracking};
+use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 use super::prediction::{Found, predicted, with_markers};
 use super::quality::{Measure, QualityEvidence, RecordedFaults, marker_fit_rms_m};
 use super::settings::{GroundSettings, Settings};
@@ -13,7 +13,7 @@ use super::tracked::tracked;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
-    self, Adjustable, Analysis, AnalysisError, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
+    self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
     analyse_with_progress, reduce_residual, times_and_distances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
@@ -83,9 +83,8 @@ fn road(
     let device = device(&observed, findings)?;
     let recorded = recorded_faults(&observed.model, &motion);
     let processing = processing(&observed, recorded.is_none(), settings, findings);
-    let found = forces(&observed, motion, processing, settings, findings, progress)?;
-    let (Found { analysis, prediction, measured_events }, tracked) =
-        tracked(found, &observed, settings, findings, progress)?;
+    let Found { analysis, prediction, measured_events } =
+        forces(&observed, motion, processing, settings, findings, progress)?;
     let mass = body_mass(&observed, &analysis, findings);
     let Observation { model, person, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
@@ -99,7 +98,6 @@ fn road(
         person,
         analysis,
         prediction,
-        tracked,
         reduction,
         mass,
         idle,
@@ -118,7 +116,6 @@ struct Computed {
     person: Person,
     analysis: Analysis,
     prediction: Option<PredictedGround>,
-    tracked: Option<TrackedGround>,
     reduction: Option<ReducedMotion>,
     device: Option<Vec<Vec<f64>>>,
     mass: BodyMass,
@@ -169,7 +166,6 @@ impl Computed {
             analysis: Analysis { verdict: Some(verdict.clone()), ..analysis },
             force_origin,
             prediction,
-            tracked: self.tracked,
             residual_reduction: self.reduction,
             device: self.device,
             verdict,
@@ -392,7 +388,7 @@ fn forces(
     settings: &Settings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
-) -> Result<Found, AnalysisError> {
+) -> Result<Found, StudyError> {
     let Observation { model, forces, .. } = observation;
     let (analysis, measured_events) = match motion {
         ObservedMotion::Complete(trajectory) => {
@@ -400,7 +396,11 @@ fn forces(
             (analyse_measured(model, trajectory, forces, source, findings, progress)?, Vec::new())
         }
         ObservedMotion::Recorded(motion) if observation.is_predicted(settings) => {
-            return predicted(observation, motion, processing, settings, findings, progress);
+            let found = predicted(observation, motion, processing, settings, findings, progress)?;
+            return match settings.ground {
+                GroundSettings::Tracked => tracked(found, observation, findings, progress),
+                _ => Ok(found),
+            };
         }
         ObservedMotion::Recorded(motion) => {
             let analysis = analyse_with_progress(model, &motion, forces, processing, findings, progress)?;
@@ -413,7 +413,7 @@ fn forces(
 fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings: &Settings) -> ForceOrigin {
     match (origin, prediction) {
         (Origin::Simulation { rule }, _) => ForceOrigin::Simulated { rule },
-        (_, Some(_)) if settings.ground == GroundSettings::Tracked => ForceOrigin::Predicted { rule: TRACKED },
+        (_, Some(PredictedGround { tracked: Some(_), .. })) => ForceOrigin::Predicted { rule: TRACKED },
         (_, Some(predicted)) => ForceOrigin::Predicted { rule: predicted.prediction.rule },
         _ if settings.ground == GroundSettings::NoContact => ForceOrigin::None,
         _ => ForceOrigin::Measured,

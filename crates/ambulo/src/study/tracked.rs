@@ -4,28 +4,23 @@ use super::error::StudyError;
 use super::observation::Observation;
 use super::outcome::{PredictedGround, TrackedGround};
 use super::prediction::Found;
-use super::settings::{GroundSettings, Settings};
 use crate::analysis::{ComparedAnalyses, Progress, Stage, track};
 use crate::findings::{Code, Findings};
 use crate::optimal::TrackSettings;
 
 /// Largest residual force at the root that is not reported [body weights, body weights × leg length].
-const SMALL_RESIDUAL: f64 = 0.002;
+const SMALL_RESIDUAL: f64 = 0.005;
 /// Root mean square of the changes of rotations that is reported [rad].
 const LARGE_CHANGE_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// Replaces predicted forces, and the motion, by those of tracking, if that is wanted.
+/// Replaces predicted forces, and the motion, by those of tracking.
 pub(super) fn tracked(
     found: Found,
     observation: &Observation,
-    settings: &Settings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
-) -> Result<(Found, Option<TrackedGround>), StudyError> {
-    let Found { analysis, prediction: Some(mut ground), measured_events } = found else { return Ok((found, None)) };
-    if settings.ground != GroundSettings::Tracked {
-        return Ok((Found { analysis, prediction: Some(ground), measured_events }, None));
-    }
+) -> Result<Found, StudyError> {
+    let Found { analysis, prediction: Some(mut ground), measured_events } = found else { return Ok(found) };
     let Observation { model, person, .. } = observation;
     let PredictedGround { prediction, measured, coverage, .. } = &ground;
     let (analysis, motion) = track(model, &analysis, prediction, &person.soles, &TrackSettings::default())?;
@@ -38,10 +33,10 @@ pub(super) fn tracked(
         steps: motion.solution.progress.iter().map(|stage| stage.steps).sum(),
         predicted: ground.agreement.take(),
     };
-    ground.agreement = compared;
     report(&tracked, findings);
+    (ground.agreement, ground.tracked) = (compared, Some(tracked));
     progress.end(Stage::Tracking)?;
-    Ok((Found { analysis, prediction: Some(ground), measured_events }, Some(tracked)))
+    Ok(Found { analysis, prediction: Some(ground), measured_events })
 }
 
 fn report(tracked: &TrackedGround, findings: &mut Findings) {

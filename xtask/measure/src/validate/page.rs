@@ -2,6 +2,7 @@
 
 use super::means::{COMPONENTS, Figure, JOINTS, component, over_subjects};
 use super::recording::Group;
+use super::tracking::{self, Tracked};
 use super::trial::Trial;
 use crate::table::Table;
 use ambulo::analysis::GroundAgreement;
@@ -16,7 +17,7 @@ struct Criterion {
 }
 
 /// The whole page.
-pub(super) fn text(trials: &[Trial]) -> String {
+pub(super) fn text(trials: &[Trial], others: &[Tracked]) -> String {
     let rule = trials.first().map_or("", |trial| trial.rule);
     let head = format!(
         "# Predicted compared with measured ground forces\n\n\
@@ -29,6 +30,7 @@ pub(super) fn text(trials: &[Trial]) -> String {
          and over its whole stances. Means: feet, then trials, then subjects; a subject with several files counts once. Only \
          `walking` determines the means.\n"
     );
+    let tracked: Vec<&Tracked> = trials.iter().filter_map(|trial| trial.tracked.as_ref()).chain(others).collect();
     let sections = [
         ("Criteria", criteria(trials)),
         ("Forces of each foot", forces(trials)),
@@ -37,13 +39,14 @@ pub(super) fn text(trials: &[Trial]) -> String {
         ("Foot strikes and foot offs", events(trials)),
         ("Vertical peaks and flight", peaks(trials)),
         ("Error budget: each source replaced by its measured value", budget(trials)),
+        ("Tracking by feet on soft ground, next to the prediction", tracking::section(&tracked)),
         ("Time of a prediction from a trajectory", times(trials)),
     ];
     sections.into_iter().fold(head, |page, (title, table)| format!("{page}\n## {title}\n\n{table}"))
 }
 
 /// A number, or a dash.
-fn number(x: f64, digits: usize) -> String {
+pub(super) fn number(x: f64, digits: usize) -> String {
     if x.is_finite() { format!("{x:.digits$}") } else { "-".to_owned() }
 }
 

@@ -1,6 +1,7 @@
 //! One recording: its prediction compared with measured forces, also with each source of error replaced by its measured value.
 
 use super::recording::{Group, Recording};
+use super::tracking::Tracked;
 use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PlateCoverage};
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
@@ -33,6 +34,8 @@ pub(super) struct Trial {
     pub(super) agreement: GroundAgreement,
     /// The agreement in the instrumented window with one source of error replaced: name, agreement.
     pub(super) budget: Vec<(&'static str, GroundAgreement)>,
+    /// Tracking of the same motion.
+    pub(super) tracked: Option<Tracked>,
 }
 
 impl Trial {
@@ -63,6 +66,7 @@ impl Trial {
             microseconds: microseconds(&outcome)?,
             peaks_off: peaks_off(&outcome, measured, seen),
             flight_s: [&outcome.analysis, measured].map(|analysis| flight_s(&outcome, analysis, seen)),
+            tracked: Tracked::new(recording, &outcome, &agreement, true),
             agreement,
             budget,
         })

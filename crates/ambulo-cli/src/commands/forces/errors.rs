@@ -25,6 +25,9 @@ pub(super) fn with_file(error: StudyError, args: &ForcesArgs, ground: Option<&Pa
         }
         (_, StudyError::UnknownBody { .. } | StudyError::AddedMass(_)) => Error::new(error).context("--add-mass"),
         (_, StudyError::ResidualReduction(_)) => Error::new(error).context("--consistent"),
+        (_, StudyError::Tracking(_)) => {
+            anyhow!("{error}. hint: `--predict` needs no motion that feet can make").context("--track")
+        }
         (Some(Input::StandingTrial), _) => {
             let still = args.subject.still.as_deref().map_or(motion, shown);
             Error::new(error).context(still)

@@ -197,10 +197,11 @@ fn settings(args: &ForcesArgs) -> Result<Settings> {
         comparison_filter: of_forces.unwrap_or(defaults.comparison_filter),
         window: Window { from_s: args.from, to_s: args.to },
         rate_hz: args.rate,
-        ground: match (args.no_ground, args.predict) {
-            (true, _) => GroundSettings::NoContact,
-            (false, true) => GroundSettings::Predicted,
-            (false, false) => GroundSettings::MeasuredOrPredicted,
+        ground: match (args.no_ground, args.predict, args.track) {
+            (true, _, _) => GroundSettings::NoContact,
+            (false, _, true) => GroundSettings::Tracked,
+            (false, true, false) => GroundSettings::Predicted,
+            (false, false, false) => GroundSettings::MeasuredOrPredicted,
         },
         marker_fit: FitSettings {
             longest_gap_s: args.subject.max_gap,

@@ -1,0 +1,150 @@
+//! Tracking by feet on soft ground, next to the prediction and the plates.
+
+use super::means::Figure;
+use super::page::number;
+use super::recording::Recording;
+use crate::table::Table;
+use ambulo::analysis::{ComparedAnalyses, GroundAgreement, ground_agreement, track};
+use ambulo::ground::predict::Prescribed;
+use ambulo::optimal::TrackSettings;
+use ambulo::study::{Outcome, PredictedGround, Source};
+use cpu_time::ThreadTime;
+use std::array;
+
+/// What tracking found in a recording.
+pub(super) struct Tracked {
+    label: &'static str,
+    group: &'static str,
+    /// Whether the recording played a part in setting the weights.
+    is_known: bool,
+    predicted: GroundAgreement,
+    pub(super) found: Result<Found, String>,
+}
+
+/// A solution.
+pub(super) struct Found {
+    pub(super) agreement: GroundAgreement,
+    /// Processor time per second of recording [s].
+    pub(super) seconds_per_s: f64,
+    /// Largest residual force at the root [body weights, body weights × leg length].
+    pub(super) residual: f64,
+    /// Root mean square of the changes of rotations [deg] and of the root [mm].
+    moved: [f64; 2],
+}
+
+impl Tracked {
+    /// Tracks another recording.
+    pub(super) fn run(recording: &Recording, source: &Source) -> Result<Tracked, String> {
+        let outcome = recording.predict(source, Prescribed::default())?;
+        let agreement = outcome.prediction.as_ref().and_then(|found| found.agreement.clone());
+        let agreement = agreement.ok_or("plates saw no foot in full")?;
+        Tracked::new(recording, &outcome, &agreement, false).ok_or_else(|| "no plates".to_owned())
+    }
+
+    /// Tracks the motion of a prediction. `is_known`: the recording played a part in setting the weights.
+    pub(super) fn new(
+        recording: &Recording,
+        outcome: &Outcome,
+        predicted: &GroundAgreement,
+        is_known: bool,
+    ) -> Option<Tracked> {
+        let PredictedGround { prediction, measured, coverage, .. } = outcome.prediction.as_ref()?;
+        let (measured, coverage) = (measured.as_ref()?, coverage.as_ref()?);
+        let (model, soles) = (&outcome.body, &outcome.person.soles);
+        let start = ThreadTime::now();
+        let found = track(model, &outcome.analysis, prediction, soles, &TrackSettings::default());
+        let seconds = start.elapsed().as_secs_f64();
+        let found = found.map_err(|error| error.to_string()).map(|(analysis, motion)| {
+            let compared = ComparedAnalyses { model, predicted: &analysis, prediction, measured };
+            let grid = analysis.trajectory.grid();
+            Found {
+                agreement: ground_agreement(&compared, coverage),
+                seconds_per_s: seconds / (grid.end_s() - grid.start_s),
+                residual: motion.residual.1,
+                moved: [motion.moved[0].to_degrees(), 1e3 * motion.moved[1]],
+            }
+        });
+        let predicted = predicted.clone();
+        Some(Tracked { label: recording.label, group: recording.group.word(), is_known, predicted, found })
+    }
+}
+
+/// The figures of the table, with their headings and digits.
+const COLUMNS: [(&str, Figure, usize); 11] = [
+    ("vertical %BW", Figure::Force(0), 2),
+    ("r", Figure::Correlation(0), 3),
+    ("fore-aft %BW", Figure::Force(1), 2),
+    ("r", Figure::Correlation(1), 3),
+    ("lateral %BW", Figure::Force(2), 2),
+    ("r", Figure::Correlation(2), 3),
+    ("CoP fore-aft mm", Figure::Center(0), 1),
+    ("CoP lateral mm", Figure::Center(1), 1),
+    ("hip N.m/kg", Figure::Moment(0), 3),
+    ("knee", Figure::Moment(1), 3),
+    ("ankle", Figure::Moment(2), 3),
+];
+
+/// Cells of a row: recording, group, whether weights were set on it, origin of the forces, and the figures.
+fn row(head: [&str; 4], numbers: impl Fn(Figure) -> f64) -> [String; 4 + COLUMNS.len()] {
+    array::from_fn(|k| match head.get(k) {
+        Some(word) => (*word).to_owned(),
+        None => {
+            let (_, figure, digits) = COLUMNS[k - head.len()];
+            number(numbers(figure), digits)
+        }
+    })
+}
+
+fn word(is_known: bool) -> &'static str {
+    if is_known { "yes" } else { "no" }
+}
+
+/// The section of the page.
+pub(super) fn section(all: &[&Tracked]) -> String {
+    let head = ["recording", "group", "weights set on it", "forces from"].into_iter();
+    let mut table = Table::new(&head.chain(COLUMNS.iter().map(|(name, ..)| *name)).collect::<Vec<_>>());
+    for one in all {
+        let head = |from| [one.label, one.group, word(one.is_known), from];
+        table.row(row(head("prediction"), |figure| figure.of(&one.predicted)));
+        let found = one.found.as_ref().ok();
+        table.row(row(head("tracking"), |figure| found.map_or(f64::NAN, |found| figure.of(&found.agreement))));
+    }
+    for is_known in [true, false] {
+        let walking = all.iter().filter(|one| one.is_known == is_known && one.group.starts_with("walking"));
+        let solved: Vec<_> =
+            walking.filter_map(|one| Some([&one.predicted, &one.found.as_ref().ok()?.agreement])).collect();
+        for (k, from) in ["prediction", "tracking"].into_iter().enumerate() {
+            let mean = |figure: Figure| solved.iter().map(|pair| figure.of(pair[k])).sum::<f64>() / solved.len() as f64;
+            table.row(row(["mean over recordings", "walking", word(is_known), from], mean));
+        }
+    }
+    format!(
+        "{}\n{}\nTracking changes the motion until feet on soft ground supply all external forces ([OPTIMAL.md](../OPTIMAL.md)); the prediction is its \
+         start and one of its targets. Moments of both are compared with those of the recorded motion and the plates. The table of costs names \
+         the recordings that tracking cannot solve.\n",
+        table.text(),
+        costs(all)
+    )
+}
+
+fn costs(all: &[&Tracked]) -> String {
+    let mut table = Table::new(&[
+        "recording",
+        "CPU seconds per second of recording",
+        "largest residual at the root %BW",
+        "rotations changed by (rms) deg",
+        "root changed by (rms) mm",
+    ]);
+    for one in all {
+        let cells = match &one.found {
+            Ok(Found { seconds_per_s, residual, moved, .. }) => {
+                let figures = [(*seconds_per_s, 2), (100.0 * residual, 3), (moved[0], 2), (moved[1], 1)];
+                figures.map(|(x, digits)| number(x, digits))
+            }
+            Err(reason) => [reason.clone(), "-".to_owned(), "-".to_owned(), "-".to_owned()],
+        };
+        let [a, b, c, d] = cells;
+        table.row([one.label.to_owned(), a, b, c, d]);
+    }
+    table.text()
+}
