@@ -171,6 +171,7 @@ fn machines_of_a_gait_file_drive_the_walk_and_their_states_are_written() {
     let summary = bench.json("stop/summary.json");
     assert_eq!(summary["ground"]["rule"], "soft shoes");
     assert_eq!(summary["walk"]["pace_changes"][0]["speed_m_s"], 0.0);
+    assert_eq!(summary["verdict"]["state"], "feasible", "{}", summary["verdict"]);
     let line = |text: &str, name: &str| text.lines().filter(|line| line.starts_with(name)).count();
     assert!(line(&bench.text("stop/states.csv"), "traffic light,standing,") == 1);
     let changes = ["walk", "--gait", "stop-and-go.toml", "--speed-change", "1:1.3", "-o", "stop"];

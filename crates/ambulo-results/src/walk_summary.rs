@@ -62,7 +62,7 @@ pub struct WalkSummary {
     pub impacts: usize,
     /// Largest impulse of an impact [N.s].
     pub largest_impact_n_s: f64,
-    /// Largest difference of the mid-hip's speed from one cycle to the next [m/s].
+    /// Largest difference of the mid-hip's speed from one cycle to the next [m/s], where the pace is constant.
     pub speed_drift_m_s: f64,
     /// Time steps of the simulator per second [Hz].
     pub simulator_hz: f64,

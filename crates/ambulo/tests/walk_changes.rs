@@ -1,6 +1,7 @@
 //! Walks whose pace changes on the way, simulated: motion without breaks, slip, trunk torque, and the pace that is reached.
 
 use crate::common::assert_near;
+use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, PaceChange, Walk};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
@@ -148,8 +149,37 @@ fn a_figure_comes_to_a_halt_and_stands() {
     let grid = walk.trajectory.grid();
     let end_s = grid.time(grid.frames - 1);
     assert_near(mean_speed(&walk, end_s, 0.3), 0.0, 0.01, "speed at the end");
+    assert!(walk.report.speed_drift < 0.01, "an asked change is not a drift: {} m/s", walk.report.speed_drift);
     let weight: f64 = walk.loads.iter().map(|load| load.force[load.force.len() - 1].y).sum();
     assert_near(weight, 75.0 * 9.80665, 0.05 * 75.0 * 9.80665, "force under both feet");
+}
+
+/// Starts and halts at different speeds and phases leave no joint's range by more than the limit of the verdict, and nothing at the root. The start to
+/// 0.9 m/s is one whose first swing begins within rounding of its start.
+#[test]
+fn starts_and_halts_need_no_force_from_outside_and_stay_in_range() {
+    let human = BUILD.human().unwrap();
+    let slack = Thresholds::default().range_slack_rad;
+    for (from, start_s, to) in [(1.2, 2.2, 0.0), (0.8, 2.8, 0.0), (1.6, 2.0, 0.0), (0.0, 1.0, 0.9)] {
+        let changing = changing(&human, &gait(from, &[(start_s, to)]));
+        let solution = changing.changes().next().unwrap();
+        let (rms, largest) = solution.root_forces(10).unwrap();
+        let mut over = 0.0_f64;
+        for k in 0..=400 {
+            let posture =
+                changing.posture(&human.model, start_s + solution.problem().duration_s * f64::from(k) / 400.0);
+            for (coordinate, value) in human.model.coordinates().iter().zip(&posture[0]) {
+                let [low, high] = coordinate.range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+                over = over.max((low - value).max(value - high));
+            }
+        }
+        println!(
+            "{from} to {to} m/s: {rms:.4} and {largest:.3} body weights, {:.1} degrees out of range",
+            over.to_degrees()
+        );
+        assert!(rms < 0.002 && largest < 0.03, "{from} to {to} m/s: {rms} and {largest} body weights");
+        assert!(over < slack, "{from} to {to} m/s: {} degrees out of range", over.to_degrees());
+    }
 }
 
 #[test]

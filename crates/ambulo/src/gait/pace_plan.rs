@@ -11,7 +11,8 @@
 //! with the law speed V*, the relative step length l and frequency c, and the share of walking w, which scales both step length and
 //! frequency. The angles follow ramps of phase, one in each single support within the change, because two feet on the ground cannot change
 //! their distance: R(φ) = Σ wₖ r((φ - aₖ)/(bₖ - aₖ)), with weights wₖ in proportion to the durations bₖ - aₖ. If there is no whole single
-//! support within the change, there is one ramp from its start to its end. Phase and pace are C².
+//! support within the change, there is one ramp from its start to its end. In a halt, a single support that begins within a fifth of a cycle
+//! is left out, because the figure has hardly slowed down. Phase and pace are C².
 //!
 //! On constant pace the integral is a product. On ramps, where f is smooth, it is computed by Gauss-Legendre quadrature with 16
 //! points on each half of the elapsed time. Pinned by: tests/gait_speed.rs (against Simpson's rule on 20000 panels: 1e-12 cycles).
@@ -25,7 +26,8 @@ use crate::model::Side;
 pub struct PaceChange {
     /// Start [s].
     pub start_s: f64,
-    /// Duration [s]; `None` for two steps at the pace before the change, and for four steps from and to standing.
+    /// Duration [s]; `None` for two steps at the pace before the change, for four steps from standing, and to standing for as long as it takes to
+    /// end with a swing (3 to 6 steps at the pace before).
     pub duration_s: Option<f64>,
     /// Walking speed at the end [m/s]; 0 to stand still.
     pub speed: Option<f64>,
@@ -203,7 +205,20 @@ impl PacePlan {
         let mut ramp = Ramp { start_s, duration_s, from, to, phases: [start.phase.value; 2], windows: Vec::new() };
         ramp.phases[1] += ramp.turned(&self.law, duration_s);
         ramp.windows = single_supports(ramp.phases, foot_off);
+        let slowed = ramp.phases[0] + BEFORE_LAST_SWING - SLACK;
+        if !to.walks && ramp.windows.iter().any(|[off, _]| *off >= slowed) {
+            ramp.windows.retain(|[off, _]| *off >= slowed);
+        }
         self.ramps.push(ramp);
+    }
+
+    /// Duration [s] of a halt that starts at a time [s] and has one whole single support in which the angles change, or two.
+    pub(super) fn halt_s(&self, start_s: f64, foot_off: f64) -> f64 {
+        let start = self.at(start_s).phase;
+        let off = 0.5 * (2.0 * (start.value + BEFORE_LAST_SWING - foot_off) - SLACK).ceil() + foot_off;
+        let landing = off + 1.0 - foot_off;
+        // The share of walking, which the rate follows, has a mean of one half.
+        2.0 * (landing + AFTER_LANDING - start.value) / start.rate
     }
 
     /// Phase and pace at a time [s].
@@ -215,6 +230,10 @@ impl PacePlan {
         let since = time_s - ramp.start_s;
         if since >= ramp.duration_s {
             return self.steady(ramp.to, ramp.phases[1], since - ramp.duration_s);
+        }
+        // Exactly the pace before: rounding could have begun a single support.
+        if since <= 0.0 {
+            return self.steady(ramp.from, ramp.phases[0], 0.0);
         }
         let phase = ramp.phase(&self.law, since);
         ramp.between(ramp.share_of_angles(phase), phase)
@@ -250,6 +269,11 @@ fn single_supports([first, last]: [f64; 2], foot_off: f64) -> Vec<[f64; 2]> {
     if inside.is_empty() { vec![[first, last]] } else { inside }
 }
 
+/// A figure that halts does not change its angles in a swing that begins within this share of a cycle: it has hardly slowed down.
+const BEFORE_LAST_SWING: f64 = 0.2;
+/// Share of the cycle from the last landing to the end of a halt without a given duration. The cycle rate ends so gently that a swing until the very end
+/// would take seconds.
+const AFTER_LANDING: f64 = 0.2;
 /// Single supports may begin that much before a change [cycles]: a figure that begins to walk does so at a foot off.
 const SLACK: f64 = 1e-9;
 

@@ -146,18 +146,19 @@ impl Walk {
             to
         };
         let paced = if before.walks { before } else { to };
+        // The later foot off of the two paces, so that both have single support in the same part of the cycle.
+        let off = |pace: SteadyPace| self.foot_off(&self.steady(pace).clock(0.0));
+        let foot_off = off(before).max(off(to));
         let duration_s = match change.duration_s {
             Some(duration_s) if (SHORTEST_CHANGE_S..=LATEST_CHANGE_S).contains(&duration_s) => duration_s,
             Some(duration_s) => {
                 let expected = "0.1 to 300 s, because nobody changes pace within less than a tenth of a second";
                 return Err(number("duration of a change of pace [s]", duration_s, expected));
             }
-            None if before.walks == to.walks => 1.0 / self.plan.rate_in_walking(paced),
+            None if before.walks && !to.walks => self.plan.halt_s(change.start_s, foot_off),
+            None if before.walks => 1.0 / self.plan.rate_in_walking(paced),
             None => 2.0 / self.plan.rate_in_walking(paced),
         };
-        // The later foot off of the two paces, so that both have single support in the same part of the cycle.
-        let off = |pace: SteadyPace| self.foot_off(&self.steady(pace).clock(0.0));
-        let foot_off = off(before).max(off(to));
         self.plan.add(change.start_s, duration_s, to, foot_off);
         Ok(())
     }

@@ -13,7 +13,7 @@ use super::solve::Continuation;
 use crate::contact::HuntCrossley;
 use crate::gait::{JointMoments, Walk};
 use crate::model::anthropometry::{ContactSphere, Human};
-use crate::model::{CoordinateId, Model, Movement, Side};
+use crate::model::{CoordinateId, CoordinateKind, Model, Movement, Side};
 use crate::spatial::Vec3;
 use crate::toml_reader::TomlError;
 use targets::{Target, Targets, settled_s};
@@ -155,8 +155,8 @@ pub const FINE_STAGES: [Continuation; 11] = [
     Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0001, updates: 4, steps: 20, gain: 1e-3 },
 ];
 
-/// Smallest height of a swinging sole [m].
-const CLEARANCE: f64 = 0.008;
+/// Deviation of a joint angle from its range that costs 1 [rad].
+const RANGE: f64 = 0.2 * DEGREE;
 
 struct Builder<'a> {
     model: &'a Model,
@@ -334,11 +334,22 @@ impl Builder<'_> {
                 Some(Movement::TrunkObliquity | Movement::TrunkRotation) => self.follow(id, costs.plane, 10.0),
                 _ => self.follow(id, 3.0 * DEGREE, costs.arms),
             }
+            self.range(id, &name);
         }
         if let Some((id, _)) = anatomy.coordinate(Movement::PelvisForward, None) {
             let mut at_start = vec![None; self.targets.len()];
             at_start[0] = Some(0.0);
             self.add("place", Quantity::Position(vec![(id, 1.0)]), at_start, 1e-3, Bound::Near);
+        }
+    }
+
+    /// Adds terms that keep a joint angle in the range of its joint.
+    fn range(&mut self, id: CoordinateId, name: &str) {
+        let coordinate = &self.model.coordinates()[id.index()];
+        let Some(range) = coordinate.range.filter(|_| coordinate.kind == CoordinateKind::Rotation) else { return };
+        for (limit, bound) in range.into_iter().zip([Bound::AtLeast, Bound::AtMost]) {
+            let name = format!("range of {name}");
+            self.add(&name, Quantity::Position(vec![(id, 1.0)]), self.constant(limit), RANGE, bound);
         }
     }
 
@@ -426,7 +437,7 @@ impl Builder<'_> {
                 let slip = Quantity::Slip { sphere, axis, light_n };
                 self.add("slip", slip, self.constant(0.0), costs.slip, Bound::Near);
             }
-            let clear = self.targets.iter().map(|t| t.swing[side][part].then_some(CLEARANCE)).collect();
+            let clear = self.targets.iter().map(|t| t.clearance[side][part]).collect();
             self.add("clearance", Quantity::Height(sphere), clear, 0.002, Bound::AtLeast);
         }
     }

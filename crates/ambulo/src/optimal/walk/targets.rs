@@ -1,7 +1,8 @@
 //! Targets of a walk: what people do, and what the machines of its gait ask for, at some instants.
 //!
 //! Where the pace changes, targets follow the clock of the walk ([`Clock`]). With w the share of walking between standing (0) and walking (1), a
-//! foot carries w f + (1 - w) / 2 body weights, where f is the force of people who walk.
+//! foot carries w f + (1 - w) s body weights. Here f is the force of people who walk, and s is the share of the foot in the load of both: that of
+//! people while the figure moves, and one half where it almost stands.
 
 use crate::gait::machine::WalkMachine;
 use crate::gait::{
@@ -13,6 +14,11 @@ use crate::toml_reader::TomlError;
 
 /// Clearance is required from the first share of the cycle after foot off until the second share before the next foot strike: heel, ball, toes.
 const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]];
+/// Smallest height of a swinging sole while the figure walks [m]. It is less with the square of the share of walking, as the height to which the gait
+/// lifts the sole is.
+const CLEARANCE: f64 = 0.008;
+/// Share of walking below which both feet carry what a standing figure asks of them.
+const STANDS_BELOW: f64 = 0.2;
 /// Largest extension of the toes in the first guess [rad].
 const TOES_LIMIT: f64 = 0.8;
 /// Longest step of machines that remember what was [s].
@@ -37,8 +43,8 @@ pub(super) struct Target {
     pub(super) moments: [JointMoments; 2],
     /// Extension of the toes, right and left [rad].
     pub(super) toes: [f64; 2],
-    /// Whether heel, ball and toes of the right and of the left foot must be clear of the ground.
-    pub(super) swing: [[bool; 3]; 2],
+    /// Smallest height of heel, ball and toes of the right and of the left foot while they swing [m].
+    pub(super) clearance: [[Option<f64>; 3]; 2],
 }
 
 /// What the targets of a walk are read from.
@@ -106,10 +112,10 @@ impl<'a> Targets<'a> {
         self.drive(&mut posture, &mut toes);
         Target {
             posture,
-            forces: Side::BOTH.map(|side| self.force(&at, &clock, side)),
+            forces: self.forces(&at, &clock),
             moments: Side::BOTH.map(|side| self.joint_moments(&at, &clock, side)),
             toes,
-            swing: Side::BOTH.map(|side| swings(&at, &clock, side)),
+            clearance: Side::BOTH.map(|side| clearance(&at, &clock, side)),
         }
     }
 
@@ -117,11 +123,16 @@ impl<'a> Targets<'a> {
         self.walk.curve_speed(clock).value
     }
 
-    /// Ground force of a foot, forward and up [body weights].
-    fn force(&self, at: &WalkPosture, clock: &Clock, side: Side) -> [f64; 2] {
-        let [up, fore] = self.forces.at(at.phases.cycle[side], self.speed(clock));
-        let share = clock.walking.value;
-        [share * fore, share * up + 0.5 * (1.0 - share)]
+    /// Ground forces of the right and of the left foot, forward and up [body weights].
+    fn forces(&self, at: &WalkPosture, clock: &Clock) -> [[f64; 2]; 2] {
+        let walking = clock.walking.value;
+        let of_people = Side::BOTH.map(|side| self.forces.at(at.phases.cycle[side], self.speed(clock)));
+        let both: f64 = of_people.iter().map(|[up, _]| up).sum();
+        let moves = (walking / STANDS_BELOW).min(1.0);
+        of_people.map(|[up, fore]| {
+            let carried = moves * up / both + 0.5 * (1.0 - moves);
+            [walking * fore, walking * up + (1.0 - walking) * carried]
+        })
     }
 
     /// Moments of a leg; those of standing are not known, and small.
@@ -163,9 +174,11 @@ fn toes_of(at: &WalkPosture, side: Side) -> f64 {
 }
 
 /// Whether heel, ball and toes must be clear of the ground.
-fn swings(at: &WalkPosture, clock: &Clock, side: Side) -> [bool; 3] {
+fn clearance(at: &WalkPosture, clock: &Clock, side: Side) -> [Option<f64>; 3] {
     let place = at.phases.cycle[side];
-    SWING_MARGINS.map(|[after, before]| !clock.stands() && place > at.phases.foot_off + after && place < 1.0 - before)
+    let swings = |[after, before]: [f64; 2]| place > at.phases.foot_off + after && place < 1.0 - before;
+    let height = CLEARANCE * clock.walking.value.powi(2);
+    SWING_MARGINS.map(|margins| (!clock.stands() && swings(margins)).then_some(height))
 }
 
 /// Adds the tilt of the pelvis to the target of the lumbar joint, because the trunk angles of the tables are relative to the pelvis, while the

@@ -10,6 +10,7 @@ use crate::motion::ForceRecording;
 use crate::optimal::WalkConditions;
 use crate::simulation::consistent_walk::{CorrectionReport, Magnitude};
 use crate::simulation::walking::{ExcerptRows, StanceSlip, WalkRecording};
+use std::ops::Range;
 
 /// A synthetic walk.
 #[derive(Debug, Clone)]
@@ -67,7 +68,8 @@ pub struct WalkReport {
     pub flight_s: f64,
     /// Number of impacts of rigid soles, and the largest impulse on a foot [N.s]; zero on soft shoes.
     pub impacts: (usize, f64),
-    /// Largest difference of the mid-hip's speed from one cycle to the next [m/s]. The angles are prescribed and repeat exactly.
+    /// Largest difference of the mid-hip's speed from one cycle to the next [m/s] where the pace is constant, from one cycle after a change of pace
+    /// on. The angles are prescribed and repeat exactly.
     pub speed_drift: f64,
     /// Step rate of the simulator [Hz].
     pub steps_hz: f64,
@@ -325,6 +327,20 @@ impl WalkReport {
     }
 }
 
+/// Largest difference of speeds one cycle apart within rows of one pace; see [`WalkReport::speed_drift`].
+fn speed_drift(walk: &Walk, speed: &[f64], all: Range<usize>, step_s: f64) -> f64 {
+    let rows = |duration_s: f64| (duration_s / step_s).round() as usize;
+    let ramps = walk.pace_ramps();
+    let ends = ramps.iter().map(|ramp| rows(ramp.start_s)).chain([all.end]);
+    let after = ramps.iter().map(|ramp| (ramp.start_s + ramp.duration_s, ramp.paces[1].cycle_s()));
+    let begins = [(0, rows(walk.cycle_s()))].into_iter().chain(after.map(|(end_s, s)| (rows(end_s + s), rows(s))));
+    let drift = |((begin, cycle), end): ((usize, usize), usize)| {
+        let constant = begin.max(all.start)..end.min(all.end).saturating_sub(cycle);
+        constant.map(|row| (speed[row + cycle] - speed[row]).abs()).fold(0.0, f64::max)
+    };
+    begins.zip(ends).map(drift).fold(0.0, f64::max)
+}
+
 fn report(
     settings: &SyntheticWalkSettings<'_>,
     rows: ExcerptRows,
@@ -340,8 +356,6 @@ fn report(
     let impacts = recording.impacts.iter().filter(|impact| impact.time_s >= start_s);
     let impulses: Vec<f64> = impacts.flat_map(|impact| impact.impulses.map(|impulse| impulse.norm())).collect();
     let cycle_rows = (walk.cycle_s() / step_s).round() as usize;
-    let speed = recording.speed();
-    let later = all.clone().filter(|row| row + cycle_rows < all.end);
     WalkReport {
         correction,
         changes: changes(walk, start_s),
@@ -349,7 +363,7 @@ fn report(
         slip: recording.stance_slip(rows.first.saturating_sub(cycle_rows)),
         flight_s: step_s * all.clone().filter(|row| recording.flies(*row)).count() as f64,
         impacts: (impulses.len() / 2, impulses.iter().copied().fold(0.0, f64::max)),
-        speed_drift: later.map(|row| (speed[row + cycle_rows] - speed[row]).abs()).fold(0.0, f64::max),
+        speed_drift: speed_drift(walk, &recording.speed(), all, step_s),
         unsolved_steps: recording.unsolved_steps,
         ..WalkReport::of_plan(settings, human, walk)
     }
