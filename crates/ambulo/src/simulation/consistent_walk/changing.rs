@@ -10,15 +10,10 @@ use crate::findings::Findings;
 use crate::gait::{PaceRamp, Walk};
 use crate::model::Model;
 use crate::model::anthropometry::Human;
-use crate::optimal::{FINE_STAGES, Passage, PassageEnd, STAGES, Solution, WalkCosts, WalkProblem};
+use crate::optimal::{FINE_STAGES, Passage, PassageEnd, STAGES, Solution, WalkProblem};
 use crate::simulation::walking::{WalkRecording, Walker, WalkingError};
 use crate::simulation::{Integrator, Signal, StepSettings};
 
-/// Factor of the slip that costs 1 in a change: from 1.2 to 1.6 m/s within two steps, soles then slip by at most 2 mm, and less is left at the root
-/// than with 0.5 or 1.
-const PASSAGE_SLIP: f64 = 0.25;
-/// Factor of the angular acceleration of the toes that costs 1 in a change. Otherwise some halts fold the toes of the last swing by more than 100°.
-const PASSAGE_TOES: f64 = 0.3;
 /// Steps of the new pace after a change in which the walk settles.
 const SETTLING_STEPS: f64 = 1.0;
 
@@ -118,9 +113,7 @@ impl ChangingWalk {
             return Err(ConsistentWalkError::Order);
         };
         let passage = Passage { change: number, start_s: ramp.start_s, duration_s, ends: [before, after] };
-        let costs = settings.costs;
-        let costs = WalkCosts { slip: PASSAGE_SLIP * costs.slip, toes: PASSAGE_TOES * costs.toes, ..costs };
-        let problem = WalkProblem::passage(human, &human.soles, settings.shoes, &walk, &costs, &passage)?;
+        let problem = WalkProblem::passage(human, &human.soles, settings.shoes, &walk, &settings.changes, &passage)?;
         let solution = problem.solve_coarse_first(&FINE_STAGES)?;
         Ok(Change { start_s: ramp.start_s, duration_s, paces, solution })
     }
@@ -133,7 +126,7 @@ impl ChangingWalk {
         time_s: f64,
     ) -> Result<(), ConsistentWalkError> {
         if self.standing.is_none() {
-            let ConsistentWalkSettings { shoes, costs } = settings;
+            let ConsistentWalkSettings { shoes, costs, .. } = settings;
             let problem = WalkProblem::standing(human, &human.soles, *shoes, &self.walk, costs, time_s)?;
             let solution = problem.solve(&STAGES)?;
             self.standing = Some((problem, solution));

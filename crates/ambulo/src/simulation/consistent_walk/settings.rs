@@ -10,13 +10,19 @@ use crate::toml_reader::TomlError;
 pub struct ConsistentWalkSettings {
     /// Contact law of the soles.
     pub shoes: HuntCrossley,
-    /// Resolution of the splines, and costs of deviations.
+    /// Resolution of the splines, and costs of deviations, at a constant pace.
     pub costs: WalkCosts,
+    /// The same while the pace changes.
+    pub changes: WalkCosts,
 }
 
 impl Default for ConsistentWalkSettings {
     fn default() -> Self {
-        ConsistentWalkSettings { shoes: HuntCrossley::SOFT_SHOES, costs: WalkCosts::planar() }
+        ConsistentWalkSettings {
+            shoes: HuntCrossley::SOFT_SHOES,
+            costs: WalkCosts::planar(),
+            changes: WalkCosts::change_of_pace(),
+        }
     }
 }
 
