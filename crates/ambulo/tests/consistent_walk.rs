@@ -206,7 +206,7 @@ fn ground_forces_explain_the_change_of_momentum() {
 
 #[test]
 fn heavier_people_on_stiffer_shoes_walk_the_same_way() {
-    let settings = coarse();
+    let settings = ConsistentWalkSettings::default();
     let mut stiffer = settings;
     stiffer.shoes.stiffness *= 1.6;
     let (light, heavy) = (human(60.0), human(96.0));
