@@ -363,7 +363,7 @@ fn report(
         slip: recording.stance_slip(rows.first.saturating_sub(cycle_rows)),
         flight_s: step_s * all.clone().filter(|row| recording.flies(*row)).count() as f64,
         impacts: (impulses.len() / 2, impulses.iter().copied().fold(0.0, f64::max)),
-        speed_drift: speed_drift(walk, &recording.speed(), all, step_s),
+        speed_drift: speed_drift(walk, recording.speed(), all, step_s),
         unsolved_steps: recording.unsolved_steps,
         ..WalkReport::of_plan(settings, human, walk)
     }
