@@ -34,8 +34,8 @@ the trunk are the simulator's in the last cycle, not planned values.
 const HELD_OUT: &str = "\
 What these numbers test, and what they do not test:
 
-- **These bands are no independent test.** Weights and numbers of splines were chosen among eight sets by their agreement with them at
-  all five speeds, moments included. They are the same at all speeds and for all figures.
+- **These bands are no independent test.** Weights and numbers of splines were chosen among about three hundred sets by their
+  agreement with them at all five speeds, moments included. They are the same at all speeds and for all figures.
 - **Slow and fast were held out** of the laws of the ground forces, which go through very slow, free and very fast alone
   (data/gait/ground_forces.toml). The joint curves were not: the gait's laws are fitted to all five speeds, so angles are
   in-sample throughout.
