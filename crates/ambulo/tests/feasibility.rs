@@ -168,6 +168,26 @@ impl Standing {
 }
 
 #[test]
+fn a_weak_joint_has_its_share_of_the_strength_and_the_other_side_all_of_it() {
+    let mut standing = Standing::new();
+    let (right, left) = (standing.set("ankle_angle_r"), standing.set("ankle_angle_l"));
+    standing.generalized[right] = -60.0;
+    standing.generalized[left] = -60.0;
+    let limit = |thresholds: &Thresholds, coordinate: usize| {
+        let (list, _) = standing.measure(thresholds);
+        let is_it = |m: &&CheckedValue| {
+            m.check == Check::Strength && matches!(m.of, CheckedPart::Coordinate(id) if id.index() == coordinate)
+        };
+        list.iter().find(is_it).unwrap().limit
+    };
+    let usual = Thresholds { strength_tolerance_nm_kg: 0.0, ..Thresholds::default() };
+    let weak = Thresholds { weak: vec![("ankle_angle_r".to_owned(), 0.4)], ..usual.clone() };
+    assert_near(limit(&weak, right), 0.4 * limit(&usual, right), 1e-9, "right ankle");
+    assert_near(limit(&weak, left), limit(&usual, left), 1e-9, "left ankle");
+    assert!(limit(&usual, right) < -100.0);
+}
+
+#[test]
 fn standing_still_is_feasible_and_every_check_is_made() {
     let standing = Standing::new();
     assert_eq!(standing.failed(), []);
@@ -381,6 +401,7 @@ acceleration_ratio = 1.2
         mass_kg: Some(60.0),
         height_m: Some(1.65),
         strength_share: 0.8,
+        weak: Vec::new(),
         strength_tolerance_nm_kg: 0.05,
         eccentric: 1.2,
         tables: t.tables.clone(),

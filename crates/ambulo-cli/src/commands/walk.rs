@@ -178,7 +178,9 @@ impl SyntheticRun<'_> {
         target: &ResultTarget,
         print: PrintArgs,
     ) -> Result<Completion> {
-        let settings = Settings { thresholds: self.thresholds.clone(), ..Settings::default() };
+        let prediction = self.walk.report.prediction.as_ref();
+        let weak = prediction.map(|prediction| prediction.conditions.strengths.clone()).unwrap_or_default();
+        let settings = Settings { thresholds: Thresholds { weak, ..self.thresholds.clone() }, ..Settings::default() };
         let mut watch = |stage: Stage| {
             clock.lap(stage.word());
             ControlFlow::Continue(())

@@ -43,6 +43,8 @@ pub struct FeasibilityLimits {
 #[derive(Debug, Clone)]
 struct CoordinateLimits {
     strength: Option<StrengthCurve>,
+    /// Share of it that may be used.
+    strength_share: f64,
     /// Range of motion with its slack [rad].
     range: Option<[f64; 2]>,
     is_judged: bool,
@@ -210,7 +212,9 @@ fn coordinate_limits(model: &Model, id: CoordinateId, person: &Person, t: &Thres
         Some(if meaning.sign < 0.0 { curve.reversed() } else { curve })
     };
     let slack = t.range_slack_rad;
+    let weak = t.weak.iter().find(|(name, _)| *name == coordinate.name);
     CoordinateLimits {
+        strength_share: t.strength_share * weak.map_or(1.0, |(_, share)| *share),
         strength: given.or_else(built_in).filter(|_| is_judged),
         range: coordinate.range.map(|[low, high]| [low - slack, high + slack]).filter(|_| is_judged),
         is_judged,
@@ -290,7 +294,7 @@ fn check_coordinate(
     if let Some(strength) = &coordinate.strength {
         let moment = frame.generalized[i];
         let available = strength.available(frame.q[i], frame.qd[i], moment, t.eccentric);
-        let allowed = t.strength_share * available + t.strength_tolerance_nm_kg * limits.person.mass_kg;
+        let allowed = coordinate.strength_share * available + t.strength_tolerance_nm_kg * limits.person.mass_kg;
         let share = share(moment.abs(), allowed);
         visit(CheckedValue { check: Check::Strength, of, value: moment, limit: allowed.copysign(moment), share });
     }

@@ -17,6 +17,8 @@ pub struct Thresholds {
     pub height_m: Option<f64>,
     /// Share of the strength that may be used.
     pub strength_share: f64,
+    /// Coordinates that have a share of the usual strength, built-in or from a table, and the share.
+    pub weak: Vec<(String, f64)>,
     /// Tolerance for errors of the joint moment [N.m/kg]: body weight times 10 mm of the centre of pressure.
     pub strength_tolerance_nm_kg: f64,
     /// Largest moment of stretched muscles, in isometric moments.
@@ -61,6 +63,7 @@ impl Default for Thresholds {
             mass_kg: None,
             height_m: None,
             strength_share: 1.0,
+            weak: Vec::new(),
             strength_tolerance_nm_kg: 0.1,
             eccentric: 1.4,
             tables: Vec::new(),
