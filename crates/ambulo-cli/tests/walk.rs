@@ -428,3 +428,16 @@ fn a_built_in_gait_with_changed_knots_is_walked_in_its_own_style() {
     bench.run(&["walk", "--gait", "parade", "--cycles", "1", "-o", "out"]).done();
     assert_eq!(bench.json("out/summary.json")["walk"]["style"], "1997");
 }
+
+/// The moment at the weak ankle is compared with the strength that it has left, so it comes closest to a limit.
+#[test]
+fn the_verdict_judges_a_weak_joint_with_the_strength_that_it_has_left() {
+    let bench = Workbench::empty("walk_weak");
+    bench.run(&["walk", "--weak", "ankle_r=0.7", "--cycles", "1", "--quiet", "-o", "out"]).done();
+    let verdict = bench.json("out/summary.json")["verdict"].clone();
+    let closest = verdict["closest"].as_array().unwrap().iter().find(|c| c["check"] == "strength").unwrap().clone();
+    assert_eq!(closest["quantity"], "ankle_angle_r_moment", "{verdict}");
+    // Of the usual man, 75 kg: the whole strength is 240 N.m there, and 0.1 N.m/kg are a tolerance.
+    let limit = closest["limit"].as_f64().unwrap().abs();
+    assert!((150.0..190.0).contains(&limit), "{limit} N.m");
+}
