@@ -23,13 +23,17 @@ struct Case {
     solution: Solution,
 }
 
+fn planar_costs(knots: usize) -> WalkCosts {
+    WalkCosts { knots, per_knot: 2, ..WalkCosts::planar() }
+}
+
 fn case(human: Human, wide: bool) -> Case {
     let gait = Gait::named("free").unwrap();
     let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
     let soles = if wide { soles_with_width(&human) } else { human.soles.clone() };
-    let costs = WalkCosts { knots: 24, ..WalkCosts::default() };
+    let costs = if wide { WalkCosts { knots: 24, ..WalkCosts::default() } } else { planar_costs(24) };
     let problem = WalkProblem::new(&human, &soles, HuntCrossley::SOFT_SHOES, &walk, &costs).unwrap();
-    let solution = problem.solve(&STAGES).unwrap();
+    let solution = problem.solve(problem.stages()).unwrap();
     Case { human, walk, problem, solution }
 }
 
@@ -216,7 +220,7 @@ fn steps(solution: &Solution) -> usize {
 #[test]
 fn a_known_walk_starts_other_speeds_and_other_figures() {
     let Case { human, walk, problem, solution } = &*PLANAR;
-    let costs = WalkCosts { knots: 24, ..WalkCosts::default() };
+    let costs = planar_costs(24);
     let other = |human: &Human, speed: f64| {
         let mut gait = Gait::named("free").unwrap();
         gait.pace = gait.pace.with(Some(speed), None, None);
@@ -245,7 +249,7 @@ fn a_known_walk_starts_other_speeds_and_other_figures() {
 #[test]
 fn a_walk_with_other_joints_or_knots_is_no_start() {
     let Case { human, walk, problem, solution } = &*PLANAR;
-    let costs = WalkCosts { knots: 12, ..WalkCosts::default() };
+    let costs = planar_costs(12);
     let coarse = WalkProblem::new(human, &human.soles, HuntCrossley::SOFT_SHOES, walk, &costs).unwrap();
     let stages = |s: &Solution| s.progress.len();
     assert_eq!(stages(&coarse.solve_near(problem, solution.unknowns()).unwrap()), STAGES.len());

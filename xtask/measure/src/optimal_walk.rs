@@ -18,7 +18,7 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
-use ambulo::optimal::{Drift, STAGES, Solution, WalkCosts, WalkProblem, soles_with_width};
+use ambulo::optimal::{Drift, Solution, WalkCosts, WalkProblem, soles_with_width};
 use cpu_time::ThreadTime;
 use curves::Cycle;
 
@@ -146,11 +146,12 @@ fn find(human: &Human, speed: f64, near: Option<&Found>) -> Result<Found, String
     let planar = human.model.coordinate("pelvis_list").is_none();
     let soles = if planar { human.soles.clone() } else { soles_with_width(human) };
     let clock = ThreadTime::now();
-    let problem = WalkProblem::new(human, &soles, HuntCrossley::SOFT_SHOES, &walk, &WalkCosts::default())
-        .map_err(|e| e.to_string())?;
+    let costs = if planar { WalkCosts { per_knot: 2, ..WalkCosts::planar() } } else { WalkCosts::default() };
+    let problem =
+        WalkProblem::new(human, &soles, HuntCrossley::SOFT_SHOES, &walk, &costs).map_err(|e| e.to_string())?;
     let solution: Solution = match near {
         Some(known) => problem.solve_near(&known.problem, &known.unknowns),
-        None => problem.solve(&STAGES),
+        None => problem.solve(problem.stages()),
     }
     .map_err(|e| e.to_string())?;
     let seconds = clock.elapsed().as_secs_f64();

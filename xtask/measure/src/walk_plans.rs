@@ -4,7 +4,7 @@ use crate::workspace;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::optimal::{OptimalWalk, STAGES, WalkPlan};
+use ambulo::optimal::{OptimalWalk, SPATIAL_STAGES, WalkPlan};
 use std::fs;
 
 const GAITS: [&str; 3] = ["slow", "free", "fast"];
@@ -17,7 +17,7 @@ pub(crate) fn run() -> Result<(), String> {
         for name in GAITS {
             let gait = Gait::named(name).map_err(|e| e.to_string())?;
             let walk = Walk::new(&gait, leg_length, &mut Findings::default()).map_err(|e| e.to_string())?;
-            let found = OptimalWalk::find_with(&build, &walk, &STAGES, None).map_err(|e| e.to_string())?;
+            let found = OptimalWalk::find_with(&build, &walk, &SPATIAL_STAGES, None).map_err(|e| e.to_string())?;
             let path = workspace::root().join(format!("crates/ambulo/data/walks/{}-{name}.toml", table.name()));
             fs::write(&path, WalkPlan::new(found.human.build, &walk, &found.solution).to_toml())
                 .map_err(|e| format!("{}: cannot write: {e}", path.display()))?;

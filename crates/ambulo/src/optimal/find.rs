@@ -8,7 +8,7 @@ use super::plan::WalkPlan;
 use super::problem::Problem;
 use super::solution::Solution;
 use super::solve::Continuation;
-use super::walk::{STAGES, WalkCosts, WalkProblem, soles_with_width};
+use super::walk::{SPATIAL_STAGES, WalkCosts, WalkProblem, soles_with_width};
 use crate::contact::HuntCrossley;
 use crate::gait::Walk;
 use crate::model::anthropometry::{Build, Human};
@@ -40,7 +40,7 @@ impl OptimalWalk {
     /// # Errors
     /// A figure that cannot be built; no motion without outside forces.
     pub fn find(build: &Build, walk: &Walk) -> Result<OptimalWalk, OptimalWalkError> {
-        OptimalWalk::find_with(build, walk, &STAGES, WalkPlan::of(build, walk)?.as_ref())
+        OptimalWalk::find_with(build, walk, &SPATIAL_STAGES, WalkPlan::of(build, walk)?.as_ref())
     }
 
     /// As [`OptimalWalk::find`], with given stages of the solution and from a given plan.
@@ -62,7 +62,8 @@ impl OptimalWalk {
                 return Ok(OptimalWalk { human, problem, solution, conditions: WalkConditions::default() });
             }
         }
-        let solution = problem.problem.balanced(problem.solve(stages)?, &[&Continuation::on(stages)])?;
+        let (longer, softer) = (Continuation::on(stages), &stages[stages.len() / 2..]);
+        let solution = problem.problem.balanced(problem.solve(stages)?, &[&longer, softer, &longer])?;
         let found = OptimalWalk { human, problem, solution, conditions: WalkConditions::default() };
         found.check(walk)?;
         Ok(found)

@@ -54,4 +54,4 @@ pub use problem::Problem;
 pub use solution::{Progress, Sample, SoleContact, Solution, Unbalanced};
 pub use solve::{Continuation, NO_ROOT_FORCE};
 pub use track::{FootGuide, TRACK_STAGES, TrackError, TrackProblem, TrackSettings, TrackedFoot, TrackedMotion};
-pub use walk::{FINE_STAGES, Passage, PassageEnd, STAGES, WalkCosts, WalkProblem, soles_with_width};
+pub use walk::{FINE_STAGES, Passage, PassageEnd, SPATIAL_STAGES, STAGES, WalkCosts, WalkProblem, soles_with_width};

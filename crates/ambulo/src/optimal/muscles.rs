@@ -38,6 +38,8 @@ pub struct EffortCosts {
     pub twist: f64,
     /// Muscle moment above strength, as a share of strength.
     pub weakness: f64,
+    /// Slip velocity of a loaded sphere [m/s].
+    pub slip: f64,
 }
 
 impl Default for EffortCosts {
@@ -53,6 +55,7 @@ impl Default for EffortCosts {
             arm: 20.0 * DEGREE,
             twist: 8.0 * DEGREE,
             weakness: 0.02,
+            slip: 0.02,
         }
     }
 }

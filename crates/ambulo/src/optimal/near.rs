@@ -7,19 +7,21 @@
 
 use super::solution::Solution;
 use super::solve::Continuation;
-use super::walk::{STAGES, WalkProblem};
+use super::walk::WalkProblem;
 use crate::dynamics::CurvedJointError;
 use crate::model::{CoordinateKind, Model, Movement};
 
 /// Stages of a solution that starts near a known one.
 pub const NEAR_STAGES: [Continuation; 5] = [
-    Continuation { stiffness: 1.0, creep: 5.0, slack: 0.005, updates: 0, steps: 10, gain: 3e-3 },
-    Continuation { stiffness: 1.0, creep: 2.0, slack: 0.002, updates: 0, steps: 10, gain: 3e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.001, updates: 0, steps: 10, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0002, updates: 1, steps: 10, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.00003, updates: 6, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 5.0, slip: 1.0, slack: 0.005, updates: 0, steps: 10, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 2.0, slip: 1.0, slack: 0.002, updates: 0, steps: 10, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.001, updates: 0, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0002, updates: 1, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.00003, updates: 10, steps: 10, gain: 1e-3 },
 ];
 
+/// Factors of the deviation of slip in these stages, for a walk that follows people.
+const NEAR_SLIP: [f64; 5] = [4.0, 4.0, 3.0, 1.7, 1.0];
 /// Steps of the solver before an update, and factor of the gain below which a stage ends, where the objective changes more than near a known
 /// walk.
 const LONGER: (usize, f64) = (3, 0.3);
@@ -42,10 +44,14 @@ impl WalkProblem {
     /// If the figure has joints that are not hinges or slides.
     pub fn solve_near(&self, known: &WalkProblem, unknowns: &[f64]) -> Result<Solution, CurvedJointError> {
         if !self.is_like(known) || unknowns.len() != self.guess.len() {
-            return self.solve(&STAGES);
+            return self.solve(self.stages());
         }
         let start = self.start_near(known, unknowns)?;
-        self.problem.solve(&start, &NEAR_STAGES)
+        let mut stages = NEAR_STAGES;
+        for (stage, slip) in stages.iter_mut().zip(NEAR_SLIP) {
+            stage.slip = slip;
+        }
+        self.problem.solve(&start, &stages)
     }
 
     /// Whether the unknowns of both problems mean the same.

@@ -91,16 +91,20 @@ fn flatter_slopes(slope: f64) -> impl Iterator<Item = f64> {
 }
 
 /// Names of the terms of a walk that say how a foot moves and where the walk begins, not how people walk.
-const KEPT: [&str; 3] = ["place", "clearance", "slip"];
+const KEPT: [&str; 2] = ["place", "clearance"];
 
 impl MuscleTerms<'_> {
-    /// Keeps the terms of feet, limits of joints and rates of moments, and those of people with their weight.
+    /// Keeps the terms of feet, limits of joints and, with the weights of muscles, slip and rates of moments; and those of people with their weight.
     fn keep(&mut self, terms: &[Term], people: f64) {
         for term in terms {
-            let rate = matches!(term.quantity, Quantity::ForceRate(_)).then(|| self.moment_rate());
-            let stays = KEPT.contains(&term.name.as_str()) || term.bound == Bound::AtLeast;
+            let own = match term.quantity {
+                Quantity::ForceRate(_) => Some(self.moment_rate()),
+                Quantity::Slip { .. } => Some(self.costs.slip),
+                _ => None,
+            };
+            let stays = KEPT.contains(&term.name.as_str()) || term.bound != Bound::Near;
             let of_people = (!stays && people > 0.0).then(|| term.deviation / people.sqrt());
-            let deviation = rate.or(stays.then_some(term.deviation)).or(of_people);
+            let deviation = own.or(stays.then_some(term.deviation)).or(of_people);
             self.terms.extend(deviation.map(|deviation| Term { deviation, ..term.clone() }));
         }
     }

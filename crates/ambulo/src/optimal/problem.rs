@@ -12,7 +12,7 @@ mod bending;
 use super::instant::{Evaluator, Instant};
 use super::layout::{Layout, Span, Weights};
 use super::normal::{InstantSums, NormalEquations, empty_matrix};
-use super::objective::{Row, Term};
+use super::objective::{Quantity, Row, Term};
 use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;
 use crate::model::anthropometry::ContactSphere;
@@ -51,6 +51,22 @@ pub(super) struct Stage {
     pub(super) shoes: HuntCrossley,
     /// Slack s of the residual forces at the root [body weights, body weights × length]: the residual at which an instant costs 1.
     pub(super) slack: f64,
+    /// Factor of the deviation of slip.
+    pub(super) slip: f64,
+}
+
+impl Stage {
+    /// The deviation of a term that costs 1.
+    fn deviation(&self, term: &Term) -> f64 {
+        let factor = if matches!(term.quantity, Quantity::Slip { .. }) { self.slip } else { 1.0 };
+        factor * term.deviation
+    }
+
+    /// (value - target) / deviation at an instant; `None` if it does not count.
+    fn residual(&self, term: &Term, index: usize, at: &Instant) -> Option<f64> {
+        let residual = term.residual(index, term.quantity.value(index, at))?;
+        Some(residual * (term.deviation / self.deviation(term)))
+    }
 }
 
 /// A problem as residuals and normal equations at its instants.
@@ -75,6 +91,12 @@ pub(super) struct Transcription<'a> {
 struct Rows {
     residuals: Vec<f64>,
     slopes: Vec<f64>,
+}
+
+impl Rows {
+    fn add_to(&self, sums: &mut InstantSums, normal: &NormalEquations) {
+        normal.add_rows(sums, &self.residuals, &self.slopes);
+    }
 }
 
 impl Problem {
@@ -167,7 +189,7 @@ impl<'a> Transcription<'a> {
         let root = problem.root_scales().into_iter().map(|(id, scale)| (id.index(), scale)).collect::<Vec<_>>();
         Ok(Transcription {
             evaluator: Evaluator::new(&problem.model, &problem.soles, &problem.levels_m)?,
-            stage: Stage { shoes: problem.shoes, slack: 1.0 },
+            stage: Stage { shoes: problem.shoes, slack: 1.0, slip: 1.0 },
             multipliers: vec![0.0; layout.instants() * root.len()],
             instants: vec![Instant::default(); layout.instants()],
             base: vec![Instant::default(); layout.instants()],
@@ -233,7 +255,7 @@ impl<'a> Transcription<'a> {
         for index in 0..self.counted() {
             let at = &self.instants[index];
             for term in self.problem.terms.iter().filter(|term| term.quantity.is_rate_of_force().is_none()) {
-                cost += term.residual(index, term.quantity.value(index, at)).map_or(0.0, |r| (r * share).powi(2));
+                cost += self.stage.residual(term, index, at).map_or(0.0, |r| (r * share).powi(2));
             }
             for k in 0..self.root.len() {
                 cost += (self.root_residual(index, k) * share).powi(2);
@@ -322,12 +344,25 @@ impl<'a> Transcription<'a> {
     /// Normal equations at the instants that were evaluated.
     pub(super) fn linearise(&mut self, normal: &mut NormalEquations) {
         normal.clear();
-        for index in 0..self.counted() {
-            self.instant_rows(index, normal);
+        let rates: Vec<(CoordinateId, &Term)> = self.rates().collect();
+        let last = self.instants.len() - 1;
+        // Rows of the rates between the instant before and this one, by the z of this one.
+        let mut from = Rows::default();
+        for index in 0..=last {
+            self.sums.clear();
+            from.add_to(&mut self.sums, normal);
+            if index < self.counted() {
+                self.instant_rows(index, normal);
+            }
+            if index < last && !rates.is_empty() {
+                let [here, there] = self.rate_rows(index, &rates);
+                here.add_to(&mut self.sums, normal);
+                self.add_pair(index, &here, &there, normal);
+                from = there;
+            }
             let weights = self.weights(index);
             normal.add_instant(&weights, &mut self.sums);
         }
-        self.rate_rows(normal);
     }
 
     /// Exchanges the evaluated instants with those at which the normal equations were computed, so that a trial does not overwrite these.
@@ -368,13 +403,12 @@ impl<'a> Transcription<'a> {
 
     fn instant_rows(&mut self, index: usize, normal: &NormalEquations) {
         let share = self.share();
-        self.sums.clear();
         self.rows.residuals.clear();
         self.rows.slopes.clear();
         for term in self.problem.terms.iter().filter(|term| term.quantity.is_rate_of_force().is_none()) {
             let at = &self.instants[index];
-            let Some(residual) = term.residual(index, term.quantity.value(index, at)) else { continue };
-            match term.quantity.row(index, at, term.deviation / share, &mut self.rows.slopes) {
+            let Some(residual) = self.stage.residual(term, index, at) else { continue };
+            match term.quantity.row(index, at, self.stage.deviation(term) / share, &mut self.rows.slopes) {
                 Row::Entries(mut entries) => {
                     entries.sort_unstable_by_key(|(place, _)| *place);
                     self.sums.add_entries(residual * share, &entries);
@@ -389,40 +423,34 @@ impl<'a> Transcription<'a> {
             let slopes = &self.instants[index].slopes[coordinate * width..(coordinate + 1) * width];
             self.rows.slopes.extend(slopes.iter().map(|slope| slope / scale));
         }
-        normal.add_rows(&mut self.sums, &self.rows.residuals, &self.rows.slopes);
+        self.rows.add_to(&mut self.sums, normal);
     }
 
-    /// Rows of the rates of forces, each between two instants of one interval.
-    fn rate_rows(&mut self, normal: &mut NormalEquations) {
+    /// Rows of the rates of forces between an instant and the next one, by the z of each.
+    fn rate_rows(&self, index: usize, rates: &[(CoordinateId, &Term)]) -> [Rows; 2] {
         let (width, share, per_second) = (3 * self.layout.width, self.share(), self.per_second());
+        let mut rows = [Rows::default(), Rows::default()];
+        for (id, term) in rates {
+            let Some(residual) = self.rate_residual(*id, term, index) else { continue };
+            let factor = share * per_second / term.deviation;
+            for (k, sign) in [(0, -1.0), (1, 1.0)] {
+                let slopes = &self.instants[index + k].slopes[id.index() * width..(id.index() + 1) * width];
+                rows[k].residuals.push(residual * share);
+                rows[k].slopes.extend(slopes.iter().map(|slope| slope * sign * factor));
+            }
+        }
+        rows
+    }
+
+    /// Adds what rows couple between an instant and the next one.
+    fn add_pair(&self, index: usize, here: &Rows, there: &Rows, normal: &mut NormalEquations) {
+        let width = 3 * self.layout.width;
+        let (first, interval) = self.layout.instant(index);
+        let (second, _) = self.layout.instant(index + 1);
+        let ends = [first, second].map(|at| self.timed(self.layout.weights(at, interval)));
         let mut cross = vec![0.0; width * width];
-        let rates: Vec<(CoordinateId, &Term)> = self.rates().collect();
-        if rates.is_empty() {
-            return;
-        }
-        for index in 0..self.instants.len() - 1 {
-            let (first, interval) = self.layout.instant(index);
-            let (second, _) = self.layout.instant(index + 1);
-            let mut residuals = Vec::new();
-            let mut slopes = [Vec::new(), Vec::new()];
-            for (id, term) in &rates {
-                let Some(residual) = self.rate_residual(*id, term, index) else { continue };
-                residuals.push(residual * share);
-                let factor = share * per_second / term.deviation;
-                for (k, sign) in [(0, -1.0), (1, 1.0)] {
-                    let row = &self.instants[index + k].slopes[id.index() * width..(id.index() + 1) * width];
-                    slopes[k].extend(row.iter().map(|slope| slope * sign * factor));
-                }
-            }
-            let ends = [first, second].map(|at| self.timed(self.layout.weights(at, interval)));
-            for k in 0..2 {
-                self.sums.clear();
-                normal.add_rows(&mut self.sums, &residuals, &slopes[k]);
-                normal.add_instant(&ends[k], &mut self.sums);
-            }
-            normal.cross(&slopes[0], &slopes[1], width, &mut cross);
-            normal.add_pair(&ends[0], &ends[1], &cross);
-        }
+        normal.cross(&here.slopes, &there.slopes, width, &mut cross);
+        normal.add_pair(&ends[0], &ends[1], &cross);
     }
 
     pub(super) fn instants(&self) -> &[Instant] {

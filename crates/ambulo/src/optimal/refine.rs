@@ -33,7 +33,7 @@ impl Problem {
     /// If the model has joints that are not hinges or slides.
     pub fn refine(&self, unknowns: &[f64], accuracy: f64, steps: usize) -> Result<Solution, CurvedJointError> {
         let mut transcription = Transcription::new(self)?;
-        transcription.stage = Stage { shoes: self.shoes, slack: SLACK };
+        transcription.stage = Stage { shoes: self.shoes, slack: SLACK, slip: 1.0 };
         let normal = NormalEquations::new(&transcription.layout);
         let mut method = Newton { transcription, normal, damping: 0.0 };
         let mut unknowns = unknowns.to_vec();
@@ -141,7 +141,7 @@ mod tests {
             term.bound = Bound::Near;
         }
         let mut transcription = Transcription::new(&problem).unwrap();
-        transcription.stage = Stage { shoes, slack: SLACK };
+        transcription.stage = Stage { shoes, slack: SLACK, slip: 1.0 };
         let normal = NormalEquations::new(&transcription.layout);
         let mut newton = Newton { transcription, normal, damping: 0.0 };
         newton.cost(&guess);

@@ -20,6 +20,8 @@ pub struct Continuation {
     pub stiffness: f64,
     /// Factor of the speed at which their friction sets in.
     pub creep: f64,
+    /// Factor of the deviation of slip that costs 1.
+    pub slip: f64,
     /// Force at the root that costs one [body weights, body weights × length].
     pub slack: f64,
     /// Largest number of updates of the multipliers. They end when no force at the root is above the slack.
@@ -85,6 +87,7 @@ impl Problem {
                     ..self.shoes
                 },
                 slack: stage.slack,
+                slip: stage.slip,
             };
             method.transcription.scale_multipliers((stage.slack / slack).powi(2));
             slack = stage.slack;

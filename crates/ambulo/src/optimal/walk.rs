@@ -72,20 +72,30 @@ pub struct WalkCosts {
     pub toes: f64,
     /// The same for those of the arms, and of other joints that are not named here [rad/s²].
     pub arms: f64,
-    /// The same for pelvis, trunk and hips in the frontal and the transverse plane [rad].
-    pub plane: f64,
+    /// The same for the pelvis in the frontal and the transverse plane [rad].
+    pub pelvis: f64,
+    /// The same for the trunk in these planes [rad].
+    pub trunk: f64,
+    /// The same for the hips in these planes [rad].
+    pub hip_aside: f64,
     /// The same for the ground force of a foot, forward and up [body weights]; forward in free walking if it depends on the speed.
     pub force: [f64; 2],
     /// Power of the dimensionless speed that the deviation of the forward force grows with.
     pub force_exponent: f64,
     /// Weight of the ground forces of people in a gait whose curves are not those of people; 0 leaves them out.
     pub others: f64,
-    /// The same for the joint moments of [`JointMomentLaws`] [body weight × leg length].
+    /// Sideways ground force of a foot that costs 1 [body weights]: it should be small. People's sideways forces are no target.
+    pub sideways_force: f64,
+    /// Deviation of a joint moment from that of [`JointMomentLaws`] that costs 1: extension of hip, knee and ankle [body weight × leg length].
     pub moment: f64,
+    /// The same for hip abduction [body weight × leg length].
+    pub abduction: f64,
     /// Rate of a joint moment that costs 1 [N.m/kg per cycle].
     pub moment_rate: f64,
-    /// Slip velocity of a loaded sphere that costs 1 [m/s].
+    /// Slip velocity of a loaded sphere that costs 1, in free walking if it depends on the speed [m/s].
     pub slip: f64,
+    /// Power of the dimensionless speed that it grows with.
+    pub slip_exponent: f64,
 }
 
 impl WalkCosts {
@@ -106,6 +116,7 @@ impl WalkCosts {
             moment: 0.0055,
             moment_rate: 3.5,
             slip: 0.005,
+            slip_exponent: 0.0,
             ..WalkCosts::default()
         }
     }
@@ -123,6 +134,7 @@ impl WalkCosts {
             force: [0.02, 0.01],
             others: 1.0,
             slip: 0.0025,
+            slip_exponent: 0.0,
             ..WalkCosts::default()
         }
     }
@@ -130,12 +142,14 @@ impl WalkCosts {
     /// The costs at a dimensionless speed.
     fn at(self, speed: f64) -> WalkCosts {
         let [forward, up] = self.force;
-        let factor = (speed / FREE_SPEED).powf(self.force_exponent);
-        WalkCosts { force: [forward * factor, up], ..self }
+        let grown = |exponent: f64| (speed / FREE_SPEED).powf(exponent);
+        let force = [forward * grown(self.force_exponent), up];
+        WalkCosts { force, slip: self.slip * grown(self.slip_exponent), ..self }
     }
 }
 
 impl Default for WalkCosts {
+    /// For a figure in three dimensions. In fast walking feet would slip more, so slip costs more there.
     fn default() -> WalkCosts {
         WalkCosts {
             knots: 32,
@@ -146,43 +160,60 @@ impl Default for WalkCosts {
             acceleration: 30.0,
             toes: 90.0,
             arms: 10.0,
-            plane: 1.0 * DEGREE,
-            force: [0.02, 0.04],
+            pelvis: 0.35 * DEGREE,
+            trunk: 1.0 * DEGREE,
+            hip_aside: 2.3 * DEGREE,
+            force: [0.013, 0.04],
             force_exponent: 0.0,
             others: 0.0,
+            sideways_force: 0.04,
             moment: 0.006,
+            abduction: 0.0039,
             moment_rate: 3.0,
-            slip: 0.02,
+            slip: 0.005,
+            slip_exponent: -1.0,
         }
     }
 }
 
 /// Stages of the solution: shoes become stiffer, friction steeper, and residual forces at the root more expensive.
 pub const STAGES: [Continuation; 8] = [
-    Continuation { stiffness: 0.25, creep: 50.0, slack: 0.05, updates: 0, steps: 20, gain: 3e-3 },
-    Continuation { stiffness: 0.5, creep: 20.0, slack: 0.02, updates: 0, steps: 20, gain: 3e-3 },
-    Continuation { stiffness: 1.0, creep: 8.0, slack: 0.01, updates: 0, steps: 10, gain: 3e-3 },
-    Continuation { stiffness: 1.0, creep: 4.0, slack: 0.005, updates: 0, steps: 10, gain: 3e-3 },
-    Continuation { stiffness: 1.0, creep: 2.0, slack: 0.002, updates: 0, steps: 10, gain: 3e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.001, updates: 0, steps: 10, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0002, updates: 1, steps: 10, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.00003, updates: 6, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 0.25, creep: 50.0, slip: 1.0, slack: 0.05, updates: 0, steps: 20, gain: 3e-3 },
+    Continuation { stiffness: 0.5, creep: 20.0, slip: 1.0, slack: 0.02, updates: 0, steps: 20, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 8.0, slip: 1.0, slack: 0.01, updates: 0, steps: 10, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 4.0, slip: 1.0, slack: 0.005, updates: 0, steps: 10, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 2.0, slip: 1.0, slack: 0.002, updates: 0, steps: 10, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.001, updates: 0, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0002, updates: 1, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.00003, updates: 10, steps: 10, gain: 1e-3 },
 ];
+
+/// Stages of the solution of a walk in three dimensions: as [`STAGES`], but slip of soles becomes expensive as friction becomes steep. Before that,
+/// soles must creep to transmit forces, and a high cost of slip leads to motions that avoid forces.
+pub const SPATIAL_STAGES: [Continuation; 8] = {
+    let factors = [4.0, 4.0, 4.0, 4.0, 4.0, 3.0, 1.7, 1.0];
+    let (mut stages, mut k) = (STAGES, 0);
+    while k < stages.len() {
+        stages[k].slip = factors[k];
+        k += 1;
+    }
+    stages
+};
 
 /// Stages of the solution of a gait that is far from those of people, such as a step with straight knees: friction becomes steeper in more stages of
 /// more steps.
 pub const FINE_STAGES: [Continuation; 11] = [
-    Continuation { stiffness: 0.25, creep: 50.0, slack: 0.05, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 0.5, creep: 25.0, slack: 0.02, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 16.0, slack: 0.01, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 10.0, slack: 0.005, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 6.0, slack: 0.003, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 4.0, slack: 0.002, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 2.5, slack: 0.001, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.6, slack: 0.001, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.001, updates: 0, steps: 40, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0003, updates: 2, steps: 20, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0001, updates: 4, steps: 20, gain: 1e-3 },
+    Continuation { stiffness: 0.25, creep: 50.0, slip: 1.0, slack: 0.05, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 0.5, creep: 25.0, slip: 1.0, slack: 0.02, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 16.0, slip: 1.0, slack: 0.01, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 10.0, slip: 1.0, slack: 0.005, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 6.0, slip: 1.0, slack: 0.003, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 4.0, slip: 1.0, slack: 0.002, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 2.5, slip: 1.0, slack: 0.001, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.6, slip: 1.0, slack: 0.001, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.001, updates: 0, steps: 40, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0003, updates: 2, steps: 20, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0001, updates: 4, steps: 20, gain: 1e-3 },
 ];
 
 /// Dimensionless speed of free walking in Schwartz, Rozumalski, Trost 2008.
@@ -250,6 +281,13 @@ impl WalkProblem {
         WalkProblem { problem, guess, kept: Vec::new() }
     }
 
+    /// The stages in which a walk from a first guess is solved: [`SPATIAL_STAGES`] for a figure that can move sideways, [`STAGES`] for one in the
+    /// sagittal plane.
+    #[must_use]
+    pub fn stages(&self) -> &'static [Continuation] {
+        if moves_sideways(&self.problem.model) { &SPATIAL_STAGES } else { &STAGES }
+    }
+
     /// Solves the problem.
     ///
     /// # Errors
@@ -279,6 +317,11 @@ impl WalkProblem {
 /// Coordinate of forward motion.
 fn forward(model: &Model) -> Option<CoordinateId> {
     model.anatomy().coordinate(Movement::PelvisForward, None).map(|(id, _)| id)
+}
+
+/// Whether the figure is not bound to the sagittal plane.
+fn moves_sideways(model: &Model) -> bool {
+    model.anatomy().coordinate(Movement::PelvisRight, None).is_some()
 }
 
 /// A problem of a figure that has no span and no terms yet.
@@ -359,12 +402,12 @@ impl Builder<'_> {
                 }
                 Some(Movement::PelvicTilt) => self.follow(id, DEGREE, 3.0),
                 Some(Movement::PelvicObliquity | Movement::PelvicRotation) => {
-                    self.follow(id, costs.plane, 10.0);
+                    self.follow(id, costs.pelvis, 10.0);
                 }
-                Some(Movement::HipAdduction | Movement::HipRotation) => self.follow(id, costs.plane, 20.0),
-                Some(Movement::SubtalarInversion) => self.follow(id, 3.0 * DEGREE, 30.0),
+                Some(Movement::HipAdduction | Movement::HipRotation) => self.follow(id, costs.hip_aside, 20.0),
+                Some(Movement::SubtalarInversion) => self.follow(id, 3.0 * DEGREE, 6.0),
                 Some(Movement::TrunkLean) => self.trunk(id),
-                Some(Movement::TrunkObliquity | Movement::TrunkRotation) => self.follow(id, costs.plane, 10.0),
+                Some(Movement::TrunkObliquity | Movement::TrunkRotation) => self.follow(id, costs.trunk, 10.0),
                 _ => self.follow(id, 3.0 * DEGREE, costs.arms),
             }
             self.range(id, &name);
@@ -404,6 +447,11 @@ impl Builder<'_> {
         for side in Side::BOTH {
             let toes = Quantity::GroundForce(spheres_of(problem, side, "toe"), 1);
             self.add("force under the toes", toes, self.constant(0.0), 0.15 * weight, Bound::Near);
+            if moves_sideways(self.model) {
+                let sideways = Quantity::GroundForce(spheres_of(problem, side, ""), 2);
+                let deviation = costs.sideways_force * weight;
+                self.add("sideways force", sideways, self.constant(0.0), deviation, Bound::Near);
+            }
         }
         let share = if walk.gait().follows_people() { 1.0 } else { costs.others };
         if share <= 0.0 {
@@ -444,18 +492,18 @@ impl Builder<'_> {
     fn moments(&mut self, problem: &Problem, costs: &WalkCosts) {
         let weight_times_leg = problem.weight_n() * problem.length_m;
         type Part = fn(&JointMoments) -> f64;
-        let parts: [(Movement, Part); 4] = [
-            (Movement::HipFlexion, |m| -m.hip_extension),
-            (Movement::KneeFlexion, |m| -m.knee_extension),
-            (Movement::AnkleDorsiflexion, |m| -m.plantarflexion),
-            (Movement::HipAdduction, |m| -m.hip_abduction),
+        let parts: [(Movement, Part, f64); 4] = [
+            (Movement::HipFlexion, |m| -m.hip_extension, costs.moment),
+            (Movement::KneeFlexion, |m| -m.knee_extension, costs.moment),
+            (Movement::AnkleDorsiflexion, |m| -m.plantarflexion, costs.moment),
+            (Movement::HipAdduction, |m| -m.hip_abduction, costs.abduction),
         ];
         for (k, side) in Side::BOTH.into_iter().enumerate() {
-            for (movement, part) in parts {
+            for (movement, part, deviation) in parts {
                 let Some((id, sign)) = self.model.anatomy().coordinate(movement, Some(side)) else { continue };
                 let target = |t: &Target| Some(sign * part(&t.moments[k]) * weight_times_leg);
                 let targets = self.targets.iter().map(target).collect();
-                let deviation = costs.moment * weight_times_leg;
+                let deviation = deviation * weight_times_leg;
                 self.add("moment", Quantity::Force(id), targets, deviation, Bound::Near);
             }
         }

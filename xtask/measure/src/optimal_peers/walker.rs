@@ -34,8 +34,8 @@ const SAMPLES: usize = 200;
 
 /// Stages before Newton's method.
 const STAGES: [Continuation; 2] = [
-    Continuation { stiffness: 0.5, creep: 2.0, slack: 0.02, updates: 0, steps: 20, gain: 3e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.02, updates: 0, steps: 20, gain: 1e-3 },
+    Continuation { stiffness: 0.5, creep: 2.0, slip: 1.0, slack: 0.02, updates: 0, steps: 20, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.02, updates: 0, steps: 20, gain: 1e-3 },
 ];
 /// Accuracy of Newton's method, and the largest number of its steps.
 pub(super) const ACCURACY: f64 = 1e-5;

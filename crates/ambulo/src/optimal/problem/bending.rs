@@ -41,8 +41,8 @@ impl<'a> Transcription<'a> {
         let (at, problem) = (&self.instants[index], self.problem);
         let counts = index < self.counted();
         for term in problem.terms.iter().filter(|term| counts && term.quantity.is_rate_of_force().is_none()) {
-            let Some(residual) = term.residual(index, term.quantity.value(index, at)) else { continue };
-            let factor = residual * share * share / term.deviation;
+            let Some(residual) = self.stage.residual(term, index, at) else { continue };
+            let factor = residual * share * share / self.stage.deviation(term);
             match &term.quantity {
                 Quantity::Force(id) => pull.forces[id.index()] += factor,
                 // Linear.

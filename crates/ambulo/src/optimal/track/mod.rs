@@ -31,12 +31,12 @@ use terms::{Recorded, terms};
 
 /// Stages of the solution: shoes become stiffer, friction steeper, and residual forces smaller.
 pub const TRACK_STAGES: [Continuation; 6] = [
-    Continuation { stiffness: 0.5, creep: 12.0, slack: 0.02, updates: 0, steps: 40, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 5.0, slack: 0.01, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 2.0, slack: 0.005, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.002, updates: 0, steps: 30, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0005, updates: 1, steps: 20, gain: 3e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slack: 0.0001, updates: 6, steps: 20, gain: 1e-2 },
+    Continuation { stiffness: 0.5, creep: 12.0, slip: 1.0, slack: 0.02, updates: 0, steps: 40, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 5.0, slip: 1.0, slack: 0.01, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 2.0, slip: 1.0, slack: 0.005, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.002, updates: 0, steps: 30, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0005, updates: 1, steps: 20, gain: 3e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0001, updates: 6, steps: 20, gain: 1e-2 },
 ];
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
