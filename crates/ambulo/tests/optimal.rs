@@ -24,7 +24,7 @@ struct Case {
 }
 
 fn planar_costs(knots: usize) -> WalkCosts {
-    WalkCosts { knots, per_knot: 2, ..WalkCosts::planar() }
+    WalkCosts { knots, force: [0.02, 0.04], slip: 0.02, slip_exponent: 0.0, ..WalkCosts::default() }
 }
 
 fn case(human: Human, wide: bool) -> Case {

@@ -28,7 +28,7 @@ fn walk_of(human: &Human) -> Walk {
 fn start(span: Span) -> Start {
     let human = MAN.human().unwrap();
     let walk = walk_of(&human);
-    let costs = WalkCosts { knots: 24, per_knot: 2, ..WalkCosts::planar() };
+    let costs = WalkCosts { knots: 24, force: [0.02, 0.04], slip: 0.02, slip_exponent: 0.0, ..WalkCosts::default() };
     let shoes = HuntCrossley::SOFT_SHOES;
     let problem = WalkProblem::over(span, &human, &human.soles, shoes, &walk, &costs).unwrap();
     let unknowns = problem.solve(&STAGES).unwrap().unknowns().to_vec();

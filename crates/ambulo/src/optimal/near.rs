@@ -17,7 +17,7 @@ pub const NEAR_STAGES: [Continuation; 5] = [
     Continuation { stiffness: 1.0, creep: 2.0, slip: 1.0, slack: 0.002, updates: 0, steps: 10, gain: 3e-3 },
     Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.001, updates: 0, steps: 10, gain: 1e-3 },
     Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0002, updates: 1, steps: 10, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.00003, updates: 10, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.00003, updates: 6, steps: 10, gain: 1e-3 },
 ];
 
 /// Factors of the deviation of slip in these stages, for a walk that follows people.

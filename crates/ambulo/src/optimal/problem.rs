@@ -93,12 +93,6 @@ struct Rows {
     slopes: Vec<f64>,
 }
 
-impl Rows {
-    fn add_to(&self, sums: &mut InstantSums, normal: &NormalEquations) {
-        normal.add_rows(sums, &self.residuals, &self.slopes);
-    }
-}
-
 impl Problem {
     /// Number of instants at which terms have targets, including both ends of the span.
     #[must_use]
@@ -344,25 +338,12 @@ impl<'a> Transcription<'a> {
     /// Normal equations at the instants that were evaluated.
     pub(super) fn linearise(&mut self, normal: &mut NormalEquations) {
         normal.clear();
-        let rates: Vec<(CoordinateId, &Term)> = self.rates().collect();
-        let last = self.instants.len() - 1;
-        // Rows of the rates between the instant before and this one, by the z of this one.
-        let mut from = Rows::default();
-        for index in 0..=last {
-            self.sums.clear();
-            from.add_to(&mut self.sums, normal);
-            if index < self.counted() {
-                self.instant_rows(index, normal);
-            }
-            if index < last && !rates.is_empty() {
-                let [here, there] = self.rate_rows(index, &rates);
-                here.add_to(&mut self.sums, normal);
-                self.add_pair(index, &here, &there, normal);
-                from = there;
-            }
+        for index in 0..self.counted() {
+            self.instant_rows(index, normal);
             let weights = self.weights(index);
             normal.add_instant(&weights, &mut self.sums);
         }
+        self.rate_rows(normal);
     }
 
     /// Exchanges the evaluated instants with those at which the normal equations were computed, so that a trial does not overwrite these.
@@ -403,6 +384,7 @@ impl<'a> Transcription<'a> {
 
     fn instant_rows(&mut self, index: usize, normal: &NormalEquations) {
         let share = self.share();
+        self.sums.clear();
         self.rows.residuals.clear();
         self.rows.slopes.clear();
         for term in self.problem.terms.iter().filter(|term| term.quantity.is_rate_of_force().is_none()) {
@@ -423,34 +405,40 @@ impl<'a> Transcription<'a> {
             let slopes = &self.instants[index].slopes[coordinate * width..(coordinate + 1) * width];
             self.rows.slopes.extend(slopes.iter().map(|slope| slope / scale));
         }
-        self.rows.add_to(&mut self.sums, normal);
+        normal.add_rows(&mut self.sums, &self.rows.residuals, &self.rows.slopes);
     }
 
-    /// Rows of the rates of forces between an instant and the next one, by the z of each.
-    fn rate_rows(&self, index: usize, rates: &[(CoordinateId, &Term)]) -> [Rows; 2] {
+    /// Rows of the rates of forces, each between two instants of one interval.
+    fn rate_rows(&mut self, normal: &mut NormalEquations) {
         let (width, share, per_second) = (3 * self.layout.width, self.share(), self.per_second());
-        let mut rows = [Rows::default(), Rows::default()];
-        for (id, term) in rates {
-            let Some(residual) = self.rate_residual(*id, term, index) else { continue };
-            let factor = share * per_second / term.deviation;
-            for (k, sign) in [(0, -1.0), (1, 1.0)] {
-                let slopes = &self.instants[index + k].slopes[id.index() * width..(id.index() + 1) * width];
-                rows[k].residuals.push(residual * share);
-                rows[k].slopes.extend(slopes.iter().map(|slope| slope * sign * factor));
-            }
-        }
-        rows
-    }
-
-    /// Adds what rows couple between an instant and the next one.
-    fn add_pair(&self, index: usize, here: &Rows, there: &Rows, normal: &mut NormalEquations) {
-        let width = 3 * self.layout.width;
-        let (first, interval) = self.layout.instant(index);
-        let (second, _) = self.layout.instant(index + 1);
-        let ends = [first, second].map(|at| self.timed(self.layout.weights(at, interval)));
         let mut cross = vec![0.0; width * width];
-        normal.cross(&here.slopes, &there.slopes, width, &mut cross);
-        normal.add_pair(&ends[0], &ends[1], &cross);
+        let rates: Vec<(CoordinateId, &Term)> = self.rates().collect();
+        if rates.is_empty() {
+            return;
+        }
+        for index in 0..self.instants.len() - 1 {
+            let (first, interval) = self.layout.instant(index);
+            let (second, _) = self.layout.instant(index + 1);
+            let mut residuals = Vec::new();
+            let mut slopes = [Vec::new(), Vec::new()];
+            for (id, term) in &rates {
+                let Some(residual) = self.rate_residual(*id, term, index) else { continue };
+                residuals.push(residual * share);
+                let factor = share * per_second / term.deviation;
+                for (k, sign) in [(0, -1.0), (1, 1.0)] {
+                    let row = &self.instants[index + k].slopes[id.index() * width..(id.index() + 1) * width];
+                    slopes[k].extend(row.iter().map(|slope| slope * sign * factor));
+                }
+            }
+            let ends = [first, second].map(|at| self.timed(self.layout.weights(at, interval)));
+            for k in 0..2 {
+                self.sums.clear();
+                normal.add_rows(&mut self.sums, &residuals, &slopes[k]);
+                normal.add_instant(&ends[k], &mut self.sums);
+            }
+            normal.cross(&slopes[0], &slopes[1], width, &mut cross);
+            normal.add_pair(&ends[0], &ends[1], &cross);
+        }
     }
 
     pub(super) fn instants(&self) -> &[Instant] {

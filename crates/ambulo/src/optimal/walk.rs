@@ -185,7 +185,7 @@ pub const STAGES: [Continuation; 8] = [
     Continuation { stiffness: 1.0, creep: 2.0, slip: 1.0, slack: 0.002, updates: 0, steps: 10, gain: 3e-3 },
     Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.001, updates: 0, steps: 10, gain: 1e-3 },
     Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0002, updates: 1, steps: 10, gain: 1e-3 },
-    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.00003, updates: 10, steps: 10, gain: 1e-3 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.00003, updates: 6, steps: 10, gain: 1e-3 },
 ];
 
 /// Stages of the solution of a walk in three dimensions: as [`STAGES`], but slip of soles becomes expensive as friction becomes steep. Before that,
@@ -197,6 +197,7 @@ pub const SPATIAL_STAGES: [Continuation; 8] = {
         stages[k].slip = factors[k];
         k += 1;
     }
+    stages[k - 1].updates = 10;
     stages
 };
 
