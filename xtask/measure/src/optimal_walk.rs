@@ -137,6 +137,11 @@ fn near(human: &Human, free: &Found) -> Result<Vec<Near>, String> {
     Ok(all)
 }
 
+/// Costs of the planar figure whose time is measured: those of three dimensions, but slip as in slow walking.
+fn planar_costs() -> WalkCosts {
+    WalkCosts { force: [0.02, 0.04], slip: 0.02, slip_exponent: 0.0, ..WalkCosts::default() }
+}
+
 /// Solves the walk of a figure at a dimensionless speed, from the first guess or from the solution of a similar walk.
 fn find(human: &Human, speed: f64, near: Option<&Found>) -> Result<Found, String> {
     let mut gait = Gait::named("free").map_err(|e| e.to_string())?;
@@ -146,7 +151,7 @@ fn find(human: &Human, speed: f64, near: Option<&Found>) -> Result<Found, String
     let planar = human.model.coordinate("pelvis_list").is_none();
     let soles = if planar { human.soles.clone() } else { soles_with_width(human) };
     let clock = ThreadTime::now();
-    let costs = if planar { WalkCosts { per_knot: 2, ..WalkCosts::planar() } } else { WalkCosts::default() };
+    let costs = if planar { planar_costs() } else { WalkCosts::default() };
     let problem =
         WalkProblem::new(human, &soles, HuntCrossley::SOFT_SHOES, &walk, &costs).map_err(|e| e.to_string())?;
     let solution: Solution = match near {

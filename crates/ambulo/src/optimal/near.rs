@@ -7,7 +7,7 @@
 
 use super::solution::Solution;
 use super::solve::Continuation;
-use super::walk::WalkProblem;
+use super::walk::{WalkProblem, moves_sideways};
 use crate::dynamics::CurvedJointError;
 use crate::model::{CoordinateKind, Model, Movement};
 
@@ -20,7 +20,7 @@ pub const NEAR_STAGES: [Continuation; 5] = [
     Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.00003, updates: 6, steps: 10, gain: 1e-3 },
 ];
 
-/// Factors of the deviation of slip in these stages, for a walk that follows people.
+/// Factors of the deviation of slip in these stages, for a walk in three dimensions.
 const NEAR_SLIP: [f64; 5] = [4.0, 4.0, 3.0, 1.7, 1.0];
 /// Steps of the solver before an update, and factor of the gain below which a stage ends, where the objective changes more than near a known
 /// walk.
@@ -48,8 +48,10 @@ impl WalkProblem {
         }
         let start = self.start_near(known, unknowns)?;
         let mut stages = NEAR_STAGES;
-        for (stage, slip) in stages.iter_mut().zip(NEAR_SLIP) {
-            stage.slip = slip;
+        if moves_sideways(&self.problem.model) {
+            for (stage, slip) in stages.iter_mut().zip(NEAR_SLIP) {
+                stage.slip = slip;
+            }
         }
         self.problem.solve(&start, &stages)
     }

@@ -321,7 +321,7 @@ fn forward(model: &Model) -> Option<CoordinateId> {
 }
 
 /// Whether the figure is not bound to the sagittal plane.
-fn moves_sideways(model: &Model) -> bool {
+pub(super) fn moves_sideways(model: &Model) -> bool {
     model.anatomy().coordinate(Movement::PelvisRight, None).is_some()
 }
 
