@@ -137,7 +137,7 @@ fn near(human: &Human, free: &Found) -> Result<Vec<Near>, String> {
     Ok(all)
 }
 
-/// Costs of the planar figure whose time is measured: those of three dimensions, but slip as in slow walking.
+/// Costs of the planar figure whose time is measured. Slip and ground forces cost less than in three dimensions, as when this time was first measured.
 fn planar_costs() -> WalkCosts {
     WalkCosts { force: [0.02, 0.04], slip: 0.02, slip_exponent: 0.0, ..WalkCosts::default() }
 }
