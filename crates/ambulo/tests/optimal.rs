@@ -54,6 +54,27 @@ fn nothing_but_joints_and_ground_moves_an_optimal_walk() {
     }
 }
 
+/// Sideways forces cost something where a figure can have them, and their targets are zero: people's are not known to the objective.
+#[test]
+fn only_a_walk_in_three_dimensions_has_a_cost_of_sideways_force() {
+    let sideways = |case: &Case| -> Vec<(Vec<usize>, Vec<Option<f64>>, f64)> {
+        let of = |term: &Term| match &term.quantity {
+            Quantity::GroundForce(spheres, 2) => Some((spheres.clone(), term.targets.clone(), term.deviation)),
+            _ => None,
+        };
+        case.problem.problem.terms.iter().filter_map(of).collect()
+    };
+    assert!(sideways(&PLANAR).is_empty());
+    let found = sideways(&SPATIAL);
+    let weight = 75.0 * SPATIAL.human.model.gravity().norm();
+    assert_eq!(found.len(), 2);
+    for (spheres, targets, deviation) in &found {
+        assert_eq!(spheres.len(), 6);
+        assert!(targets.iter().all(|target| *target == Some(0.0)));
+        assert!((deviation - WalkCosts::default().sideways_force * weight).abs() < 1e-6 * weight, "{deviation} N");
+    }
+}
+
 #[test]
 fn a_first_guess_does_not_pass_as_a_walk() {
     let Case { problem, walk, .. } = &*PLANAR;

@@ -6,8 +6,8 @@ use ambulo::gait::{Gait, JointMomentLaws, Walk};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::{Movement, Side};
 use ambulo::optimal::{
-    Device, EffortCosts, Load, LoadPlace, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Prediction, STAGES, Solution,
-    Span, WalkConditions, WalkCosts, WalkProblem, metabolic_power,
+    Bound, Device, EffortCosts, Load, LoadPlace, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Prediction, Quantity,
+    STAGES, Solution, Span, Term, WalkConditions, WalkCosts, WalkProblem, metabolic_power,
 };
 use std::sync::LazyLock;
 
@@ -84,6 +84,28 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Curves of people are in no cost of this walk.
+/// Without people's curves, joints keep both of their limits, and slip has the cost of muscles.
+#[test]
+fn a_prediction_keeps_both_limits_of_a_joint_and_has_its_own_cost_of_slip() {
+    let start = &*MIRRORED;
+    let costs = EffortCosts { slip: 0.03, ..EffortCosts::default() };
+    let next = start.problem.of_muscles(&start.human, &start.walk, &costs, &WalkConditions::default(), 0.0);
+    let count = |of: &WalkProblem, bound: Bound| -> usize {
+        let is_range = |term: &&Term| term.name.starts_with("range of") && term.bound == bound;
+        of.problem.terms.iter().filter(is_range).count()
+    };
+    for bound in [Bound::AtLeast, Bound::AtMost] {
+        assert!(count(&next, bound) > 0);
+        assert_eq!(count(&next, bound), count(&start.problem, bound), "{bound:?}");
+    }
+    let slips = next.problem.terms.iter().filter(|term| matches!(term.quantity, Quantity::Slip { .. }));
+    let deviations: Vec<f64> = slips.map(|term| term.deviation).collect();
+    assert!(
+        !deviations.is_empty() && deviations.iter().all(|deviation| (deviation - costs.slip).abs() < 1e-12),
+        "{deviations:?}"
+    );
+}
+
 #[test]
 fn a_walk_of_lazy_muscles_is_that_of_people() {
     let walk = walk_of(&ambulo::model::full_body::full_body(&MAN).unwrap());
