@@ -282,6 +282,12 @@ impl<const N: usize> DerivativeKernel<N> {
         arch.dispatch(Evaluate(self));
     }
 
+    /// As [`DerivativeKernel::evaluate`], without slopes, in less time. The forces are the same to the last bit.
+    pub(crate) fn evaluate_forces(&mut self) {
+        let arch = self.arch;
+        arch.dispatch(EvaluateForces(self));
+    }
+
     #[inline(always)]
     fn forward(&mut self) {
         sweep::forward(&self.plan, &mut self.scratch);
@@ -339,6 +345,19 @@ impl<const N: usize> DerivativeKernel<N> {
             let (v, a) = (self.velocities[link], self.accelerations[link]);
             let one = Composite::of_body(segment.mass, center * mass, inertia, v, a);
             self.composites[link].add(&one);
+        }
+    }
+
+    /// The forces of [`DerivativeKernel::backward`].
+    #[inline(always)]
+    fn backward_forces(&mut self) {
+        self.forces.fill(Lanes::ZERO);
+        for j in (0..self.links.len()).rev() {
+            let force = self.composites[j].force;
+            self.forces[self.links[j].coordinate] += self.axes[j].dot(force);
+            if let Some(before) = self.links[j].before {
+                self.composites[before].force = self.composites[before].force.plus(force);
+            }
         }
     }
 
@@ -517,5 +536,19 @@ impl<const N: usize> WithSimd for Evaluate<'_, N> {
         self.0.forward();
         self.0.load_bodies();
         self.0.backward();
+    }
+}
+
+/// The same without slopes.
+struct EvaluateForces<'a, const N: usize>(&'a mut DerivativeKernel<N>);
+
+impl<const N: usize> WithSimd for EvaluateForces<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.forward();
+        self.0.load_bodies();
+        self.0.backward_forces();
     }
 }

@@ -10,7 +10,7 @@
 //! and changes the velocity of the body by ∂V/∂q_k = S_k × (V - V_k). An axis that follows a curve f of its coordinate adds s f'' q̇_k to the
 //! latter, and -(s f'')ᵀ W to ∂τ_k/∂q_k.
 
-use crate::contact::HuntCrossley;
+use crate::contact::{ContactSlopes, HuntCrossley};
 use crate::dynamics::{CurvedJointError, DerivativeKernel, Spatial};
 use crate::model::anthropometry::ContactSphere;
 use crate::model::{Coordinate, Drive, Function, Model};
@@ -94,6 +94,15 @@ impl One {
     }
 }
 
+/// A sphere on the ground at one instant: its centre, the contact point, the velocity of the body, and the force on the sphere.
+#[derive(Debug, Clone, Copy)]
+struct Touch {
+    center: Vec3,
+    place: Vec3,
+    motion: One,
+    found: ContactSlopes,
+}
+
 /// Derivatives of the wrench of the ground on a foot by the coordinate of a link.
 #[derive(Debug, Clone, Copy)]
 struct WrenchSlopes {
@@ -138,6 +147,15 @@ impl Evaluator {
 
     /// Computes forces, contacts and derivatives of all instants from their postures.
     pub(super) fn evaluate(&mut self, law: &HuntCrossley, instants: &mut [Instant]) {
+        self.evaluate_parts(law, instants, true);
+    }
+
+    /// As [`Evaluator::evaluate`], without derivatives, in about half the time. Values are the same to the last bit.
+    pub(super) fn evaluate_forces(&mut self, law: &HuntCrossley, instants: &mut [Instant]) {
+        self.evaluate_parts(law, instants, false);
+    }
+
+    fn evaluate_parts(&mut self, law: &HuntCrossley, instants: &mut [Instant], slopes: bool) {
         for block in instants.chunks_mut(SIDE_BY_SIDE) {
             block.iter_mut().for_each(|instant| self.follow_leaders(&mut instant.posture));
             for lane in 0..SIDE_BY_SIDE {
@@ -149,19 +167,28 @@ impl Evaluator {
                     }
                 }
             }
-            self.kernel.evaluate();
+            if slopes {
+                self.kernel.evaluate()
+            } else {
+                self.kernel.evaluate_forces()
+            }
             for (lane, instant) in block.iter_mut().enumerate() {
-                self.take_forces(lane, instant);
-                self.add_ground(law, lane, instant);
+                instant.forces.clear();
+                instant.forces.extend(self.kernel.forces.iter().map(|force| force.0[lane]));
+                instant.slopes.clear();
+                instant.contacts.resize_with(self.soles.len(), Contact::default);
+                if slopes {
+                    self.take_slopes(lane, instant);
+                    self.add_ground(law, lane, instant);
+                } else {
+                    self.add_ground_forces(law, lane, instant);
+                }
             }
         }
     }
 
-    fn take_forces(&self, lane: usize, instant: &mut Instant) {
+    fn take_slopes(&self, lane: usize, instant: &mut Instant) {
         let count = self.kernel.coordinates();
-        instant.forces.clear();
-        instant.forces.extend(self.kernel.forces.iter().map(|force| force.0[lane]));
-        instant.slopes.clear();
         for row in 0..count {
             for slopes in &self.kernel.slopes {
                 instant.slopes.extend(slopes[row * count..(row + 1) * count].iter().map(|slope| slope.0[lane]));
@@ -169,9 +196,23 @@ impl Evaluator {
         }
     }
 
+    /// Adds the contacts of all spheres to forces.
+    fn add_ground_forces(&self, law: &HuntCrossley, lane: usize, instant: &mut Instant) {
+        for (k, sole) in self.soles.iter().enumerate() {
+            let touch = self.meet(law, lane, k, &mut instant.contacts[k]);
+            if touch.found.force.y.abs() <= 0.0 {
+                continue;
+            }
+            let wrench = touch.wrench();
+            for &link in &self.chains[sole.body.index()] {
+                let axis = One::of(&self.kernel.axes[link], lane);
+                instant.forces[self.kernel.links[link].coordinate] -= axis.dot(wrench);
+            }
+        }
+    }
+
     /// Adds the contacts of all spheres to forces and derivatives.
     fn add_ground(&self, law: &HuntCrossley, lane: usize, instant: &mut Instant) {
-        instant.contacts.resize_with(self.soles.len(), Contact::default);
         for k in 0..self.soles.len() {
             let chain = &self.chains[self.soles[k].body.index()];
             let (wrench, slopes) = self.touch(law, lane, k, &mut instant.contacts[k]);
@@ -201,22 +242,30 @@ impl Evaluator {
         }
     }
 
-    /// Computes the contact of one sphere. Returns its wrench at the origin of the world, with derivatives per link of the chain.
-    fn touch(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> (One, Vec<WrenchSlopes>) {
+    /// The contact of one sphere, whose values it sets.
+    fn meet(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> Touch {
         let sole = &self.soles[sphere];
         let body = sole.body.index();
         let pose = self.kernel.pose(body, lane);
         let center = pose.rotation * sole.center + pose.translation;
         let height = center.y - sole.radius - self.levels[sphere];
         let place = Vec3::new(center.x, self.levels[sphere] + 0.5 * height, center.z);
-        let chain = &self.chains[body];
-        let motion = chain.first().map_or(NO_WRENCH, |&link| One::of(&self.kernel.velocities[link], lane));
+        let motion = self.chains[body].first().map_or(NO_WRENCH, |&link| One::of(&self.kernel.velocities[link], lane));
         let velocity = motion.at(place);
         let found = law.force_with_slopes(sole.radius, -height, -velocity.y, velocity);
         let force = found.force;
         contact.place = place;
         contact.values = [force.x, force.y, force.z, height, velocity.x, velocity.z, center.z, center.x];
         contact.slopes.clear();
+        Touch { center, place, motion, found }
+    }
+
+    /// Computes the contact of one sphere. Returns its wrench at the origin of the world, with derivatives per link of the chain.
+    fn touch(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> (One, Vec<WrenchSlopes>) {
+        let touch = self.meet(law, lane, sphere, contact);
+        let Touch { center, place, motion, found } = touch;
+        let force = found.force;
+        let chain = &self.chains[self.soles[sphere].body.index()];
         let mut wrenches = Vec::with_capacity(chain.len());
         for &link in chain {
             let axis = One::of(&self.kernel.axes[link], lane);
@@ -245,7 +294,14 @@ impl Evaluator {
             contact.slopes.push((self.kernel.links[link].coordinate, slopes));
             wrenches.push(WrenchSlopes { by_position: wrench[0], by_rate: wrench[1] });
         }
-        (One { angular: place.cross(&force), linear: force }, wrenches)
+        (touch.wrench(), wrenches)
+    }
+}
+
+impl Touch {
+    /// The wrench of the ground at the origin of the world.
+    fn wrench(&self) -> One {
+        One { angular: self.place.cross(&self.found.force), linear: self.found.force }
     }
 }
 
@@ -302,6 +358,26 @@ mod tests {
         let human = full_body(&build).unwrap();
         check(&human.model, &human);
         check(&curved(&human.model), &human);
+    }
+
+    #[test]
+    fn forces_without_derivatives_are_the_same() {
+        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+        let human = full_body(&build).unwrap();
+        let model = curved(&human.model);
+        let mut evaluator = Evaluator::new(&model, &human.soles, &[0.02]).unwrap();
+        let count = model.coordinates().len();
+        let mut at: Vec<Instant> =
+            (0..6).map(|seed| instant(f64::from(seed), count, 0.98 * human.dimensions.leg_length)).collect();
+        let mut plain = at.clone();
+        evaluator.evaluate(&HuntCrossley::SOFT_SHOES, &mut at);
+        evaluator.evaluate_forces(&HuntCrossley::SOFT_SHOES, &mut plain);
+        for (full, plain) in at.iter().zip(&plain) {
+            assert_eq!(full.forces, plain.forces);
+            let values = |of: &Instant| of.contacts.iter().map(|contact| contact.values).collect::<Vec<_>>();
+            assert_eq!(values(full), values(plain));
+            assert!(plain.slopes.is_empty());
+        }
     }
 
     fn check(model: &Model, human: &Human) {

@@ -195,8 +195,20 @@ impl<'a> Transcription<'a> {
         })
     }
 
-    /// Evaluates all instants.
+    /// Evaluates all instants, with derivatives.
     pub(super) fn evaluate(&mut self, unknowns: &[f64]) {
+        self.place(unknowns);
+        self.evaluator.evaluate(&self.stage.shoes, &mut self.instants);
+    }
+
+    /// Evaluates all instants without derivatives, in less time: for the cost, not for normal equations.
+    pub(super) fn evaluate_forces(&mut self, unknowns: &[f64]) {
+        self.place(unknowns);
+        self.evaluator.evaluate_forces(&self.stage.shoes, &mut self.instants);
+    }
+
+    /// Sets the postures of all instants.
+    fn place(&mut self, unknowns: &[f64]) {
         let extended = self.layout.extended(unknowns);
         for index in 0..self.instants.len() {
             let (share, first) = self.layout.instant(index);
@@ -213,7 +225,6 @@ impl<'a> Transcription<'a> {
             }
             self.problem.add_travel(share, posture);
         }
-        self.evaluator.evaluate(&self.stage.shoes, &mut self.instants);
     }
 
     /// Weights of an instant, with derivatives by time.

@@ -150,7 +150,7 @@ impl Solution {
     pub fn root_forces(&self, per_knot: usize) -> Result<(f64, f64), CurvedJointError> {
         let finer = Problem { instants_per_knot: per_knot, terms: Vec::new(), ..self.problem.clone() };
         let mut transcription = Transcription::new(&finer)?;
-        transcription.evaluate(&self.unknowns);
+        transcription.evaluate_forces(&self.unknowns);
         Ok(transcription.root_forces())
     }
 
@@ -188,7 +188,7 @@ impl Solution {
 
     fn block(&self, evaluator: &mut Evaluator, times_s: &[f64]) -> Vec<Sample> {
         let mut instants: Vec<Instant> = times_s.iter().map(|&time_s| self.instant(time_s)).collect();
-        evaluator.evaluate(&self.problem.shoes, &mut instants);
+        evaluator.evaluate_forces(&self.problem.shoes, &mut instants);
         let sample = |(at, &time_s): (Instant, &f64)| {
             let contact = |c: &super::instant::Contact| SoleContact {
                 place: c.place,
