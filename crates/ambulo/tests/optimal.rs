@@ -2,14 +2,14 @@
 
 use ambulo::contact::{FrictionCurve, HuntCrossley, Onset};
 use ambulo::findings::Findings;
-use ambulo::gait::{Gait, Walk};
+use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::Side;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::optimal::{
-    Bound, NEAR_STAGES, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Quantity, STAGES, Solution, Span, Term,
-    WalkCosts, WalkPlan, WalkProblem, soles_with_width,
+    Bound, NEAR_STAGES, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Quantity, SPATIAL_STAGES, STAGES, Solution, Span,
+    Term, WalkCosts, WalkPlan, WalkProblem, soles_with_width,
 };
 use ambulo::spatial::{Pose, Vec3};
 use std::sync::LazyLock;
@@ -273,7 +273,8 @@ fn a_walk_with_other_joints_or_knots_is_no_start() {
     let costs = planar_costs(12);
     let coarse = WalkProblem::new(human, &human.soles, HuntCrossley::SOFT_SHOES, walk, &costs).unwrap();
     let stages = |s: &Solution| s.progress.len();
-    assert_eq!(stages(&coarse.solve_near(problem, solution.unknowns()).unwrap()), STAGES.len());
+    // Coarse splines leave forces at the root, and the solver goes on.
+    assert!(stages(&coarse.solve_near(problem, solution.unknowns()).unwrap()) >= STAGES.len());
     assert_eq!(stages(&problem.solve_near(problem, &solution.unknowns()[1..]).unwrap()), STAGES.len());
     assert_eq!(stages(&problem.solve_near(problem, solution.unknowns()).unwrap()), NEAR_STAGES.len());
 }
@@ -323,8 +324,7 @@ fn shipped_plans_solve_the_present_problem() {
     for (build, walk) in shipped() {
         let plan = WalkPlan::of(&build, &walk).unwrap();
         let plan = plan.unwrap_or_else(|| panic!("no plan of {} at {}", build.table, walk.name()));
-        // Without stages nothing is solved: what is found is the plan.
-        let found = OptimalWalk::find_with(&build, &walk, &[], Some(&plan)).unwrap();
+        let found = OptimalWalk::find(&build, &walk).unwrap();
         assert_eq!(found.solution.unknowns(), plan.coefficients, "{} {}", build.table, walk.name());
         let root = found.solution.progress[0].root.1;
         println!("{} {}: {root:.1e}", build.table, walk.name());
@@ -402,9 +402,39 @@ fn a_plan_belongs_to_its_figure_speed_and_cadence_alone() {
 }
 
 #[test]
+fn other_speeds_are_solved_from_the_nearest_plan() {
+    for (build, _) in shipped().step_by(3) {
+        let leg_length = build.human().unwrap().dimensions.leg_length;
+        for (speed, nearest) in [(0.25, 0.29), (0.4, 0.429), (0.56, 0.56), (0.7, 0.56)] {
+            let mut gait = Gait::named("free").unwrap();
+            gait.pace.speed = Some(Speed::Dimensionless(speed));
+            let walk = Walk::new(&gait, leg_length, &mut Findings::default()).unwrap();
+            let (plan, walk_of_plan) = WalkPlan::nearest(build.table, &walk).unwrap().unwrap();
+            assert!((plan.speed - nearest).abs() < 1e-9, "{} at {speed}: {}", build.table, plan.speed);
+            assert!((walk_of_plan.cycle_s() - plan.cycle_s).abs() < 1e-9);
+            gait.step_height = 1.2;
+            let walk = Walk::new(&gait, leg_length, &mut Findings::default()).unwrap();
+            assert!(WalkPlan::nearest(build.table, &walk).unwrap().is_none(), "steps that are not those of people");
+        }
+    }
+    // The plan is of another mass and height, and of a speed that is 0.17 m/s slower.
+    let build = Build { mass: 60.0, height: 1.62, ..MAN };
+    let mut gait = Gait::named("free").unwrap();
+    gait.pace.speed = Some(Speed::MetersPerSecond(1.4));
+    let leg_length = build.human().unwrap().dimensions.leg_length;
+    let walk = Walk::new(&gait, leg_length, &mut Findings::default()).unwrap();
+    let found = OptimalWalk::find(&build, &walk).unwrap();
+    let cold = OptimalWalk::find_with(&build, &walk, &SPATIAL_STAGES).unwrap();
+    let steps = |found: &OptimalWalk| found.solution.progress.iter().map(|stage| stage.steps).sum::<usize>();
+    println!("{} steps from the plan, {} from the laws", steps(&found), steps(&cold));
+    assert!(found.solution.unbalanced(NO_ROOT_FORCE).is_none());
+    assert!(steps(&found) < steps(&cold));
+}
+
+#[test]
 fn what_is_not_found_is_said_with_place_and_size() {
     let (build, walk) = shipped().next().unwrap();
-    let found = OptimalWalk::find_with(&build, &walk, &[], None);
+    let found = OptimalWalk::find_with(&build, &walk, &[]);
     let Err(OptimalWalkError::NotConverged { worst, .. }) = &found else { panic!("{found:?}") };
     assert!(worst.force.abs() > worst.allowed && worst.coordinate.starts_with("pelvis"), "{worst:?}");
     let message = found.unwrap_err().to_string();

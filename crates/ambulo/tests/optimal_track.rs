@@ -25,7 +25,7 @@ const BUILD: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height
 
 /// A walk that needs no forces but those of its feet: one of the built-in plans.
 static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
-    let gait = Gait::named("slow").unwrap();
+    let gait = Gait::named("free").unwrap();
     let mode = SyntheticMode::Optimal;
     let settings = SyntheticWalkSettings { gait: &gait, build: BUILD, mode, cycles: 1, rate_hz: 100.0 };
     synthesise(&settings, &mut Findings::default()).unwrap()

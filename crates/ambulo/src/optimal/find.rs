@@ -35,38 +35,43 @@ pub struct OptimalWalk {
 }
 
 impl OptimalWalk {
-    /// Finds the walk of a figure in three dimensions on soft shoes: a built-in plan where one is for this walk, else a solution from the laws.
+    /// Finds the walk of a figure in three dimensions on soft shoes: a built-in plan where one is for this walk; else a solution from the plan
+    /// with the nearest speed; else a solution from the laws.
     ///
     /// # Errors
     /// A figure that cannot be built; no motion without outside forces.
     pub fn find(build: &Build, walk: &Walk) -> Result<OptimalWalk, OptimalWalkError> {
-        OptimalWalk::find_with(build, walk, &SPATIAL_STAGES, WalkPlan::of(build, walk)?.as_ref())
+        let (human, problem) = posed(build, walk)?;
+        if let Some(plan) = WalkPlan::of(build, walk)? {
+            let solution = problem.problem.at(&plan.coefficients)?;
+            if solution.unbalanced(LARGEST_ROOT_FORCE).is_none() {
+                return Ok(OptimalWalk::level(human, problem, solution));
+            }
+        }
+        if let Some((plan, near)) = WalkPlan::nearest(build.table, walk)? {
+            let (_, known) = posed(&plan.build, &near)?;
+            let found = OptimalWalk::level(human, problem.clone(), problem.solve_near(&known, &plan.coefficients)?);
+            if found.check(walk).is_ok() {
+                return Ok(found);
+            }
+        }
+        OptimalWalk::find_with(build, walk, &SPATIAL_STAGES)
     }
 
-    /// As [`OptimalWalk::find`], with given stages of the solution and from a given plan.
+    /// As [`OptimalWalk::find`], from the laws and in given stages.
     ///
     /// # Errors
     /// As [`OptimalWalk::find`].
-    pub fn find_with(
-        build: &Build,
-        walk: &Walk,
-        stages: &[Continuation],
-        plan: Option<&WalkPlan>,
-    ) -> Result<OptimalWalk, OptimalWalkError> {
-        let human = full_body(build)?;
-        let soles = soles_with_width(&human);
-        let problem = WalkProblem::new(&human, &soles, HuntCrossley::SOFT_SHOES, walk, &WalkCosts::default())?;
-        if let Some(plan) = plan {
-            let solution = problem.problem.at(&plan.coefficients)?;
-            if solution.unbalanced(LARGEST_ROOT_FORCE).is_none() {
-                return Ok(OptimalWalk { human, problem, solution, conditions: WalkConditions::default() });
-            }
-        }
-        let (longer, softer) = (Continuation::on(stages), &stages[stages.len() / 2..]);
-        let solution = problem.problem.balanced(problem.solve(stages)?, &[&longer, softer, &longer])?;
-        let found = OptimalWalk { human, problem, solution, conditions: WalkConditions::default() };
+    pub fn find_with(build: &Build, walk: &Walk, stages: &[Continuation]) -> Result<OptimalWalk, OptimalWalkError> {
+        let (human, problem) = posed(build, walk)?;
+        let solution = problem.solve(stages)?;
+        let found = OptimalWalk::level(human, problem, solution);
         found.check(walk)?;
         Ok(found)
+    }
+
+    fn level(human: Human, problem: WalkProblem, solution: Solution) -> OptimalWalk {
+        OptimalWalk { human, problem, solution, conditions: WalkConditions::default() }
     }
 
     /// Predicts the walk of a figure under some conditions, without curves of people as targets. If the conditions differ between the sides, so
@@ -127,4 +132,12 @@ impl OptimalWalk {
         }
         Ok(())
     }
+}
+
+/// A figure in three dimensions on soft shoes, and the problem of its walk.
+fn posed(build: &Build, walk: &Walk) -> Result<(Human, WalkProblem), OptimalWalkError> {
+    let human = full_body(build)?;
+    let soles = soles_with_width(&human);
+    let problem = WalkProblem::new(&human, &soles, HuntCrossley::SOFT_SHOES, walk, &WalkCosts::default())?;
+    Ok((human, problem))
 }

@@ -154,7 +154,7 @@ impl MovementProblem {
         let far = self.guided(LESS_GUIDED)?.solve(near.unknowns(), &stages)?;
         let on = Continuation::on(&stages);
         // Where the last stage alone is stuck, those before it lead out.
-        self.problem.balanced(self.problem.solve(far.unknowns(), &stages)?, &[&on, &stages, &on])
+        self.problem.balanced(self.problem.solve(far.unknowns(), &stages)?, &[&on, &stages, &on], &[])
     }
 
     /// The problem with a cost of deviations from the first guess.
@@ -262,7 +262,7 @@ fn first_guess(
     let at_rest = |q| Instant { posture: [q, still.clone(), still.clone()], ..Instant::default() };
     let mut instants: Vec<Instant> = postures.into_iter().map(at_rest).collect();
     let mut evaluator = Evaluator::new(model, &problem.soles, &problem.levels_m)?;
-    evaluator.evaluate(&problem.shoes, &mut instants);
+    evaluator.evaluate_forces(&problem.shoes, &mut instants);
     let middle = |at: &Instant| at.contacts[..soles].iter().map(|c| c.place.x).sum::<f64>() / soles as f64;
     let lowest = |at: &Instant| at.contacts[..soles].iter().map(|c| c.values[HEIGHT]).fold(f64::INFINITY, f64::min);
     let moved =

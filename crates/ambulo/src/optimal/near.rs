@@ -53,7 +53,8 @@ impl WalkProblem {
                 stage.slip = slip;
             }
         }
-        self.problem.solve(&start, &stages)
+        let found = self.problem.solve_keeping(&start, &stages, &self.kept)?;
+        self.problem.balanced(found, &[&Continuation::on(&stages)], &self.kept)
     }
 
     /// Whether the unknowns of both problems mean the same.

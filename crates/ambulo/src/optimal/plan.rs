@@ -1,10 +1,12 @@
 //! Solved walks of the built-in figures, which ship with the library.
 //!
 //! data/walks has the spline coefficients of solved walks of the built-in figures. A walk of the same figure, speed and cadence needs no
-//! solution; a test checks that the files solve the present problem. Made by `cargo xtask walk-plans`.
+//! solution; a test checks that the files solve the present problem. Other walks are solved from the plan with the nearest speed. Made by
+//! `cargo xtask walk-plans`.
 
 use super::solution::Solution;
-use crate::gait::Walk;
+use crate::findings::Findings;
+use crate::gait::{Gait, Speed, Walk};
 use crate::model::anthropometry::{Build, SegmentTable};
 use crate::toml_reader::{Source, Table, TomlError};
 
@@ -52,12 +54,34 @@ impl WalkPlan {
         if !walk.gait().follows_people() {
             return Ok(None);
         }
-        let is_for = |plan: &WalkPlan| {
-            plan.build == *build
-                && (plan.speed - walk.dimensionless_speed()).abs() < SAME
-                && (plan.cycle_s - walk.cycle_s()).abs() < SAME
-        };
-        Ok(WalkPlan::built_in(build.table)?.into_iter().find(is_for))
+        Ok(WalkPlan::built_in(build.table)?.into_iter().find(|plan| plan.build == *build && plan.is_for(walk)))
+    }
+
+    /// The built-in plan of a figure with the same table of segments whose dimensionless speed is nearest to that of a walk, and its walk; none
+    /// for a gait that is not that of people.
+    ///
+    /// # Errors
+    /// None of the built-in plans; a test reads them.
+    pub fn nearest(table: SegmentTable, walk: &Walk) -> Result<Option<(WalkPlan, Walk)>, TomlError> {
+        if !walk.gait().follows_people() {
+            return Ok(None);
+        }
+        let apart = |plan: &WalkPlan| (plan.speed - walk.dimensionless_speed()).abs();
+        let plan = WalkPlan::built_in(table)?.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        Ok(plan.and_then(|plan| plan.walk().map(|walk| (plan, walk))))
+    }
+
+    /// The walk that the plan solves.
+    fn walk(&self) -> Option<Walk> {
+        let mut gait = Gait::named("free").ok()?;
+        gait.pace.speed = Some(Speed::Dimensionless(self.speed));
+        let leg_length = self.build.human().ok()?.dimensions.leg_length;
+        let walk = Walk::new(&gait, leg_length, &mut Findings::default()).ok()?;
+        self.is_for(&walk).then_some(walk)
+    }
+
+    fn is_for(&self, walk: &Walk) -> bool {
+        (self.speed - walk.dimensionless_speed()).abs() < SAME && (self.cycle_s - walk.cycle_s()).abs() < SAME
     }
 
     /// The built-in plans of a figure.

@@ -110,17 +110,20 @@ impl Problem {
 }
 
 impl Problem {
-    /// A solution as it is, or solved on by one attempt after the other while it leaves forces at the root.
+    /// A solution as it is, or solved on by one attempt after the other while it leaves forces at the root. Its progress is that of all attempts.
     pub(super) fn balanced(
         &self,
         mut solution: Solution,
         attempts: &[&[Continuation]],
+        kept: &[usize],
     ) -> Result<Solution, CurvedJointError> {
         for stages in attempts {
             if solution.unbalanced(NO_ROOT_FORCE).is_none() {
                 break;
             }
-            solution = self.solve(solution.unknowns(), stages)?;
+            let mut next = self.solve_keeping(solution.unknowns(), stages, kept)?;
+            next.progress.splice(0..0, solution.progress);
+            solution = next;
         }
         Ok(solution)
     }
@@ -159,7 +162,7 @@ impl Problem {
             for (x, from) in unknowns.iter_mut().zip(&start).skip(height.index()).step_by(width) {
                 *x = from + middle;
             }
-            transcription.evaluate(unknowns);
+            transcription.evaluate_forces(unknowns);
             if transcription.mean_load() > self.weight_n() { low = middle } else { high = middle }
         }
         Ok(())
@@ -224,7 +227,8 @@ impl<'a> Method<'a> {
                     (0..change.len()).map(|i| change[i] * (right[i] + self.damping * diagonal[i] * change[i])).sum();
                 let moved = |change: &[f64]| -> Vec<f64> { unknowns.iter().zip(change).map(|(x, d)| x - d).collect() };
                 let plain = moved(&change);
-                let plain_cost = self.cost(&plain);
+                self.transcription.evaluate_forces(&plain);
+                let plain_cost = self.transcription.cost();
                 // The forces at the root bend along the step; a second step takes them back.
                 let negative: Vec<f64> = change.iter().map(|d| -d).collect();
                 self.transcription.curvature_of_root(&negative, &mut self.normal);

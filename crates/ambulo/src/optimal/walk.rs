@@ -11,6 +11,7 @@ use super::problem::Problem;
 use super::solution::Solution;
 use super::solve::Continuation;
 use crate::contact::HuntCrossley;
+use crate::dynamics::CurvedJointError;
 use crate::gait::{JointMoments, Walk};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, CoordinateKind, Model, Movement, Side};
@@ -76,8 +77,10 @@ pub struct WalkCosts {
     pub pelvis: f64,
     /// The same for the trunk in these planes [rad].
     pub trunk: f64,
-    /// The same for the hips in these planes [rad].
-    pub hip_aside: f64,
+    /// The same for hip adduction [rad].
+    pub hip_adduction: f64,
+    /// The same for hip rotation [rad].
+    pub hip_rotation: f64,
     /// The same for the ground force of a foot, forward and up [body weights]; forward in free walking if it depends on the speed.
     pub force: [f64; 2],
     /// Power of the dimensionless speed that the deviation of the forward force grows with.
@@ -156,13 +159,14 @@ impl Default for WalkCosts {
             per_knot: 2,
             hip: 2.0 * DEGREE,
             knee: 2.0 * DEGREE,
-            ankle: 1.25 * DEGREE,
+            ankle: 1.2 * DEGREE,
             acceleration: 30.0,
             toes: 90.0,
             arms: 10.0,
             pelvis: 0.35 * DEGREE,
             trunk: 1.0 * DEGREE,
-            hip_aside: 2.3 * DEGREE,
+            hip_adduction: 2.3 * DEGREE,
+            hip_rotation: 1.7 * DEGREE,
             force: [0.013, 0.04],
             force_exponent: 0.0,
             others: 0.0,
@@ -289,12 +293,15 @@ impl WalkProblem {
         if moves_sideways(&self.problem.model) { &SPATIAL_STAGES } else { &STAGES }
     }
 
-    /// Solves the problem.
+    /// Solves the problem from its first guess. If forces at the root remain, it goes on with the last stage, then from the middle stage on, and
+    /// then with the last one again.
     ///
     /// # Errors
     /// If the figure has joints that are not hinges or slides.
-    pub fn solve(&self, stages: &[Continuation]) -> Result<Solution, crate::dynamics::CurvedJointError> {
-        self.problem.solve_keeping(&self.guess, stages, &self.kept)
+    pub fn solve(&self, stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
+        let (longer, softer) = (Continuation::on(stages), &stages[stages.len() / 2..]);
+        let found = self.problem.solve_keeping(&self.guess, stages, &self.kept)?;
+        self.problem.balanced(found, &[&longer, softer, &longer], &self.kept)
     }
 
     /// As [`WalkProblem::solve`], in less time where a knot interval has many instants: the first stages, which only make a better guess, count every
@@ -302,7 +309,7 @@ impl WalkProblem {
     ///
     /// # Errors
     /// As [`WalkProblem::solve`].
-    pub fn solve_coarse_first(&self, stages: &[Continuation]) -> Result<Solution, crate::dynamics::CurvedJointError> {
+    pub fn solve_coarse_first(&self, stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
         let exact = stages.iter().position(|stage| stage.updates > 0).unwrap_or_default();
         let (coarse, fine) = stages.split_at(exact.saturating_sub(1));
         if coarse.is_empty() || !self.problem.instants_per_knot.is_multiple_of(2) {
@@ -405,7 +412,8 @@ impl Builder<'_> {
                 Some(Movement::PelvicObliquity | Movement::PelvicRotation) => {
                     self.follow(id, costs.pelvis, 10.0);
                 }
-                Some(Movement::HipAdduction | Movement::HipRotation) => self.follow(id, costs.hip_aside, 20.0),
+                Some(Movement::HipAdduction) => self.follow(id, costs.hip_adduction, 20.0),
+                Some(Movement::HipRotation) => self.follow(id, costs.hip_rotation, 20.0),
                 Some(Movement::SubtalarInversion) => self.follow(id, 3.0 * DEGREE, 6.0),
                 Some(Movement::TrunkLean) => self.trunk(id),
                 Some(Movement::TrunkObliquity | Movement::TrunkRotation) => self.follow(id, costs.trunk, 10.0),

@@ -278,12 +278,13 @@ impl<'a> TrackProblem<'a> {
         Ok(TrackProblem { problem, guess, recorded, kept, floor_m, belt })
     }
 
-    /// Solves the problem.
+    /// Solves the problem; goes on with the last stage if forces at the root remain.
     ///
     /// # Errors
     /// Joints for which no derivatives are computed; residual forces of more than 0.3 % of body weight (rms) that remain.
     pub fn solve(&self, stages: &[Continuation]) -> Result<TrackedMotion, TrackError> {
         let solution = self.problem.solve_keeping(&self.guess, stages, &self.kept)?;
+        let solution = self.problem.balanced(solution, &[&Continuation::on(stages)], &self.kept)?;
         let grid = self.recorded.grid();
         let times: Vec<f64> = (0..grid.frames).map(|k| grid.step_s * k as f64).collect();
         let samples = solution.samples(&times)?;
