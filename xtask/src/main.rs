@@ -46,6 +46,7 @@ usage: cargo xtask <command>
   optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes
                     [--env DIR] [--resume: keep results of peers]  [--write: docs/measured/OPTIMAL_PEERS.md from the record]
   optimal-walk      compare optimal walks in three dimensions with people  [--write: docs/measured/OPTIMAL_WALK.md]
+  physical-walk     figures that walk by their own torques: pushes, uneven ground  [--write: docs/measured/PHYSICAL_WALK.md]
   walk-bands        compare corrected walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
   help              print this text
 
@@ -59,7 +60,7 @@ environment:
 const OWN: [&str; 6] = ["check", "house", "build-time", "measured", "mutants", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 18] = [
+const MEASUREMENTS: [&str; 19] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -76,6 +77,7 @@ const MEASUREMENTS: [&str; 18] = [
     "validate",
     "optimal-peers",
     "optimal-walk",
+    "physical-walk",
     "walk-plans",
     "walk-bands",
 ];

@@ -45,7 +45,7 @@ const FORCES: &[&str] = &[
     "xtask/measure/src/validate/recording.rs",
 ];
 
-const PAGES: [Page; 9] = [
+const PAGES: [Page; 10] = [
     Page { name: "VALIDATION", command: "validate", inputs: FORCES },
     Page { name: "GROUND_FIT", command: "fit-ground", inputs: FORCES },
     Page {
@@ -90,6 +90,22 @@ const PAGES: [Page; 9] = [
             "crates/ambulo/src/model",
             "crates/ambulo/src/numerics",
             "crates/ambulo/src/reproduction",
+            "crates/ambulo/src/simulation",
+            "crates/ambulo/src/spatial",
+        ],
+    },
+    Page {
+        name: "PHYSICAL_WALK",
+        command: "physical-walk",
+        inputs: &[
+            "crates/ambulo/data/gait",
+            "crates/ambulo/src/contact",
+            "crates/ambulo/src/dynamics",
+            "crates/ambulo/src/gait",
+            "crates/ambulo/src/kinematics",
+            "crates/ambulo/src/model",
+            "crates/ambulo/src/numerics",
+            "crates/ambulo/src/optimal",
             "crates/ambulo/src/simulation",
             "crates/ambulo/src/spatial",
         ],

@@ -84,6 +84,7 @@ mod optimal_prediction;
 mod optimal_track;
 mod osim_export;
 mod osim_import;
+mod physical_walk;
 mod plug_in_gait;
 mod prediction_checks;
 mod quality;

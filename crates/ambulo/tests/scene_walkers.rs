@@ -28,11 +28,11 @@ fn built(text: &str) -> Result<Scene, SceneError> {
     Scene::build(&SceneFile::parse(text)?, SceneSettings::default(), &mut load, &mut Findings::default())
 }
 
-fn scene(text: &str) -> Scene {
+pub(crate) fn scene(text: &str) -> Scene {
     built(text).unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn example(name: &str) -> String {
+pub(crate) fn example(name: &str) -> String {
     std::fs::read_to_string(path_of(name)).unwrap()
 }
 
@@ -41,7 +41,7 @@ fn run(scene: &mut Scene, visit: impl FnMut(&SceneFrame<'_>)) {
     assert_eq!(statistics.not_converged, 0);
 }
 
-fn verdict(scene: &Scene) -> SceneVerdict {
+pub(crate) fn verdict(scene: &Scene) -> SceneVerdict {
     scene_verdict(scene, &Thresholds::default(), &mut Findings::default()).unwrap().unwrap()
 }
 

@@ -440,6 +440,9 @@ codes! {
     WalkReplayFigure "walk.replay_figure" Warning
         "The replayed torques were computed for a figure of another mass."
         "Use the figure that the torques were computed for, or compute torques for this one.";
+    FigureFell "figure.fell" Warning
+        "A figure that walks by its own torques fell: its pelvis sank below 0.7 of its first height over the ground. Its joints are then only damped."
+        "Nothing to do if it was meant to fall; otherwise lift its soles further (`lift`), push it less, or choose another speed.";
     DriveGaveWay "drive.gave_way" Warning
         "A drive without a largest force would need an unreasonable one, above 1,000 times the total weight; it gave way."
         "Prescribe a motion that the other constraints allow, or give the drive a largest force.";

@@ -45,6 +45,7 @@ pub use find::OptimalWalk;
 pub use forward::Drift;
 pub use layout::Span;
 pub use movement::{Key, MovementError, MovementProblem, MovementSettings};
+pub(crate) use muscles::strength_of;
 pub use muscles::{EffortCosts, WORK_PRICES};
 pub use near::NEAR_STAGES;
 pub use objective::{Bound, Quantity, Term};

@@ -99,6 +99,8 @@ pub struct WalkCosts {
     pub slip: f64,
     /// Power of the dimensionless speed that it grows with.
     pub slip_exponent: f64,
+    /// Height by which soles are lifted further than people lift theirs, in the middle of swing [m]: for uneven ground.
+    pub lift: f64,
 }
 
 impl WalkCosts {
@@ -176,6 +178,7 @@ impl Default for WalkCosts {
             moment_rate: 3.0,
             slip: 0.005,
             slip_exponent: -1.0,
+            lift: 0.0,
         }
     }
 }
@@ -527,7 +530,9 @@ impl Builder<'_> {
                 let slip = Quantity::Slip { sphere, axis, light_n };
                 self.add("slip", slip, self.constant(0.0), costs.slip, Bound::Near);
             }
-            let clear = self.targets.iter().map(|t| t.clearance[side][part]).collect();
+            let height =
+                |target: &Target| target.clearance[side][part].map(|[least, share]| least + costs.lift * share);
+            let clear = self.targets.iter().map(height).collect();
             self.add("clearance", Quantity::Height(sphere), clear, 0.002, Bound::AtLeast);
         }
     }

@@ -69,6 +69,7 @@ mod touch;
 mod workspace;
 
 pub mod consistent_walk;
+pub mod control;
 pub mod scene;
 pub mod synthetic;
 pub mod walking;

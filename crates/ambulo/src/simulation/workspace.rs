@@ -4,7 +4,7 @@ use super::assemble::{Assembly, Prescribed};
 use super::forces::{ContactForce, Impact, StepForces};
 use super::state::RowKey;
 use super::touch::{ObstaclePoses, Touch, TouchWorkspace};
-use super::world::World;
+use super::world::{JointCoordinate, World};
 use crate::dynamics::{ConstraintGroup, GraphSolution, GraphWorkspace, Six, SolverSettings, undetermined_rows};
 use crate::spatial::{Twist, Vec3, Wrench};
 
@@ -104,7 +104,11 @@ impl StepWorkspace {
         let effort = |number: usize| {
             let joint = &world.joints[number];
             let directions = &self.assembly.directions[number];
-            (0..joint.coordinates.len()).map(|k| directions[k].dot(&wrenches[joint.child]) / h).collect()
+            let of = |(k, acting): (usize, &JointCoordinate)| {
+                // Nothing acts on a free coordinate, not even rounding.
+                if acting.acts() { directions[k].dot(&wrenches[joint.child]) / h } else { 0.0 }
+            };
+            joint.coordinates.iter().enumerate().map(of).collect()
         };
         let closures = self.assembly.keys.iter().zip(&graph.groups).filter_map(|(key, group)| match key {
             RowKey::Closure(number) => Some((*number, lambda[group.rows.clone()].iter().map(|l| l / h).collect())),

@@ -119,6 +119,13 @@ pub struct JointCoordinate {
 }
 
 impl JointCoordinate {
+    /// Whether anything can act on the coordinate; its effort is zero otherwise.
+    pub(crate) fn acts(&self) -> bool {
+        let limited = self.limits.0.is_some() || self.limits.1.is_some();
+        let driven = self.drive.is_some() || self.spring.is_some() || self.motor.is_some();
+        driven || limited || self.effort != 0.0 || self.friction > 0.0 || self.rotor > 0.0
+    }
+
     /// Sum of constant effort, spring, damper and motor [N.m or N] at a value and a rate, at an instant [s].
     pub(crate) fn smooth_effort(&self, q: f64, rate: f64, t: f64) -> f64 {
         let spring = self.spring.map_or(0.0, |s| s.stiffness * (s.rest - q) - s.damping * rate);

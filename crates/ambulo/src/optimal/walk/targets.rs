@@ -43,8 +43,9 @@ pub(super) struct Target {
     pub(super) moments: [JointMoments; 2],
     /// Extension of the toes, right and left [rad].
     pub(super) toes: [f64; 2],
-    /// Smallest height of heel, ball and toes of the right and of the left foot while they swing [m].
-    pub(super) clearance: [[Option<f64>; 3]; 2],
+    /// While heel, ball and toes of the right and of the left foot swing: their smallest height [m], and the share of [`super::WalkCosts::lift`] that
+    /// is added to it.
+    pub(super) clearance: [[Option<[f64; 2]>; 3]; 2],
 }
 
 /// What the targets of a walk are read from.
@@ -173,12 +174,16 @@ fn toes_of(at: &WalkPosture, side: Side) -> f64 {
     if stands { (-pitch).clamp(0.0, TOES_LIMIT) } else { 0.0 }
 }
 
-/// Whether heel, ball and toes must be clear of the ground.
-fn clearance(at: &WalkPosture, clock: &Clock, side: Side) -> [Option<f64>; 3] {
+/// The smallest height of heel, ball and toes while they must be clear of the ground [m], and a parabola over this time, 1 in its middle.
+fn clearance(at: &WalkPosture, clock: &Clock, side: Side) -> [Option<[f64; 2]>; 3] {
     let place = at.phases.cycle[side];
-    let swings = |[after, before]: [f64; 2]| place > at.phases.foot_off + after && place < 1.0 - before;
-    let height = CLEARANCE * clock.walking.value.powi(2);
-    SWING_MARGINS.map(|margins| (!clock.stands() && swings(margins)).then_some(height))
+    let walking = clock.walking.value.powi(2);
+    SWING_MARGINS.map(|[after, before]| {
+        let (start, end) = (at.phases.foot_off + after, 1.0 - before);
+        let share = (place - start) / (end - start);
+        (!clock.stands() && place > start && place < end)
+            .then_some([CLEARANCE * walking, 4.0 * share * (1.0 - share) * walking])
+    })
 }
 
 /// Adds the tilt of the pelvis to the target of the lumbar joint, because the trunk angles of the tables are relative to the pelvis, while the

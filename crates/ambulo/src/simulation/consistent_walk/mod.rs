@@ -19,4 +19,5 @@ mod changing;
 pub use adjustment::{Adjustment, CorrectionReport, Magnitude};
 pub use changing::{ChangingWalk, make_changing_walk};
 pub use settings::{ConsistentWalkError, ConsistentWalkSettings};
+pub(super) use walk::soft_ground;
 pub use walk::{ConsistentWalk, make_consistent_walk};

@@ -120,6 +120,6 @@ pub(super) fn root_of(model: &Model, posture: &[Vec<f64>; 3]) -> [Vec3; 2] {
 }
 
 /// The ground under soft shoes.
-pub(super) fn soft_ground(shoes: HuntCrossley) -> GroundContact {
+pub(in crate::simulation) fn soft_ground(shoes: HuntCrossley) -> GroundContact {
     GroundContact { friction: shoes.dynamic_friction, shoes: Shoes::HuntCrossley(shoes), impact: ImpactLaw::Coulomb }
 }

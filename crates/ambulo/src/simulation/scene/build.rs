@@ -101,7 +101,7 @@ impl Scene {
         findings: &mut Findings,
     ) -> Result<Scene, SceneError> {
         let duration_s = changes.duration_s.unwrap_or(file.duration_s);
-        let mut sources = InputFiles::new(load, findings, duration_s);
+        let mut sources = InputFiles::new(load, findings, duration_s, settings(file, changes));
         sources.signals = file.joints.iter().map(|joint| joint.name.clone()).collect();
         let mut world = World { gravity: file.gravity, impact: file.impact, ..World::default() };
         world.materials = file.materials.iter().map(material).collect();

@@ -6,6 +6,7 @@ use super::material::MaterialEntry;
 use crate::gait::{Gait, PaceChange};
 use crate::model::anthropometry::{Build, Human, SegmentTable};
 use crate::model::{CoordinateId, CoordinateKind as ModelKind, Side};
+use crate::simulation::control::ControlSettings;
 use crate::toml_reader::{Place, Table, Value};
 
 /// A planar figure of [`crate::model::anthropometry`] in a vertical plane through `at`.
@@ -23,6 +24,8 @@ pub struct BuiltFigure {
     pub shoes: Option<usize>,
     /// Coordinates that do not follow the walk exactly.
     pub coordinates: Vec<BuiltCoordinate>,
+    /// Place and settings of its controller: the figure then walks by its own torques.
+    pub control: Option<(Place, ControlSettings)>,
 }
 
 /// Abduction of an arm.
@@ -49,6 +52,8 @@ pub struct WalkEntry {
     pub phase: f64,
     /// Changes of pace after those of the gait.
     pub changes: Vec<PaceChange>,
+    /// Height by which soles are lifted further than people lift theirs [m].
+    pub lift: f64,
     /// Duration of the scene [s].
     pub duration_s: f64,
 }
@@ -98,7 +103,10 @@ pub struct WalkTracking {
 }
 
 /// Keys of a built-in figure.
-pub(super) const KEYS: &[&str] = &["name", "build", "walk", "arms", "shoes", "coordinate", "at", "rotation", "sphere"];
+pub(super) const KEYS: &[&str] =
+    &["name", "build", "walk", "arms", "shoes", "coordinate", "control", "at", "rotation", "sphere"];
+/// Soles are not lifted further [m].
+const MOST_LIFT_M: f64 = 0.1;
 /// Larger abductions of an arm are mistakes [rad].
 const MOST_ABDUCTION: f64 = std::f64::consts::FRAC_PI_2;
 
@@ -117,10 +125,12 @@ impl BuiltFigure {
         let own = |entry: &Table<'_>| BuiltCoordinate::read(entry, &human, table.get("walk").is_some(), duration_s);
         let coordinates = table.tables("coordinate")?.iter().map(own).collect::<Result<Vec<_>, _>>()?;
         refuse_repeated(&coordinates, table)?;
+        let walk = table.get("walk").map(|value| WalkEntry::read(&value, duration_s)).transpose()?;
         Ok(BuiltFigure {
             place: value.place(),
             build,
-            walk: table.get("walk").map(|value| WalkEntry::read(&value, duration_s)).transpose()?,
+            control: control(table, walk.as_ref())?,
+            walk,
             arms: arms(table)?,
             shoes: shoes.transpose()?,
             coordinates,
@@ -140,6 +150,26 @@ fn build(value: &Value<'_>) -> Result<(Build, Human), SceneError> {
     };
     let human = build.human().map_err(|e| value.place().error(super::sources::chain(&e)))?;
     Ok((build, human))
+}
+
+/// The controller of a figure, which needs a corrected walk of one pace and all joints for itself.
+fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<(Place, ControlSettings)>, SceneError> {
+    let Some(value) = table.get("control") else { return Ok(None) };
+    let own = value.table("{ stiffness = …, damping = … }")?;
+    own.only(&[&["stiffness", "damping"]])?;
+    if !walk.is_some_and(|walk| walk.mode == FigureWalkMode::Corrected && walk.changes.is_empty()) {
+        return Err(value.wrong("no such key without a corrected `walk` at one pace, which the controller follows"));
+    }
+    if let Some(coordinate) = table.get("coordinate") {
+        return Err(coordinate.wrong("no such key together with `control`, which drives all joints"));
+    }
+    let default = ControlSettings::default();
+    let settings = ControlSettings {
+        stiffness: own.above_zero_or("stiffness", default.stiffness)?,
+        damping_s: own.zero_or_more_or("damping", default.damping_s)?,
+        ..default
+    };
+    Ok(Some((value.place(), settings)))
 }
 
 fn arms(table: &Table<'_>) -> Result<[ArmEntry; 2], SceneError> {
@@ -173,14 +203,19 @@ impl ArmEntry {
 impl WalkEntry {
     fn read(value: &Value<'_>, duration_s: f64) -> Result<WalkEntry, SceneError> {
         let table = value.table("{ gait = \"free\", speed = … }")?;
-        table.only(&[&["gait", "speed", "mode", "phase", "changes"]])?;
+        table.only(&[&["gait", "speed", "mode", "phase", "changes", "lift"]])?;
         let modes = [("corrected", FigureWalkMode::Corrected), ("curves", FigureWalkMode::Curves)];
         let phase = table.number_or("phase", 0.0)?;
         if let Some(value) = table.get("phase").filter(|_| !(0.0..1.0).contains(&phase)) {
             return Err(value.wrong("a share of the cycle, from 0 up to but not including 1"));
         }
+        let lift = table.number_or("lift", 0.0)?;
+        if let Some(value) = table.get("lift").filter(|_| !(0.0..=MOST_LIFT_M).contains(&lift)) {
+            return Err(value.wrong("a height from 0 to 0.1 m"));
+        }
         Ok(WalkEntry {
             place: value.place(),
+            lift,
             gait: table.get("gait").map_or_else(|| Ok(GaitSource::Named("free".to_owned())), |v| gait(&v))?,
             speed: table.get("speed").map(|value| value.zero_or_more()).transpose()?,
             changes: table.tables("changes")?.iter().map(PaceChange::read).collect::<Result<_, _>>()?,

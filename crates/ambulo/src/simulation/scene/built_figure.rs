@@ -8,8 +8,8 @@ use super::built_entry::{BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSourc
 use super::figure::FigureEntry;
 use super::model_figure::{PlacedFigure, add_spheres};
 use super::recorder::Recorder;
-use super::sources::{InputFiles, chain};
-use super::walk_recorder::{FigureRecorder, LiveTargets, Placed};
+use super::sources::{CorrectedWalk, InputFiles, chain};
+use super::walk_recorder::{FigureRecorder, Live, LiveTargets, Placed};
 use super::{Place, SceneError};
 use crate::contact::{HuntCrossley, Shape};
 use crate::findings::Findings;
@@ -24,6 +24,7 @@ use crate::model::{
 use crate::simulation::consistent_walk::{
     ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
 };
+use crate::simulation::control::WalkController;
 use crate::simulation::joint::{JointKind, rotation};
 use crate::simulation::signal::Signal;
 use crate::simulation::walking::{GaitTargets, gait_signals};
@@ -64,6 +65,7 @@ pub(super) fn add(
         Some(walk) => walking(walk, &human, sources)?,
         None => standing(&human.model),
     };
+    let controller = controller(built, &human, sources)?;
     human.model = placed_model(&human, entry, built).map_err(|e| wrong(&e))?;
     for coordinate in &human.model.coordinates()[motion.signals.len()..] {
         motion.signals.push(Signal::Constant(coordinate.default_value));
@@ -92,11 +94,27 @@ pub(super) fn add(
     add_spheres(world, entry, number, model, first_body)?;
     let soles = add_soles(world, built, &human, first_body)?;
     world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
-    let live = motion.live.map(|(targets, start_s)| LiveTargets { targets, figure, start_s });
+    let live = motion.live.map(|(targets, start_s)| Live::Machines(LiveTargets { targets, figure, start_s }));
+    let live = live.or(controller.map(|controller| Live::Controller(Box::new(controller))));
     let recorder = || FigureRecorder::new(&entry.name, &human, placed.clone(), soles, live);
     let recorder = built.walk.is_some().then(|| Recorder::Walk(Box::new(recorder())));
     let name = entry.name.clone();
     Ok((PlacedFigure { figure, first_body, name, placed: Some(placed), accelerations }, recorder))
+}
+
+/// The controller of a figure that walks by its own torques.
+fn controller(
+    built: &BuiltFigure,
+    human: &Human,
+    sources: &InputFiles<'_, '_>,
+) -> Result<Option<WalkController>, SceneError> {
+    let (Some((place, settings)), Some(entry)) = (&built.control, &built.walk) else { return Ok(None) };
+    let Some(known) = sources.corrected.iter().find(|known| known.is_of(&human.build, entry)) else {
+        return Err(place.error("found a gait with machines or changes of pace; expected one pace, which is corrected"));
+    };
+    let controller = WalkController::new(human, &known.walk, sources.steps, settings);
+    let controller = controller.map_err(|e| place.error(chain(&e)))?;
+    Ok(Some(controller.starting_at(entry.phase)))
 }
 
 /// Upright standing: every coordinate has its default value.
@@ -108,11 +126,9 @@ fn standing(model: &Model) -> Motion {
 }
 
 fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -> Result<Motion, SceneError> {
-    let same =
-        |(build, gait, speed, _): &&(_, _, _, _)| (build, gait, speed) == (&human.build, &entry.gait, &entry.speed);
-    let known = sources.corrected.iter().find(same).filter(|_| entry.changes.is_empty());
-    if let (FigureWalkMode::Corrected, Some((_, _, _, walk))) = (entry.mode, known) {
-        return Ok(corrected(walk, &human.model, entry.phase));
+    let known = sources.corrected.iter().find(|known| known.is_of(&human.build, entry));
+    if let (FigureWalkMode::Corrected, Some(known)) = (entry.mode, known) {
+        return Ok(corrected(&known.walk, &human.model, entry.phase));
     }
     let place = &entry.place;
     let wrong = |e: &dyn std::error::Error| place.error(chain(e));
@@ -138,10 +154,12 @@ fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -
     match entry.mode {
         FigureWalkMode::Curves => Ok(along_curves(&walk, human, entry.phase)),
         FigureWalkMode::Corrected => {
-            let settings = ConsistentWalkSettings::default();
+            let mut settings = ConsistentWalkSettings::default();
+            settings.costs.lift = entry.lift;
             let walk = make_consistent_walk(human, &walk, &settings).map_err(|e| wrong(&e))?;
             let motion = corrected(&walk, &human.model, entry.phase);
-            sources.corrected.push((human.build, entry.gait.clone(), entry.speed, walk));
+            let (build, gait, speed, lift) = (human.build, entry.gait.clone(), entry.speed, entry.lift);
+            sources.corrected.push(CorrectedWalk { build, gait, speed, lift, walk });
             Ok(motion)
         }
     }
@@ -364,6 +382,9 @@ fn acting_on(
             let spring = Some(Spring { stiffness, damping, rest: -arm.abduction });
             return Ok(JointCoordinate { spring, ..JointCoordinate::default() });
         }
+    }
+    if built.control.is_some() {
+        return Ok(JointCoordinate::default());
     }
     let Some((k, own)) = own_of(built, model, id) else {
         let drive = (!slides).then(|| JointDrive { signal: signal(), max: None });

@@ -39,6 +39,12 @@ impl Recorder {
         }
     }
 
+    /// What is said about the fall of a figure that walks by its own torques.
+    pub(super) fn fall(&self) -> Option<String> {
+        let Recorder::Walk(recorder) = self else { return None };
+        recorder.fall().map(|fall| recorder.told(&fall))
+    }
+
     /// Whether machines of the figure read the simulation.
     pub(super) fn is_live(&self) -> bool {
         matches!(self, Recorder::Walk(recorder) if recorder.is_live())

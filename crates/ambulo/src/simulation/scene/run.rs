@@ -217,8 +217,12 @@ impl Scene {
             self.before.clone_from(&self.state.poses);
         }
         for recorder in &mut self.recorders {
+            let stood = recorder.fall().is_none();
             recorder.before_step(&self.world, &self.state);
             recorder.aim(&mut self.world, &self.state, (self.steps + 1) as f64 * self.settings.step_s);
+            if let Some(fall) = recorder.fall().filter(|_| stood) {
+                findings.report(Code::FigureFell, fall);
+            }
         }
         let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
         if self.steps == 0 {

@@ -49,9 +49,9 @@ pub enum ResumeError {
         /// What the scene has.
         expected: String,
     },
-    /// Machines whose states are not saved.
+    /// Machines or controllers, whose states are not saved.
     #[error(
-        "a figure of the scene has machines that read loads, angles or joints, and the states of machines are not saved; expected machines that read the clock alone. hint: simulate the scene from its start"
+        "a figure of the scene has a controller, or machines that read loads, angles or joints, and their states are not saved; expected figures that follow the clock alone. hint: simulate the scene from its start"
     )]
     Machines,
 }

@@ -1,6 +1,6 @@
 //! Files that a scene names, which the caller reads, and functions of time from them.
 
-use super::built_entry::GaitSource;
+use super::built_entry::{GaitSource, WalkEntry};
 use super::function::TimeFunction;
 use super::{Place, SceneError};
 use crate::findings::{Code, Findings};
@@ -10,27 +10,56 @@ use crate::motion::RecordedTable;
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
 use crate::simulation::consistent_walk::ConsistentWalk;
 use crate::simulation::signal::Signal;
+use crate::simulation::workspace::StepSettings;
 use std::collections::BTreeMap;
 
 /// Reads a file: takes its path as written in the scene, returns its bytes or an error message.
 pub type ReadFile<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
+
+/// A corrected walk, and what it was made of.
+pub(super) struct CorrectedWalk {
+    pub(super) build: Build,
+    pub(super) gait: GaitSource,
+    pub(super) speed: Option<f64>,
+    pub(super) lift: f64,
+    pub(super) walk: ConsistentWalk,
+}
+
+impl CorrectedWalk {
+    /// Whether it is the walk of a figure.
+    pub(super) fn is_of(&self, build: &Build, entry: &WalkEntry) -> bool {
+        self.build == *build
+            && self.gait == entry.gait
+            && self.speed == entry.speed
+            && self.lift.total_cmp(&entry.lift).is_eq()
+            && entry.changes.is_empty()
+    }
+}
 
 /// The files of a scene, read when needed; each table is read once.
 pub(super) struct InputFiles<'a, 'f> {
     load: &'a mut ReadFile<'f>,
     tables: BTreeMap<String, RecordedTable>,
     /// Corrected walks of this scene, shared by figures of the same build.
-    pub(super) corrected: Vec<(Build, GaitSource, Option<f64>, ConsistentWalk)>,
+    pub(super) corrected: Vec<CorrectedWalk>,
     pub(super) findings: &'a mut Findings,
     /// Duration of the scene [s].
     pub(super) duration_s: f64,
+    /// Settings of its steps.
+    pub(super) steps: StepSettings,
     /// Names of the joints of the scene, which machines of gaits read.
     pub(super) signals: Vec<String>,
 }
 
 impl<'a, 'f> InputFiles<'a, 'f> {
-    pub(super) fn new(load: &'a mut ReadFile<'f>, findings: &'a mut Findings, duration_s: f64) -> InputFiles<'a, 'f> {
-        InputFiles { load, tables: BTreeMap::new(), corrected: Vec::new(), findings, duration_s, signals: Vec::new() }
+    pub(super) fn new(
+        load: &'a mut ReadFile<'f>,
+        findings: &'a mut Findings,
+        duration_s: f64,
+        steps: StepSettings,
+    ) -> InputFiles<'a, 'f> {
+        let (tables, corrected, signals) = (BTreeMap::new(), Vec::new(), Vec::new());
+        InputFiles { load, tables, corrected, findings, duration_s, steps, signals }
     }
 
     pub(super) fn model(&mut self, place: &Place, path: &str) -> Result<Model, SceneError> {

@@ -4,6 +4,7 @@ use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anthropometry::Human;
 use crate::model::{BodyId, BySide, Side};
 use crate::motion::TimeGrid;
+use crate::simulation::control::{Fall, WalkController};
 use crate::simulation::forces::ContactForce;
 use crate::simulation::signal::Signal;
 use crate::simulation::state::WorldState;
@@ -51,8 +52,17 @@ pub(super) struct FigureRecorder {
     efforts: Vec<Vec<f64>>,
     feet: [FootRecord; 2],
     unsolved: usize,
-    /// Targets of the drives that machines compute from step to step.
-    targets: Option<LiveTargets>,
+    /// What moves the figure from step to step.
+    live: Option<Live>,
+}
+
+/// What moves a figure from step to step.
+#[derive(Debug, Clone)]
+pub(super) enum Live {
+    /// Machines compute targets of drives.
+    Machines(LiveTargets),
+    /// A controller computes torques.
+    Controller(Box<WalkController>),
 }
 
 /// Targets that machines of a figure compute from step to step, because they read loads, angles or joints of the scene.
@@ -71,7 +81,7 @@ impl FigureRecorder {
         human: &Human,
         placed: Vec<Placed>,
         soles: Vec<(usize, Side)>,
-        targets: Option<LiveTargets>,
+        live: Option<Live>,
     ) -> FigureRecorder {
         let count = placed.len();
         let foot = |side: Side| human.soles.iter().find(|sole| sole.side == side).map_or(BodyId(0), |sole| sole.body);
@@ -90,18 +100,56 @@ impl FigureRecorder {
             efforts: vec![Vec::new(); count],
             feet: Side::BOTH.map(|side| FootRecord::new(foot(side), toes(side), 0)),
             unsolved: 0,
-            targets,
+            live,
         }
     }
 
-    /// Whether machines of the figure read the simulation.
+    /// Whether machines or a controller of the figure read the simulation.
     pub(super) fn is_live(&self) -> bool {
-        self.targets.is_some()
+        self.live.is_some()
     }
 
-    /// Sets the drives of the figure for a step that ends at a time [s]; machines read the figure as it is at its start.
+    /// Sets drives and motors of the figure for a step that ends at a time [s]; machines and controllers read the figure as it is at its start.
     pub(super) fn aim(&mut self, world: &mut World, state: &WorldState, end_s: f64) {
-        let Some(LiveTargets { targets, figure, start_s }) = &mut self.targets else { return };
+        match &mut self.live {
+            Some(Live::Controller(_)) => self.control(world),
+            Some(Live::Machines(_)) => self.aim_machines(world, state, end_s),
+            None => {}
+        }
+    }
+
+    /// The fall of a figure that walks by its own torques.
+    pub(super) fn fall(&self) -> Option<Fall> {
+        match &self.live {
+            Some(Live::Controller(controller)) => controller.fall(),
+            _ => None,
+        }
+    }
+
+    /// What is said about a fall.
+    pub(super) fn told(&self, fall: &Fall) -> String {
+        let coordinates = self.human.model.coordinates();
+        let cause = fall.at_limit.map_or("no torque was at its limit".to_owned(), |(id, since_s)| {
+            format!("the muscles of `{}` were at their strength from {since_s:.2} s", coordinates[id.index()].name)
+        });
+        format!("`{}` fell at {:.2} s after {} steps; {cause}", self.name, fall.time_s, fall.strikes)
+    }
+
+    /// Sets the motors of a figure that walks by its own torques.
+    fn control(&mut self, world: &mut World) {
+        let Some(Live::Controller(controller)) = &mut self.live else { return };
+        let last = self.feet[0].force.len().checked_sub(1);
+        let loads_n = last.map_or([0.0; 2], |last| [0, 1].map(|foot| self.feet[foot].force[last].y));
+        let joint_of = world.joint_of_body();
+        for (motor, placed) in controller.act(&self.before, loads_n).into_iter().zip(&self.placed) {
+            if let (Some(motor), Some(joint)) = (motor, joint_of[placed.body]) {
+                world.joints[joint].coordinates[placed.coordinate].motor = Some(motor);
+            }
+        }
+    }
+
+    fn aim_machines(&mut self, world: &mut World, state: &WorldState, end_s: f64) {
+        let Some(Live::Machines(LiveTargets { targets, figure, start_s })) = &mut self.live else { return };
         let coordinate = |name: &str| {
             let joint = world.joints.iter().position(|joint| joint.name == name)?;
             state.coordinates[joint].first().copied()
@@ -177,7 +225,9 @@ impl FigureRecorder {
                 if let Some(drive) = acting.drive.as_ref().filter(|drive| drive.max.is_none()) {
                     values = drive.signal.at(state.time_s - step_s);
                 }
-                effort = w.effort(placed.body, joint, placed.coordinate);
+                if acting.acts() {
+                    effort = w.effort(placed.body, joint, placed.coordinate);
+                }
             }
             columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
             self.efforts[id].push(effort);

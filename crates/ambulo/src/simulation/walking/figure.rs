@@ -148,6 +148,16 @@ impl Walker {
         &self.model
     }
 
+    /// Joint, coordinate of the joint and sense (+1, or -1 if the joint counts in the opposite direction) of each coordinate of the model.
+    pub(in crate::simulation) fn placed(&self) -> Vec<(usize, usize, f64)> {
+        self.placed.iter().map(|placed| (placed.joint, placed.coordinate, placed.sense)).collect()
+    }
+
+    /// Side of the sole that each surface is; `None` for the ground.
+    pub(in crate::simulation) fn sides(&self) -> &[Option<Side>] {
+        &self.sides
+    }
+
     fn add_joints(&mut self) -> Result<(), WalkingError> {
         for id in self.model.body_ids() {
             let body = &self.model.bodies()[id.index()];

@@ -1,0 +1,111 @@
+//! A figure that walks by its own torques on level ground, and what becomes of it.
+
+use super::controller::{Fall, WalkController};
+use super::linear::FigureWorld;
+use super::settings::{ControlError, ControlSettings};
+use crate::findings::Findings;
+use crate::model::anthropometry::Human;
+use crate::simulation::consistent_walk::ConsistentWalk;
+use crate::simulation::walking::WalkingError;
+use crate::simulation::{StepSettings, World};
+
+/// A figure that walks by its own torques.
+#[derive(Debug, Clone)]
+pub struct PhysicalWalk {
+    figure: FigureWorld,
+    controller: WalkController,
+}
+
+impl PhysicalWalk {
+    /// A figure in the first state of a walk, with the controller of that walk.
+    ///
+    /// # Errors
+    /// As [`WalkController::new`].
+    pub fn new(
+        human: &Human,
+        walk: &ConsistentWalk,
+        step: StepSettings,
+        settings: &ControlSettings,
+    ) -> Result<PhysicalWalk, ControlError> {
+        let controller = WalkController::new(human, walk, step, settings)?;
+        PhysicalWalk::with(human, walk, step, controller)
+    }
+
+    /// A figure with a controller that was made for a similar one: another mass or size.
+    ///
+    /// # Errors
+    /// A figure that is not planar.
+    pub fn with(
+        human: &Human,
+        walk: &ConsistentWalk,
+        step: StepSettings,
+        controller: WalkController,
+    ) -> Result<PhysicalWalk, ControlError> {
+        let mut figure = FigureWorld::new(human, walk, step)?;
+        let controller = controller.of_figure(human);
+        let [q, qd] = controller.start();
+        figure.place(&q, &qd);
+        Ok(PhysicalWalk { figure, controller })
+    }
+
+    /// The world: bodies in the order of the model, their loads, the ground and what is added to it.
+    pub fn world_mut(&mut self) -> &mut World {
+        &mut self.figure.world
+    }
+
+    /// Time [s].
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        self.figure.state.time_s
+    }
+
+    /// The controller.
+    #[must_use]
+    pub fn controller(&self) -> &WalkController {
+        &self.controller
+    }
+
+    /// Value and rate of each coordinate.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<[f64; 2]> {
+        self.figure.read()
+    }
+
+    /// Generalised force of each coordinate in the last step [N.m or N]; those of the root are zero.
+    #[must_use]
+    pub fn efforts(&self) -> Vec<f64> {
+        self.figure.efforts()
+    }
+
+    /// The fall, once there was one.
+    #[must_use]
+    pub fn fall(&self) -> Option<Fall> {
+        self.controller.fall()
+    }
+
+    /// Makes one step.
+    ///
+    /// # Errors
+    /// Joints that do not form trees.
+    pub fn step(&mut self) -> Result<(), WalkingError> {
+        let (now, loads) = (self.figure.read(), self.figure.loads());
+        for (c, motor) in self.controller.act(&now, loads).into_iter().enumerate() {
+            if let Some(motor) = motor {
+                self.figure.drive(c, motor);
+            }
+        }
+        self.figure.step(&mut Findings::default())?;
+        Ok(())
+    }
+
+    /// Walks until a time [s] or a fall.
+    ///
+    /// # Errors
+    /// As [`PhysicalWalk::step`].
+    pub fn walk_until(&mut self, time_s: f64) -> Result<Option<Fall>, WalkingError> {
+        while self.time_s() < time_s && self.fall().is_none() {
+            self.step()?;
+        }
+        Ok(self.fall())
+    }
+}

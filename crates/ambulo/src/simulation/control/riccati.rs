@@ -1,0 +1,106 @@
+//! The discrete Riccati equation of a linear system with period n, x_{k+1} = A_k x_k + B_k u_k.
+//!
+//! With the cost Σ xᵀ Q x + uᵀ R u and the value xᵀ P_k x of a state at k,
+//!
+//!   K_k = (R + B_kᵀ P_{k+1} B_k)⁻¹ B_kᵀ P_{k+1} A_k      P_k = Q + A_kᵀ P_{k+1} (A_k - B_k K_k)      u = -K_k x
+//!
+//! and P_n = P_0. The recursion backwards from any P converges to it if the system can be stabilised.
+
+use nalgebra::DMatrix;
+
+/// One step of the system.
+#[derive(Debug, Clone)]
+pub(super) struct StepMap {
+    pub(super) by_state: DMatrix<f64>,
+    pub(super) by_input: DMatrix<f64>,
+}
+
+/// Largest number of periods.
+const MOST_PERIODS: usize = 100;
+/// Relative change of P over a period at which it is periodic.
+const PERIODIC: f64 = 1e-9;
+
+/// Gains K_k of all steps; `None` if the recursion does not converge.
+pub(super) fn periodic_gains(
+    steps: &[StepMap],
+    state_cost: &DMatrix<f64>,
+    input_cost: &DMatrix<f64>,
+) -> Option<Vec<DMatrix<f64>>> {
+    let mut value = state_cost.clone();
+    for _ in 0..MOST_PERIODS {
+        let before = value.clone();
+        let mut gains = Vec::with_capacity(steps.len());
+        for StepMap { by_state, by_input } in steps.iter().rev() {
+            let [of_state, of_input] = [by_state, by_input].map(|map| &value * map);
+            let coupling = by_input.transpose() * &of_state;
+            let gain = (input_cost + by_input.transpose() * of_input).cholesky()?.solve(&coupling);
+            let next = state_cost + by_state.transpose() * &of_state - coupling.transpose() * &gain;
+            value = (&next + next.transpose()) * 0.5;
+            gains.push(gain);
+        }
+        if (&value - before).norm() <= PERIODIC * value.norm() {
+            gains.reverse();
+            return Some(gains);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scalar(x: f64) -> DMatrix<f64> {
+        DMatrix::from_element(1, 1, x)
+    }
+
+    /// x' = a x + b u with the costs q, r: P is the positive root of b² P² + (r - a² r - b² q) P - q r = 0.
+    #[test]
+    fn a_constant_scalar_system_has_the_gain_of_the_quadratic_equation() {
+        let (a, b, q, r) = (1.3_f64, 0.7_f64, 2.0_f64, 0.5_f64);
+        let half = 0.5 * (r - a * a * r - b * b * q);
+        let p = (-half + (half * half + b * b * q * r).sqrt()) / (b * b);
+        let expected = a * b * p / (r + b * b * p);
+        let steps = vec![StepMap { by_state: scalar(a), by_input: scalar(b) }; 3];
+        for gain in periodic_gains(&steps, &scalar(q), &scalar(r)).unwrap() {
+            assert!((gain[(0, 0)] - expected).abs() < 1e-9, "{gain} instead of {expected}");
+        }
+    }
+
+    /// No other sequence of inputs costs less than the feedback, whose cost is xᵀ P x.
+    #[test]
+    fn the_feedback_of_a_periodic_system_costs_least() {
+        let steps: Vec<StepMap> = (0..4)
+            .map(|k| {
+                let x = f64::from(k);
+                StepMap {
+                    by_state: DMatrix::from_row_slice(2, 2, &[1.0 + 0.1 * x, 0.2, -0.1 * x, 1.1]),
+                    by_input: DMatrix::from_row_slice(2, 1, &[0.1 * x, 1.0 - 0.2 * x]),
+                }
+            })
+            .collect();
+        let (q, r) = (DMatrix::identity(2, 2), scalar(0.3));
+        let gains = periodic_gains(&steps, &q, &r).unwrap();
+        let cost = |extra: f64, at: usize| {
+            let (mut x, mut sum) = (DMatrix::from_row_slice(2, 1, &[1.0, -0.5]), 0.0);
+            for k in 0..400 {
+                let mut u = -(&gains[k % 4] * &x);
+                u[(0, 0)] += if k == at { extra } else { 0.0 };
+                sum += (x.transpose() * &q * &x)[(0, 0)] + (u.transpose() * &r * &u)[(0, 0)];
+                x = &steps[k % 4].by_state * x + &steps[k % 4].by_input * u;
+            }
+            sum
+        };
+        let least = cost(0.0, 0);
+        assert!(least.is_finite() && least < 100.0, "{least}");
+        for at in 0..6 {
+            assert!(cost(0.01, at) > least && cost(-0.01, at) > least, "at {at}");
+        }
+    }
+
+    #[test]
+    fn a_system_that_no_input_reaches_has_no_gains() {
+        let steps = [StepMap { by_state: scalar(1.2), by_input: scalar(0.0) }];
+        assert!(periodic_gains(&steps, &scalar(1.0), &scalar(1.0)).is_none());
+    }
+}

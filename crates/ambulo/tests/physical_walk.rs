@@ -1,0 +1,280 @@
+//! Walking by own torques: nothing else moves the figure, feedback is needed, pushes and uneven ground are survived, falls are told.
+
+use crate::scene_walkers::{example, scene, verdict};
+use ambulo::analysis::feasibility::VerdictState;
+use ambulo::contact::Shape;
+use ambulo::findings::{Code, Findings};
+use ambulo::gait::{Gait, Speed, Walk};
+use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
+use ambulo::simulation::control::{ControlError, ControlSettings, PhysicalWalk, WalkController};
+use ambulo::simulation::scene::{SceneFile, SceneSettings};
+use ambulo::simulation::{Obstacle, Owner, StepSettings, Surface};
+use ambulo::spatial::{Pose, Vec3, Wrench};
+use std::sync::LazyLock;
+
+const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+
+struct Case {
+    human: Human,
+    walk: ConsistentWalk,
+    controller: WalkController,
+}
+
+fn case(lift: f64) -> Case {
+    let human = MAN.human().unwrap();
+    let mut gait = Gait::named("free").unwrap();
+    gait.pace.speed = Some(Speed::MetersPerSecond(1.25));
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
+    let mut settings = ConsistentWalkSettings::default();
+    settings.costs.lift = lift;
+    let walk = make_consistent_walk(&human, &walk, &settings).unwrap();
+    let controller = controller(&human, &walk, &ControlSettings::default());
+    Case { human, walk, controller }
+}
+
+fn controller(human: &Human, walk: &ConsistentWalk, settings: &ControlSettings) -> WalkController {
+    WalkController::new(human, walk, StepSettings::default(), settings).unwrap()
+}
+
+static LEVEL: LazyLock<Case> = LazyLock::new(|| case(0.0));
+
+impl Case {
+    fn walk(&self) -> PhysicalWalk {
+        self.walk_of(&self.human)
+    }
+
+    fn walk_of(&self, human: &Human) -> PhysicalWalk {
+        PhysicalWalk::with(human, &self.walk, StepSettings::default(), self.controller.clone()).unwrap()
+    }
+
+    fn index(&self, coordinate: &str) -> usize {
+        self.human.model.coordinate(coordinate).unwrap().index()
+    }
+
+    /// Pushes the trunk forward with a force [N] for 0.2 s from a time [s] on, and walks on for 10 steps.
+    fn pushed(&self, force: f64, from_s: f64) -> PhysicalWalk {
+        let trunk = self.human.model.body("torso").unwrap().index();
+        let mut walk = self.walk();
+        walk.walk_until(from_s).unwrap();
+        walk.world_mut().bodies[trunk].load = Wrench { moment: Vec3::zeros(), force: Vec3::x() * force };
+        walk.walk_until(from_s + 0.2).unwrap();
+        walk.world_mut().bodies[trunk].load = Wrench::ZERO;
+        steps(&mut walk, 10);
+        walk
+    }
+}
+
+/// Walks a number of further steps, or until a fall.
+fn steps(walk: &mut PhysicalWalk, count: usize) {
+    let last = walk.controller().strikes() + count;
+    while walk.controller().strikes() < last && walk.fall().is_none() {
+        walk.step().unwrap();
+    }
+}
+
+#[test]
+fn nothing_but_joints_and_ground_moves_a_figure_that_walks_by_its_own_torques() {
+    let case = &*LEVEL;
+    let mut walk = case.walk();
+    let root = ["pelvis_tx", "pelvis_ty", "pelvis_tilt"].map(|name| case.index(name));
+    let legs: Vec<usize> = ["hip_flexion_r", "knee_angle_r", "ankle_angle_r"].map(|name| case.index(name)).to_vec();
+    let (mut sum, mut count) = (0.0, 0);
+    while walk.controller().strikes() < 20 {
+        walk.step().unwrap();
+        assert!(walk.fall().is_none(), "{:?}", walk.fall());
+        let efforts = walk.efforts();
+        assert!(root.iter().all(|&c| efforts[c] == 0.0), "{efforts:?}");
+        let (now, planned) = (walk.coordinates(), walk.controller().planned());
+        sum += legs.iter().map(|&c| (now[c][0] - planned[0][c]).powi(2)).sum::<f64>();
+        count += legs.len();
+    }
+    let (apart, speed) = ((sum / count as f64).sqrt().to_degrees(), walk.coordinates()[root[0]][0] / walk.time_s());
+    println!("{apart:.2} degrees from the plan at {speed:.3} m/s");
+    assert!(apart < 1.0 && (speed - 1.25).abs() < 0.02, "{apart} {speed}");
+}
+
+#[test]
+fn without_feedback_of_the_state_the_figure_falls() {
+    let case = &*LEVEL;
+    let settings = ControlSettings { feedback: false, ..ControlSettings::default() };
+    let own = controller(&case.human, &case.walk, &settings);
+    let mut walk = PhysicalWalk::with(&case.human, &case.walk, StepSettings::default(), own).unwrap();
+    let fall = walk.walk_until(20.0).unwrap().unwrap();
+    assert!(fall.time_s > 0.5 && fall.time_s < 10.0 && fall.strikes < 20, "{fall:?}");
+}
+
+#[test]
+fn pushes_of_150_n_are_survived_and_a_blow_is_not() {
+    let case = &*LEVEL;
+    for (force, from_s) in [(150.0, 2.2), (150.0, 2.6), (-150.0, 2.3), (-150.0, 2.8)] {
+        let walk = case.pushed(force, from_s);
+        assert!(walk.fall().is_none(), "{force} N at {from_s} s: {:?}", walk.fall());
+    }
+    let mut walk = case.pushed(-900.0, 2.3);
+    let fall = walk.fall().unwrap();
+    assert!(fall.time_s > 2.4 && fall.time_s < 6.0, "{fall:?}");
+    let (limb, since_s) = fall.at_limit.unwrap();
+    assert!(since_s >= 2.3 && since_s <= fall.time_s, "{fall:?}");
+    assert!(case.human.model.coordinates().get(limb.index()).is_some());
+    // Who has fallen does not get up, and what is left of the motion ends.
+    let end_s = walk.time_s() + 1.0;
+    while walk.time_s() < end_s {
+        walk.step().unwrap();
+    }
+    assert_eq!(walk.fall(), Some(fall));
+}
+
+/// Torques stay within the isometric strength of muscles, also while a push is survived.
+#[test]
+fn no_torque_exceeds_strength() {
+    let case = &*LEVEL;
+    let trunk = case.human.model.body("torso").unwrap().index();
+    let mut walk = case.walk();
+    walk.world_mut().bodies[trunk].load = Wrench { moment: Vec3::zeros(), force: Vec3::x() * -400.0 };
+    let weight_height = MAN.mass * 9.80665 * MAN.height;
+    let mut largest = [0.0_f64; 3];
+    while walk.time_s() < 1.5 && walk.fall().is_none() {
+        walk.step().unwrap();
+        let efforts = walk.efforts();
+        for (most, name) in largest.iter_mut().zip(["hip_flexion_r", "knee_angle_r", "ankle_angle_r"]) {
+            *most = most.max(efforts[case.index(name)].abs());
+        }
+    }
+    let [hip, knee, ankle] = largest.map(|torque| torque / weight_height);
+    println!("{hip:.3} {knee:.3} {ankle:.3} of weight times height");
+    assert!(hip <= 0.274 + 1e-6 && knee <= 0.210 + 1e-6 && ankle <= 0.186 + 1e-6);
+    assert!(hip > 0.15, "the push must reach a limit: {hip}");
+}
+
+#[test]
+fn uneven_ground_needs_a_plan_that_lifts_the_feet() {
+    let walked = |case: &Case| {
+        let length = 0.5 * case.walk.walk().speed() * case.walk.walk().cycle_s();
+        let mut walk = case.walk();
+        let world = walk.world_mut();
+        world.obstacles[0].pose = Pose::at(Vec3::new(0.0, -5.0, 0.0));
+        for tile in -2..25 {
+            // Differences between neighbours of up to 20 mm.
+            let height = if tile < 2 { 0.0 } else { 0.01 * (2.7 * f64::from(tile)).sin() };
+            let place = Vec3::new((f64::from(tile) + 0.5) * length, height - 1.0, 0.0);
+            world.obstacles.push(Obstacle { name: format!("tile {tile}"), pose: Pose::at(place), path: None });
+            world.surfaces.push(Surface {
+                owner: Owner::Obstacle(world.obstacles.len() - 1),
+                shape: Shape::cuboid(Vec3::new(0.5 * length, 1.0, 1.0)).unwrap(),
+                owner_from_shape: Pose::IDENTITY,
+                material: 0,
+            });
+        }
+        steps(&mut walk, 20);
+        walk
+    };
+    let lifted = walked(&case(0.027));
+    assert!(lifted.fall().is_none() && lifted.controller().strikes() == 20, "{:?}", lifted.fall());
+    assert!(walked(&LEVEL).fall().is_some(), "the plan for level ground clears 8 mm and must trip");
+}
+
+#[test]
+fn other_masses_and_legs_walk_with_the_same_plan_and_gains() {
+    let case = &*LEVEL;
+    for build in [
+        Build { mass: 0.85 * MAN.mass, ..MAN },
+        Build { mass: 1.15 * MAN.mass, ..MAN },
+        Build { height: 0.95 * MAN.height, ..MAN },
+        Build { height: 1.05 * MAN.height, ..MAN },
+    ] {
+        let mut walk = case.walk_of(&build.human().unwrap());
+        steps(&mut walk, 20);
+        assert!(walk.fall().is_none(), "{build:?}: {:?}", walk.fall());
+    }
+}
+
+#[test]
+fn a_few_harmonics_of_the_torques_suffice() {
+    let case = &*LEVEL;
+    let settings = ControlSettings { harmonics: Some(5), ..ControlSettings::default() };
+    let own = controller(&case.human, &case.walk, &settings);
+    let mut walk = PhysicalWalk::with(&case.human, &case.walk, StepSettings::default(), own).unwrap();
+    steps(&mut walk, 20);
+    assert!(walk.fall().is_none(), "{:?}", walk.fall());
+}
+
+#[test]
+fn a_controller_needs_a_gain_for_every_step() {
+    let case = &*LEVEL;
+    let step = StepSettings { step_s: 0.02, ..StepSettings::default() };
+    let error = WalkController::new(&case.human, &case.walk, step, &ControlSettings::default()).unwrap_err();
+    assert!(matches!(error, ControlError::Steps { found: 50..60, least: 100, .. }), "{error:?}");
+}
+
+#[test]
+fn a_walker_without_a_hand_goes_twelve_metres() {
+    let mut scene = scene(&example("walker-without-a-hand.toml"));
+    let mut root = 0.0_f64;
+    scene
+        .run(&mut Findings::default(), |frame| {
+            if let Some(forces) = &frame.forces {
+                let all = frame.scene.generalized_forces(forces);
+                root = all[0][..3].iter().fold(root, |most, [_, _, force]| most.max(force.abs()));
+            }
+        })
+        .unwrap();
+    assert!(root == 0.0, "{root}");
+    let pelvis = scene.world().bodies.iter().position(|body| body.name == "ann/pelvis").unwrap();
+    assert!(scene.state().poses[pelvis].translation.x > 12.0);
+    assert_eq!(verdict(&scene).state, VerdictState::Feasible);
+}
+
+#[test]
+fn figures_of_scenes_walk_by_their_own_torques() {
+    for name in ["pushed-walker.toml", "kerb-walker.toml"] {
+        let mut scene = scene(&example(name));
+        let mut findings = Findings::default();
+        scene.run(&mut findings, |_| ()).unwrap();
+        assert!(!findings.has(Code::FigureFell), "{name}: {findings:?}");
+        let pelvis = scene.world().bodies.iter().position(|body| body.name == "ann/pelvis").unwrap();
+        assert!(scene.state().poses[pelvis].translation.x > 8.0, "{name}");
+        assert_eq!(verdict(&scene).state, VerdictState::Feasible, "{name}");
+        let saved = scene.save();
+        assert!(scene.resume(&saved).unwrap_err().to_string().contains("controller"));
+    }
+}
+
+#[test]
+fn a_fall_in_a_scene_is_told_with_its_time_and_cause() {
+    let mut scene =
+        scene(&example("kerb-walker.toml").replace("0.03, 2.0]", "0.2, 2.0]").replace("0.015, 0]", "0.1, 0]"));
+    let mut findings = Findings::default();
+    scene.run(&mut findings, |_| ()).unwrap();
+    let told: Vec<String> = findings
+        .as_slice()
+        .iter()
+        .filter(|finding| finding.code == Code::FigureFell)
+        .map(|finding| finding.message.clone())
+        .collect();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].starts_with("`ann` fell at ") && told[0].contains(" steps; "), "{told:?}");
+}
+
+#[test]
+fn a_controller_that_cannot_be_is_refused_with_its_line() {
+    let text = example("kerb-walker.toml");
+    for (from, to, expected) in [
+        ("control = {}", "control = { stifness = 200 }", "stiffness"),
+        ("control = {}", "control = { stiffness = 0 }", "above zero"),
+        ("lift = 0.03", "lift = 0.3", "0 to 0.1 m"),
+        ("lift = 0.03", "mode = \"curves\"", "corrected `walk`"),
+        ("lift = 0.03", "changes = [{ at = 3, speed = 1.6 }]", "at one pace"),
+        ("walk = { gait = \"free\", speed = 1.2, lift = 0.03 }\n", "", "corrected `walk`"),
+        ("control = {}", "control = {}\n[[figure.coordinate]]\nname = \"knee_angle_r\"", "together with `control`"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let error = SceneFile::parse(&text.replace(from, to)).unwrap_err().to_string();
+        assert!(error.contains("line ") && error.contains(expected), "{to}: {error}");
+    }
+    let steps = SceneSettings { step_s: Some(0.02), ..SceneSettings::default() };
+    let file = SceneFile::parse(&text).unwrap();
+    let mut none = |path: &str| -> Result<Vec<u8>, String> { Err(path.to_owned()) };
+    let error = ambulo::simulation::scene::Scene::build(&file, steps, &mut none, &mut Findings::default()).unwrap_err();
+    assert!(error.to_string().contains("time steps"), "{error}");
+}

@@ -1,0 +1,323 @@
+//! Figures that walk by their own torques: `cargo xtask physical-walk [--write]`.
+//!
+//! One man, his plan at free speed and the gains of that plan walk for a thousand steps, are pushed, and walk on uneven and on inclined ground, with
+//! another mass and other legs; then plans of other speeds and other figures. With `--write` the page goes to docs/measured/PHYSICAL_WALK.md.
+
+mod page;
+
+use crate::random::Random;
+use crate::workspace;
+use ambulo::contact::Shape;
+use ambulo::findings::Findings;
+use ambulo::gait::{Gait, Speed, Walk};
+use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
+use ambulo::simulation::control::{ControlSettings, PhysicalWalk, WalkController};
+use ambulo::simulation::{Obstacle, Owner, StepSettings, Surface};
+use ambulo::spatial::{Pose, Vec3, Wrench};
+use cpu_time::ThreadTime;
+
+/// The main figure, and the speed of its plan [m/s].
+const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+const SPEED: f64 = 1.25;
+/// Other speeds [m/s].
+const SPEEDS: [f64; 12] = [0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8];
+/// Other figures.
+const BUILDS: [Build; 4] = [
+    Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true },
+    Build { mass: 30.0, height: 1.30, ..MAN },
+    Build { mass: 120.0, height: 1.90, ..MAN },
+    Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.80, toe_joint: true },
+];
+/// Forces of pushes of 75 kg [N], their duration [s], and the number of phases at which they begin.
+const PUSHES: [f64; 10] = [50.0, -50.0, 100.0, -100.0, 150.0, -150.0, 200.0, -200.0, 250.0, -250.0];
+const PUSH_S: f64 = 0.2;
+const PHASES: usize = 10;
+/// Mass for which pushes are given [kg]; they grow with mass.
+const PUSHED_KG: f64 = 75.0;
+/// Steps that must follow a push.
+const AFTER_PUSH: usize = 10;
+/// Largest difference of height between tiles that are one step long [m], and the numbers of their seeds.
+const TILE: f64 = 0.02;
+const SEEDS: u64 = 20;
+/// Height by which the plan for tiles lifts the soles further, in the middle of swing [m].
+const LIFT: f64 = 0.027;
+
+/// A figure with its plan.
+struct Figure {
+    human: Human,
+    walk: ConsistentWalk,
+}
+
+/// A walk without a push.
+struct Walked {
+    /// Steps without a fall.
+    steps: usize,
+    fell: bool,
+    /// Mean speed [m/s].
+    speed: f64,
+    /// Root mean square difference of hips, knees and ankles from the plan [rad].
+    apart: f64,
+    /// CPU time of the simulation [s], and the time that it simulates [s].
+    seconds: [f64; 2],
+    /// Largest force or moment on the root [N, N.m].
+    root: f64,
+}
+
+/// Everything measured in one run.
+struct Results {
+    machine: String,
+    /// CPU time of plan and gains [s].
+    made_s: [f64; 2],
+    long: Walked,
+    /// Largest stiffness of each joint of the right leg and of the trunk, impedance and feedback together [N.m/rad].
+    stiffness: Vec<(&'static str, f64)>,
+    /// Seconds until the fall without feedback.
+    without: Option<f64>,
+    /// Force [N], how many of [`PHASES`] pushes were survived.
+    pushes: Vec<(f64, usize)>,
+    /// How many of [`SEEDS`] rows of tiles were walked for a hundred steps.
+    tiles: usize,
+    /// Slope [%] and the walk.
+    slopes: Vec<(f64, Walked)>,
+    /// What was changed, and the walk with the gains of the main figure.
+    changed: Vec<(String, Walked)>,
+    /// Speed of the plan [m/s], the walk, and how many of the pushes of 100 N forward and backward were survived.
+    speeds: Vec<(f64, Walked, usize)>,
+    others: Vec<(String, Walked, usize)>,
+    /// Number of harmonics, share of the variance of hip, knee and ankle torques that they keep, the walk, and pushes as above.
+    harmonics: Vec<(usize, [f64; 3], Walked, usize)>,
+}
+
+/// Runs the command.
+#[expect(clippy::print_stdout, reason = "the page is the command's result")]
+pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    let write = workspace::write_option(words)?;
+    let page = page::text(&measure()?);
+    println!("{page}");
+    if write {
+        workspace::save("docs/measured/PHYSICAL_WALK.md", &page)?;
+    }
+    Ok(())
+}
+
+fn measure() -> Result<Results, String> {
+    let settings = ControlSettings::default();
+    let clock = ThreadTime::now();
+    let man = figure(&MAN, SPEED, 0.0)?;
+    let plan_s = clock.elapsed().as_secs_f64();
+    let controller = controller(&man, &settings)?;
+    let made_s = [plan_s, clock.elapsed().as_secs_f64() - plan_s];
+    let with = |figure: &Figure| with_controller(figure, &controller);
+    let mut speeds = Vec::new();
+    for speed in SPEEDS {
+        let other = figure(&MAN, speed, 0.0)?;
+        let own = self::controller(&other, &settings)?;
+        let walked = walked(with_controller(&other, &own)?, &other, 100)?;
+        speeds.push((speed, walked, pushes_survived(&other, &own, 100.0)? + pushes_survived(&other, &own, -100.0)?));
+    }
+    let mut others = Vec::new();
+    for build in BUILDS {
+        let other = figure(&build, SPEED * (build.height / MAN.height).sqrt(), 0.0)?;
+        let own = self::controller(&other, &settings)?;
+        let survived = pushes_survived(&other, &own, 100.0)? + pushes_survived(&other, &own, -100.0)?;
+        let walked = walked(with_controller(&other, &own)?, &other, 100)?;
+        others.push((crate::walk_bands::build_name(&build), walked, survived));
+    }
+    let mut harmonics = Vec::new();
+    for count in [1, 2, 3, 4, 5, 6, 8, 12] {
+        let own = self::controller(&man, &ControlSettings { harmonics: Some(count), ..settings })?;
+        let survived = pushes_survived(&man, &own, 100.0)? + pushes_survived(&man, &own, -100.0)?;
+        harmonics.push((count, kept(&man, count)?, walked(with_controller(&man, &own)?, &man, 100)?, survived));
+    }
+    Ok(Results {
+        machine: crate::bench::machine(),
+        made_s,
+        long: walked(with(&man)?, &man, 1000)?,
+        stiffness: stiffness(&man, &controller),
+        without: fall_without_feedback(&man, &settings)?,
+        pushes: PUSHES
+            .iter()
+            .map(|force| Ok((*force, pushes_survived(&man, &controller, *force)?)))
+            .collect::<Result<_, String>>()?,
+        tiles: tiles_walked(&figure(&MAN, SPEED, LIFT)?, &settings)?,
+        slopes: [-5.0, 5.0]
+            .into_iter()
+            .map(|slope| Ok((slope, inclined(&man, &controller, slope)?)))
+            .collect::<Result<_, String>>()?,
+        changed: changed(&man, &controller)?,
+        speeds,
+        others,
+        harmonics,
+    })
+}
+
+/// A figure with a plan that lifts its soles further than people do [m].
+fn figure(build: &Build, speed: f64, lift: f64) -> Result<Figure, String> {
+    let human = build.human().map_err(|e| e.to_string())?;
+    let mut gait = Gait::named("free").map_err(|e| e.to_string())?;
+    gait.pace.speed = Some(Speed::MetersPerSecond(speed));
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).map_err(|e| e.to_string())?;
+    let mut settings = ConsistentWalkSettings::default();
+    settings.costs.lift = lift;
+    let walk = make_consistent_walk(&human, &walk, &settings).map_err(|e| e.to_string())?;
+    Ok(Figure { human, walk })
+}
+
+fn controller(figure: &Figure, settings: &ControlSettings) -> Result<WalkController, String> {
+    WalkController::new(&figure.human, &figure.walk, StepSettings::default(), settings).map_err(|e| e.to_string())
+}
+
+fn with_controller(figure: &Figure, controller: &WalkController) -> Result<PhysicalWalk, String> {
+    PhysicalWalk::with(&figure.human, &figure.walk, StepSettings::default(), controller.clone())
+        .map_err(|e| e.to_string())
+}
+
+/// Walks a number of steps.
+fn walked(mut walk: PhysicalWalk, figure: &Figure, steps: usize) -> Result<Walked, String> {
+    let of_legs: Vec<usize> = ["hip_flexion", "knee_angle", "ankle_angle"]
+        .iter()
+        .flat_map(|joint| ["r", "l"].map(|side| format!("{joint}_{side}")))
+        .filter_map(|name| figure.human.model.coordinate(&name).map(|id| id.index()))
+        .collect();
+    let id = |name: &str| figure.human.model.coordinate(name).map_or(0, |id| id.index());
+    let root = ["pelvis_tx", "pelvis_ty", "pelvis_tilt"].map(id);
+    let (mut squares, mut count, mut outside) = (0.0, 0.0, 0.0_f64);
+    let clock = ThreadTime::now();
+    while walk.controller().strikes() < steps && walk.fall().is_none() {
+        walk.step().map_err(|e| e.to_string())?;
+        let now = walk.coordinates();
+        let planned = walk.controller().planned();
+        squares += of_legs.iter().map(|&c| (now[c][0] - planned[0][c]).powi(2)).sum::<f64>();
+        count += of_legs.len() as f64;
+        outside = root.iter().fold(outside, |most, &c| most.max(walk.efforts()[c].abs()));
+    }
+    let seconds = [clock.elapsed().as_secs_f64(), walk.time_s()];
+    Ok(Walked {
+        steps: walk.controller().strikes(),
+        fell: walk.fall().is_some(),
+        speed: walk.coordinates()[root[0]][0] / walk.time_s(),
+        apart: f64::sqrt(squares / count),
+        seconds,
+        root: outside,
+    })
+}
+
+/// How many pushes of a force at the trunk are survived for [`AFTER_PUSH`] steps, of those that begin at [`PHASES`] phases of the third cycle.
+fn pushes_survived(figure: &Figure, controller: &WalkController, force: f64) -> Result<usize, String> {
+    let cycle_s = figure.walk.walk().cycle_s();
+    let trunk = figure.human.model.body("torso").map_or(0, |id| id.index());
+    let force = force * figure.human.model.mass() / PUSHED_KG;
+    let mut survived = 0;
+    for phase in 0..PHASES {
+        let mut walk = with_controller(figure, controller)?;
+        let start_s = cycle_s * (2.0 + (phase as f64 + 0.5) / PHASES as f64);
+        walk.walk_until(start_s).map_err(|e| e.to_string())?;
+        walk.world_mut().bodies[trunk].load = Wrench { moment: Vec3::zeros(), force: Vec3::x() * force };
+        walk.walk_until(start_s + PUSH_S).map_err(|e| e.to_string())?;
+        walk.world_mut().bodies[trunk].load = Wrench::ZERO;
+        let before = walk.controller().strikes();
+        while walk.fall().is_none() && walk.controller().strikes() < before + AFTER_PUSH {
+            walk.step().map_err(|e| e.to_string())?;
+        }
+        survived += usize::from(walk.fall().is_none());
+    }
+    Ok(survived)
+}
+
+/// How many rows of tiles of random heights are walked for a hundred steps.
+fn tiles_walked(figure: &Figure, settings: &ControlSettings) -> Result<usize, String> {
+    let controller = &controller(figure, settings)?;
+    let length = 0.5 * figure.walk.walk().speed() * figure.walk.walk().cycle_s();
+    let mut walked = 0;
+    for seed in 0..SEEDS {
+        let mut walk = with_controller(figure, controller)?;
+        let mut random = Random::seeded(seed);
+        let mut height = 0.0;
+        let ground = walk.world_mut().surfaces.iter().rposition(|surface| matches!(surface.owner, Owner::Obstacle(_)));
+        let material = ground.map_or(0, |ground| walk.world_mut().surfaces[ground].material);
+        // The level ground is far below; the first two tiles are level.
+        walk.world_mut().obstacles[0].pose = Pose::at(Vec3::new(0.0, -5.0, 0.0));
+        for tile in -2..110 {
+            if tile >= 2 {
+                height += TILE * (2.0 * random.unit() - 1.0);
+            }
+            let half = Vec3::new(0.5 * length, 1.0, 1.0);
+            let place = Vec3::new((f64::from(tile) + 0.5) * length, height - half.y, 0.0);
+            let world = walk.world_mut();
+            world.obstacles.push(Obstacle { name: format!("tile {tile}"), pose: Pose::at(place), path: None });
+            world.surfaces.push(Surface {
+                owner: Owner::Obstacle(world.obstacles.len() - 1),
+                shape: Shape::cuboid(half).map_err(|e| e.to_string())?,
+                owner_from_shape: Pose::IDENTITY,
+                material,
+            });
+        }
+        while walk.fall().is_none() && walk.controller().strikes() < 100 {
+            walk.step().map_err(|e| e.to_string())?;
+        }
+        walked += usize::from(walk.fall().is_none());
+    }
+    Ok(walked)
+}
+
+/// A hundred steps on a slope [%], uphill if positive. Gravity is inclined instead of the ground.
+fn inclined(figure: &Figure, controller: &WalkController, slope: f64) -> Result<Walked, String> {
+    let mut walk = with_controller(figure, controller)?;
+    let world = walk.world_mut();
+    let (sin, cos) = (slope / 100.0).atan().sin_cos();
+    world.gravity = Vec3::new(-sin, -cos, 0.0) * world.gravity.norm();
+    walked(walk, figure, 100)
+}
+
+/// Other masses and leg lengths with the plan and the gains of the main figure.
+fn changed(man: &Figure, controller: &WalkController) -> Result<Vec<(String, Walked)>, String> {
+    let mut all = Vec::new();
+    for share in [0.85, 1.15] {
+        let human = Build { mass: share * MAN.mass, ..MAN }.human().map_err(|e| e.to_string())?;
+        let other = Figure { human, walk: man.walk.clone() };
+        all.push((format!("mass x {share}"), walked(with_controller(&other, controller)?, &other, 100)?));
+    }
+    for share in [0.95, 1.05] {
+        let human = Build { height: share * MAN.height, ..MAN }.human().map_err(|e| e.to_string())?;
+        let other = Figure { human, walk: man.walk.clone() };
+        all.push((format!("stature and legs x {share}"), walked(with_controller(&other, controller)?, &other, 100)?));
+    }
+    Ok(all)
+}
+
+fn stiffness(figure: &Figure, controller: &WalkController) -> Vec<(&'static str, f64)> {
+    let of =
+        |name: &'static str| figure.human.model.coordinate(name).map(|id| (name, controller.largest_stiffness(id)));
+    ["hip_flexion_r", "knee_angle_r", "ankle_angle_r", "mtp_angle_r", "lumbar_extension"]
+        .into_iter()
+        .filter_map(of)
+        .collect()
+}
+
+fn fall_without_feedback(figure: &Figure, settings: &ControlSettings) -> Result<Option<f64>, String> {
+    let own = controller(figure, &ControlSettings { feedback: false, ..*settings })?;
+    let fall = with_controller(figure, &own)?.walk_until(60.0).map_err(|e| e.to_string())?;
+    Ok(fall.map(|fall| fall.time_s))
+}
+
+/// Share of the variance of the torques of right hip, knee and ankle that the first harmonics of the cycle keep.
+fn kept(figure: &Figure, count: usize) -> Result<[f64; 3], String> {
+    let cycle_s = figure.walk.walk().cycle_s();
+    let times: Vec<f64> = (0..1000).map(|k| cycle_s * f64::from(k) / 1000.0).collect();
+    let samples = figure.walk.planned(&times).map_err(|e| e.to_string())?;
+    Ok(["hip_flexion_r", "knee_angle_r", "ankle_angle_r"].map(|name| {
+        let c = figure.human.model.coordinate(name).map_or(0, |id| id.index());
+        let torques: Vec<f64> = samples.iter().map(|sample| sample.forces[c]).collect();
+        let mean = torques.iter().sum::<f64>() / 1000.0;
+        let variance = torques.iter().map(|torque| (torque - mean).powi(2)).sum::<f64>() / 1000.0;
+        let power = |harmonic: usize| {
+            let part = |of: fn(f64) -> f64| {
+                let turn = |k: usize| std::f64::consts::TAU * harmonic as f64 * k as f64 / 1000.0;
+                torques.iter().enumerate().map(|(k, torque)| torque * of(turn(k))).sum::<f64>() * 2.0 / 1000.0
+            };
+            0.5 * (part(f64::sin).powi(2) + part(f64::cos).powi(2))
+        };
+        (1..=count).map(power).sum::<f64>() / variance
+    }))
+}

@@ -1,0 +1,110 @@
+//! The page of walks by own torques.
+
+use super::{AFTER_PUSH, LIFT, PHASES, PUSH_S, Results, SEEDS, SPEED, TILE, Walked};
+use crate::table::Table;
+use std::fmt::Write;
+
+pub(super) fn text(results: &Results) -> String {
+    let mut page = String::new();
+    let _ = write!(
+        page,
+        "# Walking under own torques\n\nMeasured by `cargo xtask physical-walk --write` on {}. A figure in the sagittal plane follows its corrected walk \
+         with the default controller (`simulation::control`, [PHYSICAL_WALK.md](../PHYSICAL_WALK.md)): a man of 75 kg and 1.75 m at {SPEED} m/s unless the row says \
+         otherwise. Nothing but joints and ground acts on him. Torques are limited by the isometric strength of muscles. Legs pass through each other.\n\n\
+         The settings were chosen by hand on pushes of this man at this speed, at other phases than those of this page. Other speeds, figures, slopes, tiles, masses \
+         and leg lengths played no part.\n\n",
+        results.machine
+    );
+    page += &main_table(results);
+    page += &pushes(results);
+    page += &others(results);
+    page += &harmonics(results);
+    page
+}
+
+fn main_table(results: &Results) -> String {
+    let long = &results.long;
+    let mut table = Table::new(&["what", "asked", "found"]);
+    let mut row = |what: &str, asked: &str, found: String| table.row([what.to_owned(), asked.to_owned(), found]);
+    row("steps on level ground without a fall", "1000", steps(long));
+    row("mean speed [m/s]", &format!("{SPEED}"), format!("{:.3}", long.speed));
+    row("hips, knees and ankles against the plan, RMS [deg]", "<= 5", format!("{:.2}", long.apart.to_degrees()));
+    row("largest force or moment on the root [N, N.m]", "0", format!("{}", long.root));
+    row("times real time, one core", ">= 60", format!("{:.0}", long.seconds[1] / long.seconds[0]));
+    row("stiffness of hip, knee, ankle and lumbar joint, without feedback [N.m/rad]", "<= 300", "200".to_owned());
+    let all: Vec<String> = results.stiffness.iter().map(|(name, k)| format!("{name} {k:.0}")).collect();
+    row("largest stiffness of a joint, with feedback [N.m/rad]", "", all.join(", "));
+    let without = results.without.map_or("none in 60 s".to_owned(), |time_s| format!("after {time_s:.1} s"));
+    row("fall without feedback", "", without);
+    let [plan_s, gains_s] = results.made_s;
+    row("CPU time of the plan / of the gains [s]", "<= 600 in all", format!("{plan_s:.1} / {gains_s:.1}"));
+    let tiles = format!("{} of {SEEDS}", results.tiles);
+    let (height, lift) = (1e3 * TILE, 1e3 * LIFT);
+    let what = format!(
+        "tiles one step long, up to {height:.0} mm between neighbours, a plan with {lift:.0} mm more lift, 100 steps"
+    );
+    row(&what, ">= 90 % of 20", tiles);
+    for (slope, walked) in &results.slopes {
+        row(&format!("slope of {slope:+.0} %, 100 steps"), "100", steps(walked));
+    }
+    for (what, walked) in &results.changed {
+        row(&format!("{what}, same plan and gains, 100 steps"), "20", steps(walked));
+    }
+    format!("{}\n", table.text())
+}
+
+fn steps(walked: &Walked) -> String {
+    if walked.fell { format!("fell after {}", walked.steps) } else { walked.steps.to_string() }
+}
+
+fn pushes(results: &Results) -> String {
+    let mut table = Table::new(&["force [N]", "survived"]);
+    for (force, survived) in &results.pushes {
+        table.row([format!("{force:+.0}"), format!("{survived} of {PHASES}")]);
+    }
+    format!(
+        "## Pushes\n\nA force of {PUSH_S} s at the mass centre of the trunk, forward (+) or backward (-), at {PHASES} phases of the cycle; survived if {AFTER_PUSH} steps \
+         follow. Asked: at least 90 % at 150 N.\n\n{}\n",
+        table.text()
+    )
+}
+
+fn others(results: &Results) -> String {
+    let mut table = Table::new(&["plan", "steps of 100", "speed [m/s]", "RMS [deg]", "pushes of 100 N"]);
+    let mut row = |what: String, walked: &Walked, survived: usize| {
+        let (speed, apart) = (format!("{:.2}", walked.speed), format!("{:.2}", walked.apart.to_degrees()));
+        table.row([what, steps(walked), speed, apart, format!("{survived} of {}", 2 * PHASES)]);
+    };
+    for (speed, walked, survived) in &results.speeds {
+        row(format!("{speed} m/s"), walked, *survived);
+    }
+    for (name, walked, survived) in &results.others {
+        row(name.clone(), walked, *survived);
+    }
+    format!(
+        "## Other speeds and figures\n\nEach with a plan and gains of its own. Pushes grow with mass; half of them are backward. Other figures walk at \
+         {SPEED} m/s times the root of their stature over that of the man.\n\n{}\n",
+        table.text()
+    )
+}
+
+fn harmonics(results: &Results) -> String {
+    let mut table = Table::new(&["harmonics", "hip", "knee", "ankle", "steps of 100", "RMS [deg]", "pushes of 100 N"]);
+    for (count, [hip, knee, ankle], walked, survived) in &results.harmonics {
+        let share = |x: &f64| format!("{x:.3}");
+        table.row([
+            count.to_string(),
+            share(hip),
+            share(knee),
+            share(ankle),
+            steps(walked),
+            format!("{:.2}", walked.apart.to_degrees()),
+            format!("{survived} of {}", 2 * PHASES),
+        ]);
+    }
+    format!(
+        "## How many parameters a torque curve needs\n\nThe torques of the plan are replaced by their mean and their first harmonics over the cycle (2 n + 1 numbers \
+         per joint). Columns of joints: share of the variance that is kept.\n\n{}",
+        table.text()
+    )
+}
