@@ -190,6 +190,41 @@ fn other_masses_and_legs_walk_with_the_same_plan_and_gains() {
 }
 
 #[test]
+fn one_controller_of_several_plans_changes_its_speed_on_the_way() {
+    let human = MAN.human().unwrap();
+    let at = |speed: f64| {
+        let mut gait = Gait::named("free").unwrap();
+        gait.pace.speed = Some(Speed::MetersPerSecond(speed));
+        let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
+        make_consistent_walk(&human, &walk, &ConsistentWalkSettings::default()).unwrap()
+    };
+    let settings = ControlSettings::default();
+    let case = &*LEVEL;
+    let fast = controller(&human, &at(1.5), &settings);
+    let joined = WalkController::joined(&[fast, case.controller.clone()]).unwrap();
+    let mut walk = PhysicalWalk::with(&human, &case.walk, StepSettings::default(), joined).unwrap();
+    let forward = case.index("pelvis_tx");
+    let mut speeds = Vec::new();
+    for speed in [1.25, 1.4, 1.5, 9.0] {
+        walk.set_speed(speed);
+        walk.walk_until(walk.time_s() + 4.0).unwrap();
+        let (time_s, place) = (walk.time_s(), walk.coordinates()[forward][0]);
+        walk.walk_until(time_s + 4.0).unwrap();
+        speeds.push((walk.coordinates()[forward][0] - place) / (walk.time_s() - time_s));
+    }
+    println!("{speeds:.3?} m/s");
+    assert!(walk.fall().is_none(), "{:?}", walk.fall());
+    for (speed, expected) in speeds.iter().zip([1.25, 1.4, 1.5, 1.5]) {
+        assert!((speed - expected).abs() < 0.04, "{speeds:?}");
+    }
+    let other = Build { mass: 60.0, ..MAN }.human().unwrap();
+    let other = controller(&other, &at(1.25), &ControlSettings { feedback: false, ..settings });
+    let error = WalkController::joined(&[case.controller.clone(), other]).unwrap_err();
+    assert!(matches!(error, ControlError::Joined { .. }));
+    assert!(WalkController::joined(&[]).is_err());
+}
+
+#[test]
 fn a_few_harmonics_of_the_torques_suffice() {
     let case = &*LEVEL;
     let settings = ControlSettings { harmonics: Some(5), ..ControlSettings::default() };

@@ -29,6 +29,9 @@ const BUILDS: [Build; 4] = [
     Build { mass: 120.0, height: 1.90, ..MAN },
     Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.80, toe_joint: true },
 ];
+/// Time at the lowest and the highest of these speeds, and time of a change from one to the other [s].
+const HOLD_S: f64 = 10.0;
+const RAMP_S: f64 = 20.0;
 /// Forces of pushes of 75 kg [N], their duration [s], and the number of phases at which they begin.
 const PUSHES: [f64; 10] = [50.0, -50.0, 100.0, -100.0, 150.0, -150.0, 200.0, -200.0, 250.0, -250.0];
 const PUSH_S: f64 = 0.2;
@@ -82,6 +85,8 @@ struct Results {
     slopes: Vec<(f64, Walked)>,
     /// What was changed, and the walk with the gains of the main figure.
     changed: Vec<(String, Walked)>,
+    /// A walk whose speed changes through all of [`SPEEDS`] and back: whether it fell, and mean speed while it was slowest, fastest, slowest [m/s].
+    changing: (bool, [f64; 3]),
     /// Speed of the plan [m/s], the walk, and how many of the pushes of 100 N forward and backward were survived.
     speeds: Vec<(f64, Walked, usize)>,
     others: Vec<(String, Walked, usize)>,
@@ -109,12 +114,13 @@ fn measure() -> Result<Results, String> {
     let controller = controller(&man, &settings)?;
     let made_s = [plan_s, clock.elapsed().as_secs_f64() - plan_s];
     let with = |figure: &Figure| with_controller(figure, &controller);
-    let mut speeds = Vec::new();
+    let (mut speeds, mut paces) = (Vec::new(), Vec::new());
     for speed in SPEEDS {
         let other = figure(&MAN, speed, 0.0)?;
         let own = self::controller(&other, &settings)?;
         let walked = walked(with_controller(&other, &own)?, &other, 100)?;
         speeds.push((speed, walked, pushes_survived(&other, &own, 100.0)? + pushes_survived(&other, &own, -100.0)?));
+        paces.push((other, own));
     }
     let mut others = Vec::new();
     for build in BUILDS {
@@ -146,6 +152,7 @@ fn measure() -> Result<Results, String> {
             .map(|slope| Ok((slope, inclined(&man, &controller, slope)?)))
             .collect::<Result<_, String>>()?,
         changed: changed(&man, &controller)?,
+        changing: changing_speed(&paces)?,
         speeds,
         others,
         harmonics,
@@ -201,6 +208,29 @@ fn walked(mut walk: PhysicalWalk, figure: &Figure, steps: usize) -> Result<Walke
         seconds,
         root: outside,
     })
+}
+
+/// One controller of all speeds: 10 s at the lowest one, to the highest within [`RAMP_S`], 10 s there, and back.
+fn changing_speed(paces: &[(Figure, WalkController)]) -> Result<(bool, [f64; 3]), String> {
+    let controllers: Vec<WalkController> = paces.iter().map(|(_, own)| own.clone()).collect();
+    let joined = WalkController::joined(&controllers).map_err(|e| e.to_string())?;
+    let figure = &paces[0].0;
+    let forward = figure.human.model.coordinate("pelvis_tx").map_or(0, |id| id.index());
+    let mut walk = with_controller(figure, &joined)?;
+    let [slow, fast] = [SPEEDS[0], SPEEDS[SPEEDS.len() - 1]];
+    let (mut means, mut end_s) = ([0.0; 3], 0.0);
+    for (k, (from, to)) in [(slow, fast), (fast, slow), (slow, slow)].into_iter().enumerate() {
+        let (start_s, place) = (end_s, walk.coordinates()[forward][0]);
+        walk.walk_until(start_s + HOLD_S).map_err(|e| e.to_string())?;
+        means[k] = (walk.coordinates()[forward][0] - place) / HOLD_S;
+        end_s = start_s + HOLD_S + RAMP_S;
+        while k < 2 && walk.time_s() < end_s && walk.fall().is_none() {
+            let share = (walk.time_s() - start_s - HOLD_S) / RAMP_S;
+            walk.set_speed(from + share * (to - from));
+            walk.step().map_err(|e| e.to_string())?;
+        }
+    }
+    Ok((walk.fall().is_some(), means))
 }
 
 /// How many pushes of a force at the trunk are survived for [`AFTER_PUSH`] steps, of those that begin at [`PHASES`] phases of the third cycle.

@@ -1,6 +1,6 @@
 //! The page of walks by own torques.
 
-use super::{AFTER_PUSH, LIFT, PHASES, PUSH_S, Results, SEEDS, SPEED, TILE, Walked};
+use super::{AFTER_PUSH, HOLD_S, LIFT, PHASES, PUSH_S, RAMP_S, Results, SEEDS, SPEED, TILE, Walked};
 use crate::table::Table;
 use std::fmt::Write;
 
@@ -44,6 +44,11 @@ fn main_table(results: &Results) -> String {
         "tiles one step long, up to {height:.0} mm between neighbours, a plan with {lift:.0} mm more lift, 100 steps"
     );
     row(&what, ">= 90 % of 20", tiles);
+    let (fell, [slow, fast, again]) = results.changing;
+    let what = format!(
+        "one controller of all speeds of this page, {HOLD_S} s at 0.7, to 1.8 within {RAMP_S} s, {HOLD_S} s there, and back: mean speeds [m/s]"
+    );
+    row(&what, "0.7, 1.8", format!("{}{slow:.2}, {fast:.2}, {again:.2}", if fell { "fell; " } else { "" }));
     for (slope, walked) in &results.slopes {
         row(&format!("slope of {slope:+.0} %, 100 steps"), "100", steps(walked));
     }

@@ -1,7 +1,7 @@
 //! The controller: phase, impedance and feedback of the state.
 
 use super::linear::{FigureWorld, Impedance};
-use super::plan::{CyclePlan, STRIKE};
+use super::plan::{CyclePlan, PlannedStep, STRIKE};
 use super::riccati::periodic_gains;
 use super::settings::{ControlError, ControlSettings, TrackingCosts};
 use crate::kinematics::{Posture, body_motion};
@@ -68,12 +68,49 @@ pub struct Fall {
     pub at_limit: Option<(CoordinateId, f64)>,
 }
 
+/// A plan at one speed, and its gains.
+#[derive(Debug)]
+struct Pace {
+    /// [m/s].
+    speed: f64,
+    plan: CyclePlan,
+    /// Gains of each time step: one row per joint, one column per entry of the state. Empty without feedback.
+    gains: Vec<DMatrix<f64>>,
+    /// Height of the sole of the right and the left foot when it strikes [m].
+    soles_m: [f64; 2],
+}
+
+/// Two paces and the share of the second one, between which the present speed lies.
+struct Between<'a> {
+    paces: [&'a Pace; 2],
+    share: f64,
+}
+
+impl Between<'_> {
+    fn mix(&self, of: impl Fn(&Pace) -> f64) -> f64 {
+        (1.0 - self.share) * of(self.paces[0]) + self.share * of(self.paces[1])
+    }
+
+    fn planned(&self, phase: f64) -> PlannedStep {
+        let [first, second] = self.paces.map(|pace| &pace.plan.steps[pace.plan.step_at(phase)]);
+        if self.share > 0.0 { first.blended(second, self.share) } else { first.clone() }
+    }
+
+    /// K times a deviation of the state.
+    fn feedback(&self, phase: f64, apart: &DVector<f64>) -> Option<DVector<f64>> {
+        let of = |pace: &Pace| pace.gains.get(pace.plan.step_at(phase)).map(|gain| gain * apart);
+        let first = of(self.paces[0])?;
+        if self.share > 0.0 { Some(first * (1.0 - self.share) + of(self.paces[1])? * self.share) } else { Some(first) }
+    }
+}
+
 /// Walks a figure along a plan by torques of its joints.
 #[derive(Debug, Clone)]
 pub struct WalkController {
-    plan: Arc<CyclePlan>,
-    /// Gains of each time step: one row per joint, one column per entry of the state. Empty without feedback.
-    gains: Arc<Vec<DMatrix<f64>>>,
+    /// Plans and gains by speed, the slowest first.
+    paces: Vec<Arc<Pace>>,
+    /// The present speed [m/s].
+    speed: f64,
     impedances: Vec<Impedance>,
     joints: Vec<usize>,
     places: Vec<usize>,
@@ -82,16 +119,14 @@ pub struct WalkController {
     /// Foot of ankles and toes, and the lever of its load by which feedback may turn it [m].
     feet: Vec<Option<(usize, f64)>>,
     body: Arc<Body>,
-    /// Height of the sole of the right and the left foot when it strikes, in the plan [m].
-    soles_m: [f64; 2],
     /// Height of the ground on which the figure stands [m].
     level_m: f64,
     /// Hip height over that of the figure of the plan.
     taller: f64,
     step_s: f64,
     weight_n: f64,
-    /// Number of the time step of the plan.
-    phase: usize,
+    /// Share of the cycle.
+    phase: f64,
     /// Time since each foot left the ground [s]; zero while it bears load.
     swing_s: [f64; 2],
     /// Time that the phase has waited for a foot [s].
@@ -134,11 +169,10 @@ impl WalkController {
         let soles_m = [0, 1].map(|foot| body.lowest(&plan.steps[plan.strikes[foot]].state[0])[foot]);
         Ok(WalkController {
             body: Arc::new(body),
-            soles_m,
             level_m: 0.0,
             taller: 1.0,
-            plan: Arc::new(plan),
-            gains: Arc::new(gains),
+            speed: walk.walk().speed(),
+            paces: vec![Arc::new(Pace { speed: walk.walk().speed(), plan, gains, soles_m })],
             impedances,
             carrying: joints.iter().copied().filter(|&c| share_of(human, c).0 >= 1.0).collect(),
             feet: feet(human),
@@ -146,7 +180,7 @@ impl WalkController {
             places,
             step_s: step.step_s,
             weight_n: human.model.mass() * human.model.gravity().norm(),
-            phase: 0,
+            phase: 0.0,
             swing_s: [0.0; 2],
             waited_s: 0.0,
             strikes: 0,
@@ -157,11 +191,54 @@ impl WalkController {
         })
     }
 
+    /// One controller of controllers of the same figure at several speeds: between them, plans and gains are mixed linearly. It starts as the
+    /// first one, at its speed.
+    ///
+    /// # Errors
+    /// Controllers of figures with other joints; none at all.
+    pub fn joined(controllers: &[WalkController]) -> Result<WalkController, ControlError> {
+        let count = |controller: &WalkController| controller.impedances.len();
+        let Some(first) = controllers.first() else { return Err(ControlError::Joined { found: 0, expected: 1 }) };
+        if let Some(other) = controllers.iter().find(|other| other.impedances != first.impedances) {
+            return Err(ControlError::Joined { found: count(other), expected: count(first) });
+        }
+        let mut paces: Vec<Arc<Pace>> = controllers.iter().flat_map(|other| other.paces.iter().cloned()).collect();
+        paces.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        Ok(WalkController { paces, ..first.clone() })
+    }
+
     /// Starts at a phase of the cycle (0 to 1), in which the feet are as planned.
     #[must_use]
     pub fn starting_at(mut self, phase: f64) -> WalkController {
-        self.phase = (phase.rem_euclid(1.0) * self.steps() as f64) as usize % self.steps();
+        self.phase = phase.rem_euclid(1.0);
         self
+    }
+
+    /// Sets the speed [m/s], within those of the plans that were joined. It may change in every step.
+    pub fn set_speed(&mut self, speed: f64) {
+        let ends = [&self.paces[0], &self.paces[self.paces.len() - 1]].map(|pace| pace.speed);
+        self.speed = speed.clamp(ends[0], ends[1]);
+    }
+
+    /// The speed of the plan now [m/s].
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    fn between(&self) -> Between<'_> {
+        let above = self.paces.iter().position(|pace| pace.speed >= self.speed).unwrap_or(self.paces.len() - 1);
+        let [slow, fast] = [above.saturating_sub(1), above].map(|k| &*self.paces[k]);
+        let apart = fast.speed - slow.speed;
+        if apart <= 0.0 || self.speed >= fast.speed {
+            return Between { paces: [fast, fast], share: 0.0 };
+        }
+        Between { paces: [slow, fast], share: (self.speed - slow.speed) / apart }
+    }
+
+    /// The forward, upward and turning coordinate of the root.
+    fn root(&self) -> [usize; 3] {
+        self.paces[0].plan.root
     }
 
     /// The same plan and gains for another figure with the same joints: heights of the plan grow with its legs.
@@ -176,19 +253,18 @@ impl WalkController {
     /// Coordinates and rates of the plan at the present phase, with the soles at the height of the plan.
     #[must_use]
     pub fn start(&self) -> [Vec<f64>; 2] {
-        let [mut q, qd] = self.planned().clone();
-        let up = self.plan.root[1];
+        let [mut q, qd] = self.planned();
+        let up = self.root()[1];
         q[up] *= self.taller;
         let lowest = self.body.lowest(&q).into_iter().fold(f64::INFINITY, f64::min);
-        let [right, left] = self.soles_m;
-        q[up] += right.min(left) - lowest;
+        q[up] += self.between().mix(|pace| pace.soles_m[0].min(pace.soles_m[1])) - lowest;
         [q, qd]
     }
 
-    /// Phase of the cycle, 0 to 1; the right foot strikes at 0 and the left one at 0.5.
+    /// Phase of the cycle, 0 to 1; the right foot strikes near 0 and the left one near 0.5.
     #[must_use]
     pub fn phase(&self) -> f64 {
-        self.phase as f64 / self.steps() as f64
+        self.phase
     }
 
     /// Number of foot strikes so far.
@@ -199,12 +275,8 @@ impl WalkController {
 
     /// Coordinates and rates of the plan at the present phase.
     #[must_use]
-    pub fn planned(&self) -> &[Vec<f64>; 2] {
-        &self.plan.steps[self.phase].state
-    }
-
-    fn steps(&self) -> usize {
-        self.plan.steps.len()
+    pub fn planned(&self) -> [Vec<f64>; 2] {
+        self.between().planned(self.phase).state
     }
 
     /// The largest stiffness by which an angle acts on the torque of its own joint, impedance and feedback together [N.m/rad]: names are those of
@@ -216,7 +288,8 @@ impl WalkController {
         let row = self.joints.iter().position(|joint| *joint == c);
         let column = self.places.iter().position(|place| *place == c);
         let (Some(row), Some(column)) = (row, column) else { return own };
-        self.gains.iter().map(|gain| gain[(row, column)] + own).fold(own, f64::max)
+        let gains = self.paces.iter().flat_map(|pace| &pace.gains);
+        gains.map(|gain| gain[(row, column)] + own).fold(own, f64::max)
     }
 
     /// Motors of the coordinates for the next time step; `None` for those of the root, on which nothing acts. `now` has value and rate of each
@@ -230,20 +303,8 @@ impl WalkController {
             let limp = |impedance: &Impedance| (impedance.stiffness > 0.0).then(|| impedance.limp());
             return self.impedances.iter().map(limp).collect();
         }
-        let planned = &self.plan.steps[self.phase];
-        let mut feedback = vec![0.0; now.len()];
-        if let Some(gain) = self.gains.get(self.phase) {
-            let up = self.plan.root[1];
-            let higher = self.level_m + (self.taller - 1.0) * planned.state[0][up];
-            let places =
-                self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
-            let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
-            let apart = DVector::from_iterator(self.places.len() + now.len(), places.chain(rates));
-            for (joint, torque) in self.joints.iter().zip((gain * apart).iter()) {
-                let most = self.feet[*joint].map_or(f64::INFINITY, |(foot, lever_m)| lever_m * loads_n[foot].max(0.0));
-                feedback[*joint] = (-torque).clamp(-most, most);
-            }
-        }
+        let planned = self.between().planned(self.phase);
+        let feedback = self.feedback(&planned, now, loads_n);
         let motor = |(c, impedance): (usize, &Impedance)| {
             let target = [planned.target[0][c], planned.target[1][c]];
             (impedance.stiffness > 0.0).then(|| impedance.motor(target, planned.torques[c] + feedback[c], now[c]))
@@ -254,6 +315,23 @@ impl WalkController {
         motors
     }
 
+    /// Torque of each coordinate from the deviation of the state [N.m].
+    fn feedback(&self, planned: &PlannedStep, now: &[[f64; 2]], loads_n: [f64; 2]) -> Vec<f64> {
+        let up = self.root()[1];
+        let higher = self.level_m + (self.taller - 1.0) * planned.state[0][up];
+        let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
+        let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
+        let apart = DVector::from_iterator(self.places.len() + now.len(), places.chain(rates));
+        let mut feedback = vec![0.0; now.len()];
+        if let Some(torques) = self.between().feedback(self.phase, &apart) {
+            for (joint, torque) in self.joints.iter().zip(torques.iter()) {
+                let most = self.feet[*joint].map_or(f64::INFINITY, |(foot, lever_m)| lever_m * loads_n[foot].max(0.0));
+                feedback[*joint] = (-torque).clamp(-most, most);
+            }
+        }
+        feedback
+    }
+
     /// The fall, once the pelvis was lower than 0.7 of its first height over the ground. Then joints are only damped.
     #[must_use]
     pub fn fall(&self) -> Option<Fall> {
@@ -261,10 +339,10 @@ impl WalkController {
     }
 
     fn look_for_a_fall(&mut self, now: &[[f64; 2]]) {
-        let height = now[self.plan.root[1]][0] - self.level_m;
-        let first = *self.height_m.get_or_insert(height);
-        // Also if it is not a number.
-        if self.fall.is_none() && !(height >= FALLEN * first) {
+        let height = now[self.root()[1]][0] - self.level_m;
+        // A height that is not a number is none.
+        let stands = height >= FALLEN * *self.height_m.get_or_insert(height);
+        if self.fall.is_none() && !stands {
             let at_limit = self.at_limit.map(|(c, since_s, _)| (CoordinateId(c), since_s));
             self.fall = Some(Fall { time_s: self.time_s, strikes: self.strikes, at_limit });
         }
@@ -283,11 +361,16 @@ impl WalkController {
     /// The phase advances with time, but waits for a foot that has not struck when it should.
     fn advance(&mut self) {
         self.time_s += self.step_s;
-        let next = (self.phase + 1) % self.steps();
-        let late = (0..2).any(|foot| self.plan.strikes[foot] == next && self.swing_s[foot] > SHORTEST_SWING_S);
+        let between = self.between();
+        let step = 1.0 / between.mix(|pace| pace.plan.steps.len() as f64);
+        let is_late = |foot: usize| {
+            let until = (between.mix(|pace| pace.plan.strike(foot)) - self.phase).rem_euclid(1.0);
+            until <= 1.5 * step && self.swing_s[foot] > SHORTEST_SWING_S
+        };
+        let late = is_late(0) || is_late(1);
         self.waited_s = if late { self.waited_s + self.step_s } else { 0.0 };
         if !late || self.waited_s > LONGEST_WAIT_S {
-            self.phase = next;
+            self.phase = (self.phase + step).rem_euclid(1.0);
         }
     }
 
@@ -299,7 +382,8 @@ impl WalkController {
                     self.strikes += 1;
                     self.strike(foot);
                     let q: Vec<f64> = now.iter().map(|now| now[0]).collect();
-                    self.level_m = self.body.lowest(&q)[foot] - self.soles_m[foot];
+                    let planned = self.between().mix(|pace| pace.soles_m[foot]);
+                    self.level_m = self.body.lowest(&q)[foot] - planned;
                 }
                 self.swing_s[foot] = 0.0;
             } else if load < SWING * self.weight_n {
@@ -309,11 +393,9 @@ impl WalkController {
     }
 
     fn strike(&mut self, foot: usize) {
-        let steps = self.steps();
-        let planned = self.plan.strikes[foot];
-        let early = (planned + steps - self.phase) % steps;
-        let apart = early.min(steps - early);
-        if (apart as f64) < FURTHEST * steps as f64 {
+        let planned = self.between().mix(|pace| pace.plan.strike(foot));
+        let ahead = (planned - self.phase).rem_euclid(1.0);
+        if ahead.min(1.0 - ahead) < FURTHEST {
             self.phase = planned;
         }
     }

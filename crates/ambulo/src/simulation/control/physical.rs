@@ -59,6 +59,11 @@ impl PhysicalWalk {
         self.figure.state.time_s
     }
 
+    /// Sets the speed of the plan [m/s] ([`WalkController::set_speed`]).
+    pub fn set_speed(&mut self, speed: f64) {
+        self.controller.set_speed(speed);
+    }
+
     /// The controller.
     #[must_use]
     pub fn controller(&self) -> &WalkController {

@@ -24,6 +24,19 @@ pub(super) struct PlannedStep {
     pub(super) torques: Vec<f64>,
 }
 
+impl PlannedStep {
+    /// (1 - w) times this step plus w times another one.
+    pub(super) fn blended(&self, other: &PlannedStep, w: f64) -> PlannedStep {
+        let mix = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (1.0 - w) * a + w * b).collect::<Vec<f64>>();
+        let both = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| [mix(&a[0], &b[0]), mix(&a[1], &b[1])];
+        PlannedStep {
+            state: both(&self.state, &other.state),
+            target: both(&self.target, &other.target),
+            torques: mix(&self.torques, &other.torques),
+        }
+    }
+}
+
 /// A cycle of the plan.
 #[derive(Debug, Clone)]
 pub(super) struct CyclePlan {
@@ -84,6 +97,18 @@ impl CyclePlan {
             }
             self.steps.iter_mut().zip(kept).for_each(|(step, kept)| step.torques[c] = kept);
         }
+    }
+
+    /// The number of the step at a share of the cycle.
+    pub(super) fn step_at(&self, phase: f64) -> usize {
+        // The phase is a sum of shares of a step, and must not fall short of a step by rounding.
+        const ROUNDING: f64 = 1e-6;
+        (phase * self.steps.len() as f64 + ROUNDING) as usize % self.steps.len()
+    }
+
+    /// Share of the cycle at which a foot strikes.
+    pub(super) fn strike(&self, foot: usize) -> f64 {
+        self.strikes[foot] as f64 / self.steps.len() as f64
     }
 
     /// The coordinates that joints move.

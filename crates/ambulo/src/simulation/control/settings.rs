@@ -75,6 +75,16 @@ pub enum ControlError {
         /// Most.
         most: usize,
     },
+    /// Controllers of different figures, or none, that were to be joined.
+    #[error(
+        "found {found} coordinates of a controller that is joined with others; expected {expected}, one figure at several speeds"
+    )]
+    Joined {
+        /// Coordinates of one of them.
+        found: usize,
+        /// Coordinates of the first one.
+        expected: usize,
+    },
     /// The Riccati equation has no solution.
     #[error("the feedback of the walk could not be computed: its Riccati equation did not converge")]
     Riccati,
