@@ -91,6 +91,13 @@ impl Between<'_> {
         (1.0 - self.share) * of(self.paces[0]) + self.share * of(self.paces[1])
     }
 
+    /// Share of the cycle at which a foot strikes; those of both paces may lie on either side of the end of the cycle.
+    fn strike(&self, foot: usize) -> f64 {
+        let [first, second] = self.paces.map(|pace| pace.plan.strike(foot));
+        let apart = second - first;
+        (first + self.share * (apart - apart.round())).rem_euclid(1.0)
+    }
+
     fn planned(&self, phase: f64) -> PlannedStep {
         let [first, second] = self.paces.map(|pace| &pace.plan.steps[pace.plan.step_at(phase)]);
         if self.share > 0.0 { first.blended(second, self.share) } else { first.clone() }
@@ -364,7 +371,7 @@ impl WalkController {
         let between = self.between();
         let step = 1.0 / between.mix(|pace| pace.plan.steps.len() as f64);
         let is_late = |foot: usize| {
-            let until = (between.mix(|pace| pace.plan.strike(foot)) - self.phase).rem_euclid(1.0);
+            let until = (between.strike(foot) - self.phase).rem_euclid(1.0);
             until <= 1.5 * step && self.swing_s[foot] > SHORTEST_SWING_S
         };
         let late = is_late(0) || is_late(1);
@@ -393,7 +400,7 @@ impl WalkController {
     }
 
     fn strike(&mut self, foot: usize) {
-        let planned = self.between().mix(|pace| pace.plan.strike(foot));
+        let planned = self.between().strike(foot);
         let ahead = (planned - self.phase).rem_euclid(1.0);
         if ahead.min(1.0 - ahead) < FURTHEST {
             self.phase = planned;
