@@ -217,6 +217,13 @@ fn one_controller_of_several_plans_changes_its_speed_on_the_way() {
     for (speed, expected) in speeds.iter().zip([1.25, 1.4, 1.5, 1.5]) {
         assert!((speed - expected).abs() < 0.04, "{speeds:?}");
     }
+    // Strikes of these two plans lie on either side of the end of the cycle.
+    let [slower, faster] = [1.0, 1.1].map(|speed| controller(&human, &at(speed), &settings));
+    let joined = WalkController::joined(&[slower, faster]).unwrap();
+    let mut walk = PhysicalWalk::with(&human, &case.walk, StepSettings::default(), joined).unwrap();
+    walk.set_speed(1.05);
+    steps(&mut walk, 20);
+    assert!(walk.fall().is_none(), "{:?}", walk.fall());
     let other = Build { mass: 60.0, ..MAN }.human().unwrap();
     let other = controller(&other, &at(1.25), &ControlSettings { feedback: false, ..settings });
     let error = WalkController::joined(&[case.controller.clone(), other]).unwrap_err();
