@@ -11,8 +11,9 @@ pub(super) fn text(results: &Results) -> String {
         "# Walking under own torques\n\nMeasured by `cargo xtask physical-walk --write` on {}. A figure in the sagittal plane follows its corrected walk \
          with the default controller (`simulation::control`, [PHYSICAL_WALK.md](../PHYSICAL_WALK.md)): a man of 75 kg and 1.75 m at {SPEED} m/s unless the row says \
          otherwise. Nothing but joints and ground acts on him. Torques are limited by the isometric strength of muscles. Legs pass through each other.\n\n\
-         The settings were chosen by hand on pushes of this man at this speed, at other phases than those of this page. Other speeds, figures, slopes, tiles, masses \
-         and leg lengths played no part.\n\n",
+         The settings were chosen by hand on pushes of this man at this speed, at other phases than those of this page. The rules for the phase, the level of the \
+         ground and the ankle were made while he was tried on slopes, on tiles and with other legs, and pushed as below. Other speeds, figures and masses played no \
+         part.\n\n",
         results.machine
     );
     page += &main_table(results);
