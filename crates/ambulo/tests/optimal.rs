@@ -275,7 +275,8 @@ fn a_walk_with_other_joints_or_knots_is_no_start() {
     let stages = |s: &Solution| s.progress.len();
     // Coarse splines leave forces at the root, and the solver goes on.
     assert!(stages(&coarse.solve_near(problem, solution.unknowns()).unwrap()) >= STAGES.len());
-    assert_eq!(stages(&problem.solve_near(problem, &solution.unknowns()[1..]).unwrap()), STAGES.len());
+    // As from the first guess.
+    assert_eq!(stages(&problem.solve_near(problem, &solution.unknowns()[1..]).unwrap()), stages(solution));
     assert_eq!(stages(&problem.solve_near(problem, solution.unknowns()).unwrap()), NEAR_STAGES.len());
 }
 
