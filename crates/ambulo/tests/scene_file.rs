@@ -174,13 +174,16 @@ fn the_examples_are_scenes() {
         ("grasp", [4, 1, 3, 0, 0]),
         ("hand-in-hand", [0, 1, 0, 1, 0]),
         ("hands", [6, 0, 6, 1, 2]),
+        ("kerb-walker", [0, 2, 0, 0, 0]),
         ("ladder", [60, 0, 60, 20, 0]),
         ("pendulum", [1, 0, 1, 0, 0]),
         ("pile", [10, 5, 0, 0, 0]),
+        ("pushed-walker", [1, 1, 1, 0, 0]),
         ("pusher", [3, 2, 2, 0, 0]),
         ("slope", [2, 2, 0, 0, 0]),
         ("stumble", [0, 2, 0, 0, 0]),
         ("top", [1, 0, 1, 0, 0]),
+        ("walker-without-a-hand", [0, 1, 0, 0, 0]),
     ];
     assert_eq!(counts, expected.map(|(name, counts)| (name.to_owned(), counts)));
 }

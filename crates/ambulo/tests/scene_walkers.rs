@@ -374,6 +374,6 @@ fn machines_of_a_walker_read_its_feet_and_the_joints_of_the_scene() {
     }
     let mut scene = next_to_a_door(&waving("left foot strikes")).unwrap();
     let saved = scene.save();
-    assert!(scene.resume(&saved).unwrap_err().to_string().contains("the states of machines are not saved"));
+    assert!(scene.resume(&saved).unwrap_err().to_string().contains("their states are not saved"));
     assert!(next_to_a_door(&waving("after 1 s")).unwrap().resume(&saved).is_ok());
 }
