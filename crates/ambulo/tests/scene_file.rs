@@ -960,7 +960,7 @@ fn built_figures_that_make_no_sense_are_rejected() {
         (
             ANN,
             "walk = { mode = \"curve\" }",
-            "expected one of \"corrected\", \"curves\". hint: did you mean \"curves\"?",
+            "expected one of \"corrected\", \"optimal\", \"curves\". hint: did you mean \"curves\"?",
         ),
         (ANN, "arms = { left = { abduction_deg = 120 } }", "expected an angle away from the trunk, up to 90 degrees"),
         (

@@ -172,11 +172,12 @@ fn figure(build: &Build, speed: f64, lift: f64) -> Result<Figure, String> {
 }
 
 fn controller(figure: &Figure, settings: &ControlSettings) -> Result<WalkController, String> {
-    WalkController::new(&figure.human, &figure.walk, StepSettings::default(), settings).map_err(|e| e.to_string())
+    WalkController::new(&figure.human, figure.walk.solution(), StepSettings::default(), settings)
+        .map_err(|e| e.to_string())
 }
 
 fn with_controller(figure: &Figure, controller: &WalkController) -> Result<PhysicalWalk, String> {
-    PhysicalWalk::with(&figure.human, &figure.walk, StepSettings::default(), controller.clone())
+    PhysicalWalk::with(&figure.human, figure.walk.solution(), StepSettings::default(), controller.clone())
         .map_err(|e| e.to_string())
 }
 
@@ -226,7 +227,7 @@ fn changing_speed(paces: &[(Figure, WalkController)]) -> Result<(bool, [f64; 3])
         end_s = start_s + HOLD_S + RAMP_S;
         while k < 2 && walk.time_s() < end_s && walk.fall().is_none() {
             let share = (walk.time_s() - start_s - HOLD_S) / RAMP_S;
-            walk.set_speed(from + share * (to - from));
+            walk.set_speed(from + share * (to - from)).map_err(|e| e.to_string())?;
             walk.step().map_err(|e| e.to_string())?;
         }
     }

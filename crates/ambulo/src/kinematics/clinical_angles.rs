@@ -80,7 +80,7 @@ pub fn clinical_angles(model: &Model, trajectory: &Trajectory, frame: &PelvicFra
 }
 
 /// Angles [rad] about z, then x, then y that make a rotation: R = R_z R_x R_y.
-fn angles_zxy(r: &Mat3) -> [f64; 3] {
+pub(crate) fn angles_zxy(r: &Mat3) -> [f64; 3] {
     [(-r.m12).atan2(r.m22), r.m32.clamp(-1.0, 1.0).asin(), (-r.m31).atan2(r.m33)]
 }
 

@@ -19,5 +19,6 @@ pub mod retarget;
 pub mod scaling;
 
 pub use body_motion::{BodyMotion, body_motion, each_body_motion};
+pub(crate) use clinical_angles::angles_zxy;
 pub use clinical_angles::{ClinicalAngles, HipAngles, clinical_angles};
 pub use trajectory::{Posture, Trajectory, TrajectoryError};

@@ -58,6 +58,30 @@ impl OptimalWalk {
         OptimalWalk::find_with(build, walk, &SPATIAL_STAGES)
     }
 
+    /// As [`OptimalWalk::find`], with soles that are lifted further than people lift theirs, by `lift_m` in the middle of swing.
+    ///
+    /// # Errors
+    /// As [`OptimalWalk::find`].
+    pub fn find_lifted(build: &Build, walk: &Walk, lift_m: f64) -> Result<OptimalWalk, OptimalWalkError> {
+        let known = OptimalWalk::find(build, walk)?;
+        if lift_m <= 0.0 {
+            return Ok(known);
+        }
+        let Problem { soles, shoes, .. } = &known.problem.problem;
+        let costs = WalkCosts { lift: lift_m, ..WalkCosts::default() };
+        let problem = WalkProblem::new(&known.human, soles, *shoes, walk, &costs)?;
+        let solution = problem.solve_near(&known.problem, known.solution.unknowns())?;
+        let found = OptimalWalk::level(known.human, problem, solution);
+        found.check(walk)?;
+        Ok(found)
+    }
+
+    /// The figure with the soles of its plan, which are wider than those of the planar figure.
+    #[must_use]
+    pub fn figure(&self) -> Human {
+        Human { soles: self.problem.problem.soles.clone(), ..self.human.clone() }
+    }
+
     /// As [`OptimalWalk::find`], from the laws and in given stages.
     ///
     /// # Errors

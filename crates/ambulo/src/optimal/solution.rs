@@ -115,6 +115,19 @@ impl Solution {
         &self.unknowns
     }
 
+    /// Duration of a cycle [s]; of a single movement, its own duration.
+    #[must_use]
+    pub fn cycle_s(&self) -> f64 {
+        let half = self.layout.span == super::Span::MirroredHalfCycle;
+        if half { 2.0 * self.problem.duration_s } else { self.problem.duration_s }
+    }
+
+    /// Mean speed of the travel [m/s].
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.problem.travel.map_or(0.0, |(_, distance_m)| distance_m / self.problem.duration_s)
+    }
+
     /// Writes coordinates, rates and accelerations at a time [s]. A repeated motion has no end.
     pub fn write(&self, time_s: f64, posture: &mut [Vec<f64>; 3]) {
         let spans = time_s / self.problem.duration_s;

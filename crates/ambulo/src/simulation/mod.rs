@@ -51,6 +51,7 @@
 
 mod check;
 mod energy;
+mod figure_tree;
 mod joint;
 mod samples;
 mod signal;
@@ -76,6 +77,7 @@ pub mod walking;
 
 pub use check::WorldError;
 pub use energy::{Energy, energy};
+pub use figure_tree::FigureJointError;
 pub use forces::{ContactForce, Impact, StepForces};
 pub use joint::JointKind;
 pub use projection::largest_joint_error;

@@ -1,14 +1,14 @@
 //! The controller: phase, impedance and feedback of the state.
 
-use super::linear::{FigureWorld, Impedance};
-use super::plan::{CyclePlan, PlannedStep, STRIKE};
+use super::figure::FigureWorld;
+use super::linear::Impedance;
+use super::plan::{CyclePlan, PlannedStep, Root, STRIKE};
 use super::riccati::periodic_gains;
 use super::settings::{ControlError, ControlSettings, TrackingCosts};
 use crate::kinematics::{Posture, body_motion};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, Model, Movement, Side};
-use crate::optimal::strength_of;
-use crate::simulation::consistent_walk::ConsistentWalk;
+use crate::optimal::{Solution, strength_of};
 use crate::simulation::{Motor, StepSettings};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
@@ -29,6 +29,8 @@ const SHORTEST_SWING_S: f64 = 0.2;
 /// as firmly as planned, and the load on its edge would be lost.
 const ANKLE_LEVER: f64 = 0.35;
 const TOE_LEVER: f64 = 0.1;
+/// Speeds that differ by less are the same [m/s].
+const SPEED_ROUNDING: f64 = 1e-6;
 /// A strike further from that of the plan does not change the phase; share of the cycle.
 const FURTHEST: f64 = 0.25;
 
@@ -155,18 +157,18 @@ impl WalkController {
     /// A figure that is not planar, a cycle with too few or too many time steps, gains that cannot be computed.
     pub fn new(
         human: &Human,
-        walk: &ConsistentWalk,
+        solution: &Solution,
         step: StepSettings,
         settings: &ControlSettings,
     ) -> Result<WalkController, ControlError> {
-        let mut plan = CyclePlan::new(human, walk, step.step_s)?;
+        let mut plan = CyclePlan::new(human, solution, step.step_s)?;
         if let Some(count) = settings.harmonics {
             plan.keep_harmonics(count);
         }
         let (joints, places) = (plan.joints(), plan.places());
         let impedances = impedances(human, &joints, settings);
         let gains = if settings.feedback {
-            let maps = FigureWorld::new(human, walk, step)?.maps(&plan, &impedances)?;
+            let maps = FigureWorld::new(human, solution.problem().shoes, step)?.maps(&plan, &impedances)?;
             let [of_state, of_input] = costs(human, &plan, &settings.costs, step.step_s);
             periodic_gains(&maps, &of_state, &of_input).ok_or(ControlError::Riccati)?
         } else {
@@ -178,8 +180,8 @@ impl WalkController {
             body: Arc::new(body),
             level_m: 0.0,
             taller: 1.0,
-            speed: walk.walk().speed(),
-            paces: vec![Arc::new(Pace { speed: walk.walk().speed(), plan, gains, soles_m })],
+            speed: solution.speed(),
+            paces: vec![Arc::new(Pace { speed: solution.speed(), plan, gains, soles_m })],
             impedances,
             carrying: joints.iter().copied().filter(|&c| share_of(human, c).0 >= 1.0).collect(),
             feet: feet(human),
@@ -205,9 +207,15 @@ impl WalkController {
     /// Controllers of figures with other joints; none at all.
     pub fn joined(controllers: &[WalkController]) -> Result<WalkController, ControlError> {
         let count = |controller: &WalkController| controller.impedances.len();
-        let Some(first) = controllers.first() else { return Err(ControlError::Joined { found: 0, expected: 1 }) };
-        if let Some(other) = controllers.iter().find(|other| other.impedances != first.impedances) {
-            return Err(ControlError::Joined { found: count(other), expected: count(first) });
+        let wrong = |found: String| Err(ControlError::Joined { found });
+        let Some(first) = controllers.first() else { return wrong("none".to_owned()) };
+        for other in controllers {
+            if count(other) != count(first) {
+                return wrong(format!("one of {} coordinates and one of {}", count(first), count(other)));
+            }
+            if other.impedances != first.impedances {
+                return wrong("two with different impedances or strengths".to_owned());
+            }
         }
         let mut paces: Vec<Arc<Pace>> = controllers.iter().flat_map(|other| other.paces.iter().cloned()).collect();
         paces.sort_by(|a, b| a.speed.total_cmp(&b.speed));
@@ -221,10 +229,23 @@ impl WalkController {
         self
     }
 
-    /// Sets the speed [m/s], within those of the plans that were joined. It may change in every step.
-    pub fn set_speed(&mut self, speed: f64) {
-        let ends = [&self.paces[0], &self.paces[self.paces.len() - 1]].map(|pace| pace.speed);
-        self.speed = speed.clamp(ends[0], ends[1]);
+    /// The slowest and the fastest speed that it can walk at [m/s].
+    #[must_use]
+    pub fn speeds(&self) -> [f64; 2] {
+        [&self.paces[0], &self.paces[self.paces.len() - 1]].map(|pace| pace.speed)
+    }
+
+    /// Sets the speed [m/s]. It may change in every step.
+    ///
+    /// # Errors
+    /// A speed outside [`WalkController::speeds`] by more than rounding.
+    pub fn set_speed(&mut self, speed: f64) -> Result<(), ControlError> {
+        let [slowest, fastest] = self.speeds();
+        if !(slowest - SPEED_ROUNDING..=fastest + SPEED_ROUNDING).contains(&speed) {
+            return Err(ControlError::Speed { found: speed, slowest, fastest });
+        }
+        self.speed = speed.clamp(slowest, fastest);
+        Ok(())
     }
 
     /// The speed of the plan now [m/s].
@@ -243,9 +264,8 @@ impl WalkController {
         Between { paces: [slow, fast], share: (self.speed - slow.speed) / apart }
     }
 
-    /// The forward, upward and turning coordinate of the root.
-    fn root(&self) -> [usize; 3] {
-        self.paces[0].plan.root
+    fn root(&self) -> &Root {
+        &self.paces[0].plan.root
     }
 
     /// The same plan and gains for another figure with the same joints: heights of the plan grow with its legs.
@@ -261,7 +281,7 @@ impl WalkController {
     #[must_use]
     pub fn start(&self) -> [Vec<f64>; 2] {
         let [mut q, qd] = self.planned();
-        let up = self.root()[1];
+        let up = self.root().up;
         q[up] *= self.taller;
         let lowest = self.body.lowest(&q).into_iter().fold(f64::INFINITY, f64::min);
         q[up] += self.between().mix(|pace| pace.soles_m[0].min(pace.soles_m[1])) - lowest;
@@ -324,7 +344,7 @@ impl WalkController {
 
     /// Torque of each coordinate from the deviation of the state [N.m].
     fn feedback(&self, planned: &PlannedStep, now: &[[f64; 2]], loads_n: [f64; 2]) -> Vec<f64> {
-        let up = self.root()[1];
+        let up = self.root().up;
         let higher = self.level_m + (self.taller - 1.0) * planned.state[0][up];
         let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
         let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
@@ -346,7 +366,7 @@ impl WalkController {
     }
 
     fn look_for_a_fall(&mut self, now: &[[f64; 2]]) {
-        let height = now[self.root()[1]][0] - self.level_m;
+        let height = now[self.root().up][0] - self.level_m;
         // A height that is not a number is none.
         let stands = height >= FALLEN * *self.height_m.get_or_insert(height);
         if self.fall.is_none() && !stands {
@@ -457,15 +477,16 @@ fn impedances(human: &Human, joints: &[usize], settings: &ControlSettings) -> Ve
 
 /// The diagonal matrices Q and R of a time step.
 fn costs(human: &Human, plan: &CyclePlan, costs: &TrackingCosts, step_s: f64) -> [DMatrix<f64>; 2] {
-    let [forward, up, turn] = plan.root;
+    let Root { forward, up, sideways, turns } = &plan.root;
     let place = |c: usize| match c {
-        c if c == up => costs.height,
-        c if c == turn => costs.pelvis,
+        c if c == *up => costs.height,
+        c if Some(c) == *sideways => costs.sideways,
+        c if turns.contains(&c) => costs.pelvis,
         _ => costs.angle,
     };
     let rate = |c: usize| match c {
-        c if c == forward => costs.velocity[0],
-        c if c == up => costs.velocity[1],
+        c if c == *forward || Some(c) == *sideways => costs.velocity[0],
+        c if c == *up => costs.velocity[1],
         _ => costs.rate,
     };
     let torque = |c: &usize| costs.torque * share_of(human, *c).0 * size_of(human);

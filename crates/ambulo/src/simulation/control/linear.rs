@@ -1,21 +1,16 @@
-//! A figure in a world of its own, and the derivatives of its time steps.
+//! Impedances of joints, and the derivatives of time steps of a figure.
 //!
 //! Derivatives are central differences of one step each, so they are exact to rounding also where feet touch the soft ground: a difference over many
 //! steps would jump over the instants at which spheres begin to carry load.
 
+use super::figure::FigureWorld;
 use super::plan::{CyclePlan, PlannedStep};
 use super::riccati::StepMap;
 use super::settings::ControlError;
-use crate::dynamics::LinkError;
 use crate::findings::Findings;
-use crate::kinematics::{Posture, body_motion};
-use crate::model::anthropometry::Human;
-use crate::model::{Model, Side};
-use crate::simulation::consistent_walk::{ConsistentWalk, soft_ground};
-use crate::simulation::walking::{GroundContact, Walker};
-use crate::simulation::{JointCoordinate, Motor, Signal, StepSettings, StepWorkspace, World, WorldState, step};
-use crate::spatial::Pose;
-use nalgebra::DMatrix;
+use crate::simulation::walking::WalkingError;
+use crate::simulation::{Motor, Signal};
+use nalgebra::{DMatrix, DVector};
 
 /// Differences of coordinates [rad or m], rates [rad/s or m/s] and torques [N.m].
 const DIFFERENCES: [f64; 3] = [1e-6, 1e-5, 1e-2];
@@ -52,94 +47,7 @@ impl Impedance {
     }
 }
 
-/// The figure on level ground.
-#[derive(Debug, Clone)]
-pub(super) struct FigureWorld {
-    pub(super) world: World,
-    pub(super) state: WorldState,
-    pub(super) settings: StepSettings,
-    workspace: StepWorkspace,
-    model: Model,
-    /// Joint, coordinate of the joint and sense of each coordinate of the model.
-    placed: Vec<(usize, usize, f64)>,
-    sides: Vec<Option<Side>>,
-}
-
 impl FigureWorld {
-    pub(super) fn new(
-        human: &Human,
-        walk: &ConsistentWalk,
-        settings: StepSettings,
-    ) -> Result<FigureWorld, ControlError> {
-        let shoes = walk.solution().problem().shoes;
-        let ground: GroundContact = soft_ground(shoes);
-        let walker: Walker = walk.walker(human, &ground)?;
-        let placed = walker.placed();
-        let sides = walker.sides().to_vec();
-        let mut world = walker.world;
-        for joint in &mut world.joints {
-            joint.coordinates.iter_mut().for_each(|acting| *acting = JointCoordinate::default());
-        }
-        let state = WorldState::new(&world);
-        let model = human.model.clone();
-        Ok(FigureWorld { world, state, settings, workspace: StepWorkspace::default(), model, placed, sides })
-    }
-
-    /// Sets coordinates and rates of the figure.
-    pub(super) fn place(&mut self, q: &[f64], qd: &[f64]) {
-        let still = vec![0.0; q.len()];
-        let motions = body_motion(&self.model, Posture { q, qd, qdd: &still });
-        for (body, motion) in motions.iter().enumerate() {
-            self.state.poses[body] = Pose { rotation: motion.pose.rotation, translation: motion.center };
-            self.state.twists[body] = motion.twist;
-        }
-        for (value, (joint, coordinate, sense)) in q.iter().zip(&self.placed) {
-            self.state.coordinates[*joint][*coordinate] = sense * value;
-        }
-    }
-
-    /// Value and rate of every coordinate.
-    pub(super) fn read(&self) -> Vec<[f64; 2]> {
-        let rates: Vec<Vec<f64>> = self.world.joints.iter().map(|joint| self.state.rates(joint)).collect();
-        let of = |(joint, k, sense): &(usize, usize, f64)| {
-            [sense * self.state.coordinates[*joint][*k], sense * rates[*joint][*k]]
-        };
-        self.placed.iter().map(of).collect()
-    }
-
-    /// Sets the motor of a coordinate.
-    pub(super) fn drive(&mut self, coordinate: usize, motor: Motor) {
-        let (joint, k, sense) = self.placed[coordinate];
-        let motor = if sense < 0.0 { reversed(motor) } else { motor };
-        self.world.joints[joint].coordinates[k].motor = Some(motor);
-    }
-
-    /// Makes one step.
-    pub(super) fn step(&mut self, findings: &mut Findings) -> Result<(), LinkError> {
-        step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
-        Ok(())
-    }
-
-    /// Vertical force of the last step on the right and the left foot [N].
-    pub(super) fn loads(&self) -> [f64; 2] {
-        let mut loads = [0.0; 2];
-        for contact in self.workspace.contacts() {
-            let (first, second) = contact.surfaces;
-            for (surface, sense) in [(first, 1.0), (second, -1.0)] {
-                if let Some(side) = self.sides.get(surface).copied().flatten() {
-                    loads[usize::from(side == Side::Left)] += sense * contact.force.y;
-                }
-            }
-        }
-        loads
-    }
-
-    /// Effort of each coordinate in the last step [N.m or N].
-    pub(super) fn efforts(&self) -> Vec<f64> {
-        let forces = self.workspace.forces(&self.world);
-        self.placed.iter().map(|(joint, k, sense)| sense * forces.efforts[*joint][*k]).collect()
-    }
-
     /// The maps of all time steps of a plan from state and torque of the joints to the next state.
     pub(super) fn maps(&mut self, plan: &CyclePlan, impedances: &[Impedance]) -> Result<Vec<StepMap>, ControlError> {
         let (places, joints) = (plan.places(), plan.joints());
@@ -174,7 +82,7 @@ impl FigureWorld {
         places: &[usize],
         moved: Option<(usize, f64)>,
         torque: Option<(usize, f64)>,
-    ) -> Result<nalgebra::DVector<f64>, ControlError> {
+    ) -> Result<DVector<f64>, ControlError> {
         let [mut q, mut qd] = planned.state.clone();
         if let Some((place, size)) = moved {
             let width = q.len();
@@ -188,15 +96,61 @@ impl FigureWorld {
             motor.max = f64::INFINITY;
             self.drive(c, motor);
         }
-        self.step(&mut Findings::default()).map_err(crate::simulation::walking::WalkingError::from)?;
+        self.step(&mut Findings::default()).map_err(WalkingError::from)?;
         let now = self.read();
         let all = places.iter().map(|c| now[*c][0]).chain(now.iter().map(|now| now[1]));
-        Ok(nalgebra::DVector::from_iterator(places.len() + now.len(), all))
+        Ok(DVector::from_iterator(places.len() + now.len(), all))
     }
 }
 
-/// The motor of a coordinate that counts in the opposite direction.
-fn reversed(motor: Motor) -> Motor {
-    let target = motor.target.at(0.0)[0];
-    Motor { target: Signal::Constant(-target), ..motor }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::HuntCrossley;
+    use crate::dynamics::{Workspace, inverse_frame};
+    use crate::kinematics::Posture;
+    use crate::model::anthropometry::{Build, SegmentTable};
+    use crate::model::full_body::full_body;
+    use crate::simulation::StepSettings;
+    use crate::simulation::control::plan::Root;
+
+    /// In the air, a torque e of one joint changes the rates by Δ with (M + h d + h² k) Δ = h e, and M Δ is what inverse dynamics says.
+    #[test]
+    fn derivatives_by_torque_agree_with_inverse_dynamics() {
+        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+        let human = full_body(&build).unwrap();
+        let count = human.model.coordinates().len();
+        let root = Root::of(&human.model);
+        let wave = |k: usize, size: f64| size * (1.0 + 1.7 * k as f64).sin();
+        let mut q: Vec<f64> = (0..count).map(|k| wave(k, 0.3)).collect();
+        q[root.up] = 3.0;
+        // At rest: rates after a step are those of its posture at the end.
+        let qd = vec![0.0; count];
+        let step =
+            PlannedStep { state: [q.clone(), qd.clone()], target: [q.clone(), qd.clone()], torques: vec![0.0; count] };
+        let plan = CyclePlan { steps: vec![step], strikes: [0; 2], root };
+        let impedance = |stiffness: f64| Impedance { stiffness, damping: 0.1 * stiffness, strength: [1e3; 2] };
+        let impedances: Vec<Impedance> =
+            (0..count).map(|c| impedance(if plan.joints().contains(&c) { 50.0 + c as f64 } else { 0.0 })).collect();
+        let settings = StepSettings::default();
+        let mut figure = FigureWorld::new(&human, HuntCrossley::SOFT_SHOES, settings).unwrap();
+        let map = figure.maps(&plan, &impedances).unwrap().remove(0);
+        let mut workspace = Workspace::new(&human.model);
+        let mut torques = |qdd: &[f64]| {
+            let still = vec![0.0; count];
+            inverse_frame(&mut workspace, Posture { q: &q, qd: &still, qdd }, &[]).generalized().to_vec()
+        };
+        let weight = torques(&vec![0.0; count]);
+        let h = settings.step_s;
+        for (column, joint) in plan.joints().into_iter().enumerate() {
+            let change: Vec<f64> = (0..count).map(|c| map.by_input[(count - 1 + c, column)]).collect();
+            let inertial = torques(&change);
+            for c in 0..count {
+                let yields = (h * impedances[c].damping + h * h * impedances[c].stiffness) * change[c];
+                let expected = if c == joint { h } else { 0.0 };
+                let found = inertial[c] - weight[c] + yields;
+                assert!((found - expected).abs() < 1e-6 * h.max(1e-3), "{joint}, {c}: {found} instead of {expected}");
+            }
+        }
+    }
 }

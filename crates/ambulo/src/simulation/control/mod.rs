@@ -12,14 +12,18 @@
 //!   Σ_steps (x - x*)ᵀ Q (x - x*) + Δτᵀ R Δτ
 //!
 //! which is the periodic Riccati equation ([`riccati`]). The phase advances with time and is set to that of the plan when a foot strikes, early or
-//! late. A foot that strikes earlier or later than planned is what the linear system knows nothing of, so with impedance alone or with K alone
-//! (without k and d) the figure falls when it is pushed backwards; both together do not.
+//! late. A foot that strikes earlier or later than planned is what the linear system knows nothing of: with K alone (without k and d) the figure
+//! falls when it is pushed backwards.
+//!
+//! The figure is planar, or has three dimensions ([`crate::optimal::OptimalWalk`]). Its legs pass through each other. Several plans make one
+//! controller whose speed can be changed on the way ([`WalkController::joined`]).
 //!
 //! Sources: the discrete periodic Riccati equation as in Bittanti, Colaneri, De Nicolao 1991 (unverified; derived here); phase reset at foot strike
 //! as in Aoi, Tsuchiya 2005 (unverified). docs/PHYSICAL_WALK.md has results and limits.
-//! Not handled: motion outside the sagittal plane; delays of muscles; changes of speed during a walk.
+//! Not handled: starting, stopping and turning; delays of muscles.
 
 mod controller;
+mod figure;
 mod linear;
 mod physical;
 mod plan;

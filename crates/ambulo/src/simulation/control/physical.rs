@@ -1,11 +1,11 @@
 //! A figure that walks by its own torques on level ground, and what becomes of it.
 
 use super::controller::{Fall, WalkController};
-use super::linear::FigureWorld;
+use super::figure::FigureWorld;
 use super::settings::{ControlError, ControlSettings};
 use crate::findings::Findings;
 use crate::model::anthropometry::Human;
-use crate::simulation::consistent_walk::ConsistentWalk;
+use crate::optimal::Solution;
 use crate::simulation::walking::WalkingError;
 use crate::simulation::{StepSettings, World};
 
@@ -14,6 +14,7 @@ use crate::simulation::{StepSettings, World};
 pub struct PhysicalWalk {
     figure: FigureWorld,
     controller: WalkController,
+    findings: Findings,
 }
 
 impl PhysicalWalk {
@@ -23,12 +24,12 @@ impl PhysicalWalk {
     /// As [`WalkController::new`].
     pub fn new(
         human: &Human,
-        walk: &ConsistentWalk,
+        plan: &Solution,
         step: StepSettings,
         settings: &ControlSettings,
     ) -> Result<PhysicalWalk, ControlError> {
-        let controller = WalkController::new(human, walk, step, settings)?;
-        PhysicalWalk::with(human, walk, step, controller)
+        let controller = WalkController::new(human, plan, step, settings)?;
+        PhysicalWalk::with(human, plan, step, controller)
     }
 
     /// A figure with a controller that was made for a similar one: another mass or size.
@@ -37,15 +38,15 @@ impl PhysicalWalk {
     /// A figure that is not planar.
     pub fn with(
         human: &Human,
-        walk: &ConsistentWalk,
+        plan: &Solution,
         step: StepSettings,
         controller: WalkController,
     ) -> Result<PhysicalWalk, ControlError> {
-        let mut figure = FigureWorld::new(human, walk, step)?;
+        let mut figure = FigureWorld::new(human, plan.problem().shoes, step)?;
         let controller = controller.of_figure(human);
         let [q, qd] = controller.start();
         figure.place(&q, &qd);
-        Ok(PhysicalWalk { figure, controller })
+        Ok(PhysicalWalk { figure, controller, findings: Findings::default() })
     }
 
     /// The world: bodies in the order of the model, their loads, the ground and what is added to it.
@@ -60,8 +61,11 @@ impl PhysicalWalk {
     }
 
     /// Sets the speed of the plan [m/s] ([`WalkController::set_speed`]).
-    pub fn set_speed(&mut self, speed: f64) {
-        self.controller.set_speed(speed);
+    ///
+    /// # Errors
+    /// A speed that no plan has.
+    pub fn set_speed(&mut self, speed: f64) -> Result<(), ControlError> {
+        self.controller.set_speed(speed)
     }
 
     /// The controller.
@@ -88,6 +92,12 @@ impl PhysicalWalk {
         self.controller.fall()
     }
 
+    /// What the simulator found on the way.
+    #[must_use]
+    pub fn findings(&self) -> &Findings {
+        &self.findings
+    }
+
     /// Makes one step.
     ///
     /// # Errors
@@ -99,7 +109,7 @@ impl PhysicalWalk {
                 self.figure.drive(c, motor);
             }
         }
-        self.figure.step(&mut Findings::default())?;
+        self.figure.step(&mut self.findings)?;
         Ok(())
     }
 

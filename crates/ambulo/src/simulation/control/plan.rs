@@ -1,10 +1,9 @@
 //! The planned walk at the time steps of the simulator.
 
 use super::settings::ControlError;
-use crate::model::Side;
 use crate::model::anthropometry::Human;
-use crate::optimal::Sample;
-use crate::simulation::consistent_walk::ConsistentWalk;
+use crate::model::{Model, Side};
+use crate::optimal::{Sample, Solution};
 use std::f64::consts::TAU;
 
 /// Fewest and most time steps of a cycle.
@@ -43,20 +42,43 @@ pub(super) struct CyclePlan {
     pub(super) steps: Vec<PlannedStep>,
     /// Numbers of the steps in which the right and the left foot strike: their load passes [`STRIKE`].
     pub(super) strikes: [usize; 2],
-    /// Coordinates of the root: forward, up, rotation.
-    pub(super) root: [usize; 3],
+    pub(super) root: Root,
+}
+
+/// Numbers of the coordinates of the root.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Root {
+    pub(super) forward: usize,
+    pub(super) up: usize,
+    /// To the right; a planar figure has none.
+    pub(super) sideways: Option<usize>,
+    /// Rotations.
+    pub(super) turns: Vec<usize>,
+}
+
+impl Root {
+    pub(super) fn of(model: &Model) -> Root {
+        let named = |name: &str| model.coordinate(name).map(|id| id.index());
+        let turns = ["pelvis_tilt", "pelvis_list", "pelvis_rotation"].into_iter().filter_map(named).collect();
+        let place = |name: &str| named(name).unwrap_or(0);
+        Root { forward: place("pelvis_tx"), up: place("pelvis_ty"), sideways: named("pelvis_tz"), turns }
+    }
+
+    fn contains(&self, c: usize) -> bool {
+        c == self.forward || c == self.up || Some(c) == self.sideways || self.turns.contains(&c)
+    }
 }
 
 impl CyclePlan {
-    pub(super) fn new(human: &Human, walk: &ConsistentWalk, step_s: f64) -> Result<CyclePlan, ControlError> {
-        let cycle_s = walk.walk().cycle_s();
+    pub(super) fn new(human: &Human, solution: &Solution, step_s: f64) -> Result<CyclePlan, ControlError> {
+        let cycle_s = solution.cycle_s();
         let found = (cycle_s / step_s).round() as usize;
         if !(STEPS[0]..=STEPS[1]).contains(&found) {
             return Err(ControlError::Steps { found, least: STEPS[0], most: STEPS[1] });
         }
         // The cycle becomes a whole number of steps, which changes its duration by less than half a step.
         let at = |shift: f64| (0..found).map(|k| cycle_s * (k as f64 + shift) / found as f64).collect::<Vec<f64>>();
-        let (starts, middles) = (walk.planned(&at(0.0))?, walk.planned(&at(0.5))?);
+        let (starts, middles) = (solution.samples(&at(0.0))?, solution.samples(&at(0.5))?);
         let weight_n = human.model.mass() * human.model.gravity().norm();
         let strikes = Side::BOTH.map(|side| {
             let of_side = |sample: &Sample| {
@@ -72,9 +94,7 @@ impl CyclePlan {
             target: two(middle.posture),
             torques: middle.forces,
         });
-        let root = ["pelvis_tx", "pelvis_ty", "pelvis_tilt"];
-        let root = root.map(|name| human.model.coordinate(name).map_or(0, |id| id.index()));
-        Ok(CyclePlan { steps: steps.collect(), strikes, root })
+        Ok(CyclePlan { steps: steps.collect(), strikes, root: Root::of(&human.model) })
     }
 
     /// Replaces the torques by their mean and the first `count` harmonics.
@@ -113,11 +133,11 @@ impl CyclePlan {
 
     /// The coordinates that joints move.
     pub(super) fn joints(&self) -> Vec<usize> {
-        (0..self.steps[0].torques.len()).filter(|c| !self.root.contains(c)).collect()
+        (0..self.steps[0].torques.len()).filter(|c| !self.root.contains(*c)).collect()
     }
 
     /// The coordinates of the state: all but the place along the ground.
     pub(super) fn places(&self) -> Vec<usize> {
-        (0..self.steps[0].torques.len()).filter(|c| *c != self.root[0]).collect()
+        (0..self.steps[0].torques.len()).filter(|c| *c != self.root.forward).collect()
     }
 }

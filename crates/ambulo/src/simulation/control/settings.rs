@@ -1,6 +1,7 @@
 //! Settings of a controller, and why there is none.
 
-use crate::simulation::consistent_walk::ConsistentWalkError;
+use crate::dynamics::CurvedJointError;
+use crate::simulation::figure_tree::FigureJointError;
 use crate::simulation::walking::WalkingError;
 
 /// Settings of a [`WalkController`](super::WalkController). Torques are those of an adult of 75 kg and 1.75 m; they grow with mass times stature.
@@ -29,7 +30,9 @@ pub struct TrackingCosts {
     pub pelvis: f64,
     /// Of the height of the pelvis [m].
     pub height: f64,
-    /// Of the velocity of the pelvis, forward and up [m/s].
+    /// Of the place of the pelvis sideways [m].
+    pub sideways: f64,
+    /// Of the velocity of the pelvis, along the ground and up [m/s].
     pub velocity: [f64; 2],
     /// Of the torque of a hip, knee, ankle or the lumbar joint [N.m]; arms have 0.3 and toes 0.2 times as much.
     pub torque: f64,
@@ -48,6 +51,7 @@ impl Default for ControlSettings {
                 rate: 1.0,
                 pelvis: 0.1,
                 height: 0.05,
+                sideways: 1.0,
                 velocity: [0.5, 0.3],
                 torque: 60.0,
             },
@@ -59,9 +63,20 @@ impl Default for ControlSettings {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ControlError {
-    /// There is no plan.
+    /// A joint that the simulator cannot move by motors.
     #[error(transparent)]
-    Plan(#[from] ConsistentWalkError),
+    Joint(#[from] FigureJointError),
+    /// A plan whose forces cannot be computed.
+    #[error(transparent)]
+    Plan(#[from] CurvedJointError),
+    /// A figure with other joints or soles than that of the plan.
+    #[error("found a figure with {found}; expected {expected}, as in the plan")]
+    Figure {
+        /// Coordinates and soles of the figure.
+        found: String,
+        /// Those of the plan.
+        expected: String,
+    },
     /// The figure cannot be simulated.
     #[error(transparent)]
     Walking(#[from] WalkingError),
@@ -75,15 +90,25 @@ pub enum ControlError {
         /// Most.
         most: usize,
     },
-    /// Controllers of different figures, or none, that were to be joined.
+    /// Controllers that cannot be joined.
     #[error(
-        "found {found} coordinates of a controller that is joined with others; expected {expected}, one figure at several speeds"
+        "found {found} among controllers to be joined; expected controllers of one figure, with the same settings, at several speeds"
     )]
     Joined {
-        /// Coordinates of one of them.
-        found: usize,
-        /// Coordinates of the first one.
-        expected: usize,
+        /// What was found.
+        found: String,
+    },
+    /// A speed that no plan of a controller has.
+    #[error(
+        "found the speed {found} m/s; expected {slowest:.2} to {fastest:.2} m/s, the speeds of the plans of this controller"
+    )]
+    Speed {
+        /// The speed [m/s].
+        found: f64,
+        /// That of the slowest plan [m/s].
+        slowest: f64,
+        /// That of the fastest plan [m/s].
+        fastest: f64,
     },
     /// The Riccati equation has no solution.
     #[error("the feedback of the walk could not be computed: its Riccati equation did not converge")]

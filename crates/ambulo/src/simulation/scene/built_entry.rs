@@ -9,7 +9,7 @@ use crate::model::{CoordinateId, CoordinateKind as ModelKind, Side};
 use crate::simulation::control::ControlSettings;
 use crate::toml_reader::{Place, Table, Value};
 
-/// A planar figure of [`crate::model::anthropometry`] in a vertical plane through `at`.
+/// A figure of [`crate::model::anthropometry`]: planar, in a vertical plane through `at`, or in three dimensions ([`FigureWalkMode::Optimal`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuiltFigure {
     /// Place of `build` in the file.
@@ -72,6 +72,8 @@ pub enum GaitSource {
 pub enum FigureWalkMode {
     /// Made dynamically consistent ([`crate::simulation::consistent_walk`]).
     Corrected,
+    /// A walk in three dimensions without outside forces ([`crate::optimal::OptimalWalk`]); it needs a controller.
+    Optimal,
     /// Followed unchanged.
     Curves,
 }
@@ -107,6 +109,8 @@ pub(super) const KEYS: &[&str] =
     &["name", "build", "walk", "arms", "shoes", "coordinate", "control", "at", "rotation", "sphere"];
 /// Soles are not lifted further [m].
 const MOST_LIFT_M: f64 = 0.1;
+/// Why a figure in three dimensions needs a controller.
+const CONTROLLED: &str = "a controller, as in `control = {}`: a figure in three dimensions walks by its own torques";
 /// Larger abductions of an arm are mistakes [rad].
 const MOST_ABDUCTION: f64 = std::f64::consts::FRAC_PI_2;
 
@@ -154,11 +158,18 @@ fn build(value: &Value<'_>) -> Result<(Build, Human), SceneError> {
 
 /// The controller of a figure, which needs a corrected walk of one pace and all joints for itself.
 fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<(Place, ControlSettings)>, SceneError> {
-    let Some(value) = table.get("control") else { return Ok(None) };
+    let is_spatial = walk.is_some_and(|walk| walk.mode == FigureWalkMode::Optimal);
+    let Some(value) = table.get("control") else {
+        return if is_spatial { Err(table.missing("control", CONTROLLED)) } else { Ok(None) };
+    };
+    if let Some(arms) = table.get("arms").filter(|_| is_spatial) {
+        return Err(arms.wrong("no such key for a walk in the mode `optimal`, which moves the arms"));
+    }
     let own = value.table("{ stiffness = …, damping = … }")?;
     own.only(&[&["stiffness", "damping"]])?;
-    if !walk.is_some_and(|walk| walk.mode == FigureWalkMode::Corrected && walk.changes.is_empty()) {
-        return Err(value.wrong("no such key without a corrected `walk` at one pace, which the controller follows"));
+    if !walk.is_some_and(|walk| walk.mode != FigureWalkMode::Curves) {
+        return Err(value
+            .wrong("no such key without a `walk` in the mode `corrected` or `optimal`, which the controller follows"));
     }
     if let Some(coordinate) = table.get("coordinate") {
         return Err(coordinate.wrong("no such key together with `control`, which drives all joints"));
@@ -204,7 +215,11 @@ impl WalkEntry {
     fn read(value: &Value<'_>, duration_s: f64) -> Result<WalkEntry, SceneError> {
         let table = value.table("{ gait = \"free\", speed = … }")?;
         table.only(&[&["gait", "speed", "mode", "phase", "changes", "lift"]])?;
-        let modes = [("corrected", FigureWalkMode::Corrected), ("curves", FigureWalkMode::Curves)];
+        let modes = [
+            ("corrected", FigureWalkMode::Corrected),
+            ("optimal", FigureWalkMode::Optimal),
+            ("curves", FigureWalkMode::Curves),
+        ];
         let phase = table.number_or("phase", 0.0)?;
         if let Some(value) = table.get("phase").filter(|_| !(0.0..1.0).contains(&phase)) {
             return Err(value.wrong("a share of the cycle, from 0 up to but not including 1"));

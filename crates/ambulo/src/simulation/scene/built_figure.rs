@@ -7,32 +7,29 @@ use super::build::acting;
 use super::built_entry::{BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
 use super::figure::FigureEntry;
 use super::model_figure::{PlacedFigure, add_spheres};
+use super::planner::{Planner, ScheduledController};
 use super::recorder::Recorder;
-use super::sources::{CorrectedWalk, InputFiles, chain};
-use super::walk_recorder::{FigureRecorder, Live, LiveTargets, Placed};
+use super::sources::{InputFiles, PlannedWalk, chain};
+use super::walk_recorder::{FigureRecorder, Live, LiveTargets};
 use super::{Place, SceneError};
 use crate::contact::{HuntCrossley, Shape};
 use crate::findings::Findings;
 use crate::gait::machine::{WalkMachine, planned};
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
-use crate::kinematics::{BodyMotion, Posture, body_motion};
+use crate::kinematics::{Posture, body_motion};
 use crate::model::anthropometry::Human;
 use crate::model::{
-    self, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Function, JointAxis, Marker, Model,
-    ModelError, Side,
+    self, Coordinate, CoordinateId, CoordinateKind, Displacement, Function, JointAxis, Marker, Model, ModelError, Side,
 };
-use crate::simulation::consistent_walk::{
-    ConsistentWalk, ConsistentWalkSettings, make_changing_walk, make_consistent_walk,
-};
-use crate::simulation::control::WalkController;
-use crate::simulation::joint::{JointKind, rotation};
+use crate::simulation::consistent_walk::{ConsistentWalkSettings, make_changing_walk};
+use crate::simulation::figure_tree::{FigureJointError, FigureTree};
+use crate::simulation::joint::rotation;
 use crate::simulation::signal::Signal;
 use crate::simulation::walking::{GaitTargets, gait_signals};
 use crate::simulation::world::{
-    ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Owner, RigidBody, Spring, Surface, TreeJoint,
-    World,
+    ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Owner, Spring, Surface, World,
 };
-use crate::spatial::{Mat3, Pose, Vec3, Wrench};
+use crate::spatial::{Pose, Vec3};
 
 /// Grip point of a hand, as a share of the length from the wrist to the fingertips.
 const GRIP: f64 = 0.5;
@@ -60,12 +57,14 @@ pub(super) fn add(
     sources: &mut InputFiles<'_, '_>,
 ) -> Result<(PlacedFigure, Option<Recorder>), SceneError> {
     let wrong = |e: &dyn std::error::Error| built.place.error(chain(e));
-    let mut human = built.build.human().map_err(|e| wrong(&e))?;
-    let mut motion = match &built.walk {
-        Some(walk) => walking(walk, &human, sources)?,
-        None => standing(&human.model),
+    let human = built.build.human().map_err(|e| wrong(&e))?;
+    let (mut human, mut motion, controller) = match &built.walk {
+        Some(walk) => walking(walk, built, human, sources)?,
+        None => {
+            let motion = standing(&human.model);
+            (human, motion, None)
+        }
     };
-    let controller = controller(built, &human, sources)?;
     human.model = placed_model(&human, entry, built).map_err(|e| wrong(&e))?;
     for coordinate in &human.model.coordinates()[motion.signals.len()..] {
         motion.signals.push(Signal::Constant(coordinate.default_value));
@@ -75,46 +74,33 @@ pub(super) fn add(
     }
     let model = &human.model;
     own_starts(built, model, &mut motion);
+    let figure = world.figures.len();
+    let wrong_joint = |e: FigureJointError| built.place.error(e.to_string());
+    let tree = FigureTree::add(world, model, &format!("{}/", entry.name)).map_err(wrong_joint)?;
+    let first_body = tree.first_body;
     let rest = vec![0.0; model.coordinates().len()];
     let [q, qd] = &motion.start;
-    let motions = body_motion(model, Posture { q, qd, qdd: motion.accelerations.as_ref().unwrap_or(&rest) });
-    let accelerations = motion.accelerations.iter().flat_map(|_| motions.iter().map(|m| m.acceleration)).collect();
-    let (first_body, figure) = (world.bodies.len(), world.figures.len());
-    let mut placed = vec![Placed { body: first_body, coordinate: 0 }; model.coordinates().len()];
-    for id in model.body_ids() {
-        world.bodies.push(body(entry, model, id, &motions[id.index()]));
-        let coordinates = coordinates_of(model, id);
-        for (k, coordinate) in coordinates.iter().enumerate() {
-            placed[coordinate.index()] = Placed { body: first_body + id.index(), coordinate: k };
+    let started = tree.motions(world, Posture { q, qd, qdd: motion.accelerations.as_ref().unwrap_or(&rest) });
+    for (body, started) in world.bodies[first_body..].iter_mut().zip(&started) {
+        (body.pose, body.twist) = (started.pose, started.twist);
+    }
+    let accelerations = motion.accelerations.iter().flat_map(|_| started.iter().map(|own| own.acceleration)).collect();
+    let joint_of = world.joint_of_body();
+    for (id, place) in model.coordinate_ids().zip(&tree.places) {
+        let acting = acting_on(built, number, model, id, &motion.signals, sources)?;
+        if let Some((joint, coordinate)) = place.joint(&joint_of) {
+            world.joints[joint].coordinates[coordinate] = acting;
         }
-        let acting = |id: &CoordinateId| acting_on(built, number, model, *id, &motion.signals, sources);
-        let acting = coordinates.iter().map(acting).collect::<Result<Vec<_>, _>>()?;
-        world.joints.push(joint(entry, model, id, first_body, acting));
     }
     add_spheres(world, entry, number, model, first_body)?;
     let soles = add_soles(world, built, &human, first_body)?;
     world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
     let live = motion.live.map(|(targets, start_s)| Live::Machines(LiveTargets { targets, figure, start_s }));
     let live = live.or(controller.map(|controller| Live::Controller(Box::new(controller))));
-    let recorder = || FigureRecorder::new(&entry.name, &human, placed.clone(), soles, live);
+    let recorder = || FigureRecorder::new(&entry.name, &human, tree.clone(), soles, live);
     let recorder = built.walk.is_some().then(|| Recorder::Walk(Box::new(recorder())));
     let name = entry.name.clone();
-    Ok((PlacedFigure { figure, first_body, name, placed: Some(placed), accelerations }, recorder))
-}
-
-/// The controller of a figure that walks by its own torques.
-fn controller(
-    built: &BuiltFigure,
-    human: &Human,
-    sources: &InputFiles<'_, '_>,
-) -> Result<Option<WalkController>, SceneError> {
-    let (Some((place, settings)), Some(entry)) = (&built.control, &built.walk) else { return Ok(None) };
-    let Some(known) = sources.corrected.iter().find(|known| known.is_of(&human.build, entry)) else {
-        return Err(place.error("found a gait with machines or changes of pace; expected one pace, which is corrected"));
-    };
-    let controller = WalkController::new(human, &known.walk, sources.steps, settings);
-    let controller = controller.map_err(|e| place.error(chain(&e)))?;
-    Ok(Some(controller.starting_at(entry.phase)))
+    Ok((PlacedFigure { figure, first_body, name, tree: Some(tree), accelerations }, recorder))
 }
 
 /// Upright standing: every coordinate has its default value.
@@ -125,42 +111,51 @@ fn standing(model: &Model) -> Motion {
     Motion { signals, start: [values, rest], accelerations: None, live: None }
 }
 
-fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -> Result<Motion, SceneError> {
-    let known = sources.corrected.iter().find(|known| known.is_of(&human.build, entry));
-    if let (FigureWalkMode::Corrected, Some(known)) = (entry.mode, known) {
-        return Ok(corrected(&known.walk, &human.model, entry.phase));
+/// Figure, motion and controller of a walk; the controller of a figure without one is `None`.
+fn walking(
+    entry: &WalkEntry,
+    built: &BuiltFigure,
+    human: Human,
+    sources: &mut InputFiles<'_, '_>,
+) -> Result<(Human, Motion, Option<ScheduledController>), SceneError> {
+    let wrong = |e: &dyn std::error::Error| entry.place.error(chain(e));
+    let mut gait = gait_of(entry, sources)?;
+    if let Some((place, settings)) = &built.control {
+        let planner = Planner { entry, build: &built.build, gait: &gait };
+        let controller = planner.controller(place, settings, sources)?;
+        let plan = planner.plan(entry.speed, sources)?;
+        return Ok((plan.human.clone(), along_plan(plan, entry.phase), Some(controller)));
     }
+    gait.pace_changes.extend(&entry.changes);
+    if !gait.pace_changes.is_empty() || !gait.machines.is_empty() {
+        let motion = changing(entry, gait, &human, sources)?;
+        return Ok((human, motion, None));
+    }
+    let motion = match entry.mode {
+        FigureWalkMode::Curves => {
+            let walk = Walk::new(&gait, human.dimensions.leg_length, sources.findings).map_err(|e| wrong(&e))?;
+            along_curves(&walk, &human, entry.phase)
+        }
+        FigureWalkMode::Corrected | FigureWalkMode::Optimal => {
+            let planner = Planner { entry, build: &built.build, gait: &gait };
+            along_plan(planner.plan(entry.speed, sources)?, entry.phase)
+        }
+    };
+    Ok((human, motion, None))
+}
+
+fn gait_of(entry: &WalkEntry, sources: &mut InputFiles<'_, '_>) -> Result<Gait, SceneError> {
     let place = &entry.place;
     let wrong = |e: &dyn std::error::Error| place.error(chain(e));
-    let mut gait = match &entry.gait {
-        GaitSource::Named(name) => Gait::named(name).map_err(|e| wrong(&e))?,
+    match &entry.gait {
+        GaitSource::Named(name) => Gait::named(name).map_err(|e| wrong(&e)),
         GaitSource::File(path) => {
             let text = sources.text(place, path)?;
             let mut load = |file: &str, column: &str| {
                 let table = sources.table(place, file).map_err(|e| e.to_string())?;
                 table.angle(column, sources.findings).map_err(|e| format!("{file}: {}", chain(&e)))
             };
-            Gait::from_toml_with(&text, &mut load).map_err(|e| place.error(format!("{path}: {}", chain(&e))))?
-        }
-    };
-    if let Some(speed) = entry.speed {
-        gait.pace.speed = Some(Speed::MetersPerSecond(speed));
-    }
-    gait.pace_changes.extend(&entry.changes);
-    if !gait.pace_changes.is_empty() || !gait.machines.is_empty() {
-        return changing(entry, gait, human, sources);
-    }
-    let walk = Walk::new(&gait, human.dimensions.leg_length, sources.findings).map_err(|e| wrong(&e))?;
-    match entry.mode {
-        FigureWalkMode::Curves => Ok(along_curves(&walk, human, entry.phase)),
-        FigureWalkMode::Corrected => {
-            let mut settings = ConsistentWalkSettings::default();
-            settings.costs.lift = entry.lift;
-            let walk = make_consistent_walk(human, &walk, &settings).map_err(|e| wrong(&e))?;
-            let motion = corrected(&walk, &human.model, entry.phase);
-            let (build, gait, speed, lift) = (human.build, entry.gait.clone(), entry.speed, entry.lift);
-            sources.corrected.push(CorrectedWalk { build, gait, speed, lift, walk });
-            Ok(motion)
+            Gait::from_toml_with(&text, &mut load).map_err(|e| place.error(format!("{path}: {}", chain(&e))))
         }
     }
 }
@@ -180,6 +175,9 @@ fn changing(
         );
         return Err(entry.place.error(message));
     }
+    if let Some(speed) = entry.speed {
+        gait.pace.speed = Some(Speed::MetersPerSecond(speed));
+    }
     let (model, leg_length) = (&human.model, human.dimensions.leg_length);
     let first = Walk::new(&gait, leg_length, &mut Findings::default()).map_err(|e| wrong(&e))?;
     let start_s = if first.clock(0.0).stands() { 0.0 } else { entry.phase * first.cycle_s() };
@@ -198,7 +196,7 @@ fn changing(
             }
             (gait_signals(&walk, model, start_s, duration_s).map_err(|e| wrong(&e))?, None)
         }
-        FigureWalkMode::Corrected => {
+        FigureWalkMode::Corrected | FigureWalkMode::Optimal => {
             let walk = make_changing_walk(human, &walk, &ConsistentWalkSettings::default()).map_err(|e| wrong(&e))?;
             (walk.signals(human, start_s, duration_s), Some(walk.posture(model, start_s)))
         }
@@ -256,9 +254,11 @@ fn along_curves(walk: &Walk, human: &Human, phase: f64) -> Motion {
     Motion { signals, start: [q, qd], accelerations: None, live: None }
 }
 
-fn corrected(walk: &ConsistentWalk, model: &Model, phase: f64) -> Motion {
-    let write = |t: f64, posture: &mut [Vec<f64>; 3]| walk.write(t, posture);
-    let (signals, [mut q, qd, qdd]) = sampled(model, walk.walk().cycle_s(), phase, write);
+/// A walk without outside forces.
+fn along_plan(PlannedWalk { human, solution, .. }: &PlannedWalk, phase: f64) -> Motion {
+    let model = &human.model;
+    let write = |t: f64, posture: &mut [Vec<f64>; 3]| solution.write(t, posture);
+    let (signals, [mut q, qd, qdd]) = sampled(model, solution.cycle_s(), phase, write);
     if let Some(forward) = model.coordinate("pelvis_tx") {
         q[forward.index()] = 0.0;
     }
@@ -351,20 +351,6 @@ fn own_of<'a>(built: &'a BuiltFigure, model: &Model, id: CoordinateId) -> Option
     built.coordinates.iter().enumerate().find(|(_, own)| own.name == *name)
 }
 
-/// Coordinates of a body's joint in the simulator's order: translations, then rotations.
-fn coordinates_of(model: &Model, id: BodyId) -> Vec<CoordinateId> {
-    let joint = &model.bodies()[id.index()].joint;
-    let of = |axes: &[JointAxis]| {
-        axes.iter()
-            .filter_map(|axis| match &axis.displacement {
-                Displacement::Follows(id, _) => Some(*id),
-                Displacement::Fixed(_) => None,
-            })
-            .collect::<Vec<_>>()
-    };
-    [of(&joint.translations), of(&joint.rotations)].concat()
-}
-
 fn acting_on(
     built: &BuiltFigure,
     number: usize,
@@ -396,49 +382,6 @@ fn acting_on(
         acting.motor = Some(Motor { target: signal(), kp: stiffness, kd: damping, max });
     }
     Ok(acting)
-}
-
-fn body(entry: &FigureEntry, model: &Model, id: BodyId, motion: &BodyMotion) -> RigidBody {
-    let about = &model.bodies()[id.index()];
-    RigidBody {
-        name: format!("{}/{}", entry.name, about.name),
-        mass: about.inertia.mass(),
-        inertia: about.inertia.about_center(),
-        pose: Pose { rotation: motion.pose.rotation, translation: motion.center },
-        twist: motion.twist,
-        load: Wrench::ZERO,
-    }
-}
-
-fn joint(
-    entry: &FigureEntry,
-    model: &Model,
-    id: BodyId,
-    first_body: usize,
-    coordinates: Vec<JointCoordinate>,
-) -> TreeJoint {
-    let joint = &model.bodies()[id.index()].joint;
-    let center = |body: BodyId| Pose::at(-model.bodies()[body.index()].inertia.center());
-    let (kind, turn) = match (&joint.rotations[..], joint.parent) {
-        (_, None) => (JointKind::Planar, Mat3::identity()),
-        // The simulator's universal joint rotates about its x, then about its y.
-        ([first, second], _) => {
-            let (x, y) = (first.direction, second.direction);
-            (JointKind::Universal, Mat3::from_columns(&[x, y, x.cross(&y)]))
-        }
-        _ => (JointKind::Revolute, Mat3::identity()),
-    };
-    let turn = Pose { rotation: turn, translation: Vec3::zeros() };
-    TreeJoint {
-        name: format!("{}/{}", entry.name, joint.name),
-        child: first_body + id.index(),
-        parent: joint.parent.map(|p| first_body + p.index()),
-        parent_from_joint: joint.parent.map_or(Pose::IDENTITY, center) * joint.parent_from_joint * turn,
-        child_from_joint: center(id) * joint.child_from_joint * turn,
-        kind,
-        coordinates,
-        follows: None,
-    }
 }
 
 /// Adds the soles, which do not touch each other; returns the indices of their surfaces.

@@ -23,6 +23,7 @@ mod names;
 mod obstacle;
 mod output;
 mod placement;
+mod planner;
 mod recorder;
 mod run;
 mod saved;

@@ -10,12 +10,12 @@ use super::motion_recorder::MotionRecorder;
 use super::placement::place;
 use super::recorder::Recorder;
 use super::sources::InputFiles;
-use super::walk_recorder::Placed;
 use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::findings::Code;
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::{Body, BodyId, CoordinateId, Displacement, Drive, JointAxis, Model};
+use crate::simulation::figure_tree::FigureTree;
 use crate::simulation::joint::rotation;
 use crate::simulation::signal::Signal;
 use crate::simulation::world::{Figure, Follows, JointCoordinate, Owner, RigidBody, Surface, TreeJoint, World};
@@ -35,8 +35,8 @@ pub(super) struct PlacedFigure {
     pub(super) first_body: usize,
     /// Name in the scene.
     pub(super) name: String,
-    /// For a built-in figure: the joint coordinate of each coordinate of its model.
-    pub(super) placed: Option<Vec<Placed>>,
+    /// For a built-in figure: the places of the coordinates of its model.
+    pub(super) tree: Option<FigureTree>,
     /// Accelerations of its bodies at the start, if its motion before that is known.
     pub(super) accelerations: Vec<Twist>,
 }
@@ -83,10 +83,7 @@ pub(super) fn add(
     let recorder = || MotionRecorder::new(&entry.name, &model, signals.clone(), follows, first_body);
     let recorder = is_judged.then(|| Recorder::Motion(Box::new(recorder())));
     world.figures.push(Figure { model, coordinates: signals });
-    Ok((
-        PlacedFigure { figure, first_body, name: entry.name.clone(), placed: None, accelerations: Vec::new() },
-        recorder,
-    ))
+    Ok((PlacedFigure { figure, first_body, name: entry.name.clone(), tree: None, accelerations: Vec::new() }, recorder))
 }
 
 /// The model with its ground moved.

@@ -39,6 +39,11 @@ impl Recorder {
         }
     }
 
+    /// Whether the figure walked by its own torques and has fallen.
+    pub(super) fn has_fallen(&self) -> bool {
+        matches!(self, Recorder::Walk(recorder) if recorder.fall().is_some())
+    }
+
     /// What is said about the fall of a figure that walks by its own torques.
     pub(super) fn fall(&self) -> Option<String> {
         let Recorder::Walk(recorder) = self else { return None };

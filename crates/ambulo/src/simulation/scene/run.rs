@@ -6,12 +6,12 @@ use super::file::MOST_STEPS;
 use super::model_figure::PlacedFigure;
 use super::output::Outputs;
 use super::recorder::FigureRecord;
-use super::walk_recorder::Placed;
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::findings::{Code, Findings};
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
 use crate::numerics::Shown;
 use crate::simulation::energy::{Energy, energy};
+use crate::simulation::figure_tree::{FigurePlace, FigureTree};
 use crate::simulation::forces::{ContactForce, StepForces};
 use crate::simulation::projection::{closure_errors, largest_joint_error};
 use crate::simulation::state::{RowKey, WorldState};
@@ -217,11 +217,11 @@ impl Scene {
             self.before.clone_from(&self.state.poses);
         }
         for recorder in &mut self.recorders {
-            let stood = recorder.fall().is_none();
+            let stood = !recorder.has_fallen();
             recorder.before_step(&self.world, &self.state);
             recorder.aim(&mut self.world, &self.state, (self.steps + 1) as f64 * self.settings.step_s);
-            if let Some(fall) = recorder.fall().filter(|_| stood) {
-                findings.report(Code::FigureFell, fall);
+            if stood {
+                recorder.fall().into_iter().for_each(|fall| findings.report(Code::FigureFell, fall));
             }
         }
         let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
@@ -330,8 +330,8 @@ impl Scene {
     }
 
     fn of_walker(&self, walker: &PlacedFigure, forces: &StepForces) -> Vec<[f64; 3]> {
-        if let Some(placed) = &walker.placed {
-            return self.of_joints(placed, forces);
+        if let Some(tree) = &walker.tree {
+            return self.of_joints(tree, forces);
         }
         let figure = &self.world.figures[walker.figure];
         let recorded = |time_s: f64| {
@@ -359,15 +359,13 @@ impl Scene {
         q.iter().zip(qd).zip(tau).map(|((value, rate), tau)| [*value, rate, *tau]).collect()
     }
 
-    fn of_joints(&self, placed: &[Placed], forces: &StepForces) -> Vec<[f64; 3]> {
+    fn of_joints(&self, tree: &FigureTree, forces: &StepForces) -> Vec<[f64; 3]> {
         let joint_of = self.world.joint_of_body();
-        let of = |placed: &Placed| {
-            let Some(joint) = joint_of[placed.body] else { return [0.0; 3] };
-            let k = placed.coordinate;
-            let rate = self.state.rates(&self.world.joints[joint])[k];
-            [self.state.coordinates[joint][k], rate, forces.efforts[joint][k]]
+        let read = tree.read(&self.world, &self.state, &joint_of);
+        let of = |(place, [value, rate]): (&FigurePlace, [f64; 2])| {
+            [value, rate, place.joint(&joint_of).map_or(0.0, |(joint, k)| forces.efforts[joint][k])]
         };
-        placed.iter().map(of).collect()
+        tree.places.iter().zip(read).map(of).collect()
     }
 
     /// Distance of the points of a closure along its constrained directions [m].

@@ -1,14 +1,14 @@
 //! Files that a scene names, which the caller reads, and functions of time from them.
 
-use super::built_entry::{GaitSource, WalkEntry};
+use super::built_entry::WalkEntry;
 use super::function::TimeFunction;
 use super::{Place, SceneError};
 use crate::findings::{Code, Findings};
 use crate::model::Model;
-use crate::model::anthropometry::Build;
+use crate::model::anthropometry::{Build, Human};
 use crate::motion::RecordedTable;
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
-use crate::simulation::consistent_walk::ConsistentWalk;
+use crate::optimal::Solution;
 use crate::simulation::signal::Signal;
 use crate::simulation::workspace::StepSettings;
 use std::collections::BTreeMap;
@@ -16,23 +16,22 @@ use std::collections::BTreeMap;
 /// Reads a file: takes its path as written in the scene, returns its bytes or an error message.
 pub type ReadFile<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 
-/// A corrected walk, and what it was made of.
-pub(super) struct CorrectedWalk {
+/// A walk without outside forces, and what it was made of.
+pub(super) struct PlannedWalk {
     pub(super) build: Build,
-    pub(super) gait: GaitSource,
-    pub(super) speed: Option<f64>,
-    pub(super) lift: f64,
-    pub(super) walk: ConsistentWalk,
+    pub(super) entry: WalkEntry,
+    /// The figure with the soles of the plan.
+    pub(super) human: Human,
+    pub(super) solution: Solution,
 }
 
-impl CorrectedWalk {
-    /// Whether it is the walk of a figure.
-    pub(super) fn is_of(&self, build: &Build, entry: &WalkEntry) -> bool {
+impl PlannedWalk {
+    /// Whether it is the walk of a figure at some speed [m/s]; `None`: the gait's own.
+    pub(super) fn is_of(&self, build: &Build, entry: &WalkEntry, speed: Option<f64>) -> bool {
+        let own = &self.entry;
         self.build == *build
-            && self.gait == entry.gait
-            && self.speed == entry.speed
-            && self.lift.total_cmp(&entry.lift).is_eq()
-            && entry.changes.is_empty()
+            && (&own.gait, own.speed, own.mode) == (&entry.gait, speed, entry.mode)
+            && own.lift.total_cmp(&entry.lift).is_eq()
     }
 }
 
@@ -40,8 +39,8 @@ impl CorrectedWalk {
 pub(super) struct InputFiles<'a, 'f> {
     load: &'a mut ReadFile<'f>,
     tables: BTreeMap<String, RecordedTable>,
-    /// Corrected walks of this scene, shared by figures of the same build.
-    pub(super) corrected: Vec<CorrectedWalk>,
+    /// Walks of this scene without outside forces, shared by figures of the same build.
+    pub(super) planned: Vec<PlannedWalk>,
     pub(super) findings: &'a mut Findings,
     /// Duration of the scene [s].
     pub(super) duration_s: f64,
@@ -58,8 +57,8 @@ impl<'a, 'f> InputFiles<'a, 'f> {
         duration_s: f64,
         steps: StepSettings,
     ) -> InputFiles<'a, 'f> {
-        let (tables, corrected, signals) = (BTreeMap::new(), Vec::new(), Vec::new());
-        InputFiles { load, tables, corrected, findings, duration_s, steps, signals }
+        let (tables, planned, signals) = (BTreeMap::new(), Vec::new(), Vec::new());
+        InputFiles { load, tables, planned, findings, duration_s, steps, signals }
     }
 
     pub(super) fn model(&mut self, place: &Place, path: &str) -> Result<Model, SceneError> {

@@ -1,10 +1,12 @@
 //! Records a walking figure of a scene step by step, for its verdict.
 
+use super::planner::ScheduledController;
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anthropometry::Human;
 use crate::model::{BodyId, BySide, Side};
 use crate::motion::TimeGrid;
-use crate::simulation::control::{Fall, WalkController};
+use crate::simulation::control::Fall;
+use crate::simulation::figure_tree::FigureTree;
 use crate::simulation::forces::ContactForce;
 use crate::simulation::signal::Signal;
 use crate::simulation::state::WorldState;
@@ -16,15 +18,6 @@ use crate::simulation::world::{Owner, World};
 const GROUND: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Largest number of recorded steps.
 const MOST_ROWS: usize = 1_000_000;
-
-/// The joint coordinate of a coordinate of a figure's model.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Placed {
-    /// Index of the joint's child among the bodies of the world.
-    pub(super) body: usize,
-    /// Index of the coordinate within the joint.
-    pub(super) coordinate: usize,
-}
 
 /// A walk of a scene's figure.
 #[derive(Debug, Clone)]
@@ -42,7 +35,7 @@ pub struct FigureWalk {
 pub(super) struct FigureRecorder {
     name: String,
     human: Human,
-    placed: Vec<Placed>,
+    tree: FigureTree,
     /// Indices of the surfaces of the soles.
     soles: Vec<(usize, Side)>,
     start_s: f64,
@@ -62,7 +55,7 @@ pub(super) enum Live {
     /// Machines compute targets of drives.
     Machines(LiveTargets),
     /// A controller computes torques.
-    Controller(Box<WalkController>),
+    Controller(Box<ScheduledController>),
 }
 
 /// Targets that machines of a figure compute from step to step, because they read loads, angles or joints of the scene.
@@ -79,11 +72,11 @@ impl FigureRecorder {
     pub(super) fn new(
         name: &str,
         human: &Human,
-        placed: Vec<Placed>,
+        tree: FigureTree,
         soles: Vec<(usize, Side)>,
         live: Option<Live>,
     ) -> FigureRecorder {
-        let count = placed.len();
+        let count = tree.places.len();
         let foot = |side: Side| human.soles.iter().find(|sole| sole.side == side).map_or(BodyId(0), |sole| sole.body);
         let toes = |side: Side| {
             let mut bodies = human.soles.iter().filter(|sole| sole.side == side).map(|sole| sole.body);
@@ -92,7 +85,7 @@ impl FigureRecorder {
         FigureRecorder {
             name: name.to_owned(),
             human: human.clone(),
-            placed,
+            tree,
             soles,
             start_s: 0.0,
             before: Vec::new(),
@@ -112,7 +105,7 @@ impl FigureRecorder {
     /// Sets drives and motors of the figure for a step that ends at a time [s]; machines and controllers read the figure as it is at its start.
     pub(super) fn aim(&mut self, world: &mut World, state: &WorldState, end_s: f64) {
         match &mut self.live {
-            Some(Live::Controller(_)) => self.control(world),
+            Some(Live::Controller(_)) => self.control(world, end_s),
             Some(Live::Machines(_)) => self.aim_machines(world, state, end_s),
             None => {}
         }
@@ -121,7 +114,7 @@ impl FigureRecorder {
     /// The fall of a figure that walks by its own torques.
     pub(super) fn fall(&self) -> Option<Fall> {
         match &self.live {
-            Some(Live::Controller(controller)) => controller.fall(),
+            Some(Live::Controller(own)) => own.controller.fall(),
             _ => None,
         }
     }
@@ -136,14 +129,16 @@ impl FigureRecorder {
     }
 
     /// Sets the motors of a figure that walks by its own torques.
-    fn control(&mut self, world: &mut World) {
-        let Some(Live::Controller(controller)) = &mut self.live else { return };
+    fn control(&mut self, world: &mut World, end_s: f64) {
+        let Some(Live::Controller(own)) = &mut self.live else { return };
+        own.keep_schedule(end_s);
+        let controller = &mut own.controller;
         let last = self.feet[0].force.len().checked_sub(1);
         let loads_n = last.map_or([0.0; 2], |last| [0, 1].map(|foot| self.feet[foot].force[last].y));
         let joint_of = world.joint_of_body();
-        for (motor, placed) in controller.act(&self.before, loads_n).into_iter().zip(&self.placed) {
-            if let (Some(motor), Some(joint)) = (motor, joint_of[placed.body]) {
-                world.joints[joint].coordinates[placed.coordinate].motor = Some(motor);
+        for (motor, place) in controller.act(&self.before, loads_n).into_iter().zip(&self.tree.places) {
+            if let (Some(motor), Some((joint, k))) = (motor, place.joint(&joint_of)) {
+                world.joints[joint].coordinates[k].motor = Some(motor);
             }
         }
     }
@@ -164,10 +159,10 @@ impl FigureRecorder {
             None => targets.step(*start_s + end_s),
         }
         let joint_of = world.joint_of_body();
-        for (id, placed) in self.placed.iter().enumerate().take(targets.count()) {
+        for (id, place) in self.tree.places.iter().enumerate().take(targets.count()) {
             let signal = Signal::Near(end_s, targets.at(id));
-            if let Some(joint) = joint_of[placed.body] {
-                let acting = &mut world.joints[joint].coordinates[placed.coordinate];
+            if let Some((joint, k)) = place.joint(&joint_of) {
+                let acting = &mut world.joints[joint].coordinates[k];
                 if let Some(drive) = &mut acting.drive {
                     drive.signal = signal.clone();
                 }
@@ -179,25 +174,11 @@ impl FigureRecorder {
         }
     }
 
-    /// Values and rates of all coordinates.
-    fn read(&self, world: &World, state: &WorldState) -> Vec<[f64; 2]> {
-        let joint_of = world.joint_of_body();
-        let mut rates: Vec<Vec<f64>> = vec![Vec::new(); world.joints.len()];
-        let mut value = |placed: &Placed| {
-            let Some(joint) = joint_of[placed.body] else { return [0.0; 2] };
-            if rates[joint].is_empty() {
-                rates[joint] = state.rates(&world.joints[joint]);
-            }
-            [state.coordinates[joint][placed.coordinate], rates[joint][placed.coordinate]]
-        };
-        self.placed.iter().map(&mut value).collect()
-    }
-
     pub(super) fn before_step(&mut self, world: &World, state: &WorldState) {
         if self.feet[0].force.is_empty() {
             self.start_s = state.time_s;
         }
-        self.before = self.read(world, state);
+        self.before = self.tree.read(world, state, &world.joint_of_body());
     }
 
     /// Records a step; the wrenches of the workspace must have been read. The posture is that of its start; velocities belong to the middle
@@ -214,19 +195,19 @@ impl FigureRecorder {
             return;
         }
         self.unsolved += usize::from(!solved);
-        let after = self.read(world, state);
         let joint_of = world.joint_of_body();
-        for (id, (columns, placed)) in self.columns.iter_mut().zip(&self.placed).enumerate() {
+        let after = self.tree.read(world, state, &joint_of);
+        for (id, (columns, place)) in self.columns.iter_mut().zip(&self.tree.places).enumerate() {
             let ([q, old], [_, new]) = (self.before[id], after[id]);
             let mut values = [q, 0.5 * (old + new), (new - old) / step_s];
             let mut effort = 0.0;
-            if let Some(joint) = joint_of[placed.body] {
-                let acting = &world.joints[joint].coordinates[placed.coordinate];
+            if let Some((joint, k)) = place.joint(&joint_of) {
+                let acting = &world.joints[joint].coordinates[k];
                 if let Some(drive) = acting.drive.as_ref().filter(|drive| drive.max.is_none()) {
                     values = drive.signal.at(state.time_s - step_s);
                 }
                 if acting.acts() {
-                    effort = w.effort(placed.body, joint, placed.coordinate);
+                    effort = w.effort(world.joints[joint].child, joint, k);
                 }
             }
             columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));

@@ -148,16 +148,6 @@ impl Walker {
         &self.model
     }
 
-    /// Joint, coordinate of the joint and sense (+1, or -1 if the joint counts in the opposite direction) of each coordinate of the model.
-    pub(in crate::simulation) fn placed(&self) -> Vec<(usize, usize, f64)> {
-        self.placed.iter().map(|placed| (placed.joint, placed.coordinate, placed.sense)).collect()
-    }
-
-    /// Side of the sole that each surface is; `None` for the ground.
-    pub(in crate::simulation) fn sides(&self) -> &[Option<Side>] {
-        &self.sides
-    }
-
     fn add_joints(&mut self) -> Result<(), WalkingError> {
         for id in self.model.body_ids() {
             let body = &self.model.bodies()[id.index()];
@@ -211,12 +201,7 @@ impl Walker {
     }
 
     fn add_soles(&mut self, human: &Human, ground: &GroundContact) -> Result<(), WalkingError> {
-        let law = match ground.shoes {
-            Shoes::Rigid => ContactLaw::Rigid,
-            Shoes::Regularised { stiffness, damping } => ContactLaw::Regularised { stiffness, damping },
-            Shoes::HuntCrossley(law) => ContactLaw::HuntCrossley(law),
-        };
-        self.world.materials.push(Material { friction: ground.friction, restitution: 0.0, law });
+        self.world.materials.push(sole_material(ground));
         for sole in &human.soles {
             let center = self.model.bodies()[sole.body.index()].inertia.center();
             self.world.surfaces.push(Surface {
@@ -286,6 +271,16 @@ impl Walker {
             });
         }
     }
+}
+
+/// Material of soles and ground.
+pub(in crate::simulation) fn sole_material(ground: &GroundContact) -> Material {
+    let law = match ground.shoes {
+        Shoes::Rigid => ContactLaw::Rigid,
+        Shoes::Regularised { stiffness, damping } => ContactLaw::Regularised { stiffness, damping },
+        Shoes::HuntCrossley(law) => ContactLaw::HuntCrossley(law),
+    };
+    Material { friction: ground.friction, restitution: 0.0, law }
 }
 
 /// Velocity of a body half a time step earlier.

@@ -18,8 +18,8 @@ mod slip;
 mod torques;
 
 pub use feet::{FootRecord, ToeRecord};
-pub(super) use figure::half_a_step_earlier;
 pub use figure::{GroundContact, Shoes, Walker, WalkingError};
+pub(super) use figure::{half_a_step_earlier, sole_material};
 pub(super) use recording::loads;
 pub use recording::{Excerpt, ExcerptRows, FootImpact, WalkRecording};
 pub use run::{Release, Released, WatchedTargets};
