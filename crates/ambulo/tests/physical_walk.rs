@@ -277,19 +277,50 @@ fn a_walker_without_a_hand_goes_twelve_metres() {
     assert_eq!(verdict(&scene).state, VerdictState::Feasible);
 }
 
+/// Runs a scene to its end: nobody falls, the walk is feasible, and the first figure has come as far as said [m].
+fn walks_on(name: &str, text: &str, distance: f64) -> Scene {
+    let mut scene = scene(text);
+    let mut findings = Findings::default();
+    scene.run(&mut findings, |_| ()).unwrap();
+    assert!(!findings.has(Code::FigureFell), "{name}: {findings:?}");
+    let pelvis = scene.world().bodies.iter().position(|body| body.name.ends_with("/pelvis")).unwrap();
+    let place = scene.state().poses[pelvis].translation;
+    assert!(place.x > distance, "{name}: {place:?}");
+    assert_eq!(verdict(&scene).state, VerdictState::Feasible, "{name}");
+    scene
+}
+
 #[test]
 fn figures_of_scenes_walk_by_their_own_torques() {
-    for name in ["pushed-walker.toml", "kerb-walker.toml"] {
-        let mut scene = scene(&example(name));
-        let mut findings = Findings::default();
-        scene.run(&mut findings, |_| ()).unwrap();
-        assert!(!findings.has(Code::FigureFell), "{name}: {findings:?}");
-        let pelvis = scene.world().bodies.iter().position(|body| body.name == "ann/pelvis").unwrap();
-        assert!(scene.state().poses[pelvis].translation.x > 8.0, "{name}");
-        assert_eq!(verdict(&scene).state, VerdictState::Feasible, "{name}");
+    for (name, distance) in [("pushed-walker.toml", 8.0), ("kerb-walker.toml", 8.0), ("hurrying-walker.toml", 18.0)] {
+        let mut scene = walks_on(name, &example(name), distance);
         let saved = scene.save();
         assert!(scene.resume(&saved).unwrap_err().to_string().contains("controller"));
     }
+    for (name, distance) in [("nudged-by-a-cart.toml", 14.0), ("rising-ground.toml", 10.0)] {
+        walks_on(name, &example(name).replace(", mode = \"optimal\"", ""), distance);
+    }
+}
+
+#[test]
+fn a_figure_of_a_scene_is_hit_from_four_sides_in_three_dimensions() {
+    let scene = walks_on("pushed-from-four-sides.toml", &example("pushed-from-four-sides.toml"), 15.0);
+    for (body, direction, speed) in [
+        ("ball from behind", Vec3::x(), 4.25),
+        ("ball from the right", Vec3::z(), -3.0),
+        ("ball from the front", Vec3::x(), -1.75),
+        ("ball from the left", Vec3::z(), 3.0),
+    ] {
+        let number = scene.world().bodies.iter().position(|own| own.name == body).unwrap();
+        let now = scene.state().twists[number].linear.dot(&direction);
+        assert!((now - speed).abs() > 1.5, "{body} did not hit: {now} m/s");
+    }
+}
+
+#[test]
+fn two_figures_of_a_scene_walk_hand_in_hand_by_their_own_torques() {
+    let scene = walks_on("hand-in-hand-by-torques.toml", &example("hand-in-hand-by-torques.toml"), 9.0);
+    assert!(scene.closure_gap(0) < 1e-9, "{}", scene.closure_gap(0));
 }
 
 #[test]

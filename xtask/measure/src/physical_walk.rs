@@ -4,6 +4,7 @@
 //! another mass and other legs; then plans of other speeds and other figures. With `--write` the page goes to docs/measured/PHYSICAL_WALK.md.
 
 mod page;
+mod spatial;
 
 use crate::random::Random;
 use crate::workspace;
@@ -11,7 +12,8 @@ use ambulo::contact::Shape;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
+use ambulo::optimal::Solution;
+use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::control::{ControlSettings, PhysicalWalk, WalkController};
 use ambulo::simulation::{Obstacle, Owner, StepSettings, Surface};
 use ambulo::spatial::{Pose, Vec3, Wrench};
@@ -36,6 +38,8 @@ const RAMP_S: f64 = 20.0;
 const PUSHES: [f64; 10] = [50.0, -50.0, 100.0, -100.0, 150.0, -150.0, 200.0, -200.0, 250.0, -250.0];
 const PUSH_S: f64 = 0.2;
 const PHASES: usize = 10;
+/// Share of the distance between two of them at which the first one lies: between those that were looked at while settings were chosen.
+const PHASE: f64 = 0.25;
 /// Mass for which pushes are given [kg]; they grow with mass.
 const PUSHED_KG: f64 = 75.0;
 /// Steps that must follow a push.
@@ -49,7 +53,7 @@ const LIFT: f64 = 0.027;
 /// A figure with its plan.
 struct Figure {
     human: Human,
-    walk: ConsistentWalk,
+    plan: Solution,
 }
 
 /// A walk without a push.
@@ -92,6 +96,8 @@ struct Results {
     others: Vec<(String, Walked, usize)>,
     /// Number of harmonics, share of the variance of hip, knee and ankle torques that they keep, the walk, and pushes as above.
     harmonics: Vec<(usize, [f64; 3], Walked, usize)>,
+    /// The same man in three dimensions.
+    spatial: spatial::Results,
 }
 
 /// Runs the command.
@@ -119,21 +125,21 @@ fn measure() -> Result<Results, String> {
         let other = figure(&MAN, speed, 0.0)?;
         let own = self::controller(&other, &settings)?;
         let walked = walked(with_controller(&other, &own)?, &other, 100)?;
-        speeds.push((speed, walked, pushes_survived(&other, &own, 100.0)? + pushes_survived(&other, &own, -100.0)?));
+        speeds.push((speed, walked, pushed_both_ways(&other, &own)?));
         paces.push((other, own));
     }
     let mut others = Vec::new();
     for build in BUILDS {
         let other = figure(&build, SPEED * (build.height / MAN.height).sqrt(), 0.0)?;
         let own = self::controller(&other, &settings)?;
-        let survived = pushes_survived(&other, &own, 100.0)? + pushes_survived(&other, &own, -100.0)?;
+        let survived = pushed_both_ways(&other, &own)?;
         let walked = walked(with_controller(&other, &own)?, &other, 100)?;
         others.push((crate::walk_bands::build_name(&build), walked, survived));
     }
     let mut harmonics = Vec::new();
     for count in [1, 2, 3, 4, 5, 6, 8, 12] {
         let own = self::controller(&man, &ControlSettings { harmonics: Some(count), ..settings })?;
-        let survived = pushes_survived(&man, &own, 100.0)? + pushes_survived(&man, &own, -100.0)?;
+        let survived = pushed_both_ways(&man, &own)?;
         harmonics.push((count, kept(&man, count)?, walked(with_controller(&man, &own)?, &man, 100)?, survived));
     }
     Ok(Results {
@@ -144,18 +150,19 @@ fn measure() -> Result<Results, String> {
         without: fall_without_feedback(&man, &settings)?,
         pushes: PUSHES
             .iter()
-            .map(|force| Ok((*force, pushes_survived(&man, &controller, *force)?)))
+            .map(|force| Ok((*force, pushes_survived(&man, &controller, Vec3::x() * *force)?)))
             .collect::<Result<_, String>>()?,
-        tiles: tiles_walked(&figure(&MAN, SPEED, LIFT)?, &settings)?,
+        tiles: tiles_walked(&figure(&MAN, SPEED, LIFT)?, &settings, 100)?,
         slopes: [-5.0, 5.0]
             .into_iter()
-            .map(|slope| Ok((slope, inclined(&man, &controller, slope)?)))
+            .map(|slope| Ok((slope, inclined(&man, &controller, slope, 100)?)))
             .collect::<Result<_, String>>()?,
-        changed: changed(&man, &controller)?,
-        changing: changing_speed(&paces)?,
+        changed: changed(&man, &controller, |build| build.human().map_err(|e| e.to_string()), 100)?,
+        changing: changing_speed(&paces, [SPEEDS[0], SPEEDS[SPEEDS.len() - 1]])?,
         speeds,
         others,
         harmonics,
+        spatial: spatial::measure(&settings)?,
     })
 }
 
@@ -168,16 +175,15 @@ fn figure(build: &Build, speed: f64, lift: f64) -> Result<Figure, String> {
     let mut settings = ConsistentWalkSettings::default();
     settings.costs.lift = lift;
     let walk = make_consistent_walk(&human, &walk, &settings).map_err(|e| e.to_string())?;
-    Ok(Figure { human, walk })
+    Ok(Figure { human, plan: walk.solution().clone() })
 }
 
 fn controller(figure: &Figure, settings: &ControlSettings) -> Result<WalkController, String> {
-    WalkController::new(&figure.human, figure.walk.solution(), StepSettings::default(), settings)
-        .map_err(|e| e.to_string())
+    WalkController::new(&figure.human, &figure.plan, StepSettings::default(), settings).map_err(|e| e.to_string())
 }
 
 fn with_controller(figure: &Figure, controller: &WalkController) -> Result<PhysicalWalk, String> {
-    PhysicalWalk::with(&figure.human, figure.walk.solution(), StepSettings::default(), controller.clone())
+    PhysicalWalk::with(&figure.human, &figure.plan, StepSettings::default(), controller.clone())
         .map_err(|e| e.to_string())
 }
 
@@ -188,8 +194,9 @@ fn walked(mut walk: PhysicalWalk, figure: &Figure, steps: usize) -> Result<Walke
         .flat_map(|joint| ["r", "l"].map(|side| format!("{joint}_{side}")))
         .filter_map(|name| figure.human.model.coordinate(&name).map(|id| id.index()))
         .collect();
-    let id = |name: &str| figure.human.model.coordinate(name).map_or(0, |id| id.index());
-    let root = ["pelvis_tx", "pelvis_ty", "pelvis_tilt"].map(id);
+    let index = |name: &str| figure.human.model.coordinate(name).map(|id| id.index());
+    let root = ["pelvis_tx", "pelvis_ty", "pelvis_tilt", "pelvis_tz", "pelvis_list", "pelvis_rotation"];
+    let root: Vec<usize> = root.into_iter().filter_map(index).collect();
     let (mut squares, mut count, mut outside) = (0.0, 0.0, 0.0_f64);
     let clock = ThreadTime::now();
     while walk.controller().strikes() < steps && walk.fall().is_none() {
@@ -212,13 +219,12 @@ fn walked(mut walk: PhysicalWalk, figure: &Figure, steps: usize) -> Result<Walke
 }
 
 /// One controller of all speeds: 10 s at the lowest one, to the highest within [`RAMP_S`], 10 s there, and back.
-fn changing_speed(paces: &[(Figure, WalkController)]) -> Result<(bool, [f64; 3]), String> {
+fn changing_speed(paces: &[(Figure, WalkController)], [slow, fast]: [f64; 2]) -> Result<(bool, [f64; 3]), String> {
     let controllers: Vec<WalkController> = paces.iter().map(|(_, own)| own.clone()).collect();
     let joined = WalkController::joined(&controllers).map_err(|e| e.to_string())?;
     let figure = &paces[0].0;
     let forward = figure.human.model.coordinate("pelvis_tx").map_or(0, |id| id.index());
     let mut walk = with_controller(figure, &joined)?;
-    let [slow, fast] = [SPEEDS[0], SPEEDS[SPEEDS.len() - 1]];
     let (mut means, mut end_s) = ([0.0; 3], 0.0);
     for (k, (from, to)) in [(slow, fast), (fast, slow), (slow, slow)].into_iter().enumerate() {
         let (start_s, place) = (end_s, walk.coordinates()[forward][0]);
@@ -234,17 +240,23 @@ fn changing_speed(paces: &[(Figure, WalkController)]) -> Result<(bool, [f64; 3])
     Ok((walk.fall().is_some(), means))
 }
 
+/// How many pushes of 100 N forward and backward are survived.
+fn pushed_both_ways(figure: &Figure, controller: &WalkController) -> Result<usize, String> {
+    let force = Vec3::x() * 100.0;
+    Ok(pushes_survived(figure, controller, force)? + pushes_survived(figure, controller, -force)?)
+}
+
 /// How many pushes of a force at the trunk are survived for [`AFTER_PUSH`] steps, of those that begin at [`PHASES`] phases of the third cycle.
-fn pushes_survived(figure: &Figure, controller: &WalkController, force: f64) -> Result<usize, String> {
-    let cycle_s = figure.walk.walk().cycle_s();
+fn pushes_survived(figure: &Figure, controller: &WalkController, force: Vec3) -> Result<usize, String> {
+    let cycle_s = figure.plan.cycle_s();
     let trunk = figure.human.model.body("torso").map_or(0, |id| id.index());
     let force = force * figure.human.model.mass() / PUSHED_KG;
     let mut survived = 0;
     for phase in 0..PHASES {
         let mut walk = with_controller(figure, controller)?;
-        let start_s = cycle_s * (2.0 + (phase as f64 + 0.5) / PHASES as f64);
+        let start_s = cycle_s * (2.0 + (phase as f64 + PHASE) / PHASES as f64);
         walk.walk_until(start_s).map_err(|e| e.to_string())?;
-        walk.world_mut().bodies[trunk].load = Wrench { moment: Vec3::zeros(), force: Vec3::x() * force };
+        walk.world_mut().bodies[trunk].load = Wrench { moment: Vec3::zeros(), force };
         walk.walk_until(start_s + PUSH_S).map_err(|e| e.to_string())?;
         walk.world_mut().bodies[trunk].load = Wrench::ZERO;
         let before = walk.controller().strikes();
@@ -256,10 +268,10 @@ fn pushes_survived(figure: &Figure, controller: &WalkController, force: f64) -> 
     Ok(survived)
 }
 
-/// How many rows of tiles of random heights are walked for a hundred steps.
-fn tiles_walked(figure: &Figure, settings: &ControlSettings) -> Result<usize, String> {
+/// How many rows of tiles of random heights are walked for some steps.
+fn tiles_walked(figure: &Figure, settings: &ControlSettings, steps: usize) -> Result<usize, String> {
     let controller = &controller(figure, settings)?;
-    let length = 0.5 * figure.walk.walk().speed() * figure.walk.walk().cycle_s();
+    let length = 0.5 * figure.plan.speed() * figure.plan.cycle_s();
     let mut walked = 0;
     for seed in 0..SEEDS {
         let mut walk = with_controller(figure, controller)?;
@@ -273,7 +285,7 @@ fn tiles_walked(figure: &Figure, settings: &ControlSettings) -> Result<usize, St
             if tile >= 2 {
                 height += TILE * (2.0 * random.unit() - 1.0);
             }
-            let half = Vec3::new(0.5 * length, 1.0, 1.0);
+            let half = Vec3::new(0.5 * length, 1.0, 2.0);
             let place = Vec3::new((f64::from(tile) + 0.5) * length, height - half.y, 0.0);
             let world = walk.world_mut();
             world.obstacles.push(Obstacle { name: format!("tile {tile}"), pose: Pose::at(place), path: None });
@@ -284,7 +296,7 @@ fn tiles_walked(figure: &Figure, settings: &ControlSettings) -> Result<usize, St
                 material,
             });
         }
-        while walk.fall().is_none() && walk.controller().strikes() < 100 {
+        while walk.fall().is_none() && walk.controller().strikes() < steps {
             walk.step().map_err(|e| e.to_string())?;
         }
         walked += usize::from(walk.fall().is_none());
@@ -292,29 +304,30 @@ fn tiles_walked(figure: &Figure, settings: &ControlSettings) -> Result<usize, St
     Ok(walked)
 }
 
-/// A hundred steps on a slope [%], uphill if positive. Gravity is inclined instead of the ground.
-fn inclined(figure: &Figure, controller: &WalkController, slope: f64) -> Result<Walked, String> {
+/// Some steps on a slope [%], uphill if positive. Gravity is inclined instead of the ground.
+fn inclined(figure: &Figure, controller: &WalkController, slope: f64, steps: usize) -> Result<Walked, String> {
     let mut walk = with_controller(figure, controller)?;
     let world = walk.world_mut();
     let (sin, cos) = (slope / 100.0).atan().sin_cos();
     world.gravity = Vec3::new(-sin, -cos, 0.0) * world.gravity.norm();
-    walked(walk, figure, 100)
+    walked(walk, figure, steps)
 }
 
 /// Other masses and leg lengths with the plan and the gains of the main figure.
-fn changed(man: &Figure, controller: &WalkController) -> Result<Vec<(String, Walked)>, String> {
-    let mut all = Vec::new();
-    for share in [0.85, 1.15] {
-        let human = Build { mass: share * MAN.mass, ..MAN }.human().map_err(|e| e.to_string())?;
-        let other = Figure { human, walk: man.walk.clone() };
-        all.push((format!("mass x {share}"), walked(with_controller(&other, controller)?, &other, 100)?));
-    }
-    for share in [0.95, 1.05] {
-        let human = Build { height: share * MAN.height, ..MAN }.human().map_err(|e| e.to_string())?;
-        let other = Figure { human, walk: man.walk.clone() };
-        all.push((format!("stature and legs x {share}"), walked(with_controller(&other, controller)?, &other, 100)?));
-    }
-    Ok(all)
+fn changed(
+    man: &Figure,
+    controller: &WalkController,
+    built: impl Fn(&Build) -> Result<Human, String>,
+    steps: usize,
+) -> Result<Vec<(String, Walked)>, String> {
+    let masses = [0.85, 1.15].map(|share| (format!("mass x {share}"), Build { mass: share * MAN.mass, ..MAN }));
+    let legs =
+        [0.95, 1.05].map(|share| (format!("stature and legs x {share}"), Build { height: share * MAN.height, ..MAN }));
+    let of = |(name, build): (String, Build)| {
+        let other = Figure { human: built(&build)?, plan: man.plan.clone() };
+        Ok((name, walked(with_controller(&other, controller)?, &other, steps)?))
+    };
+    masses.into_iter().chain(legs).map(of).collect()
 }
 
 fn stiffness(figure: &Figure, controller: &WalkController) -> Vec<(&'static str, f64)> {
@@ -334,9 +347,9 @@ fn fall_without_feedback(figure: &Figure, settings: &ControlSettings) -> Result<
 
 /// Share of the variance of the torques of right hip, knee and ankle that the first harmonics of the cycle keep.
 fn kept(figure: &Figure, count: usize) -> Result<[f64; 3], String> {
-    let cycle_s = figure.walk.walk().cycle_s();
+    let cycle_s = figure.plan.cycle_s();
     let times: Vec<f64> = (0..1000).map(|k| cycle_s * f64::from(k) / 1000.0).collect();
-    let samples = figure.walk.planned(&times).map_err(|e| e.to_string())?;
+    let samples = figure.plan.samples(&times).map_err(|e| e.to_string())?;
     Ok(["hip_flexion_r", "knee_angle_r", "ankle_angle_r"].map(|name| {
         let c = figure.human.model.coordinate(name).map_or(0, |id| id.index());
         let torques: Vec<f64> = samples.iter().map(|sample| sample.forces[c]).collect();

@@ -244,6 +244,8 @@ pub(crate) enum WalkMode {
     Corrected,
     /// As in the 1997 paper: rigid soles, the trunk held upright.
     Paper,
+    /// In three dimensions, on soft shoes, by the figure's own torques along its optimal walk; it may fall.
+    Physical,
 }
 
 impl WalkMode {
@@ -253,6 +255,7 @@ impl WalkMode {
             WalkMode::Predict => SyntheticMode::Predicted,
             WalkMode::Corrected => SyntheticMode::Corrected,
             WalkMode::Paper => SyntheticMode::Paper,
+            WalkMode::Physical => SyntheticMode::Physical,
         }
     }
 }

@@ -235,8 +235,8 @@ fn gait_file(walk: &Walk) -> Result<OutputFile<'static>> {
 /// How the ground forces were determined, also in double support.
 fn rule(mode: SyntheticMode) -> &'static str {
     match mode {
-        SyntheticMode::Optimal | SyntheticMode::Predicted | SyntheticMode::Corrected => "soft shoes",
         SyntheticMode::Paper => "rigid soles",
+        _ => "soft shoes",
     }
 }
 

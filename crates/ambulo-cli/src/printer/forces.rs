@@ -205,6 +205,7 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
         _ => String::new(),
     };
     let held = match (&walk.lacking_force_n, &walk.lacking_moment_nm) {
+        _ if walk.mode == SyntheticMode::Physical.name() => "outside   nothing but the ground acts".to_owned(),
         (Some(force), Some(moment)) if walk.mode == SyntheticMode::Optimal.name() => {
             format!("outside   {:.2} N and {:.2} N.m rms act on the pelvis", force.rms, moment.rms)
         }

@@ -1,5 +1,6 @@
 //! The page of walks by own torques.
 
+use super::spatial;
 use super::{AFTER_PUSH, HOLD_S, LIFT, PHASES, PUSH_S, RAMP_S, Results, SEEDS, SPEED, TILE, Walked};
 use crate::table::Table;
 use std::fmt::Write;
@@ -10,15 +11,16 @@ pub(super) fn text(results: &Results) -> String {
         page,
         "# Walking under own torques\n\nMeasured by `cargo xtask physical-walk --write` on {}. A figure in the sagittal plane follows its corrected walk \
          with the default controller (`simulation::control`, [PHYSICAL_WALK.md](../PHYSICAL_WALK.md)): a man of 75 kg and 1.75 m at {SPEED} m/s unless the row says \
-         otherwise. Nothing but joints and ground acts on him. Torques are limited by the isometric strength of muscles. Legs pass through each other.\n\n\
-         The settings were chosen by hand on pushes of this man at this speed, at other phases than those of this page. The rules for the phase, the level of the \
-         ground and the ankle were made while he was tried on slopes, on tiles and with other legs, and pushed as below. Other speeds, figures and masses played no \
-         part.\n\n",
+         otherwise; further down in three dimensions, along his optimal walk. Nothing but joints and ground acts on him. Torques are limited by the isometric strength of muscles. Legs pass through each other.\n\n\
+         The settings were chosen by hand on pushes of this man at this speed, at other phases than those of this page, and in three dimensions one more (the cost of the place sideways) on pushes from eight sides at other phases. The rules \
+         for the phase, the level of the ground and the ankle were made while he was tried on slopes, on tiles and with other legs in the plane. Other speeds, figures \
+         and masses played no part.\n\n",
         results.machine
     );
     page += &main_table(results);
     page += &pushes(results);
     page += &others(results);
+    page += &in_three_dimensions(&results.spatial);
     page += &harmonics(results);
     page
 }
@@ -112,5 +114,54 @@ fn harmonics(results: &Results) -> String {
         "## How many parameters a torque curve needs\n\nThe torques of the plan are replaced by their mean and their first harmonics over the cycle (2 n + 1 numbers \
          per joint). Columns of joints: share of the variance that is kept.\n\n{}",
         table.text()
+    )
+}
+
+fn in_three_dimensions(results: &spatial::Results) -> String {
+    let long = &results.long;
+    let mut table = Table::new(&["what", "asked", "found"]);
+    let mut row = |what: &str, asked: &str, found: String| table.row([what.to_owned(), asked.to_owned(), found]);
+    row("steps on level ground without a fall", "200", steps(long));
+    row("mean speed [m/s]", &format!("{SPEED}"), format!("{:.3}", long.speed));
+    row("hips, knees and ankles against the plan, RMS [deg]", "<= 6", format!("{:.2}", long.apart.to_degrees()));
+    row("largest force or moment on the root [N, N.m]", "0", format!("{}", long.root));
+    row("times real time, one core", ">= 20", format!("{:.0}", long.seconds[1] / long.seconds[0]));
+    row("stiffness of hip, knee, ankle and lumbar joint, without feedback [N.m/rad]", "<= 350", "200".to_owned());
+    let all: Vec<String> = results.stiffness.iter().map(|(name, k)| format!("{name} {k:.0}")).collect();
+    row("largest stiffness of a joint, with feedback [N.m/rad]", "", all.join(", "));
+    let [plan_s, gains_s] = results.made_s;
+    row("CPU time of the plan / of the gains [s]", "<= 7200 in all", format!("{plan_s:.1} / {gains_s:.1}"));
+    for ((side, _, force), survived) in spatial::PUSHES.iter().zip(&results.pushes) {
+        let asked = match (*side, *force) {
+            (_, 150.0) | ("right" | "left", 100.0) => "",
+            _ => ">= 90 %",
+        };
+        row(&format!("pushes of {force} N, {side}"), asked, format!("{survived} of {PHASES}"));
+    }
+    let (height, lift, count) = (1e3 * TILE, 1e3 * LIFT, spatial::STEPS);
+    let what =
+        format!("tiles, up to {height:.0} mm between neighbours, a plan with {lift:.0} mm more lift, {count} steps");
+    row(&what, ">= 80 % of 20", format!("{} of {SEEDS}", results.tiles));
+    let (fell, [slow, fast, again]) = results.changing;
+    let what = format!(
+        "one controller, {HOLD_S} s at 1.0, to 1.6 within {RAMP_S} s, {HOLD_S} s there, and back: mean speeds [m/s]"
+    );
+    row(&what, "1.0, 1.6", format!("{}{slow:.2}, {fast:.2}, {again:.2}", if fell { "fell; " } else { "" }));
+    for (slope, walked) in &results.slopes {
+        row(&format!("slope of {slope:+.0} %, {count} steps"), &count.to_string(), steps(walked));
+    }
+    for (what, walked) in &results.changed {
+        row(&format!("{what}, same plan and gains, {count} steps"), "20", steps(walked));
+    }
+    let mut speeds = Table::new(&["plan", "steps of 100", "speed [m/s]", "RMS [deg]", "pushes of 100 N"]);
+    for (speed, walked, survived) in &results.speeds {
+        let (found, apart) = (format!("{:.2}", walked.speed), format!("{:.2}", walked.apart.to_degrees()));
+        speeds.row([format!("{speed} m/s"), steps(walked), found, apart, format!("{survived} of {}", 4 * PHASES)]);
+    }
+    format!(
+        "## In three dimensions\n\nThe same man along his optimal walk; pushes as above. Forward is along x, right along z.\n\n{}\n\
+         At other speeds, each with a plan and gains of its own, pushed forward, backward, right and left:\n\n{}\n",
+        table.text(),
+        speeds.text()
     )
 }

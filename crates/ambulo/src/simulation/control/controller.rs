@@ -70,6 +70,19 @@ pub struct Fall {
     pub at_limit: Option<(CoordinateId, f64)>,
 }
 
+impl Fall {
+    /// What is said about the fall of a figure with a name and a model.
+    pub(in crate::simulation) fn told(&self, name: &str, model: &Model) -> String {
+        let cause = self.at_limit.map_or("no torque was at its limit".to_owned(), |(id, since_s)| {
+            format!(
+                "the muscles of `{}` were at their strength from {since_s:.2} s",
+                model.coordinates()[id.index()].name
+            )
+        });
+        format!("{name} fell at {:.2} s after {} steps; {cause}", self.time_s, self.strikes)
+    }
+}
+
 /// A plan at one speed, and its gains.
 #[derive(Debug)]
 struct Pace {

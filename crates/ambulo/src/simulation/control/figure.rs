@@ -20,8 +20,8 @@ pub(super) struct FigureWorld {
     pub(super) world: World,
     pub(super) state: WorldState,
     pub(super) settings: StepSettings,
-    workspace: StepWorkspace,
-    tree: FigureTree,
+    pub(super) workspace: StepWorkspace,
+    pub(super) tree: FigureTree,
     /// The joint of every body.
     joint_of: Vec<Option<usize>>,
     sides: Vec<Option<Side>>,

@@ -28,8 +28,10 @@ mod linear;
 mod physical;
 mod plan;
 mod riccati;
+mod schedule;
 mod settings;
 
 pub use controller::{Fall, WalkController};
 pub use physical::PhysicalWalk;
+pub use schedule::SpeedSchedule;
 pub use settings::{ControlError, ControlSettings, TrackingCosts};

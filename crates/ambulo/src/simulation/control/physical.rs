@@ -6,6 +6,7 @@ use super::settings::{ControlError, ControlSettings};
 use crate::findings::Findings;
 use crate::model::anthropometry::Human;
 use crate::optimal::Solution;
+use crate::simulation::scene::FigureRecorder;
 use crate::simulation::walking::WalkingError;
 use crate::simulation::{StepSettings, World};
 
@@ -60,6 +61,12 @@ impl PhysicalWalk {
         self.figure.state.time_s
     }
 
+    /// Duration of a step [s].
+    #[must_use]
+    pub fn step_s(&self) -> f64 {
+        self.figure.settings.step_s
+    }
+
     /// Sets the speed of the plan [m/s] ([`WalkController::set_speed`]).
     ///
     /// # Errors
@@ -110,6 +117,25 @@ impl PhysicalWalk {
             }
         }
         self.figure.step(&mut self.findings)?;
+        Ok(())
+    }
+
+    /// A recorder of the figure.
+    pub(in crate::simulation) fn recorder(&self, human: &Human) -> FigureRecorder {
+        let soles = human.soles.iter().enumerate().map(|(surface, sole)| (surface, sole.side)).collect();
+        FigureRecorder::new("figure", human, self.figure.tree.clone(), soles, None)
+    }
+
+    /// Makes one step and records it.
+    ///
+    /// # Errors
+    /// As [`PhysicalWalk::step`].
+    pub(in crate::simulation) fn record_step(&mut self, recorder: &mut FigureRecorder) -> Result<(), WalkingError> {
+        recorder.before_step(&self.figure.world, &self.figure.state);
+        self.step()?;
+        let FigureWorld { world, state, workspace, settings, .. } = &mut self.figure;
+        workspace.read_wrenches();
+        recorder.after_step(world, state, workspace, settings.step_s, true);
         Ok(())
     }
 

@@ -57,4 +57,5 @@ pub use run::{RunError, RunStatistics, SceneFrame};
 pub use saved::{ResumeError, SavedState};
 pub use shape::{ShapeEntry, Solid};
 pub use sources::ReadFile;
+pub(super) use walk_recorder::FigureRecorder;
 pub use walk_recorder::FigureWalk;

@@ -7,40 +7,10 @@ use crate::gait::{Gait, PaceChange, Speed, Walk};
 use crate::model::anthropometry::Build;
 use crate::optimal::OptimalWalk;
 use crate::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
-use crate::simulation::control::{ControlSettings, WalkController};
+use crate::simulation::control::{ControlSettings, SpeedSchedule, WalkController};
 
-/// Largest difference of speed between two plans of one controller [m/s].
-const PLANS_APART: f64 = 0.1;
 /// Duration of a change of speed without one of its own [s].
 const CHANGE_S: f64 = 2.0;
-
-/// A controller whose speed follows a schedule.
-#[derive(Debug, Clone)]
-pub(super) struct ScheduledController {
-    pub(super) controller: WalkController,
-    changes: Vec<SpeedChange>,
-}
-
-/// A change of speed at a constant rate.
-#[derive(Debug, Clone, Copy)]
-struct SpeedChange {
-    start_s: f64,
-    duration_s: f64,
-    /// [m/s].
-    from: f64,
-    to: f64,
-}
-
-impl ScheduledController {
-    /// Sets the speed of a time [s].
-    pub(super) fn keep_schedule(&mut self, time_s: f64) {
-        let Some(change) = self.changes.iter().rev().find(|change| time_s >= change.start_s) else { return };
-        let share = ((time_s - change.start_s) / change.duration_s).clamp(0.0, 1.0);
-        let speed = change.from + share * (change.to - change.from);
-        // All speeds of the schedule lie between those of the plans.
-        let _within = self.controller.set_speed(speed);
-    }
-}
 
 /// Plans walks of a figure.
 pub(super) struct Planner<'a> {
@@ -56,7 +26,7 @@ impl Planner<'_> {
         &self,
         speed: Option<f64>,
         sources: &'s mut InputFiles<'_, '_>,
-    ) -> Result<&'s PlannedWalk, SceneError> {
+    ) -> Result<&'s mut PlannedWalk, SceneError> {
         let number = match sources.planned.iter().position(|known| known.is_of(self.build, self.entry, speed)) {
             Some(number) => number,
             None => {
@@ -65,7 +35,7 @@ impl Planner<'_> {
                 sources.planned.len() - 1
             }
         };
-        Ok(&sources.planned[number])
+        Ok(&mut sources.planned[number])
     }
 
     fn made(&self, speed: Option<f64>, sources: &mut InputFiles<'_, '_>) -> Result<PlannedWalk, SceneError> {
@@ -86,12 +56,13 @@ impl Planner<'_> {
                 ));
             }
             let found = OptimalWalk::find_lifted(self.build, &walk, entry.lift).map_err(|e| wrong(&e))?;
-            return Ok(PlannedWalk { build: *self.build, entry, human: found.figure(), solution: found.solution });
+            let human = found.figure();
+            return Ok(PlannedWalk { build: *self.build, entry, human, solution: found.solution, controller: None });
         }
         let mut settings = ConsistentWalkSettings::default();
         settings.costs.lift = entry.lift;
         let walk = make_consistent_walk(&human, &walk, &settings).map_err(|e| wrong(&e))?;
-        Ok(PlannedWalk { build: *self.build, entry, human, solution: walk.solution().clone() })
+        Ok(PlannedWalk { build: *self.build, entry, human, solution: walk.solution().clone(), controller: None })
     }
 
     /// The controller of a figure that walks by its own torques, through all changes of its speed.
@@ -107,34 +78,43 @@ impl Planner<'_> {
         }
         let first = self.plan(self.entry.speed, sources)?.solution.speed();
         let changes = self.schedule(first)?;
-        let ends = changes.iter().fold([first; 2], |[low, high], change| [low.min(change.to), high.max(change.to)]);
-        let count = ((ends[1] - ends[0]) / PLANS_APART).ceil();
-        let between = (0..=count as usize).map(|k| ends[0] + (ends[1] - ends[0]) * k as f64 / count.max(1.0));
         let steps = sources.steps;
         let mut all = Vec::new();
-        let speeds = if changes.is_empty() { vec![self.entry.speed] } else { between.map(Some).collect() };
+        let speeds =
+            if changes.is_empty() { vec![self.entry.speed] } else { changes.plans().into_iter().map(Some).collect() };
         for speed in speeds {
             let plan = self.plan(speed, sources)?;
-            let one = WalkController::new(&plan.human, &plan.solution, steps, settings);
-            all.push(one.map_err(|e| place.error(chain(&e)))?);
+            let one = match &plan.controller {
+                Some((known, own)) if known == settings => own.clone(),
+                _ => {
+                    let made = WalkController::new(&plan.human, &plan.solution, steps, settings);
+                    made.map_err(|e| place.error(chain(&e)))?
+                }
+            };
+            plan.controller = Some((*settings, one.clone()));
+            all.push(one);
         }
         let mut controller = WalkController::joined(&all).map_err(|e| place.error(chain(&e)))?;
         controller.set_speed(first).map_err(|e| place.error(chain(&e)))?;
-        Ok(ScheduledController { controller: controller.starting_at(self.entry.phase), changes })
+        Ok(ScheduledController { controller: controller.starting_at(self.entry.phase), schedule: changes })
     }
 
-    fn schedule(&self, first: f64) -> Result<Vec<SpeedChange>, SceneError> {
-        let (mut from, mut all) = (first, Vec::new());
+    fn schedule(&self, first: f64) -> Result<SpeedSchedule, SceneError> {
+        let mut schedule = SpeedSchedule::from(first);
         for PaceChange { start_s, duration_s, speed, step_length, step_frequency } in &self.entry.changes {
             let (Some(to), None, None) = (speed.filter(|speed| *speed > 0.0), step_length, step_frequency) else {
-                let found = "found a change of step length or frequency, or to standing";
-                return Err(self.entry.place.error(format!(
-                    "{found}; expected changes of `speed` above zero, which is what a controller can follow"
-                )));
+                let found = "found a change of step length or frequency, or to standing; expected changes of `speed` above zero";
+                return Err(self.entry.place.error(format!("{found}, which is what a controller can follow")));
             };
-            all.push(SpeedChange { start_s: *start_s, duration_s: duration_s.unwrap_or(CHANGE_S), from, to });
-            from = to;
+            schedule.change(*start_s, duration_s.unwrap_or(CHANGE_S), to);
         }
-        Ok(all)
+        Ok(schedule)
     }
+}
+
+/// A controller whose speed follows a schedule.
+#[derive(Debug, Clone)]
+pub(in crate::simulation) struct ScheduledController {
+    pub(super) controller: WalkController,
+    pub(super) schedule: SpeedSchedule,
 }

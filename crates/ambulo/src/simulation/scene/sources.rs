@@ -9,6 +9,7 @@ use crate::model::anthropometry::{Build, Human};
 use crate::motion::RecordedTable;
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
 use crate::optimal::Solution;
+use crate::simulation::control::{ControlSettings, WalkController};
 use crate::simulation::signal::Signal;
 use crate::simulation::workspace::StepSettings;
 use std::collections::BTreeMap;
@@ -23,6 +24,8 @@ pub(super) struct PlannedWalk {
     /// The figure with the soles of the plan.
     pub(super) human: Human,
     pub(super) solution: Solution,
+    /// Settings and controller, once there is one.
+    pub(super) controller: Option<(ControlSettings, WalkController)>,
 }
 
 impl PlannedWalk {

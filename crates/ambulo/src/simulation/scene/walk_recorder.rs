@@ -32,7 +32,7 @@ pub struct FigureWalk {
 
 /// A recording under way.
 #[derive(Debug, Clone)]
-pub(super) struct FigureRecorder {
+pub(in crate::simulation) struct FigureRecorder {
     name: String,
     human: Human,
     tree: FigureTree,
@@ -51,7 +51,7 @@ pub(super) struct FigureRecorder {
 
 /// What moves a figure from step to step.
 #[derive(Debug, Clone)]
-pub(super) enum Live {
+pub(in crate::simulation) enum Live {
     /// Machines compute targets of drives.
     Machines(LiveTargets),
     /// A controller computes torques.
@@ -60,7 +60,7 @@ pub(super) enum Live {
 
 /// Targets that machines of a figure compute from step to step, because they read loads, angles or joints of the scene.
 #[derive(Debug, Clone)]
-pub(super) struct LiveTargets {
+pub(in crate::simulation) struct LiveTargets {
     pub(super) targets: Box<GaitTargets>,
     /// Index of the figure in the world.
     pub(super) figure: usize,
@@ -69,7 +69,7 @@ pub(super) struct LiveTargets {
 }
 
 impl FigureRecorder {
-    pub(super) fn new(
+    pub(in crate::simulation) fn new(
         name: &str,
         human: &Human,
         tree: FigureTree,
@@ -121,18 +121,15 @@ impl FigureRecorder {
 
     /// What is said about a fall.
     pub(super) fn told(&self, fall: &Fall) -> String {
-        let coordinates = self.human.model.coordinates();
-        let cause = fall.at_limit.map_or("no torque was at its limit".to_owned(), |(id, since_s)| {
-            format!("the muscles of `{}` were at their strength from {since_s:.2} s", coordinates[id.index()].name)
-        });
-        format!("`{}` fell at {:.2} s after {} steps; {cause}", self.name, fall.time_s, fall.strikes)
+        fall.told(&format!("`{}`", self.name), &self.human.model)
     }
 
     /// Sets the motors of a figure that walks by its own torques.
     fn control(&mut self, world: &mut World, end_s: f64) {
         let Some(Live::Controller(own)) = &mut self.live else { return };
-        own.keep_schedule(end_s);
         let controller = &mut own.controller;
+        // All speeds of the schedule lie between those of the plans.
+        let _within = controller.set_speed(own.schedule.at(end_s));
         let last = self.feet[0].force.len().checked_sub(1);
         let loads_n = last.map_or([0.0; 2], |last| [0, 1].map(|foot| self.feet[foot].force[last].y));
         let joint_of = world.joint_of_body();
@@ -174,7 +171,7 @@ impl FigureRecorder {
         }
     }
 
-    pub(super) fn before_step(&mut self, world: &World, state: &WorldState) {
+    pub(in crate::simulation) fn before_step(&mut self, world: &World, state: &WorldState) {
         if self.feet[0].force.is_empty() {
             self.start_s = state.time_s;
         }
@@ -183,7 +180,7 @@ impl FigureRecorder {
 
     /// Records a step; the wrenches of the workspace must have been read. The posture is that of its start; velocities belong to the middle
     /// of steps.
-    pub(super) fn after_step(
+    pub(in crate::simulation) fn after_step(
         &mut self,
         world: &World,
         state: &WorldState,
@@ -236,7 +233,7 @@ impl FigureRecorder {
         self.feet.iter_mut().for_each(FootRecord::end_row);
     }
 
-    pub(super) fn walk(&self, step_s: f64) -> Result<FigureWalk, TrajectoryError> {
+    pub(in crate::simulation) fn walk(&self, step_s: f64) -> Result<FigureWalk, TrajectoryError> {
         let grid = TimeGrid { start_s: self.start_s, step_s, frames: self.feet[0].force.len() };
         let trajectory = Trajectory::new(&self.human.model, grid, self.columns.clone())?;
         let recording = WalkRecording {

@@ -1,16 +1,18 @@
 //! Synthetic walks: from a gait and a body size to motion and ground forces, for an analysis like that of a recording.
 //!
-//! There are four modes. [`SyntheticMode::Optimal`] finds the walk of a figure in three dimensions by optimal motion ([`crate::optimal`]);
+//! There are five modes. [`SyntheticMode::Optimal`] finds the walk of a figure in three dimensions by optimal motion ([`crate::optimal`]);
 //! [`SyntheticMode::Predicted`] does so without curves of people as targets, also on slopes, with loads, weak joints and devices.
 //! [`SyntheticMode::Corrected`] makes the gait dynamically consistent ([`super::consistent_walk`]) and simulates it
 //! on soft shoes. [`SyntheticMode::Paper`] makes the joints follow the gait exactly, holds the trunk upright and has rigid soles
-//! (Faure, Debunne, Cani, Multon 1997). The last two skip the cycles before the walk is steady. The kept part begins shortly before a strike
+//! (Faure, Debunne, Cani, Multon 1997). [`SyntheticMode::Physical`] lets a figure in three dimensions walk by its own torques
+//! along its optimal walk ([`super::control`]). The last three skip the cycles before the walk is steady. The kept part begins shortly before a strike
 //! of the right foot, so that every cycle is complete.
 
 mod settings;
 
 mod modes;
 mod optimal;
+mod physical;
 mod walk;
 
 pub use crate::numerics::Progress;

@@ -1,6 +1,7 @@
 //! Synthesis of a walk, in its modes.
 
 use super::optimal::{optimal, predicted};
+use super::physical::physical;
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
 use super::walk::{CORRECTED_SKIPPED, KeptPart, Made, StateRun, SyntheticWalk, steady, timed};
 use crate::findings::{Code, Findings};
@@ -53,6 +54,7 @@ pub fn synthesise(
         SyntheticMode::Predicted => predicted(settings, &WalkConditions::default(), findings),
         SyntheticMode::Corrected => corrected(settings, settings.build.human()?, findings),
         SyntheticMode::Paper => paper(settings, settings.build.human()?, findings),
+        SyntheticMode::Physical => physical(settings, findings),
     }
 }
 
@@ -190,7 +192,7 @@ pub fn run_of_states(
                 kept.states_told(settings, &walk, tell);
             }
         }
-        SyntheticMode::Optimal | SyntheticMode::Predicted | SyntheticMode::Corrected => {
+        SyntheticMode::Optimal | SyntheticMode::Predicted | SyntheticMode::Corrected | SyntheticMode::Physical => {
             let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
             refuse_unknown_coordinates(&walk, &human)?;
             kept.states_told(settings, &walk, tell);

@@ -8,6 +8,7 @@ use crate::model::anthropometry::{Build, BuildError};
 use crate::numerics::Shown;
 use crate::optimal::OptimalWalkError;
 use crate::simulation::consistent_walk::ConsistentWalkError;
+use crate::simulation::control::ControlError;
 use crate::simulation::walking::WalkingError;
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -23,6 +24,8 @@ pub enum SyntheticMode {
     Corrected,
     /// As in the 1997 paper: rigid soles, and the trunk is held upright.
     Paper,
+    /// In three dimensions, on soft shoes, by torques of a controller that follows the optimal walk; the figure may fall.
+    Physical,
 }
 
 impl SyntheticMode {
@@ -49,6 +52,7 @@ impl SyntheticMode {
             SyntheticMode::Predicted => "predict",
             SyntheticMode::Corrected => "corrected",
             SyntheticMode::Paper => "paper",
+            SyntheticMode::Physical => "physical",
         }
     }
 }
@@ -154,6 +158,17 @@ pub enum SyntheticError {
         /// Name of the gait.
         gait: String,
     },
+    /// A controller follows one gait and changes its speed.
+    #[error(
+        "the gait `{gait}`: found machines, sides that differ, or changes of step length, of step frequency or to standing; expected equal cycles and changes of speed alone, because a controller follows optimal walks. hint: use the mode `corrected` or `paper`"
+    )]
+    NotControlled {
+        /// Name of the gait.
+        gait: String,
+    },
+    /// There is no controller for the walk.
+    #[error(transparent)]
+    Control(#[from] ControlError),
     /// Figures in three dimensions have toe joints.
     #[error(
         "found a figure without toe joints; expected toe joints, because the figure in three dimensions has them. hint: use the mode `corrected` or `paper`"

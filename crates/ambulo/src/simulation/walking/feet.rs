@@ -23,8 +23,9 @@ pub struct FootRecord {
     pub at_limit: Vec<bool>,
     /// The part of the reaction that acts on the toes, if they are a body of their own.
     pub toes: Option<ToeRecord>,
-    /// Largest load of a point in the row that is being filled [N].
+    /// Largest load of a point in the row that is being filled, and the sum of all [N].
     heaviest: f64,
+    pressing: f64,
 }
 
 /// Ground reaction on the toes of one foot, one entry per row.
@@ -56,6 +57,7 @@ impl FootRecord {
                 moment: Vec::with_capacity(rows),
             }),
             heaviest: 0.0,
+            pressing: 0.0,
         }
     }
 
@@ -66,7 +68,7 @@ impl FootRecord {
         self.point.push(Vec3::zeros());
         self.slip.push(0.0);
         self.at_limit.push(false);
-        self.heaviest = 0.0;
+        (self.heaviest, self.pressing) = (0.0, 0.0);
         if let Some(toes) = &mut self.toes {
             toes.force.push(Vec3::zeros());
             toes.moment.push(Vec3::zeros());
@@ -82,6 +84,7 @@ impl FootRecord {
         }
         *force += contact.force;
         *point += contact.point * pressing;
+        self.pressing += pressing;
         let about_origin = contact.point.cross(&contact.force);
         if let Some(moment) = self.moment.last_mut() {
             *moment += about_origin;
@@ -103,8 +106,8 @@ impl FootRecord {
 
     /// Ends a row: turns the sum into the centre of pressure.
     pub(in crate::simulation) fn end_row(&mut self) {
-        if let (Some(force), Some(point)) = (self.force.last(), self.point.last_mut()) {
-            *point = if force.y > 0.0 { *point / force.y } else { Vec3::zeros() };
+        if let Some(point) = self.point.last_mut() {
+            *point = if self.pressing > 0.0 { *point / self.pressing } else { Vec3::zeros() };
         }
     }
 
