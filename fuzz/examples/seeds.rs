@@ -5,7 +5,7 @@
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{Scene, SceneFile, SceneSettings};
 use ambulo_formats::bvh::{Bvh, Channel as BvhChannel, Joint};
-use ambulo_formats::c3d::{C3d, Channel, Encoding, Event, EventPlace, Platform, Point, Processor, Storage};
+use ambulo_formats::c3d::{C3d, Channel, Encoding, Event, EventPlace, Platform, Point, Processor, Rotation, Storage};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
@@ -22,6 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     save("c3d", "empty.c3d", &C3d::new(100.0, "mm").write()?)?;
+    save("c3d", "poses.c3d", &poses().write()?)?;
     save("trc", "two.trc", &trc()?.write())?;
     let columns = vec![("time".into(), vec![0.0, 0.01]), ("knee_angle_r".into(), vec![-12.5, f64::NAN])];
     let mut table = Table::new("Coordinates", columns)?;
@@ -154,6 +155,18 @@ fn c3d(processor: Processor, storage: Storage) -> C3d {
         calibration: vec![vec![1.0; 6]; 6],
         zero_frames: Some([1, 10]),
     }]);
+    record
+}
+
+/// Poses of two segments without points.
+fn poses() -> C3d {
+    let pose = |x: f64| [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 900.0], [0.0, 0.0, 0.0, 1.0]];
+    let mut record = C3d::new(50.0, "mm");
+    record.rotation_rate_hz = 100.0;
+    record.rotations = vec![
+        Rotation::new("pelvis_4X4", vec![pose(0.0), pose(1.0), pose(2.0), [[f64::NAN; 4]; 4]]),
+        Rotation::new("l_thigh_4X4", (0..4).map(|k| pose(f64::from(k))).collect()),
+    ];
     record
 }
 

@@ -10,6 +10,7 @@ mod shared_data;
 
 mod c3d_damage;
 mod c3d_recordings;
+mod c3d_rotations;
 mod c3d_traps;
 mod c3d_write;
 mod loads;

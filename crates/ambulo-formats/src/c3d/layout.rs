@@ -1,8 +1,8 @@
 //! Number of points, samples and frames in the data. Header, parameters and size of the file may disagree.
 
-use super::Storage;
 use super::header::{BLOCK, Header};
 use super::parameters::Parameters;
+use super::{Storage, rotations};
 use crate::error::{Error, Remark};
 
 /// Largest number of 16 bits.
@@ -80,7 +80,9 @@ pub(super) fn decide(
         first_frame: 1,
         point_rate_hz,
     };
-    let room = file.size.saturating_sub(data_offset);
+    // Rotations have a section of their own, usually behind that of the points.
+    let end = rotations::data_offset(parameters).filter(|&start| start > data_offset).unwrap_or(file.size);
+    let room = end.min(file.size).saturating_sub(data_offset);
     let question = Question { header, parameters, scales: &scales, frames: &frame_claims, room };
     choose_frame(&mut layout, &question, remarks);
     layout.frames = choose_frames(&layout, room, &frame_claims, remarks);
@@ -172,6 +174,11 @@ fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
         ("POINT:LONG_FRAMES", long),
     ];
     claims.into_iter().filter_map(|(who, value)| value.map(|value| Claim { who, value })).collect()
+}
+
+/// The numbers of frames that header and parameters state, the most reliable first.
+pub(super) fn stated_frames(header: &Header, parameters: &Parameters) -> Vec<usize> {
+    distinct(frame_claims(header, parameters).iter().map(|claim| Some(claim.value)))
 }
 
 /// A frame number of the group TRIAL: two unsigned words, the low one first; or one number.

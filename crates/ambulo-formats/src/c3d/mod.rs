@@ -1,9 +1,10 @@
-//! Recordings of movement in C3D files: points, analog channels, force platforms, events and all named parameters.
+//! Recordings of movement in C3D files: points, analog channels, poses of segments, force platforms, events and all named parameters.
 //!
 //! ```text
 //! block 1        header: counts, frames, rate, where the rest is
 //! block 2 ..     parameters: groups of named values
 //! block n ..     frames: for each frame all points (x, y, z, residual and cameras), then all analog samples
+//! block m ..     rotations, if there are any: for each frame the poses of all segments
 //! ```
 //!
 //! A block has 512 bytes. Numbers are Intel's, DEC's or SGI's ([`Processor`]), integers with a scale or reals
@@ -29,7 +30,7 @@
 //! ```
 //!
 //! Source: C3D user guide, c3d.org.
-//! Pinned by: tests/c3d_recordings.rs, tests/c3d_traps.rs, tests/c3d_damage.rs, tests/c3d_write.rs
+//! Pinned by: tests/c3d_recordings.rs, tests/c3d_traps.rs, tests/c3d_damage.rs, tests/c3d_write.rs, tests/c3d_rotations.rs
 
 mod analog;
 mod events;
@@ -39,6 +40,7 @@ mod parameters;
 mod platform;
 mod points;
 mod read;
+mod rotations;
 mod section;
 mod section_write;
 mod stated;
@@ -50,6 +52,7 @@ pub use events::{Event, EventPlace};
 pub use parameters::{Group, Parameter, Parameters, Values};
 pub use platform::Platform;
 pub use points::Point;
+pub use rotations::Rotation;
 pub use words::Processor;
 
 use crate::error::{Error, Remark};
@@ -73,6 +76,10 @@ pub struct C3d {
     pub analog_rate_hz: f64,
     /// Analog channels, in the order of the file; channel number 1 of the parameters is the first.
     pub channels: Vec<Channel>,
+    /// Sample rate of the poses of segments \[Hz\]; zero if there are none. A whole multiple of [`C3d::point_rate_hz`].
+    pub rotation_rate_hz: f64,
+    /// Poses of segments, in the order of the file.
+    pub rotations: Vec<Rotation>,
     /// Events, in the order of the file: those of the parameters, then those of the header.
     pub events: Vec<Event>,
     /// All parameters.
@@ -134,6 +141,8 @@ impl C3d {
             points: vec![],
             analog_rate_hz: 0.0,
             channels: vec![],
+            rotation_rate_hz: 0.0,
+            rotations: vec![],
             events: vec![],
             parameters: Parameters::default(),
         }
@@ -141,14 +150,20 @@ impl C3d {
 
     /// Number of frames.
     pub fn frames(&self) -> usize {
-        let of_channels = || self.channels.first().map_or(0, |c| c.samples.len() / self.samples_per_frame());
-        self.points.first().map_or_else(of_channels, |point| point.positions.len())
+        let of_rotations = || self.rotations.first().map_or(0, |r| r.matrices.len() / self.rotations_per_frame());
+        let of_channels = |c: &Channel| c.samples.len() / self.samples_per_frame();
+        let without_points = || self.channels.first().map_or_else(of_rotations, of_channels);
+        self.points.first().map_or_else(without_points, |point| point.positions.len())
     }
 
     /// Analog samples of a channel in one frame; 1 if there are no channels.
     pub fn samples_per_frame(&self) -> usize {
-        let ratio = self.analog_rate_hz / self.point_rate_hz;
-        if ratio.is_finite() && ratio >= 1.0 { ratio.round() as usize } else { 1 }
+        per_frame(self.analog_rate_hz / self.point_rate_hz)
+    }
+
+    /// Poses of a segment in one frame; 1 if there are no rotations.
+    pub fn rotations_per_frame(&self) -> usize {
+        per_frame(self.rotation_rate_hz / self.point_rate_hz)
     }
 
     /// Time of each frame \[s\]; frame 1 is at zero.
@@ -188,6 +203,11 @@ impl C3d {
     pub fn set_platforms(&mut self, platforms: &[Platform]) {
         self.parameters.set_group(platform::group(platforms));
     }
+}
+
+/// Samples per frame for a ratio of rates.
+fn per_frame(ratio: f64) -> usize {
+    if ratio.is_finite() && ratio >= 1.0 { ratio.round() as usize } else { 1 }
 }
 
 /// Metres in one unit of length. Some files truncate the word: `mete`.

@@ -4,7 +4,7 @@ use super::header::{Header, parameter_offset};
 use super::layout::{self, Extent, Layout};
 use super::parameters::Parameters;
 use super::words::Words;
-use super::{C3d, Encoding, analog, events, points, section};
+use super::{C3d, Encoding, analog, events, points, rotations, section};
 use crate::error::{Error, Remark};
 
 pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
@@ -22,6 +22,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
     let points = points::read(words, &layout, &encoding, &parameters, &mut remarks);
     let channels = analog::read(words, &layout, &encoding, &parameters, &mut remarks);
     check_analog_rate(&layout, &parameters, &mut remarks);
+    let rotations = rotations::read(words, &layout, &header, &parameters, &file, &mut remarks);
     let start_s = (layout.first_frame - 1) as f64 / layout.point_rate_hz;
     let events = events::read(words, &parameters, start_s, &mut remarks);
     let recording = C3d {
@@ -33,6 +34,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
         points,
         analog_rate_hz: analog_rate(&layout),
         channels,
+        rotation_rate_hz: layout.point_rate_hz * rotations.per_frame as f64,
+        rotations: rotations.rotations,
         events,
         parameters,
     };

@@ -3,17 +3,19 @@
 use super::events::{EventPlace, minutes_and_seconds};
 use super::parameters::{Parameter, Parameters, Values, numbered_name};
 use super::section_write::LARGEST;
+use super::write::DataBlocks;
 use super::{C3d, Channel, Event, Storage};
 
 /// Largest number of a header word.
 const WORD: i64 = 65535;
 
-/// The record's parameters, updated from its other fields. `data_block` is the block where the data begin.
-pub(super) fn parameters(record: &C3d, data_block: u16) -> Parameters {
+/// The record's parameters, updated from its other fields.
+pub(super) fn parameters(record: &C3d, blocks: DataBlocks) -> Parameters {
     let mut stated = Stated { parameters: record.parameters.clone() };
-    stated.points(record, data_block);
+    stated.points(record, blocks.points);
     stated.frames(record);
     stated.channels(record);
+    stated.rotations(record, blocks.rotations);
     stated.events(record);
     stated.parameters
 }
@@ -91,6 +93,23 @@ impl Stated {
         };
         self.numbered("ANALOG", "OFFSET", parts.into_iter());
         self.sign(record);
+    }
+
+    /// The group ROTATION, if there are rotations or were some.
+    fn rotations(&mut self, record: &C3d, block: u16) {
+        let rotations = &record.rotations;
+        if rotations.is_empty() && self.parameters.group("ROTATION").is_none() {
+            return;
+        }
+        let per_frame = record.rotations_per_frame();
+        let samples = record.frames() * per_frame;
+        self.set("ROTATION", "USED", word(rotations.len()));
+        self.set("ROTATION", "RATE", Values::Reals(vec![record.rotation_rate_hz as f32]));
+        self.set("ROTATION", "RATIO", word(per_frame));
+        self.set("ROTATION", "DATA_START", word(usize::from(block)));
+        self.set("ROTATION", "FRAMES", word(samples.min(WORD as usize)));
+        self.texts("ROTATION", "LABELS", rotations.iter().map(|rotation| rotation.name.clone()));
+        self.texts("ROTATION", "DESCRIPTIONS", rotations.iter().map(|rotation| rotation.description.clone()));
     }
 
     /// ANALOG:FORMAT, if it is present or needed: without it, an offset at the end of the signed range means unsigned numbers.

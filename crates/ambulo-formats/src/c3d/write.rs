@@ -13,24 +13,55 @@ const PARAMETER_BLOCK: u8 = 2;
 const SIGNED: RangeInclusive<f64> = -32768.0..=32767.0;
 /// Range of unsigned 16-bit integers.
 const UNSIGNED: RangeInclusive<f64> = 0.0..=65535.0;
+/// Rates come from 24-bit reals; one part in a million is above their rounding.
+const RATIO_ROUNDING: f64 = 1e-6;
 /// Counts of the header are words of 16 bits.
 const WORD: usize = 65535;
 
 pub(super) fn write(record: &C3d) -> Result<Vec<u8>, Error> {
     check(record)?;
     let processor = record.encoding.processor;
-    // The length of the section does not depend on the number of the data's block.
-    let length = section_write::write(&stated::parameters(record, 0), processor)?.len();
-    let data_block = u16::from(PARAMETER_BLOCK) + (length / BLOCK) as u16;
-    let section = section_write::write(&stated::parameters(record, data_block), processor)?;
+    // The length of the section does not depend on the numbers of the blocks.
+    let length = section_write::write(&stated::parameters(record, DataBlocks::default()), processor)?.len();
+    let blocks = DataBlocks::after(usize::from(PARAMETER_BLOCK) + length / BLOCK, record)?;
+    let data_block = blocks.points;
+    let section = section_write::write(&stated::parameters(record, blocks), processor)?;
     let mut bytes = header(record, data_block)?;
     bytes.extend(section);
     write_frames(record, &mut bytes)?;
     // Of more frames than the header can count, ezc3d 1.7.2 reads as many as the file holds, so nothing may follow them.
-    if record.frames() <= WORD {
+    if record.frames() <= WORD || !record.rotations.is_empty() {
         bytes.resize(bytes.len().next_multiple_of(BLOCK), 0);
     }
+    write_rotations(record, &mut bytes)?;
     Ok(bytes)
+}
+
+/// The blocks where the data begin.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct DataBlocks {
+    /// Points and analog samples.
+    pub(super) points: u16,
+    /// Rotations; beyond the points.
+    pub(super) rotations: u16,
+}
+
+impl DataBlocks {
+    /// The blocks of a record whose parameters end before the block `first`.
+    fn after(first: usize, record: &C3d) -> Result<DataBlocks, Error> {
+        let width = match record.encoding.storage {
+            Storage::Integer => 2,
+            Storage::Real => 4,
+        };
+        let values = 4 * record.points.len() + record.channels.len() * record.samples_per_frame();
+        let of_points = (record.frames() * values * width).div_ceil(BLOCK);
+        let rotations = if record.rotations.is_empty() { 0 } else { first + of_points };
+        let block = |block: usize| {
+            let expected = "data that begin in the first 65535 blocks of 512 bytes";
+            u16::try_from(block).map_err(|_| invalid(format!("data that begin in block {block}"), expected))
+        };
+        Ok(DataBlocks { points: block(first)?, rotations: block(rotations)? })
+    }
 }
 
 fn header(record: &C3d, data_block: u16) -> Result<Vec<u8>, Error> {
@@ -80,7 +111,32 @@ fn check(record: &C3d) -> Result<(), Error> {
             return Err(invalid(format!("{count} {what}"), format!("at most {WORD}")));
         }
     }
+    check_rotations(record)?;
     record.points.iter().try_for_each(|point| check_point(point, record.frames()))
+}
+
+fn check_rotations(record: &C3d) -> Result<(), Error> {
+    if record.rotations.is_empty() {
+        return Ok(());
+    }
+    let per_frame = record.rotations_per_frame();
+    let ratio = record.rotation_rate_hz / record.point_rate_hz;
+    if !((ratio - per_frame as f64).abs() <= RATIO_ROUNDING * ratio && per_frame <= WORD) {
+        let found = format!("{} poses and {} frames per second", record.rotation_rate_hz, record.point_rate_hz);
+        return Err(invalid(found, format!("a whole number of poses per frame, at most {WORD}")));
+    }
+    if record.rotations.len() > WORD {
+        return Err(invalid(format!("{} segments", record.rotations.len()), format!("at most {WORD}")));
+    }
+    let expected = record.frames() * per_frame;
+    for rotation in &record.rotations {
+        let counts = [rotation.matrices.len(), rotation.reliability.len()];
+        if counts != [expected; 2] {
+            let found = format!("{counts:?} matrices and reliabilities of segment {}", quoted(&rotation.name));
+            return Err(invalid(found, format!("{expected} of each, {per_frame} for each frame")));
+        }
+    }
+    Ok(())
 }
 
 fn check_point(point: &Point, frames: usize) -> Result<(), Error> {
@@ -98,8 +154,7 @@ fn check_channels(record: &C3d) -> Result<(), Error> {
     }
     let samples = record.samples_per_frame();
     let ratio = record.analog_rate_hz / record.point_rate_hz;
-    // Rates come from 24-bit reals; one part in a million is above their rounding.
-    if !((ratio - samples as f64).abs() <= 1e-6 * ratio && samples <= WORD) {
+    if !((ratio - samples as f64).abs() <= RATIO_ROUNDING * ratio && samples <= WORD) {
         let found = format!("{} analog samples and {} frames per second", record.analog_rate_hz, record.point_rate_hz);
         return Err(invalid(found, format!("a whole number of samples per frame, at most {WORD}")));
     }
@@ -185,6 +240,26 @@ fn write_sample(record: &C3d, channel: &Channel, sample: usize, scale: f64, byte
             format!("samples that {numbers:?} numbers can hold with scale {scale} and offset {}", channel.offset),
         )
     })
+}
+
+/// Appends the rotations. VAX has no not-a-number: missing poses are zeros with their reliability there.
+fn write_rotations(record: &C3d, bytes: &mut Vec<u8>) -> Result<(), Error> {
+    let processor = record.encoding.processor;
+    for sample in 0..record.frames() * record.rotations_per_frame() {
+        for rotation in &record.rotations {
+            let seen = rotation.is_seen(sample) && rotation.reliability[sample] >= 0.0;
+            let absent = if processor == Processor::Dec { 0.0 } else { f64::NAN };
+            let value = |i: usize| if seen { rotation.matrices[sample][i % 4][i / 4] } else { absent };
+            let reliability = Some(rotation.reliability[sample]).filter(|r| seen || *r < 0.0).unwrap_or(-1.0);
+            let values = (0..16).map(value).chain([reliability]);
+            let written = values.map(|value| real(value, processor, bytes)).collect::<Option<Vec<()>>>();
+            written.ok_or_else(|| {
+                let found = format!("the pose of segment {} in sample {sample}", quoted(&rotation.name));
+                invalid(found, "numbers that 32-bit reals can hold")
+            })?;
+        }
+    }
+    Ok(())
 }
 
 /// Appends the nearest 16-bit integer; `None` if there is none.
