@@ -47,6 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     save("result_folder", "summary.json", b"{\"format\":1,\"version\":\"0\",\"mass_kg\":70.5,\"files\":[{\"name\":\"grf.mot\"}]}")?;
     save("study_coordinates", "sway.mot", &sway()?.write_storage())?;
     save("study_markers", "legs.c3d", &legs().write()?)?;
+    save("study_markers", "poses.c3d", &posed_legs().write()?)?;
     for name in ["keypoints", "oxford-foot"] {
         copy("marker_set", &format!("crates/ambulo/data/markers/{name}.toml"))?;
     }
@@ -155,6 +156,29 @@ fn c3d(processor: Processor, storage: Storage) -> C3d {
         calibration: vec![vec![1.0; 6]; 6],
         zero_frames: Some([1, 10]),
     }]);
+    record
+}
+
+/// A pelvis and two stiff legs whose ankles swing, as poses of segments: x right, y forward, z up.
+fn posed_legs() -> C3d {
+    let mut record = C3d::new(50.0, "mm");
+    record.rotation_rate_hz = 50.0;
+    let mut push = |name: &str, place: &dyn Fn(f64) -> [f64; 4]| {
+        let pose = |frame: u8| {
+            let [x, y, z, lean] = place(0.02 * f64::from(frame));
+            let (s, c) = lean.sin_cos();
+            [[1.0, 0.0, 0.0, x], [0.0, c, -s, y], [0.0, s, c, z], [0.0, 0.0, 0.0, 1.0]]
+        };
+        record.rotations.push(Rotation::new(name, (0..60).map(pose).collect()));
+    };
+    push("pelvis_4X4", &|t| [0.0, 1000.0 * t, 900.0, 0.0]);
+    for (side, sense) in [("r", 1.0), ("l", -1.0)] {
+        let lean = move |t: f64| sense * 0.3 * (6.0 * t).sin();
+        let along = move |t: f64, way: f64| [90.0 * sense, 1000.0 * t + way * lean(t).sin(), 900.0 - way * lean(t).cos(), lean(t)];
+        push(&format!("{side}_thigh_4X4"), &|t| along(t, 0.0));
+        push(&format!("{side}_shank_4X4"), &|t| along(t, 420.0));
+        push(&format!("{side}_foot_4X4"), &|t| along(t, 830.0));
+    }
     record
 }
 

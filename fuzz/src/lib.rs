@@ -196,7 +196,8 @@ pub fn study_coordinates(bytes: &[u8]) {
 pub fn study_markers(bytes: &[u8]) {
     let mut findings = Findings::default();
     let Ok((record, _)) = C3d::read(bytes) else { return };
-    if record.frames() * record.points.len() > MOST_SAMPLES {
+    let poses = record.rotations.len() * record.rotations_per_frame();
+    if record.frames() * (record.points.len() + poses) > MOST_SAMPLES {
         return;
     }
     let Ok(trial) = LaboratoryFile::from_c3d(bytes, "recording", &mut findings) else { return };

@@ -33,6 +33,7 @@ mod predict;
 mod program;
 mod reproduce;
 mod results;
+mod segment_poses;
 mod simulate;
 mod summary_schema;
 mod sweep;

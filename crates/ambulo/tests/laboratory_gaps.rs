@@ -25,6 +25,7 @@ struct Trial {
 fn recording(file: &File) -> LaboratoryRecording {
     let mut findings = Findings::default();
     LaboratoryRecording {
+        poses: None,
         markers: markers_from_c3d(&file.c3d, &mut findings).unwrap(),
         plates: plates_from_c3d(&file.c3d, PlateSettings::default(), &mut findings).unwrap_or_default(),
         unit: file.c3d.point_unit.clone(),

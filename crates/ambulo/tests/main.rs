@@ -99,6 +99,7 @@ mod scene_run;
 mod scene_start;
 mod scene_verdict;
 mod scene_walkers;
+mod segment_poses;
 mod simulation_closed_form;
 mod simulation_contact;
 mod simulation_robustness;

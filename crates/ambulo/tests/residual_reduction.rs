@@ -92,6 +92,7 @@ fn of_given_angles(name: &'static str, model: &Model, seen: Seen) -> Case {
 fn of_c3d(name: &'static str, subject: &gait_files::Subject, seen: Seen) -> Case {
     let mut findings = Findings::default();
     let mut recording = |file: &gait_files::File| LaboratoryRecording {
+        poses: None,
         markers: markers_from_c3d(&file.c3d, &mut findings).unwrap(),
         plates: plates_from_c3d(&file.c3d, PlateSettings::default(), &mut findings).unwrap_or_default(),
         unit: file.c3d.point_unit.clone(),

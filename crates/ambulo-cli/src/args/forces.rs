@@ -18,7 +18,7 @@ use std::path::PathBuf;
   ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
 
 Markers (.c3d, .trc) are fitted with the built-in body, which is calibrated from --static or else from the trial itself, or with an OpenSim
-model, which --static scales. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
+model, which --static scales. Poses of segments in a .c3d (Theia3D) drive the built-in body directly. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
 were not measured, they are predicted from the motion; with --predict, the prediction is compared with the measurement. With --track, motion
 and forces agree to rounding, without force plates.
 
@@ -32,7 +32,7 @@ The verdict says whether a person could make this motion (strength, joint ranges
 residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the data
 are bad or the motion is infeasible.")]
 pub(crate) struct ForcesArgs {
-    /// The recording: markers (.c3d, .trc), coordinates (.mot, .sto) or a skeleton (.bvh).
+    /// The recording: markers (.c3d, .trc), poses of segments (.c3d), coordinates (.mot, .sto) or a skeleton (.bvh).
     pub(crate) input: PathBuf,
     /// The body as an OpenSim model (.osim); required for coordinates [default for markers and skeletons: the built-in body].
     #[arg(long, value_name = "FILE")]

@@ -48,7 +48,7 @@ pub(crate) struct SimulateArgs {
   ambulo info demo/input/walk.c3d
 
 Reads recordings (.c3d), markers (.trc), skeletons (.bvh), models (.osim), tables (.mot, .sto, .csv) and external loads (.xml). Lists the
-content (rates, markers and their gaps, marker set, force plates, events, subject), problems, and a command to try next.")]
+content (rates, markers and their gaps, marker set, poses of segments, force plates, events, subject), problems, and a command to try next.")]
 pub(crate) struct InfoArgs {
     /// The file.
     pub(crate) file: PathBuf,

@@ -1,8 +1,8 @@
 //! Number of points, samples and frames in the data. Header, parameters and size of the file may disagree.
 
+use super::Storage;
 use super::header::{BLOCK, Header};
 use super::parameters::Parameters;
-use super::{Storage, rotations};
 use crate::error::{Error, Remark};
 
 /// Largest number of 16 bits.
@@ -58,6 +58,12 @@ impl Layout {
     }
 }
 
+/// First byte of the section of rotations; `None` if the file has none.
+pub(super) fn rotation_offset(parameters: &Parameters) -> Option<usize> {
+    parameters.count("ROTATION", "USED").filter(|&used| used > 0)?;
+    parameters.count("ROTATION", "DATA_START")?.checked_sub(1).map(|block| block.saturating_mul(BLOCK))
+}
+
 /// Decides on the content of the file.
 pub(super) fn decide(
     header: &Header,
@@ -81,7 +87,7 @@ pub(super) fn decide(
         point_rate_hz,
     };
     // Rotations have a section of their own, usually behind that of the points.
-    let end = rotations::data_offset(parameters).filter(|&start| start > data_offset).unwrap_or(file.size);
+    let end = rotation_offset(parameters).filter(|&start| start > data_offset).unwrap_or(file.size);
     let room = end.min(file.size).saturating_sub(data_offset);
     let question = Question { header, parameters, scales: &scales, frames: &frame_claims, room };
     choose_frame(&mut layout, &question, remarks);

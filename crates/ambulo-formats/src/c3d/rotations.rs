@@ -15,7 +15,7 @@
 //! Pinned by: tests/c3d_rotations.rs
 
 use super::header::{BLOCK, Header};
-use super::layout::{Extent, Layout, stated_frames};
+use super::layout::{Extent, Layout, rotation_offset, stated_frames};
 use super::parameters::{Parameter, Parameters};
 use super::words::Words;
 use crate::error::Remark;
@@ -62,12 +62,6 @@ fn is_finite(matrix: &[[f64; 4]; 4]) -> bool {
     matrix.as_flattened().iter().all(|value| value.is_finite())
 }
 
-/// First byte of the section; `None` if the file has none.
-pub(super) fn data_offset(parameters: &Parameters) -> Option<usize> {
-    parameters.count("ROTATION", "USED").filter(|&used| used > 0)?;
-    parameters.count("ROTATION", "DATA_START")?.checked_sub(1).map(|block| block.saturating_mul(BLOCK))
-}
-
 /// The poses of a file, and their samples per frame.
 #[derive(Debug, Default)]
 pub(super) struct Section {
@@ -88,7 +82,7 @@ pub(super) fn read(
     if used == 0 {
         return Section::default();
     }
-    let Some(start) = data_offset(parameters).filter(|&start| start >= 2 * BLOCK && start < file.size) else {
+    let Some(start) = rotation_offset(parameters).filter(|&start| start >= 2 * BLOCK && start < file.size) else {
         let found = parameters.get("ROTATION", "DATA_START").map_or("missing".into(), Parameter::to_string);
         let message = format!(
             "ROTATION:USED is {used}, but ROTATION:DATA_START is {found}, which is no block of the file; the rotations were not read"

@@ -3,11 +3,19 @@
 use super::events::{EventPlace, minutes_and_seconds};
 use super::parameters::{Parameter, Parameters, Values, numbered_name};
 use super::section_write::LARGEST;
-use super::write::DataBlocks;
 use super::{C3d, Channel, Event, Storage};
 
 /// Largest number of a header word.
 const WORD: i64 = 65535;
+
+/// The blocks where the data begin.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct DataBlocks {
+    /// Points and analog samples.
+    pub(super) points: u16,
+    /// Rotations; beyond the points.
+    pub(super) rotations: u16,
+}
 
 /// The record's parameters, updated from its other fields.
 pub(super) fn parameters(record: &C3d, blocks: DataBlocks) -> Parameters {

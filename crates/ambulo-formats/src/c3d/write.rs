@@ -22,8 +22,8 @@ pub(super) fn write(record: &C3d) -> Result<Vec<u8>, Error> {
     check(record)?;
     let processor = record.encoding.processor;
     // The length of the section does not depend on the numbers of the blocks.
-    let length = section_write::write(&stated::parameters(record, DataBlocks::default()), processor)?.len();
-    let blocks = DataBlocks::after(usize::from(PARAMETER_BLOCK) + length / BLOCK, record)?;
+    let length = section_write::write(&stated::parameters(record, stated::DataBlocks::default()), processor)?.len();
+    let blocks = data_blocks(usize::from(PARAMETER_BLOCK) + length / BLOCK, record)?;
     let data_block = blocks.points;
     let section = section_write::write(&stated::parameters(record, blocks), processor)?;
     let mut bytes = header(record, data_block)?;
@@ -37,31 +37,20 @@ pub(super) fn write(record: &C3d) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-/// The blocks where the data begin.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct DataBlocks {
-    /// Points and analog samples.
-    pub(super) points: u16,
-    /// Rotations; beyond the points.
-    pub(super) rotations: u16,
-}
-
-impl DataBlocks {
-    /// The blocks of a record whose parameters end before the block `first`.
-    fn after(first: usize, record: &C3d) -> Result<DataBlocks, Error> {
-        let width = match record.encoding.storage {
-            Storage::Integer => 2,
-            Storage::Real => 4,
-        };
-        let values = 4 * record.points.len() + record.channels.len() * record.samples_per_frame();
-        let of_points = (record.frames() * values * width).div_ceil(BLOCK);
-        let rotations = if record.rotations.is_empty() { 0 } else { first + of_points };
-        let block = |block: usize| {
-            let expected = "data that begin in the first 65535 blocks of 512 bytes";
-            u16::try_from(block).map_err(|_| invalid(format!("data that begin in block {block}"), expected))
-        };
-        Ok(DataBlocks { points: block(first)?, rotations: block(rotations)? })
-    }
+/// The blocks of a record whose parameters end before the block `first`.
+fn data_blocks(first: usize, record: &C3d) -> Result<stated::DataBlocks, Error> {
+    let width = match record.encoding.storage {
+        Storage::Integer => 2,
+        Storage::Real => 4,
+    };
+    let values = 4 * record.points.len() + record.channels.len() * record.samples_per_frame();
+    let of_points = (record.frames() * values * width).div_ceil(BLOCK);
+    let rotations = if record.rotations.is_empty() { 0 } else { first + of_points };
+    let block = |block: usize| {
+        let expected = "data that begin in the first 65535 blocks of 512 bytes";
+        u16::try_from(block).map_err(|_| invalid(format!("data that begin in block {block}"), expected))
+    };
+    Ok(stated::DataBlocks { points: block(first)?, rotations: block(rotations)? })
 }
 
 fn header(record: &C3d, data_block: u16) -> Result<Vec<u8>, Error> {

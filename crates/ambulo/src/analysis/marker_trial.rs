@@ -13,11 +13,13 @@ use crate::kinematics::calibration::{
     self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
 };
 use crate::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, fit_own_markers};
+use crate::kinematics::pose_fit::{PoseRecording, PosedBody, body_of_poses, fit_poses};
+use crate::kinematics::retarget::JointCentreError;
 use crate::kinematics::scaling::{ScalingError, SizeSettings, SizedModel, fit_size};
 use crate::model::marker_set::{MarkerSet, RecognisedMarkers, RecognitionError};
 use crate::model::{Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
-use crate::motion::{Event, ForceRecording, MarkerRecording, Motion};
+use crate::motion::{Event, ForceRecording, MarkerRecording, Motion, SegmentPoses};
 use crate::motion::{Laboratory, laboratory};
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
@@ -25,8 +27,10 @@ use std::collections::BTreeMap;
 /// The markers and force plates of one laboratory file, in the laboratory's axes.
 #[derive(Debug, Clone)]
 pub struct LaboratoryRecording {
-    /// Markers [m].
+    /// Markers, or the points of `poses` [m].
     pub markers: MarkerRecording,
+    /// Poses of segments, if the file has them instead of markers.
+    pub poses: Option<SegmentPoses>,
     /// Force plates.
     pub plates: Vec<PlateRecording>,
     /// The unit of length as the file states it.
@@ -39,7 +43,8 @@ impl LaboratoryRecording {
     pub fn in_world(&self, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
         let axes = laboratory(&self.markers, &self.plates, &self.unit, findings);
         let plates = self.plates.iter().map(|plate| axes.plate(plate)).collect();
-        let turned = LaboratoryRecording { markers: axes.markers(&self.markers), plates, unit: self.unit.clone() };
+        let (markers, poses) = (axes.markers(&self.markers), self.poses.as_ref().map(|poses| axes.poses(poses)));
+        let turned = LaboratoryRecording { markers, poses, plates, unit: self.unit.clone() };
         (axes, turned)
     }
 }
@@ -114,6 +119,17 @@ pub enum MarkerTrialError {
     /// A given model could not be scaled.
     #[error(transparent)]
     Scaling(#[from] ScalingError),
+    /// The poses of the segments give no body.
+    #[error(transparent)]
+    Poses(#[from] JointCentreError),
+    /// Poses of segments for a model that has other segments.
+    #[error(
+        "the recording has poses of segments, which drive the built-in body; the model `{model}` has segments of its own and needs markers. hint: leave the model out"
+    )]
+    PosesForModel {
+        /// Name of the model.
+        model: String,
+    },
     /// The coordinates could not be fitted.
     #[error(transparent)]
     Fit(#[from] FitError),
@@ -154,9 +170,13 @@ pub(crate) fn fit_body_to_markers(
     progress: &mut Progress<'_>,
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let MarkerTrial { trial, standing, body, plate_feet } = trial;
-    let (axes, LaboratoryRecording { markers, plates, .. }) = trial.in_world(findings);
+    let (axes, LaboratoryRecording { markers, poses, plates, .. }) = trial.in_world(findings);
     let markers = trimmed_to_visible(markers, findings);
     progress.end(Stage::Axes)?;
+    if let Some(poses) = poses {
+        let trial = PosedTrial { axes, plates, poses: during(&poses, &markers), points: markers };
+        return trial.followed(body, plate_feet, settings, findings, progress);
+    }
     let standing = standing.map(|standing| standing.in_world(findings).1.markers);
     let subject = match body {
         BodySource::Model { model, mass } => Subject::of_model(model, *mass, standing.as_ref(), findings)?,
@@ -173,10 +193,76 @@ pub(crate) fn fit_body_to_markers(
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
-    let feet = foot_motion(&followed, findings);
-    let on_plates = feet_on_plates(&followed, &plates, &feet, plate_feet, findings);
-    progress.end(Stage::Feet)?;
-    Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
+    let on_floor = OnFloor { axes, plates, points: &followed, plate_feet };
+    on_floor.body_in_motion(subject, fit, findings, progress)
+}
+
+/// The laboratory around a body whose motion is known.
+struct OnFloor<'a> {
+    axes: Laboratory,
+    plates: Vec<PlateRecording>,
+    /// Markers, or points of poses.
+    points: &'a MarkerRecording,
+    plate_feet: &'a [(usize, Side)],
+}
+
+impl OnFloor<'_> {
+    /// The body with the contacts of its feet.
+    fn body_in_motion(
+        self,
+        subject: Subject,
+        fit: MarkerFit,
+        findings: &mut Findings,
+        progress: &mut Progress<'_>,
+    ) -> Result<BodyInMotion, MarkerTrialError> {
+        let OnFloor { axes, plates, points, plate_feet } = self;
+        let feet = foot_motion(points, findings);
+        let on_plates = feet_on_plates(points, &plates, &feet, plate_feet, findings);
+        progress.end(Stage::Feet)?;
+        Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
+    }
+}
+
+/// A trial whose segments have measured poses, in world axes.
+struct PosedTrial {
+    axes: Laboratory,
+    plates: Vec<PlateRecording>,
+    poses: SegmentPoses,
+    points: MarkerRecording,
+}
+
+impl PosedTrial {
+    /// The body that the poses drive. A standing trial is not needed: the poses give the lengths.
+    fn followed(
+        self,
+        body: &BodySource<'_>,
+        plate_feet: &[(usize, Side)],
+        settings: &FitSettings,
+        findings: &mut Findings,
+        progress: &mut Progress<'_>,
+    ) -> Result<BodyInMotion, MarkerTrialError> {
+        let PosedTrial { axes, plates, poses, points } = self;
+        let subject = match body {
+            BodySource::Model { model, .. } => {
+                return Err(MarkerTrialError::PosesForModel { model: model.name().to_owned() });
+            }
+            BodySource::Calibrated(subject) => (*subject).clone(),
+            BodySource::BuiltIn { person, .. } => Subject::of_poses(&poses, &points, person, findings)?,
+        };
+        progress.end(Stage::Body)?;
+        let recording = PoseRecording { poses: &poses, points: &points, longest_gap_s: settings.longest_gap_s };
+        let mut fit = fit_poses(&subject.model, &recording, findings);
+        use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
+        progress.end(Stage::Markers)?;
+        let on_floor = OnFloor { axes, plates, points: &points, plate_feet };
+        on_floor.body_in_motion(subject, fit, findings, progress)
+    }
+}
+
+/// The poses in the frames of the points.
+fn during(poses: &SegmentPoses, points: &MarkerRecording) -> SegmentPoses {
+    let first = points.times.first().copied().unwrap_or(f64::INFINITY);
+    poses.cut(poses.times.partition_point(|time| *time < first), points.frames())
 }
 
 /// Gives coordinates that no marker determines, such as those of toes, the default value of the model.
@@ -283,6 +369,25 @@ impl Subject {
             scaled,
             scaling_rms_m,
             sets: Vec::new(),
+        })
+    }
+
+    /// The built-in body of a person whose segments have measured poses.
+    fn of_poses(
+        poses: &SegmentPoses,
+        points: &MarkerRecording,
+        person: &calibration::PersonMeasurements,
+        findings: &mut Findings,
+    ) -> Result<Subject, MarkerTrialError> {
+        let PosedBody { human, .. } = body_of_poses(poses, points, person, findings)?;
+        Ok(Subject {
+            person: Person::of_human(&human),
+            weights: BTreeMap::new(),
+            calibration: None,
+            scaled: Vec::new(),
+            scaling_rms_m: None,
+            sets: vec!["segment poses".to_owned()],
+            model: human.model,
         })
     }
 

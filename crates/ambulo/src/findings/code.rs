@@ -126,6 +126,25 @@ codes! {
     BvhLowTrust "bvh.low_trust" Warning
         "A skeleton file has no mass, no unit and mostly filtered motion: forces are estimates for comparison only."
         "Use markers or joint coordinates where forces matter.";
+    // Poses of segments.
+    PosesUsed "poses.used" Note
+        "The file holds poses of body segments, as markerless motion capture computes them; they drive the body, and markers of the file are not used."
+        "Nothing to do.";
+    PosesOdd "poses.odd" Warning
+        "Poses of segments are no rotations, or belong to no segment of a person; they were not used."
+        "Check the export of the file.";
+    PosesAssumed "poses.assumed" Note
+        "What the poses of the segments do not tell about the body was assumed."
+        "Give the stature; check that the floor is at height zero.";
+    PosesLengths "poses.lengths" Note
+        "Lengths between the joint centres of the poses differ from those of a usual body."
+        "Check the unit of length and the stature.";
+    PosesGap "poses.gap" Warning
+        "Poses of a segment are missing for longer than is bridged; its coordinates have no value there."
+        "Choose a time range without the gap.";
+    PosesBridged "poses.bridged" Note
+        "Missing poses of a segment were bridged by a smooth curve."
+        "Nothing to do for short gaps.";
     // The laboratory's axes and units.
     LaboratoryAxes "laboratory.axes" Note
         "States which axes of the laboratory are up and forward."

@@ -13,10 +13,10 @@
 //! Not handled: pelves that lean sideways by 90 degrees.
 //! Pinned by: tests/clinical_angles.rs
 
+use super::calibration::angles_zxy;
 use super::{Trajectory, each_body_motion};
 use crate::model::anatomy::PelvicFrame;
 use crate::model::{BySide, Model, Side};
-use crate::spatial::Mat3;
 use std::f64::consts::TAU;
 
 /// Angles of pelvis and hips, one entry per frame.
@@ -77,11 +77,6 @@ pub fn clinical_angles(model: &Model, trajectory: &Trajectory, frame: &PelvicFra
     });
     unwrap_turns(&mut angles.pelvic_rotation);
     Some(angles)
-}
-
-/// Angles [rad] about z, then x, then y that make a rotation: R = R_z R_x R_y.
-pub(crate) fn angles_zxy(r: &Mat3) -> [f64; 3] {
-    [(-r.m12).atan2(r.m22), r.m32.clamp(-1.0, 1.0).asin(), (-r.m31).atan2(r.m33)]
 }
 
 /// Makes an angle continuous where it passes a half turn.

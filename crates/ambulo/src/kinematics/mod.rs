@@ -11,14 +11,16 @@ mod body_motion;
 mod clinical_angles;
 pub(crate) mod lanes;
 mod sin_cos;
+pub(crate) mod skeleton_body;
 pub(crate) mod sweep;
 
 pub mod calibration;
 pub mod marker_fit;
+pub mod pose_fit;
 pub mod retarget;
 pub mod scaling;
 
 pub use body_motion::{BodyMotion, body_motion, each_body_motion};
-pub(crate) use clinical_angles::angles_zxy;
+pub(crate) use calibration::angles_zxy;
 pub use clinical_angles::{ClinicalAngles, HipAngles, clinical_angles};
 pub use trajectory::{Posture, Trajectory, TrajectoryError};

@@ -1,28 +1,20 @@
 //! Transfers the motion of a skeleton (animation file) to the built-in body.
 //!
-//! The body gets the segment lengths of the skeleton: in a segment scaled by f, the mass centre and the radii of gyration are scaled
-//! by f; masses are those of the table. The joint centres of the recording, and points next to them, become markers of that body
-//! for [`fit_markers`]. The floor is placed so that the ankles are at the height of the body's ankles during stance: at the
+//! The body gets the segment lengths of the skeleton ([`body_of_joint_centres`]), and its motion by [`fit_markers`]. The floor is placed so that the ankles are at the height of the body's ankles during stance: at the
 //! [`STANDING`] quantile of their height.
 //!
 //! Not handled: uneven floors, shoulders that move relative to the trunk, hands.
 //! Pinned by: tests/retarget.rs
 
 use super::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
+pub use super::skeleton_body::{JointCentreError, STANDING};
+use super::skeleton_body::{body_of_joint_centres, standing_ankle_height};
 use crate::findings::{Code, Findings};
-use crate::model::anthropometry::{Build, BuildError, Dimensions, Human};
-use crate::model::full_body::{SegmentShape, SolePlacement, SubjectShape, full_body, reshaped};
-use crate::model::{BodyId, Marker, Side};
-use crate::motion::skeleton::{POINT_DISTANCE_M, SkeletonRecording};
-use crate::motion::{MarkerPath, MarkerRecording};
-use crate::numerics::median;
-use crate::spatial::{Mat3, Pose, Vec3};
-
-/// Quantile of the ankle height that corresponds to a flat foot: stance is 60 % of a cycle, and the foot is flat, with the lowest
-/// ankle, in about half of it.
-pub const STANDING: f64 = 0.1;
-/// Relative difference of a segment length from the table above which it is reported.
-const REPORTED: f64 = 0.15;
+use crate::model::Side;
+use crate::model::anthropometry::{Build, Human};
+use crate::model::full_body::{SolePlacement, full_body};
+use crate::motion::MarkerRecording;
+use crate::motion::skeleton::SkeletonRecording;
 
 /// Result of [`retarget`].
 #[derive(Debug, Clone)]
@@ -39,20 +31,12 @@ pub struct Retargeted {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RetargetError {
-    /// The body cannot be built.
+    /// The body cannot be built from the joint centres.
     #[error(transparent)]
-    Body(#[from] BuildError),
+    Body(#[from] JointCentreError),
     /// The marker fit failed.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// Two joints that are never recorded together.
-    #[error("`{a}` and `{b}` are seen together in no frame of the skeleton's motion; expected at least one")]
-    Unseen {
-        /// The first point.
-        a: String,
-        /// The second point.
-        b: String,
-    },
 }
 
 /// Transfers the motion of a skeleton to a body of this build.
@@ -64,12 +48,10 @@ pub fn retarget(
     skeleton: &SkeletonRecording,
     findings: &mut Findings,
 ) -> Result<Retargeted, RetargetError> {
-    let table = full_body(build)?;
-    let measured = Measured { markers: &skeleton.markers };
-    let lengths = Lengths::measure(&measured, &table)?;
-    lengths.report_differences(&table, findings);
-    let human = lengths.body(&measured, &table)?;
-    let floor = floor(&measured, table.dimensions.ankle_height);
+    let table = full_body(build).map_err(JointCentreError::from)?;
+    let feet = [SolePlacement::of(&table.dimensions); 2];
+    let human = body_of_joint_centres(&table, &skeleton.markers, feet, (Code::BvhLengths, findings))?;
+    let floor = floor(&skeleton.markers, table.dimensions.ankle_height);
     let markers = raised(&skeleton.markers, -floor);
     if floor.is_finite() {
         let message = format!(
@@ -94,262 +76,6 @@ fn raised(markers: &MarkerRecording, by: f64) -> MarkerRecording {
 }
 
 /// Height of the floor in the axes of the recording [m]; NaN if no ankle was recorded.
-fn floor(measured: &Measured<'_>, ankle_height: f64) -> f64 {
-    let ankles = Side::BOTH.map(|side| measured.path(&sided("ankle", side)));
-    let heights = ankles.into_iter().flatten().flatten().map(|place| place.y).filter(|y| y.is_finite());
-    let mut heights: Vec<f64> = heights.collect();
-    heights.sort_by(f64::total_cmp);
-    let lowest = heights.get((STANDING * heights.len() as f64) as usize);
-    lowest.map_or(f64::NAN, |lowest| lowest - ankle_height)
-}
-
-/// Lengths measured in the recording.
-struct Measured<'m> {
-    markers: &'m MarkerRecording,
-}
-
-impl Measured<'_> {
-    fn path(&self, name: &str) -> Option<&[Vec3]> {
-        self.markers.marker(name).map(|MarkerPath { positions, .. }| positions.as_slice())
-    }
-
-    /// Median distance of two points [m]; `None` if one is missing or they are never recorded together.
-    fn distance(&self, a: &str, b: &str) -> Option<f64> {
-        let pairs = self.path(a)?.iter().zip(self.path(b)?);
-        median(pairs.map(|(a, b)| (a - b).norm()))
-    }
-
-    fn needed(&self, a: &str, b: &str) -> Result<f64, RetargetError> {
-        let unseen = || RetargetError::Unseen { a: a.to_owned(), b: b.to_owned() };
-        self.distance(a, b).filter(|distance| *distance > 0.0).ok_or_else(unseen)
-    }
-
-    /// Median distance between the middles of two pairs of points [m].
-    fn between_middles(&self, a: &str, b: &str) -> Option<f64> {
-        let [ar, al, br, bl] = [(a, Side::Right), (a, Side::Left), (b, Side::Right), (b, Side::Left)]
-            .map(|(n, s)| self.path(&sided(n, s)));
-        let lists = ar?.iter().zip(al?).zip(br?.iter().zip(bl?));
-        median(lists.map(|((ar, al), (br, bl))| ((ar + al) - (br + bl)).norm() / 2.0))
-    }
-
-    /// Median position of a point in the axes of the foot: forward, up, right of the ankle [m].
-    fn in_foot(&self, point: &str, side: Side) -> Option<Vec3> {
-        let ways = |name: &str| {
-            let ankle = self.path(&sided("ankle", side))?;
-            Some(self.path(&sided(name, side))?.iter().zip(ankle).map(|(p, ankle)| p - ankle).collect::<Vec<Vec3>>())
-        };
-        let (front, right, way) = (ways("foot_front")?, ways("foot_side")?, ways(point)?);
-        let local = |frame: usize| {
-            let (x, z) = (front[frame] / POINT_DISTANCE_M, right[frame] / POINT_DISTANCE_M);
-            Mat3::from_columns(&[x, z.cross(&x), z]).transpose() * way[frame]
-        };
-        let places: Vec<Vec3> = (0..way.len()).map(local).collect();
-        let component = |axis: usize| median(places.iter().map(|place| place[axis]));
-        Some(Vec3::new(component(0)?, component(1)?, component(2)?))
-    }
-}
-
-fn sided(name: &str, side: Side) -> String {
-    format!("{name}_{}", side.letter())
-}
-
-/// Segment lengths of a skeleton, right and left [m]; missing ones are from the table.
-struct Lengths {
-    hip_width: f64,
-    shoulder_height: f64,
-    shoulder_width: f64,
-    thigh: [f64; 2],
-    shank: [f64; 2],
-    upper_arm: [f64; 2],
-    forearm: [f64; 2],
-}
-
-impl Lengths {
-    fn measure(measured: &Measured<'_>, table: &Human) -> Result<Lengths, RetargetError> {
-        let d = &table.dimensions;
-        let both = |a: &str, b: &str| -> Result<[f64; 2], RetargetError> {
-            let [right, left] = Side::BOTH.map(|side| measured.needed(&sided(a, side), &sided(b, side)));
-            Ok([right?, left?])
-        };
-        let either = |a: &str, b: &str, other: f64| {
-            Side::BOTH
-                .map(|side| measured.distance(&sided(a, side), &sided(b, side)).filter(|l| *l > 0.0).unwrap_or(other))
-        };
-        let or = |length: Option<f64>, other: f64| length.filter(|length| *length > 0.0).unwrap_or(other);
-        Ok(Lengths {
-            hip_width: measured.needed("hip_r", "hip_l")?,
-            shoulder_height: or(measured.between_middles("hip", "shoulder"), d.shoulder_height),
-            shoulder_width: or(measured.distance("shoulder_r", "shoulder_l"), d.shoulder_width),
-            thigh: both("hip", "knee")?,
-            shank: both("knee", "ankle")?,
-            upper_arm: either("shoulder", "elbow", d.upper_arm),
-            forearm: either("elbow", "wrist", d.forearm),
-        })
-    }
-
-    /// Reports lengths that differ from the table.
-    fn report_differences(&self, table: &Human, findings: &mut Findings) {
-        let d = &table.dimensions;
-        let mean = |pair: [f64; 2]| (pair[0] + pair[1]) / 2.0;
-        let rows = [
-            ("hip width", self.hip_width, d.hip_width),
-            ("hips to shoulders", self.shoulder_height, d.shoulder_height),
-            ("shoulder width", self.shoulder_width, d.shoulder_width),
-            ("thigh", mean(self.thigh), d.thigh),
-            ("shank", mean(self.shank), d.shank),
-            ("upper arm", mean(self.upper_arm), d.upper_arm),
-            ("forearm", mean(self.forearm), d.forearm),
-        ];
-        let unlike: Vec<String> = rows
-            .iter()
-            .filter(|(_, found, usual)| (found / usual - 1.0).abs() > REPORTED)
-            .map(|(name, found, usual)| format!("{name} {found:.3} m instead of {usual:.3} m"))
-            .collect();
-        if !unlike.is_empty() {
-            findings.report(
-                Code::BvhLengths,
-                format!("segment lengths of the skeleton differ from a typical body: {}", unlike.join(", ")),
-            );
-        }
-    }
-
-    /// The dimensions of the table with these lengths, as the mean of both sides.
-    fn dimensions(&self, table: Dimensions) -> Dimensions {
-        let [thigh, shank, upper_arm, forearm] =
-            [self.thigh, self.shank, self.upper_arm, self.forearm].map(|pair| (pair[0] + pair[1]) / 2.0);
-        Dimensions {
-            leg_length: thigh + shank + table.ankle_height,
-            thigh,
-            shank,
-            hip_width: self.hip_width,
-            shoulder_width: self.shoulder_width,
-            shoulder_height: self.shoulder_height,
-            lumbar_height: table.lumbar_height.map(|lumbar| lumbar * self.shoulder_height / table.shoulder_height),
-            upper_arm,
-            forearm,
-            ..table
-        }
-    }
-
-    /// The body of the table with these lengths.
-    fn body(&self, measured: &Measured<'_>, table: &Human) -> Result<Human, RetargetError> {
-        let mut fitting = Fitting { table, shapes: SegmentShape::of(table), markers: Vec::new() };
-        fitting.trunk(self);
-        for (k, side) in Side::BOTH.into_iter().enumerate() {
-            fitting.leg(self, side, k);
-            fitting.foot(measured, side);
-            fitting.arm(self, side, k);
-        }
-        let Fitting { shapes, markers, .. } = fitting;
-        let dimensions = self.dimensions(table.dimensions);
-        let feet = [SolePlacement::of(&table.dimensions); 2];
-        Ok(reshaped(table, &SubjectShape { segments: shapes, markers, feet, dimensions, locked: Vec::new() })?)
-    }
-}
-
-/// A body under construction: segment shapes and markers.
-struct Fitting<'t> {
-    table: &'t Human,
-    shapes: Vec<SegmentShape>,
-    markers: Vec<Marker>,
-}
-
-impl Fitting<'_> {
-    fn body(&self, name: &str) -> Option<BodyId> {
-        self.table.model.body(name)
-    }
-
-    /// Scales a segment and places its joint in the parent.
-    fn shape(&mut self, name: &str, factor: f64, place: Vec3) {
-        if let Some(body) = self.body(name) {
-            let shape = &mut self.shapes[body.index()];
-            shape.factor = factor;
-            shape.parent_from_joint = Pose::at(place);
-        }
-    }
-
-    fn marker(&mut self, name: String, body: &str, location: Vec3) {
-        let body = self.body(body);
-        self.markers.push(Marker { name, body, location });
-    }
-
-    fn trunk(&mut self, lengths: &Lengths) {
-        let d = &self.table.dimensions;
-        let factor = lengths.shoulder_height / d.shoulder_height;
-        let lumbar = d.lumbar_height.unwrap_or(0.0) * factor;
-        let root = self.table.model.bodies()[0].name.clone();
-        self.shape(&root, factor, Vec3::zeros());
-        if d.lumbar_height.is_some() {
-            self.shape("torso", factor, Vec3::y() * lumbar);
-        }
-        self.marker("pelvis_up".to_owned(), &root, Vec3::y() * POINT_DISTANCE_M);
-        self.marker("pelvis_front".to_owned(), &root, Vec3::x() * POINT_DISTANCE_M);
-        for side in Side::BOTH {
-            self.marker(sided("hip", side), &root, outward(side, lengths.hip_width / 2.0));
-            let shoulder = outward(side, lengths.shoulder_width / 2.0) + Vec3::y() * (lengths.shoulder_height - lumbar);
-            self.marker(sided("shoulder", side), "torso", shoulder);
-        }
-    }
-
-    fn leg(&mut self, lengths: &Lengths, side: Side, k: usize) {
-        let d = &self.table.dimensions;
-        let (thigh, shank) = (lengths.thigh[k], lengths.shank[k]);
-        let [femur, tibia, calcn] = ["femur", "tibia", "calcn"].map(|name| sided(name, side));
-        let (knee, ankle) = (-Vec3::y() * thigh, -Vec3::y() * shank);
-        self.shape(&femur, thigh / d.thigh, outward(side, lengths.hip_width / 2.0));
-        self.shape(&tibia, shank / d.shank, knee);
-        self.shape(&calcn, 1.0, ankle);
-        self.marker(sided("knee", side), &femur, knee);
-        self.marker(sided("thigh_side", side), &femur, knee + Vec3::z() * POINT_DISTANCE_M);
-        self.marker(sided("ankle", side), &tibia, ankle);
-        self.marker(sided("shank_side", side), &tibia, ankle + Vec3::z() * POINT_DISTANCE_M);
-    }
-
-    fn foot(&mut self, measured: &Measured<'_>, side: Side) {
-        let d = &self.table.dimensions;
-        let [calcn, toes] = ["calcn", "toes"].map(|name| sided(name, side));
-        self.marker(sided("foot_front", side), &calcn, Vec3::x() * POINT_DISTANCE_M);
-        self.marker(sided("foot_side", side), &calcn, Vec3::z() * POINT_DISTANCE_M);
-        if let Some(heel) = measured.in_foot("heel", side) {
-            self.marker(sided("heel", side), &calcn, heel);
-        }
-        let tip = measured.in_foot("toe_tip", side);
-        let Some(toe) = measured.in_foot("toe", side).filter(|toe| toe.x > 0.0) else {
-            if let Some(tip) = tip {
-                self.marker(sided("toe_tip", side), &calcn, tip);
-            }
-            return;
-        };
-        // The ball of the foot keeps the height above the sole.
-        let factor = toe.x / d.ankle_to_ball;
-        let joint = Vec3::new(toe.x, d.ball_radius * factor - d.ankle_height, 0.0);
-        if let Some(calcn) = self.body(&calcn) {
-            self.shapes[calcn.index()].factor = factor;
-        }
-        self.marker(sided("toe", side), &calcn, toe);
-        let length = measured.distance(&sided("toe", side), &sided("toe_tip", side)).unwrap_or(0.0);
-        self.shape(&toes, if length > 0.0 { length / d.ball_to_toe } else { factor }, joint);
-        self.marker(sided("toe_front", side), &toes, toe - joint + Vec3::x() * POINT_DISTANCE_M);
-    }
-
-    fn arm(&mut self, lengths: &Lengths, side: Side, k: usize) {
-        let d = &self.table.dimensions;
-        let (upper_arm, forearm) = (lengths.upper_arm[k], lengths.forearm[k]);
-        let lumbar = d.lumbar_height.unwrap_or(0.0) * lengths.shoulder_height / d.shoulder_height;
-        let shoulder = outward(side, lengths.shoulder_width / 2.0) + Vec3::y() * (lengths.shoulder_height - lumbar);
-        let elbow = -Vec3::y() * upper_arm;
-        let [humerus, lower] = ["humerus", "forearm"].map(|name| sided(name, side));
-        self.shape(&humerus, upper_arm / d.upper_arm, shoulder);
-        self.shape(&lower, forearm / d.forearm, elbow);
-        self.marker(sided("elbow", side), &humerus, elbow);
-        self.marker(sided("wrist", side), &lower, -Vec3::y() * forearm);
-    }
-}
-
-/// A lateral distance with the sign of the side [m].
-fn outward(side: Side, distance: f64) -> Vec3 {
-    match side {
-        Side::Right => Vec3::z() * distance,
-        Side::Left => Vec3::z() * -distance,
-    }
+fn floor(markers: &MarkerRecording, ankle_height: f64) -> f64 {
+    standing_ankle_height(markers, &Side::BOTH) - ankle_height
 }

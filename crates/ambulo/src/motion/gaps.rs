@@ -62,6 +62,22 @@ pub(super) fn fill_gaps(
     Ok((0..column.len()).map(|i| if column[i].is_finite() { column[i] } else { spline.value(times[i]) }).collect())
 }
 
+/// Bridges the gaps of up to `longest_s` between known samples by a quintic spline through all of them. Returns which samples were bridged.
+pub(crate) fn bridge_gaps(times: &[f64], column: &mut [f64], longest_s: f64) -> Vec<usize> {
+    let known: Vec<usize> = (0..column.len()).filter(|&i| column[i].is_finite()).collect();
+    let is_short = |pair: &[usize]| pair[1] > pair[0] + 1 && times[pair[1]] - times[pair[0]] <= longest_s;
+    let gaps: Vec<usize> =
+        known.windows(2).filter(|pair| is_short(pair)).flat_map(|pair| pair[0] + 1..pair[1]).collect();
+    if gaps.is_empty() {
+        return gaps;
+    }
+    let Ok(spline) = spline_through("", &pick(times, &known), &pick(column, &known)) else { return Vec::new() };
+    for &i in &gaps {
+        column[i] = spline.value(times[i]);
+    }
+    gaps
+}
+
 fn pick(values: &[f64], indices: &[usize]) -> Vec<f64> {
     indices.iter().map(|&i| values[i]).collect()
 }

@@ -12,6 +12,7 @@
 use super::force_plate::PlateRecording;
 use super::landmarks::Landmarks;
 use super::marker_recording::{MarkerPath, MarkerRecording};
+use super::segment_poses::SegmentPoses;
 use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::numerics::median;
@@ -67,6 +68,12 @@ impl Laboratory {
     #[must_use]
     pub fn markers(&self, recording: &MarkerRecording) -> MarkerRecording {
         recording.rotated(&(self.world_from_lab * self.metres_per_stated_metre))
+    }
+
+    /// Transforms poses of segments to the axes of the world, in metres.
+    #[must_use]
+    pub fn poses(&self, poses: &SegmentPoses) -> SegmentPoses {
+        poses.transformed(&self.world_from_lab, self.metres_per_stated_metre)
     }
 
     /// Transforms a plate to the axes of the world. Its unit was corrected when it was read.

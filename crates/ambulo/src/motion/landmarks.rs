@@ -68,7 +68,7 @@ impl Landmarks {
     /// Finds the landmarks of a recording by the names of its markers.
     #[must_use]
     pub fn find(recording: &MarkerRecording) -> Landmarks {
-        let names: Vec<Name> = recording.markers.iter().map(|m| Name::of(&m.name)).collect();
+        let names: Vec<PlainName> = recording.markers.iter().map(|m| PlainName::of(&m.name)).collect();
         let foot = |side: Side| FootMarkers {
             heel: with_side(&names, side, &HEEL),
             toe: with_side(&names, side, &TOE),
@@ -81,7 +81,7 @@ impl Landmarks {
             _ => SACRUM.iter().find_map(|stem| names.iter().position(|n| n.plain == *stem)).into_iter().collect(),
         };
         let is_head =
-            |n: &Name| HEAD.iter().any(|stem| n.plain == *stem || n.without_side().any(|(_, rest)| rest == *stem));
+            |n: &PlainName| HEAD.iter().any(|stem| n.plain == *stem || n.without_side().any(|(_, rest)| rest == *stem));
         Landmarks {
             right: foot(Side::Right),
             left: foot(Side::Left),
@@ -109,19 +109,24 @@ impl Landmarks {
 }
 
 /// A name in lower case, letters and digits only.
-struct Name {
-    plain: String,
+pub(super) struct PlainName {
+    pub(super) plain: String,
 }
 
-impl Name {
-    fn of(name: &str) -> Name {
+impl PlainName {
+    fn of(name: &str) -> PlainName {
+        PlainName::without_ending(name, "study")
+    }
+
+    /// A name without an ending that says nothing about the place.
+    pub(super) fn without_ending(name: &str, ending: &str) -> PlainName {
         let plain: String = name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect();
-        let plain = plain.strip_suffix("study").unwrap_or(&plain).to_owned();
-        Name { plain }
+        let plain = plain.strip_suffix(ending).unwrap_or(&plain).to_owned();
+        PlainName { plain }
     }
 
     /// Every possible side in the name, with the rest of the name.
-    fn without_side(&self) -> impl Iterator<Item = (Side, &str)> {
+    pub(super) fn without_side(&self) -> impl Iterator<Item = (Side, &str)> {
         let words = [("right", Side::Right), ("left", Side::Left), ("r", Side::Right), ("l", Side::Left)];
         let front = words.into_iter().filter_map(|(word, side)| Some((side, self.plain.strip_prefix(word)?)));
         let back = words.into_iter().filter_map(|(word, side)| Some((side, self.plain.strip_suffix(word)?)));
@@ -129,7 +134,7 @@ impl Name {
     }
 }
 
-fn with_side(names: &[Name], side: Side, stems: &[&str]) -> Option<usize> {
-    let is = |name: &Name, stem: &str| name.without_side().any(|(found, rest)| found == side && rest == stem);
+fn with_side(names: &[PlainName], side: Side, stems: &[&str]) -> Option<usize> {
+    let is = |name: &PlainName, stem: &str| name.without_side().any(|(found, rest)| found == side && rest == stem);
     stems.iter().find_map(|stem| names.iter().position(|name| is(name, stem)))
 }

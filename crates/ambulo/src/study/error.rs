@@ -112,6 +112,8 @@ impl StudyError {
 fn is_about_calibration(error: &MarkerTrialError) -> bool {
     match error {
         MarkerTrialError::Calibration(CalibrationError::Build(_))
+        | MarkerTrialError::Poses(_)
+        | MarkerTrialError::PosesForModel { .. }
         | MarkerTrialError::Fit(_)
         | MarkerTrialError::Stopped(_) => false,
         MarkerTrialError::Names(_) | MarkerTrialError::Calibration(_) | MarkerTrialError::Scaling(_) => true,

@@ -4,7 +4,8 @@ use crate::analysis::LaboratoryRecording;
 use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
-    Event, MarkerError, SubjectParameters, events_from_c3d, markers_from_c3d, markers_from_trc, subject_from_c3d,
+    Event, MarkerError, RecordedMotion, RecordedMotionError, SubjectParameters, events_from_c3d, markers_from_trc,
+    motion_from_c3d, subject_from_c3d,
 };
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::trc::Trc;
@@ -28,9 +29,12 @@ pub enum LaboratoryFileError {
     /// The format.
     #[error(transparent)]
     Format(#[from] Error),
-    /// The markers.
+    /// The markers of a TRC.
     #[error(transparent)]
     Markers(#[from] MarkerError),
+    /// The markers or poses of a C3D.
+    #[error(transparent)]
+    Motion(#[from] RecordedMotionError),
     /// The force plates.
     #[error(transparent)]
     Plates(#[from] PlateError),
@@ -63,13 +67,15 @@ impl LaboratoryFile {
         Ok(LaboratoryFile { recording, events: events_from_c3d(&c3d, findings), subject: subject_from_c3d(&c3d) })
     }
 
-    /// Markers and force plates of a C3D.
+    /// Markers, or poses of segments, and force plates of a C3D.
     ///
     /// # Errors
     /// Markers or plates that cannot be used.
     pub fn recording_of_c3d(c3d: &C3d, findings: &mut Findings) -> Result<LaboratoryRecording, LaboratoryFileError> {
+        let RecordedMotion { markers, poses } = motion_from_c3d(c3d, findings)?;
         Ok(LaboratoryRecording {
-            markers: markers_from_c3d(c3d, findings)?,
+            markers,
+            poses,
             plates: plates_from_c3d(c3d, PlateSettings::default(), findings)?,
             unit: c3d.point_unit.clone(),
         })
@@ -90,7 +96,12 @@ impl LaboratoryFile {
         let mut markers = markers_from_trc(&trc, findings)?;
         markers.name = label.to_owned();
         Ok(LaboratoryFile {
-            recording: LaboratoryRecording { markers, plates: Vec::new(), unit: trc.unit.symbol().to_owned() },
+            recording: LaboratoryRecording {
+                markers,
+                poses: None,
+                plates: Vec::new(),
+                unit: trc.unit.symbol().to_owned(),
+            },
             events: Vec::new(),
             subject: SubjectParameters::default(),
         })

@@ -120,6 +120,7 @@ fn forces_of(model: &Model, forces: &TableForces) -> Vec<ForceRecording> {
 fn recording(file: &File) -> LaboratoryRecording {
     let mut findings = Findings::default();
     LaboratoryRecording {
+        poses: None,
         markers: markers_from_c3d(&file.c3d, &mut findings).unwrap(),
         plates: plates_from_c3d(&file.c3d, PlateSettings::default(), &mut findings).unwrap_or_default(),
         unit: file.c3d.point_unit.clone(),
@@ -156,7 +157,7 @@ fn opensim(data: &Path) -> Vec<Recorded> {
     let trc = |folder: &str, file: &str| {
         let trc = Trc::read(&std::fs::read(data.join(folder).join(file)).unwrap()).unwrap().0;
         let markers = markers_from_trc(&trc, &mut Findings::default()).unwrap();
-        LaboratoryRecording { markers, plates: Vec::new(), unit: trc.unit.symbol().to_owned() }
+        LaboratoryRecording { markers, poses: None, plates: Vec::new(), unit: trc.unit.symbol().to_owned() }
     };
     let read = |file: String, prefixes: [&'static str; 2]| {
         let (table, _) = Table::read_storage(&std::fs::read(data.join(file)).unwrap()).unwrap();

@@ -99,6 +99,8 @@ pub(crate) fn record(plates: &[File]) -> C3d {
         points: points.map(|(i, p)| Point::new(&format!("M{i}"), vec![*p; frames])).collect(),
         analog_rate_hz: RATE_HZ,
         channels,
+        rotation_rate_hz: 0.0,
+        rotations: Vec::new(),
         events: Vec::new(),
         parameters: Parameters { groups: vec![group("FORCE_PLATFORM", parameters)] },
     }

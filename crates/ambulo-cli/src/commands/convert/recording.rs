@@ -8,7 +8,8 @@ use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::feet_on_plates;
 use ambulo::motion::{
-    MarkerRecording, PlateRecording, PlateSettings, laboratory, markers_from_c3d, markers_from_trc, plates_from_c3d,
+    MarkerRecording, PlateRecording, PlateSettings, RecordedMotion, laboratory, markers_from_trc, motion_from_c3d,
+    plates_from_c3d,
 };
 use ambulo::study::LaboratoryFile;
 use ambulo_formats::c3d::C3d;
@@ -45,8 +46,9 @@ fn from_c3d(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {
             Ok(Converted { files: vec![(args.output.clone(), table.write_csv())], findings })
         }
         _ => {
-            let markers = markers_from_c3d(&c3d, &mut findings)?;
-            let other = c3d.points.len().saturating_sub(markers.markers.len());
+            let RecordedMotion { markers, poses } = motion_from_c3d(&c3d, &mut findings)?;
+            let own = if poses.is_some() { 0 } else { markers.markers.len() };
+            let other = c3d.points.len().saturating_sub(own);
             let channels = counted(c3d.channels.len(), "analog channel");
             report_lost(&mut findings, &others(&c3d, &[counted(other, "other point"), channels]));
             let plates =

@@ -6,10 +6,10 @@ use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::{ContactQuality, PlateContact, feet_on_plates};
 use ambulo::motion::{
-    Laboratory, MarkerRecording, PlateRecording, PlateSettings, SubjectParameters, laboratory, markers_from_c3d,
-    plates_from_c3d, subject_from_c3d,
+    Laboratory, MarkerRecording, PlateRecording, PlateSettings, RecordedMotion, SegmentPoses, SubjectParameters,
+    laboratory, motion_from_c3d, plates_from_c3d, subject_from_c3d,
 };
-use ambulo_formats::c3d::{C3d, Channel, Encoding, Processor, Storage};
+use ambulo_formats::c3d::{C3d, Channel, Encoding, Processor, Rotation, Storage};
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -39,15 +39,20 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     sheet.value("analog_rate_hz", (!c3d.channels.is_empty()).then_some(c3d.analog_rate_hz));
     sheet.text("unit", if c3d.point_unit.is_empty() { "not stated" } else { &c3d.point_unit });
     let mut findings = Findings::default();
-    let recording = markers_from_c3d(&c3d, &mut findings);
-    let set = match &recording {
-        Ok(recording) => markers::add_markers(&mut sheet, recording),
+    let recorded = motion_from_c3d(&c3d, &mut findings);
+    let known = match &recorded {
+        Ok(RecordedMotion { markers, poses: None }) => markers::add_markers(&mut sheet, markers).is_some(),
+        Ok(RecordedMotion { poses: Some(_), .. }) => true,
         Err(error) => {
             sheet.entry("markers", Value::Null, vec![format!("none: {error}")]);
-            None
+            false
         }
     };
-    add_points(&mut sheet, &c3d, recording.as_ref().map_or(0, |recording| recording.markers.len()));
+    add_poses(&mut sheet, &c3d, recorded.as_ref().ok().and_then(|recorded| recorded.poses.as_ref()));
+    let of_poses = recorded.as_ref().is_ok_and(|recorded| recorded.poses.is_some());
+    let recording = recorded.map(|recorded| recorded.markers);
+    let markers = recording.as_ref().map_or(0, |recording| if of_poses { 0 } else { recording.markers.len() });
+    add_points(&mut sheet, &c3d, markers);
     add_channels(&mut sheet, &c3d.channels);
     let plates = plates_from_c3d(&c3d, PlateSettings::default(), &mut findings);
     match &plates {
@@ -66,7 +71,9 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     sheet.remarks(&remarks);
     sheet.findings(&findings);
     if let Ok(recording) = &recording {
-        sheet.next(next(path, recording, set.is_some(), &subject, &plates));
+        let next =
+            if of_poses { next_of_poses(path, &subject) } else { next(path, recording, known, &subject, &plates) };
+        sheet.next(next);
     }
     Ok(sheet)
 }
@@ -84,6 +91,31 @@ fn next(
     let ground = (!stands && !plates.iter().any(|plate| plate.peak_n() > 0.0)).then_some("--no-ground");
     let options: Vec<&str> = [mass, height, ground].into_iter().flatten().collect();
     markers::next(path, recording, known, &options.join(" "))
+}
+
+/// The command for poses of segments, which need no standing trial.
+fn next_of_poses(path: &Path, subject: &SubjectParameters) -> String {
+    let mass = subject.mass_kg.is_none().then_some(" --mass KG");
+    let height = subject.height_m.is_none().then_some(" --height M");
+    format!("ambulo forces {}{}{} -o out", path.display(), mass.unwrap_or_default(), height.unwrap_or_default())
+}
+
+/// Adds the poses of segments: their labels, the segments that drive the body, and the frames in which they are seen.
+fn add_poses(sheet: &mut Sheet, c3d: &C3d, poses: Option<&SegmentPoses>) {
+    if c3d.rotations.is_empty() {
+        return;
+    }
+    let samples = c3d.frames() * c3d.rotations_per_frame();
+    let seen = |rotation: &Rotation| (0..samples).filter(|&sample| rotation.is_seen(sample)).count();
+    let values = c3d.rotations.iter().map(|rotation| json!({ "label": rotation.name, "samples_seen": seen(rotation) }));
+    let mut lines = vec![format!("{} at {} Hz", c3d.rotations.len(), short(c3d.rotation_rate_hz))];
+    let fewest = c3d.rotations.iter().map(seen).min().unwrap_or(0);
+    lines[0] += &format!(", each seen in at least {fewest} of {samples} samples");
+    lines.extend(wrapped(&c3d.rotations.iter().map(|rotation| rotation.name.as_str()).collect::<Vec<_>>()));
+    sheet.entry("segment_poses", values.collect::<Vec<_>>(), lines);
+    if let Some(poses) = poses {
+        sheet.text("segment_axes", &poses.statement);
+    }
 }
 
 fn encoding(encoding: &Encoding) -> String {

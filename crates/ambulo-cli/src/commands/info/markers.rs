@@ -90,7 +90,8 @@ pub(super) fn add_markers(sheet: &mut Sheet, recording: &MarkerRecording) -> Opt
     }
 }
 
-fn add_gaps(sheet: &mut Sheet, recording: &MarkerRecording) {
+/// Adds the gaps of markers.
+pub(super) fn add_gaps(sheet: &mut Sheet, recording: &MarkerRecording) {
     let gaps: Vec<Gaps> = recording.markers.iter().filter_map(|marker| Gaps::of(marker, recording.rate_hz)).collect();
     let lines: Vec<String> = gaps.iter().map(|gap| gap.line(recording.frames())).collect();
     let values = gaps.iter().map(|gap| {

@@ -1,6 +1,5 @@
 //! Rotations from directions, and points in frames.
 
-pub(super) use crate::kinematics::angles_zxy;
 use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
 
@@ -69,6 +68,11 @@ pub(super) fn about_y(angle: f64) -> Mat3 {
 pub(super) fn about_z(angle: f64) -> Mat3 {
     let (s, c) = angle.sin_cos();
     Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
+}
+
+/// Angles [rad] about z, x and y of a rotation R = R_z R_x R_y.
+pub(crate) fn angles_zxy(r: &Mat3) -> [f64; 3] {
+    [(-r.m12).atan2(r.m22), r.m32.clamp(-1.0, 1.0).asin(), (-r.m31).atan2(r.m33)]
 }
 
 /// Median of some points, coordinate by coordinate [m].

@@ -294,11 +294,14 @@ fn length(part: String, lengths: impl Iterator<Item = f64>) -> Result<f64, Calib
     Err(CalibrationError::Length { part, found_m, least_m, most_m, hint })
 }
 
-/// Stature [m] from thighs and shanks by their shares in the segment table.
-pub(super) fn stature(legs: &Legs, table: SegmentTable, assumptions: &mut Vec<String>) -> Result<f64, BuildError> {
+/// Stature [m] from the lengths of legs, thigh and shank together, by their share in the segment table.
+pub(in crate::kinematics) fn stature(
+    lengths: impl Iterator<Item = f64>,
+    table: SegmentTable,
+    assumptions: &mut Vec<String>,
+) -> Result<f64, BuildError> {
     let (mass, height) = (70.0, 1.75);
     let d = Build { table, mass, height, toe_joint: true }.human()?.dimensions;
-    let lengths = legs.values().flatten().map(|leg| leg.thigh + leg.shank);
     let found = height * median(lengths).unwrap_or(f64::NAN) / (d.thigh + d.shank);
     assumptions.push(format!("the stature is not given; it is estimated as {found:.2} m from thighs and shanks"));
     Ok(found)

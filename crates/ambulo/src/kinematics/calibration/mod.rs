@@ -41,7 +41,9 @@ mod report;
 mod trunk;
 mod upright;
 
+pub(crate) use axes::angles_zxy;
 pub use error::CalibrationError;
+pub(in crate::kinematics) use legs::stature;
 pub use person::{BodyMeasurements, PersonMeasurements};
 pub use reference::Trial;
 pub use report::{CalibrationReport, MarkerPlacement, SegmentScale};
@@ -117,7 +119,10 @@ pub fn calibrate(
     let legs = legs::find(&trajectories, &frames, &pelvis, person, &mut assumptions)?;
     let height = match person.height {
         Some(height) => height,
-        None => legs::stature(&legs, person.table, &mut assumptions)?,
+        None => {
+            let lengths = legs.values().flatten().map(|leg| leg.thigh + leg.shank);
+            stature(lengths, person.table, &mut assumptions)?
+        }
     };
     let build = Build { table: person.table, mass: person.mass, height, toe_joint: true };
     let generic = full_body(&build)?;

@@ -38,6 +38,7 @@ use crate::spatial::Mat3;
 use ambulo_formats::bvh::Bvh;
 use axes::Axes;
 use body_joints::BodyJoints;
+pub(crate) use points::HEEL_SHARE;
 use points::points;
 use poses::Skeleton;
 use unit::Unit;

@@ -7,7 +7,7 @@ use crate::model::Side;
 use crate::spatial::{Pose, Vec3};
 
 /// Distance heel to ankle / ankle to tip of the toes: 25 % and 75 % of the foot, as in [`crate::model::anthropometry`].
-const HEEL_SHARE: f64 = 1.0 / 3.0;
+pub(crate) const HEEL_SHARE: f64 = 1.0 / 3.0;
 
 /// A point that moves with the skeleton.
 pub(super) struct Point {

@@ -1,0 +1,57 @@
+//! What a C3D file recorded of the motion: markers, or poses of segments.
+
+use super::marker_recording::{MarkerError, MarkerRecording, markers_from_c3d};
+use super::segment_poses::{SegmentPoseError, SegmentPoses, segment_poses_from_c3d};
+use crate::findings::{Code, Findings};
+use ambulo_formats::c3d::C3d;
+
+/// The motion in a C3D file, in the axes of the laboratory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedMotion {
+    /// Markers; of poses, their joint centres and the points next to them.
+    pub markers: MarkerRecording,
+    /// Poses of segments, if the file has those of pelvis and legs.
+    pub poses: Option<SegmentPoses>,
+}
+
+/// Why a C3D file shows no motion.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecordedMotionError {
+    /// Markers that cannot be used.
+    #[error(transparent)]
+    Markers(#[from] MarkerError),
+    /// Poses that cannot be used, in a file without markers.
+    #[error(transparent)]
+    Poses(#[from] SegmentPoseError),
+}
+
+/// Reads the motion of a C3D file. Poses of pelvis and legs are preferred to markers.
+///
+/// # Errors
+/// Neither markers nor poses that can be used.
+pub fn motion_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<RecordedMotion, RecordedMotionError> {
+    if c3d.rotations.is_empty() {
+        return Ok(RecordedMotion { markers: markers_from_c3d(c3d, findings)?, poses: None });
+    }
+    match segment_poses_from_c3d(c3d, findings) {
+        Ok(poses) => {
+            let markers = poses.points("");
+            let others = match markers_from_c3d(c3d, &mut Findings::default()) {
+                Ok(own) => format!("; {} markers of the file were not used", own.markers.len()),
+                Err(_) => String::new(),
+            };
+            let (segments, statement) = (poses.segments.len(), &poses.statement);
+            let message = format!("poses of {segments} segments drive the body ({statement}){others}");
+            findings.report(Code::PosesUsed, message);
+            Ok(RecordedMotion { markers, poses: Some(poses) })
+        }
+        Err(error) => match markers_from_c3d(c3d, findings) {
+            Ok(markers) => {
+                findings.report(Code::PosesOdd, format!("{error}; the markers were used"));
+                Ok(RecordedMotion { markers, poses: None })
+            }
+            Err(_) => Err(error.into()),
+        },
+    }
+}
