@@ -78,6 +78,27 @@ fn empty_cells_are_gaps() {
 }
 
 #[test]
+fn empty_columns_without_an_axis_are_skipped() {
+    // An empty column before each marker, in the line of axes and in the rows.
+    let text = WALK.replace("X1\tY1\tZ1\tX2", "\tX1\tY1\tZ1\t\tX2");
+    let text = text.replace("12.5\t30", "\t12.5\t30").replace("13.5\t31", "\t13.5\t31");
+    let text = text.replace("\t190.25", "\t\t190.25").replace("\t191.25", "\t\t191.25");
+    assert!(text.contains("\tX1") && text.contains("\t\t191.25"), "{text}");
+    assert_is_walk(&text);
+    // A number in such a column is no gap.
+    let odd = text.replace("\t\t191.25", "\t7\t191.25");
+    let error = Trc::read(odd.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("line 8: found 10 cells; expected 8"), "{error}");
+}
+
+#[test]
+fn words_above_frames_and_times_and_units_vary() {
+    assert_is_walk(&WALK.replace("Time", "Times"));
+    assert_is_walk(&WALK.replace("Frame#\tTime", "Frame\tTime (s)"));
+    assert_is_walk(&WALK.replace("\tmm\t", "\tMillimeters\t"));
+}
+
+#[test]
 fn a_partly_empty_position_is_a_gap_and_remarked() {
     let (trc, remarks) = read(&WALK.replace("13.5\t31\t-4.25", "13.5\t\t-4.25"));
     assert!(trc.markers()[0].positions_m[1].iter().all(|value| value.is_nan()));

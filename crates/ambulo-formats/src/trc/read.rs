@@ -5,20 +5,24 @@ use crate::error::{Error, Remark, quoted};
 use crate::table::lines::{Line, Lines, counted, duplicate, expected_number, number};
 
 const FIRST_WORD: &str = "PathFileType";
+/// Words above the column of frame numbers, without regard to case.
+const FRAME_WORDS: [&str; 5] = ["Frame#", "Frame", "Frames", "Frame #", "#"];
+/// Words above the column of times, without regard to case.
+const TIME_WORDS: [&str; 6] = ["Time", "Times", "Time(s)", "Time (s)", "Time[s]", "Time [s]"];
 
 pub(super) fn read(bytes: &[u8]) -> Result<(Trc, Vec<Remark>), Error> {
     let mut lines = Lines::new(bytes, "a TRC file, which begins with `PathFileType`")?;
     let name = read_path_line(&mut lines)?;
     let header = read_header(&mut lines)?;
     let mut remarks = Vec::new();
-    let names = read_names(&mut lines, header.markers, &mut remarks)?;
+    let (names, places) = read_names(&mut lines, header.markers, &mut remarks)?;
     let room = room(bytes, header.frames, names.len());
     let marker = |name| Marker { name, positions_m: Vec::with_capacity(room) };
     let markers = names.into_iter().map(marker).collect();
     let Header { rate_hz, unit, orig_start_frame, .. } = header;
     let (frames, times) = (Vec::with_capacity(room), Vec::with_capacity(room));
     let mut trc = Trc { name, rate_hz, unit, orig_start_frame, frames, times, markers, lines: vec![] };
-    let oddities = read_frames(&mut lines, &mut trc, header.frames)?;
+    let oddities = read_frames(&mut lines, &mut trc, &places, header.frames)?;
     remarks.extend(oddities.remarks());
     if let Some(stated) = header.frames.filter(|&stated| stated != trc.times.len()) {
         remarks.push(Remark { line: None, message: frame_count_message(stated, trc.times.len(), &lines) });
@@ -100,9 +104,15 @@ fn pair<'l>(keys: &'l Line<'_>, values: &'l Line<'_>) -> Result<Vec<(&'l str, &'
 }
 
 fn read_unit(line: &Line<'_>, symbol: &str) -> Result<LengthUnit, Error> {
+    let word = symbol.to_lowercase();
+    let is_named = |unit: &LengthUnit| match unit {
+        LengthUnit::Millimetre => ["millimeter", "millimeters", "millimetre", "millimetres"].contains(&word.as_str()),
+        LengthUnit::Centimetre => ["centimeter", "centimeters", "centimetre", "centimetres"].contains(&word.as_str()),
+        LengthUnit::Metre => ["meter", "meters", "metre", "metres"].contains(&word.as_str()),
+    };
     LengthUnit::ALL
         .into_iter()
-        .find(|unit| unit.symbol().eq_ignore_ascii_case(symbol))
+        .find(|unit| unit.symbol() == word || is_named(unit))
         .ok_or_else(|| line.error(format!("Units {}", quoted(symbol)), "`mm`, `cm` or `m`"))
 }
 
@@ -119,11 +129,16 @@ fn integer(text: &str) -> Option<i64> {
 }
 
 /// The line of marker names and the line of X1 Y1 Z1 below it.
-fn read_names(lines: &mut Lines<'_>, stated: Option<usize>, remarks: &mut Vec<Remark>) -> Result<Vec<String>, Error> {
+fn read_names(
+    lines: &mut Lines<'_>,
+    stated: Option<usize>,
+    remarks: &mut Vec<Remark>,
+) -> Result<(Vec<String>, Vec<usize>), Error> {
     let line = lines.next_filled()?.ok_or_else(|| lines.truncated("a line `Frame#`, `Time` and marker names"))?;
     let mut words = words(&line.text);
     let is = |word: Option<&&str>, wanted: &str| word.is_some_and(|w| w.eq_ignore_ascii_case(wanted));
-    if !(is(words.first(), "Frame#") || is(words.first(), "Frame")) || !is(words.get(1), "Time") {
+    let is_one_of = |word: Option<&&str>, wanted: &[&str]| wanted.iter().any(|wanted| is(word, wanted));
+    if !is_one_of(words.first(), &FRAME_WORDS) || !is_one_of(words.get(1), &TIME_WORDS) {
         return Err(line.error(quoted(&line.text), "`Frame#`, `Time`, then marker names"));
     }
     let names: Vec<String> = words.drain(2..).map(str::to_owned).collect();
@@ -133,12 +148,12 @@ fn read_names(lines: &mut Lines<'_>, stated: Option<usize>, remarks: &mut Vec<Re
     if let Some(twice) = duplicate(names.iter().map(String::as_str)) {
         return Err(line.error(format!("two markers {}", quoted(twice)), "marker names that differ"));
     }
-    check_axes(lines, names.len())?;
+    let places = read_axes(lines, names.len())?;
     if let Some(stated) = stated.filter(|&stated| stated != names.len()) {
         let message = format!("NumMarkers states {stated}, the file names {}; read {0}", names.len());
         remarks.push(Remark { line: Some(line.number), message });
     }
-    Ok(names)
+    Ok((names, places))
 }
 
 /// Non-empty cells separated by tabs, which may contain spaces; words if there is no tab.
@@ -149,7 +164,8 @@ fn words(text: &str) -> Vec<&str> {
     text.split_whitespace().collect()
 }
 
-fn check_axes(lines: &mut Lines<'_>, markers: usize) -> Result<(), Error> {
+/// Checks the line X1 Y1 Z1; returns the places of its cells, if it is separated by tabs.
+fn read_axes(lines: &mut Lines<'_>, markers: usize) -> Result<Vec<usize>, Error> {
     let line = lines.next_filled()?.ok_or_else(|| lines.truncated("a line X1 Y1 Z1 X2 ..."))?;
     let axes: Vec<&str> = line.text.split_whitespace().collect();
     let expected = || format!("X, Y, Z for each of {}", counted(markers, "named marker"));
@@ -160,7 +176,12 @@ fn check_axes(lines: &mut Lines<'_>, markers: usize) -> Result<(), Error> {
         .iter()
         .zip(["x", "y", "z"].iter().cycle())
         .find(|(word, axis)| !word.get(..1).is_some_and(|letter| letter.eq_ignore_ascii_case(axis)));
-    odd.map_or(Ok(()), |(word, _)| Err(line.error(quoted(word), expected())))
+    if let Some((word, _)) = odd {
+        return Err(line.error(quoted(word), expected()));
+    }
+    let filled = |(place, cell): (usize, &str)| (!cell.trim().is_empty()).then_some(place);
+    let places: Vec<usize> = line.text.split('\t').enumerate().filter_map(filled).collect();
+    Ok(if places.len() == 3 * markers { places } else { Vec::new() })
 }
 
 /// Unusual values in the frames, counted for remarks.
@@ -198,11 +219,16 @@ impl Oddities {
     }
 }
 
-fn read_frames(lines: &mut Lines<'_>, trc: &mut Trc, stated: Option<usize>) -> Result<Oddities, Error> {
+fn read_frames(
+    lines: &mut Lines<'_>,
+    trc: &mut Trc,
+    places: &[usize],
+    stated: Option<usize>,
+) -> Result<Oddities, Error> {
     let mut oddities = Oddities::default();
     let width = 2 + 3 * trc.markers.len();
     while let Some(line) = lines.next_filled()? {
-        let cells = cells(&line, width);
+        let cells = cells(&line, width, places);
         let read = cells.and_then(|cells| read_frame(&line, &cells, trc, &mut oddities));
         if let Err(error) = read {
             let may_miss = stated.is_none_or(|stated| trc.lines.len() < stated);
@@ -225,14 +251,21 @@ fn is_cut(line: &Line<'_>, width: usize, ended: bool) -> bool {
     count < width || (count == width && !ended && last_is_broken())
 }
 
-/// The cells of one row, which may be empty if they are separated by tabs. Tabs after the last column are ignored.
-fn cells<'l>(line: &'l Line<'_>, width: usize) -> Result<Vec<&'l str>, Error> {
+/// The cells of one row, which may be empty if they are separated by tabs. Tabs after the last column are ignored, and so are empty cells
+/// in columns that have no axis above them; `places` are the columns that have one.
+fn cells<'l>(line: &'l Line<'_>, width: usize, places: &[usize]) -> Result<Vec<&'l str>, Error> {
     let mut cells: Vec<&str> = match line.text.contains('\t') {
         true => line.text.split('\t').map(str::trim).collect(),
         false => line.text.split_ascii_whitespace().collect(),
     };
     while cells.len() > width && cells.last().is_some_and(|cell| cell.is_empty()) {
         cells.pop();
+    }
+    let has_places = places.first().is_some_and(|first| *first >= 2);
+    let is_surplus = |place: &usize| *place > 1 && !places.contains(place);
+    if has_places && cells.len() > width && (0..cells.len()).filter(is_surplus).all(|place| cells[place].is_empty()) {
+        cells = (0..cells.len()).filter(|place| !is_surplus(place)).map(|place| cells[place]).collect();
+        cells.resize(width, "");
     }
     if cells.len() != width {
         let expected = format!("{width}: frame, time and three per marker, separated by tabs, gaps empty");
