@@ -314,7 +314,7 @@ fn a_truncated_skeleton_and_options_without_effect_are_rejected() {
 #[test]
 fn other_files_are_rejected_by_their_extension() {
     let bench = laboratory("names");
-    let kinds = "expected .c3d or .trc (markers)";
+    let kinds = "expected .c3d, .trc or .csv (markers)";
     forces(&bench, "-", &[]).refused(&["-: standard input is not read", kinds]);
     forces(&bench, ".", &[]).refused(&["this is a folder", kinds]);
     forces(&bench, "walk", &[]).refused(&["walk: its name has no extension", kinds]);
@@ -358,4 +358,36 @@ fn a_carried_mass_is_added_to_the_built_in_body_too() {
     }
     let run = forces(&bench, "walk.c3d", &[&STILL[..], &["--add-mass", "rucksack:5"]].concat());
     run.refused(&["--add-mass: the model has no body `rucksack`; expected one of", "torso"]);
+}
+
+#[test]
+fn a_template_of_the_markers_gives_the_results_of_the_known_names() {
+    let bench = laboratory("marker_template");
+    let edit = |c3d: &mut C3d| {
+        for point in &mut c3d.points {
+            point.name = format!("P7_{}x", point.name);
+        }
+    };
+    edit_c3d(&bench, "walk.c3d", "own.c3d", edit);
+    edit_c3d(&bench, "standing.c3d", "own-standing.c3d", edit);
+    forces(&bench, "own.c3d", &["--static", "own-standing.c3d"]).refused(&["no marker set fits"]);
+    let run = bench.run(&["info", "own-standing.c3d", "--markers", "mine.toml"]).done();
+    assert!(run.stdout.contains("proposed by position"), "{}", run.stdout);
+    bench.run(&["info", "own-standing.c3d", "--markers", "mine.toml"]).refused(&["mine.toml", "already exists"]);
+    bench.run(&["info", "walk.bvh", "--markers", "other.toml"]).refused(&["walk.bvh", "--markers is for markers"]);
+    let run = bench.run(&["forces", "own.c3d", "--static", "own-standing.c3d", "--markers", "mine.toml", "-o", "own"]);
+    assert!(run.stdout.contains("measured"), "{} {}", run.stdout, run.stderr);
+}
+
+#[test]
+fn markers_in_a_table_and_without_a_unit_give_the_results_of_the_recording() {
+    let bench = laboratory("marker_table");
+    bench.run(&["convert", "walk.c3d", "walk.csv"]).done();
+    let run = bench.run(&["info", "walk.csv"]).done();
+    assert!(run.stdout.contains("plug-in-gait"), "{}", run.stdout);
+    let size = ["--mass", "75", "--height", "1.75", "--static", "standing.c3d"];
+    forces(&bench, "walk.csv", &size)
+        .warned(&["states no unit of length; by the size of the markers lengths are in m"]);
+    edit_c3d(&bench, "walk.c3d", "unitless.c3d", |c3d| c3d.point_unit = String::new());
+    forces(&bench, "unitless.c3d", &STILL).warned(&["POINT:UNITS is ``", "lengths are in mm"]);
 }

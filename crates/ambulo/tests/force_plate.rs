@@ -344,8 +344,18 @@ fn type_4_without_a_matrix_is_assumed_calibrated_and_reported() {
 }
 
 #[test]
-fn lengths_without_unit_are_an_error_that_names_the_parameter() {
+fn the_size_of_a_plate_tells_an_unknown_unit() {
     let mut file = type_2().record();
+    file.point_unit = "furlong".to_owned();
+    let mut findings = Findings::default();
+    let plates = plates_from_c3d(&file, PlateSettings::default(), &mut findings).unwrap();
+    assert!(((plates[0].corners[0] - plates[0].corners[1]).norm() - 0.4).abs() < 1e-6);
+    assert!(findings.has(Code::FileUnitGuessed));
+}
+
+#[test]
+fn lengths_of_no_plate_in_any_unit_are_an_error_that_names_the_parameter() {
+    let mut file = File { corners_mm: CORNERS_MM.map(|corner| corner.map(|x| 1e4 * x)), ..type_2() }.record();
     file.point_unit = "furlong".to_owned();
     let error = plates_from_c3d(&file, PlateSettings::default(), &mut Findings::default()).unwrap_err();
     assert!(error.to_string().contains("POINT:UNITS is `furlong`"), "{error}");

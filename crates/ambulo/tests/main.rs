@@ -73,6 +73,7 @@ mod marker_fit_invented;
 mod marker_gaps;
 mod marker_misplaced;
 mod marker_outliers;
+mod marker_proposal;
 mod marker_recording;
 mod marker_sets;
 mod marker_smoothing;

@@ -1,9 +1,12 @@
 //! Recorded markers: units, gaps, axes.
 
 use ambulo::findings::{Code, Findings};
-use ambulo::motion::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
+use ambulo::motion::{
+    MarkerError, MarkerPath, MarkerRecording, is_marker_table, markers_from_c3d, markers_from_table, markers_from_trc,
+};
 use ambulo::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Group, Parameter, Point, Values};
+use ambulo_formats::table::Table;
 use ambulo_formats::trc::{Marker, Trc};
 
 fn trc(markers: &[(&str, [[f64; 3]; 2])]) -> Trc {
@@ -145,4 +148,60 @@ fn ends_without_markers_are_removed_and_gaps_inside_are_kept() {
     assert_eq!(seen.trimmed_to_visible().times, seen.times);
     let nothing = MarkerRecording { markers: vec![path("never", 0..0, 0)], ..recording };
     assert_eq!(nothing.trimmed_to_visible().frames(), 20);
+}
+
+/// Markers of a person of 1.7 m, in a unit of `per_metre` per metre.
+fn standing_c3d(per_metre: f64) -> C3d {
+    let mut file = c3d(&["LASI", "RASI", "RHEE", "LFHD"]);
+    let frames = file.frames();
+    for (point, height) in file.points.iter_mut().zip([1.0, 1.0, 0.05, 1.7]) {
+        point.positions = vec![[0.1 * per_metre, 0.2 * per_metre, height * per_metre]; frames];
+    }
+    file
+}
+
+#[test]
+fn the_size_of_the_person_tells_an_unknown_unit() {
+    for (per_metre, name) in [(1000.0, "mm"), (100.0, "cm"), (1.0, "m")] {
+        for unit in ["", "deg", "VICON"] {
+            let mut file = standing_c3d(per_metre);
+            file.point_unit = unit.to_owned();
+            let mut findings = Findings::default();
+            let markers = markers_from_c3d(&file, &mut findings).unwrap();
+            assert!((markers.marker("LFHD").unwrap().positions[0].z - 1.7).abs() < 1e-6, "{name} {unit}");
+            let expected = format!(
+                "POINT:UNITS is `{unit}`, which is no unit of length; by the size of the markers lengths are in {name}"
+            );
+            assert!(findings.as_slice().iter().any(|finding| finding.message == expected), "{:?}", findings.as_slice());
+        }
+    }
+    // A stated unit is not guessed, and a size of no person is refused.
+    let mut file = standing_c3d(20.0);
+    assert!(markers_from_c3d(&file, &mut Findings::default()).is_ok());
+    file.point_unit = String::new();
+    let error = markers_from_c3d(&file, &mut Findings::default()).unwrap_err().to_string();
+    assert!(error.contains("their size is that of no person in mm, cm or m"), "{error}");
+}
+
+#[test]
+fn a_table_with_three_columns_per_marker_is_a_recording() {
+    for separator in ["_", ".", " ", ":", ""] {
+        let mut columns = vec![("time".to_owned(), vec![0.0, 0.01])];
+        for (name, height) in [("LASI", 1000.0), ("RASI", 1000.0), ("RHEE", 50.0), ("LFHD", 1700.0)] {
+            for (axis, value) in [("X", 100.0), ("Y", height), ("Z", 7.0)] {
+                columns.push((format!("{name}{separator}{axis}"), vec![value, value + 1.0]));
+            }
+        }
+        let table = Table::new("walk", columns).unwrap();
+        assert!(is_marker_table(&table), "{separator}");
+        let mut findings = Findings::default();
+        let markers = markers_from_table(&table, "walk.csv", &mut findings).unwrap();
+        assert_eq!(markers.markers.len(), 4);
+        assert!((markers.marker("LFHD").unwrap().positions[1].y - 1.701).abs() < 1e-9);
+        assert!((markers.rate_hz - 100.0).abs() < 1e-9 && findings.has(Code::FileUnitGuessed));
+    }
+    let coordinates =
+        ["time", "pelvis_tx", "pelvis_ty", "pelvis_tz", "ground_force_vx", "ground_force_vy", "ground_force_vz"];
+    let columns = coordinates.map(|name| (name.to_owned(), vec![0.0, 0.1])).to_vec();
+    assert!(!is_marker_table(&Table::new("coordinates", columns).unwrap()));
 }

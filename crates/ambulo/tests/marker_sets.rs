@@ -190,3 +190,110 @@ fn the_page_lists_every_finding_of_a_calibration() {
     assert_eq!(codes, listed);
     assert!(codes.len() >= 3);
 }
+
+/// The landmark of a recorded name.
+fn landmark(recognised: &RecognisedMarkers, name: &str) -> Option<(Option<Landmark>, Option<Side>)> {
+    let marker = recognised.markers.iter().find(|marker| marker.name == name)?;
+    Some((marker.definition.landmark, marker.definition.side))
+}
+
+#[test]
+fn names_of_other_laboratories_mean_what_they_say() {
+    use Landmark as L;
+    let right = Some(Side::Right);
+    let cases: [(&str, &str, &[(&str, L)]); 8] = [
+        // OpenCap's laboratory names, as in keenon/nimblephysics data/grf/OpenCapUnfiltered.
+        (
+            "opencap",
+            "r.ASIS L.ASIS r.PSIS L.PSIS r_knee L_knee r_mknee L_mknee r_ankle L_ankle r_mankle L_mankle r_calc L_calc r_toe L_toe \
+             r_5meta L_5meta r_sh1 r_sh2 L_sh1 r_thigh1 L_thigh1 C7 R_Shoulder L_Shoulder",
+            &[
+                ("r_knee", L::LateralEpicondyle),
+                ("r_mankle", L::MedialMalleolus),
+                ("r_calc", L::Heel),
+                ("r_5meta", L::FifthMetatarsal),
+            ],
+        ),
+        (
+            "cmu",
+            "LFWT RFWT LBWT RBWT LTHI RTHI LKNE RKNE LSHN RSHN LANK RANK LHEE RHEE LTOE RTOE LMT5 RMT5 C7 T10 CLAV STRN",
+            &[("RFWT", L::Asis), ("RBWT", L::Psis), ("RKNE", L::LateralEpicondyle), ("RMT5", L::FifthMetatarsal)],
+        ),
+        (
+            "cast",
+            "C7 RA LA L5 RPSIS LPSIS RASIS LASIS RGT LGT RLE LLE RME LME RHF LHF RTT LTT RLM LLM RMM LMM RCA LCA RVMH LVMH RIMH LIMH RIIT LIIT",
+            &[
+                ("RA", L::Acromion),
+                ("RVMH", L::FifthMetatarsal),
+                ("RIMH", L::FirstMetatarsal),
+                ("RIIT", L::SecondToe),
+                ("RCA", L::Heel),
+            ],
+        ),
+        (
+            "rajagopal",
+            "RASI LASI RPSI LPSI RLFC RMFC LLFC LMFC RLMAL RMMAL LLMAL LMMAL RCAL LCAL RMT1 RMT2 LMT1 LMT2 RTH1 RTB1",
+            &[("RMT1", L::FirstMetatarsal), ("RMT2", L::SecondToe), ("RCAL", L::Heel)],
+        ),
+        (
+            "plug-in-gait",
+            "LASI RASI LPSI RPSI LTHI LKNE LTHAP LTHAD LTIB LANK LTIAP LTIAD LHEE LSMH LFMH LVMH RTHI RKNE RTIB RANK RHEE RSMH RFMH RVMH",
+            &[("RSMH", L::SecondToe), ("RFMH", L::FirstMetatarsal), ("RVMH", L::FifthMetatarsal)],
+        ),
+        (
+            "human-body-model",
+            "LASIS RASIS LPSIS RPSIS LGTRO RGTRO LLEK RLEK LMEK RMEK LATI RATI LLM RLM LMM RMM LHEE RHEE LTOE RTOE LMT5 RMT5 XYPH NAVE SACR",
+            &[("RLEK", L::LateralEpicondyle), ("RMEK", L::MedialEpicondyle), ("RLM", L::LateralMalleolus)],
+        ),
+        (
+            "gait2392",
+            "asis_R asis_L psis_R psis_L Knee.Lat_R Knee.Lat_L Knee.Med_R Ankle.Lat_R Ankle.Lat_L Heel_R Heel_L Toe.Tip_R Toe.Tip_L",
+            &[("Knee.Lat_R", L::LateralEpicondyle), ("Heel_R", L::Heel), ("Toe.Tip_R", L::Hallux)],
+        ),
+        (
+            "words",
+            "front-waist-right front-waist-left back-waist-right back-waist-left Lateral-Knee-Right Lateral-Knee-Left Medial-Knee-Right \
+             lateral-malleolus-right lateral-malleolus-left Calcaneus-right Calcaneus-left first-metatarsal-head-right 5th-met-right",
+            &[
+                ("front-waist-right", L::Asis),
+                ("Lateral-Knee-Right", L::LateralEpicondyle),
+                ("Medial-Knee-Right", L::MedialEpicondyle),
+                ("Calcaneus-right", L::Heel),
+                ("5th-met-right", L::FifthMetatarsal),
+            ],
+        ),
+    ];
+    for (set, names, meanings) in cases {
+        let found = recognised(names);
+        assert_eq!(found.sets[0], set, "{names}: {:?}", found.sets);
+        for (name, meaning) in meanings {
+            assert_eq!(landmark(&found, name), Some((Some(*meaning), right)), "{name} in {names}");
+        }
+        assert!(found.unknown.len() <= 1, "{set}: {:?}", found.unknown);
+    }
+    let bts = MarkerSet::recognise([
+        "c7", "r should", "l should", "sacrum", "r asis", "l asis", "r bar 1", "r knee 1", "r mall", "l met",
+    ]);
+    let bts = bts.unwrap();
+    assert_eq!(bts.sets, ["bts"]);
+    assert_eq!(landmark(&bts, "r mall"), Some((Some(L::LateralMalleolus), right)));
+}
+
+#[test]
+fn a_prefix_of_the_subject_does_not_hide_the_names() {
+    let found = recognised("P01_LASI P01_RASI P01_LPSI P01_RPSI P01_LKNE P01_RKNE P01_LANK P01_RANK P01_LHEE P01_RTOE");
+    assert_eq!(found.sets, ["plug-in-gait"]);
+    assert_eq!(found.on(Landmark::Asis, Some(Side::Left)), Some("P01_LASI"));
+    let one_sided = recognised("R_knee R_ankle R_calc R_toe R_mknee R_mankle R_5meta");
+    assert_eq!(one_sided.on(Landmark::Heel, Some(Side::Right)), Some("R_calc"));
+}
+
+#[test]
+fn computed_points_and_bare_sides_have_no_meaning() {
+    let found =
+        recognised("LASI RASI LPSI RPSI LKNE RKNE LANK RANK RHJC LHJC RTIB0 RTIB1 RTIB2 RTIB3 R L CentreOfMass");
+    assert_eq!(found.unknown, ["RHJC", "LHJC", "RTIB0", "RTIB1", "RTIB2", "RTIB3", "R", "L", "CentreOfMass"]);
+    let error =
+        MarkerSet::recognise(["Marker_1", "Marker_2", "Marker_3", "Marker_4", "Marker_5"]).unwrap_err().to_string();
+    assert!(error.contains("at most 0 belong to one set"), "{error}");
+}

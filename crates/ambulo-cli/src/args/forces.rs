@@ -32,7 +32,7 @@ The verdict says whether a person could make this motion (strength, joint ranges
 residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the data
 are bad or the motion is infeasible.")]
 pub(crate) struct ForcesArgs {
-    /// The recording: markers (.c3d, .trc), poses of segments (.c3d), coordinates (.mot, .sto) or a skeleton (.bvh).
+    /// The recording: markers (.c3d, .trc, .csv with three columns per marker), poses of segments (.c3d), coordinates (.mot, .sto) or a skeleton (.bvh).
     pub(crate) input: PathBuf,
     /// The body as an OpenSim model (.osim); required for coordinates [default for markers and skeletons: the built-in body].
     #[arg(long, value_name = "FILE")]

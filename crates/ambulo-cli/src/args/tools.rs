@@ -46,12 +46,18 @@ pub(crate) struct SimulateArgs {
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo info demo/input/walk.c3d
+  ambulo info demo/input/walk.c3d --markers mine.toml
 
 Reads recordings (.c3d), markers (.trc), skeletons (.bvh), models (.osim), tables (.mot, .sto, .csv) and external loads (.xml). Lists the
 content (rates, markers and their gaps, marker set, poses of segments, force plates, events, subject), problems, and a command to try next.")]
 pub(crate) struct InfoArgs {
     /// The file.
     pub(crate) file: PathBuf,
+    /// Write the markers of the file with their meaning as a marker set, for `ambulo forces --markers FILE`: recognised by name, or proposed by where they sit on the body; an existing file is only overwritten with --force.
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) markers: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

@@ -7,8 +7,8 @@ use super::feasibility::Person;
 use super::ground_agreement::PlateCoverage;
 use super::progress::{Progress, Stage, Stopped};
 use crate::findings::{Code, Findings};
-use crate::ground::foot_motion::{FootMotion, foot_motion};
-use crate::ground::plates::{FeetOnPlates, feet_on_plates};
+use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
+use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates};
 use crate::kinematics::calibration::{
     self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
 };
@@ -20,7 +20,7 @@ use crate::model::marker_set::{MarkerSet, RecognisedMarkers, RecognitionError};
 use crate::model::{Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Event, ForceRecording, MarkerRecording, Motion, SegmentPoses};
-use crate::motion::{Laboratory, laboratory};
+use crate::motion::{Laboratory, Landmarks, laboratory_of_landmarks};
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
 
@@ -41,7 +41,13 @@ impl LaboratoryRecording {
     /// Detects the laboratory's axes; returns them with the recording in world axes.
     #[must_use]
     pub fn in_world(&self, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
-        let axes = laboratory(&self.markers, &self.plates, &self.unit, findings);
+        self.in_world_by(None, findings)
+    }
+
+    /// As [`LaboratoryRecording::in_world`], with the landmarks of a marker set.
+    fn in_world_by(&self, set: Option<&MarkerSet>, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
+        let landmarks = Landmarks::named(&self.markers, set);
+        let axes = laboratory_of_landmarks(&self.markers, &landmarks, &self.plates, &self.unit, findings);
         let plates = self.plates.iter().map(|plate| axes.plate(plate)).collect();
         let (markers, poses) = (axes.markers(&self.markers), self.poses.as_ref().map(|poses| axes.poses(poses)));
         let turned = LaboratoryRecording { markers, poses, plates, unit: self.unit.clone() };
@@ -68,6 +74,16 @@ pub enum BodySource<'a> {
     },
     /// A body from an earlier calibration or scaling.
     Calibrated(&'a Subject),
+}
+
+impl<'a> BodySource<'a> {
+    /// The marker set that the caller names.
+    fn marker_set(&self) -> Option<&'a MarkerSet> {
+        match self {
+            BodySource::BuiltIn { set, .. } => *set,
+            BodySource::Model { .. } | BodySource::Calibrated(_) => None,
+        }
+    }
 }
 
 /// A body with the motion that was fitted to markers.
@@ -170,14 +186,15 @@ pub(crate) fn fit_body_to_markers(
     progress: &mut Progress<'_>,
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let MarkerTrial { trial, standing, body, plate_feet } = trial;
-    let (axes, LaboratoryRecording { markers, poses, plates, .. }) = trial.in_world(findings);
+    let set = body.marker_set();
+    let (axes, LaboratoryRecording { markers, poses, plates, .. }) = trial.in_world_by(set, findings);
     let markers = trimmed_to_visible(markers, findings);
     progress.end(Stage::Axes)?;
     if let Some(poses) = poses {
         let trial = PosedTrial { axes, plates, poses: during(&poses, &markers), points: markers };
         return trial.followed(body, plate_feet, settings, findings, progress);
     }
-    let standing = standing.map(|standing| standing.in_world(findings).1.markers);
+    let standing = standing.map(|standing| standing.in_world_by(set, findings).1.markers);
     let subject = match body {
         BodySource::Model { model, mass } => Subject::of_model(model, *mass, standing.as_ref(), findings)?,
         BodySource::Calibrated(subject) => (*subject).clone(),
@@ -193,7 +210,7 @@ pub(crate) fn fit_body_to_markers(
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
-    let on_floor = OnFloor { axes, plates, points: &followed, plate_feet };
+    let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet };
     on_floor.body_in_motion(subject, fit, findings, progress)
 }
 
@@ -203,6 +220,8 @@ struct OnFloor<'a> {
     plates: Vec<PlateRecording>,
     /// Markers, or points of poses.
     points: &'a MarkerRecording,
+    /// The marker set that the caller names.
+    set: Option<&'a MarkerSet>,
     plate_feet: &'a [(usize, Side)],
 }
 
@@ -215,9 +234,11 @@ impl OnFloor<'_> {
         findings: &mut Findings,
         progress: &mut Progress<'_>,
     ) -> Result<BodyInMotion, MarkerTrialError> {
-        let OnFloor { axes, plates, points, plate_feet } = self;
-        let feet = foot_motion(points, findings);
-        let on_plates = feet_on_plates(points, &plates, &feet, plate_feet, findings);
+        let OnFloor { axes, plates, points, set, plate_feet } = self;
+        let landmarks = Landmarks::named(points, set);
+        let feet = foot_motion_of_landmarks(points, &landmarks, findings);
+        let moving = FeetInMotion { markers: points, landmarks, motion: &feet };
+        let on_plates = feet_in_motion_on_plates(&moving, &plates, plate_feet, findings);
         progress.end(Stage::Feet)?;
         Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
     }
@@ -254,7 +275,7 @@ impl PosedTrial {
         let mut fit = fit_poses(&subject.model, &recording, findings);
         use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
         progress.end(Stage::Markers)?;
-        let on_floor = OnFloor { axes, plates, points: &points, plate_feet };
+        let on_floor = OnFloor { axes, plates, points: &points, set: None, plate_feet };
         on_floor.body_in_motion(subject, fit, findings, progress)
     }
 }

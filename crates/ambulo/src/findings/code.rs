@@ -58,6 +58,9 @@ codes! {
     FileOdd "file.odd" Warning
         "A file departs from its format, and was read with the assumption that the message states."
         "Check that the assumption is right, or export the file again.";
+    FileUnitGuessed "file.unit_guessed" Warning
+        "The file states no unit of length; the size of the person or of the force plates told it."
+        "Check the stature in the result, or set the unit in the file.";
     // Recorded coordinates.
     MotionUnitUnstated "motion.unit_unstated" Warning
         "The file does not state whether its angles are in degrees or radians; they were read as radians."

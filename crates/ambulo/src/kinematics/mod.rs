@@ -16,6 +16,7 @@ pub(crate) mod sweep;
 
 pub mod calibration;
 pub mod marker_fit;
+pub mod marker_proposal;
 pub mod pose_fit;
 pub mod retarget;
 pub mod scaling;

@@ -94,12 +94,23 @@ pub fn laboratory(
     unit: &str,
     findings: &mut Findings,
 ) -> Laboratory {
-    let landmarks = Landmarks::find(markers);
-    let up = upward(markers, &landmarks, plates, findings);
+    laboratory_of_landmarks(markers, &Landmarks::find(markers), plates, unit, findings)
+}
+
+/// [`laboratory`] with known landmarks.
+#[must_use]
+pub fn laboratory_of_landmarks(
+    markers: &MarkerRecording,
+    landmarks: &Landmarks,
+    plates: &[PlateRecording],
+    unit: &str,
+    findings: &mut Findings,
+) -> Laboratory {
+    let up = upward(markers, landmarks, plates, findings);
     let scale = scale(markers, up, findings);
-    let travel = travel(markers, &landmarks, plates, up, scale, findings);
+    let travel = travel(markers, landmarks, plates, up, scale, findings);
     let (forward, heading) =
-        forward(travel.map(|travel| travel.direction), facing(markers, &landmarks, up), up, findings);
+        forward(travel.map(|travel| travel.direction), facing(markers, landmarks, up), up, findings);
     let right = forward.cross(&up);
     let way = match heading {
         Heading::Walking => "walking",

@@ -13,6 +13,7 @@
 
 use super::marker_recording::MarkerRecording;
 use crate::model::Side;
+use crate::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers};
 
 const HEEL: [&str; 8] = ["heel", "hee", "cal", "calc", "calcaneus", "fcc", "ca", "heelback"];
 const TOE: [&str; 16] = [
@@ -25,6 +26,11 @@ const ANKLE: [&str; 10] = ["ank", "ankle", "anklelat", "lmal", "lma", "lm", "fal
 const ASIS: [&str; 5] = ["asi", "asis", "ias", "hip", "hjc"];
 const PSIS: [&str; 4] = ["psi", "psis", "ips", "sacr"];
 const SACRUM: [&str; 10] = ["sacr", "sacrum", "sac", "vsac", "vsacral", "s1", "s2", "midpsis", "midhip", "mpsis"];
+/// Landmarks in front of a foot, the best first.
+const FRONTS: [Landmark; 5] =
+    [Landmark::Hallux, Landmark::SecondToe, Landmark::FirstMetatarsal, Landmark::FifthMetatarsal, Landmark::SmallToe];
+/// Landmarks of the head.
+const HEADS: [Landmark; 5] = [Landmark::FrontHead, Landmark::BackHead, Landmark::Ear, Landmark::Nose, Landmark::Vertex];
 const HEAD: [&str; 9] = ["fhd", "bhd", "temple", "tophead", "head", "vertex", "ear", "nose", "glab"];
 
 /// The markers of one foot, as indices into [`MarkerRecording::markers`].
@@ -68,6 +74,82 @@ impl Landmarks {
     /// Finds the landmarks of a recording by the names of its markers.
     #[must_use]
     pub fn find(recording: &MarkerRecording) -> Landmarks {
+        Landmarks::named(recording, None)
+    }
+
+    /// Finds the landmarks by a marker set, and those that it does not have by the names that laboratories use. Without a set, landmarks with
+    /// other names are found by the built-in sets.
+    #[must_use]
+    pub fn named(recording: &MarkerRecording, set: Option<&MarkerSet>) -> Landmarks {
+        let names = || recording.markers.iter().map(|m| m.name.as_str());
+        let usual = Landmarks::usual(recording);
+        let recognised = match set {
+            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names()).ok(),
+            None if usual.is_complete() => None,
+            None => MarkerSet::recognise(names()).ok(),
+        };
+        let Some(recognised) = recognised else { return usual };
+        let found = Landmarks::recognised(&names().collect::<Vec<_>>(), &recognised);
+        if set.is_some() { found.or(usual) } else { usual.or(found) }
+    }
+
+    /// Whether no landmark of feet and front of the pelvis is missing.
+    fn is_complete(&self) -> bool {
+        let is_foot = |foot: &FootMarkers| [foot.heel, foot.toe, foot.ankle].iter().all(Option::is_some);
+        is_foot(&self.right) && is_foot(&self.left) && self.asis_r.is_some() && self.asis_l.is_some()
+    }
+
+    /// These landmarks, and those of `other` that are missing.
+    fn or(self, other: Landmarks) -> Landmarks {
+        let foot = |own: FootMarkers, other: FootMarkers| FootMarkers {
+            heel: own.heel.or(other.heel),
+            toe: own.toe.or(other.toe),
+            side: own.side.or(other.side),
+            ankle: own.ankle.or(other.ankle),
+        };
+        let list = |own: Vec<usize>, other: Vec<usize>| if own.is_empty() { other } else { own };
+        Landmarks {
+            right: foot(self.right, other.right),
+            left: foot(self.left, other.left),
+            asis_r: self.asis_r.or(other.asis_r),
+            asis_l: self.asis_l.or(other.asis_l),
+            back_of_pelvis: list(self.back_of_pelvis, other.back_of_pelvis),
+            head: list(self.head, other.head),
+        }
+    }
+
+    /// The landmarks of recognised markers among these names.
+    fn recognised(names: &[&str], recognised: &RecognisedMarkers) -> Landmarks {
+        let on = |landmarks: &[Landmark], side: Option<Side>| {
+            let name = landmarks.iter().find_map(|landmark| recognised.on(*landmark, side))?;
+            names.iter().position(|known| *known == name)
+        };
+        let foot = |side: Side| FootMarkers {
+            heel: on(&[Landmark::Heel], Some(side)),
+            toe: on(&FRONTS, Some(side)),
+            side: on(&[Landmark::FifthMetatarsal, Landmark::SmallToe, Landmark::FifthBase], Some(side)),
+            ankle: on(&[Landmark::LateralMalleolus, Landmark::AnkleCentre, Landmark::MedialMalleolus], Some(side)),
+        };
+        let pelvis = |side: Side| on(&[Landmark::Asis, Landmark::HipCentre], Some(side));
+        let psis = Side::BOTH.map(|side| on(&[Landmark::Psis], Some(side)));
+        let back_of_pelvis = match psis {
+            [Some(right), Some(left)] => vec![right, left],
+            _ => on(&[Landmark::Sacrum, Landmark::MidHip], None).into_iter().collect(),
+        };
+        let sides = [None, Some(Side::Right), Some(Side::Left)];
+        let head = HEADS.iter().flat_map(|landmark| sides.map(|side| on(&[*landmark], side))).flatten();
+        Landmarks {
+            right: foot(Side::Right),
+            left: foot(Side::Left),
+            asis_r: pelvis(Side::Right),
+            asis_l: pelvis(Side::Left),
+            back_of_pelvis,
+            head: head.collect(),
+        }
+    }
+
+    /// The landmarks by usual names.
+    fn usual(recording: &MarkerRecording) -> Landmarks {
         let names: Vec<PlainName> = recording.markers.iter().map(|m| PlainName::of(&m.name)).collect();
         let foot = |side: Side| FootMarkers {
             heel: with_side(&names, side, &HEEL),

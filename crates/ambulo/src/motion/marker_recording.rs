@@ -1,5 +1,6 @@
 //! Marker trajectories in metres; gaps are not-a-number.
 
+use super::guessed_unit::metres_per_unit;
 use super::real_points::{real_points, shared_prefix};
 use crate::findings::{Code, Findings};
 use crate::spatial::{Mat3, Vec3};
@@ -50,7 +51,7 @@ pub enum MarkerError {
     },
     /// Lengths without a unit.
     #[error(
-        "the markers have the unit `{found}` (POINT:UNITS); expected a unit of length such as mm. hint: set POINT:UNITS in the file"
+        "the markers have the unit `{found}` (POINT:UNITS), and their size is that of no person in mm, cm or m; expected a unit of length such as mm. hint: set POINT:UNITS in the file"
     )]
     Unit {
         /// The unit in the file.
@@ -157,9 +158,9 @@ pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerReco
 /// `Anna:LASI` becomes `LASI`. Of two points with the same name the one that is visible longer is kept.
 ///
 /// # Errors
-/// No unit of length, times that do not increase, no visible marker.
+/// No unit of length that is stated or that the size of the markers tells, times that do not increase, no visible marker.
 pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
-    let Some(unit_m) = file.metres_per_unit() else {
+    let Some(unit_m) = metres_per_unit(file, findings) else {
         return Err(MarkerError::Unit { found: file.point_unit.clone() });
     };
     let points = real_points(file);
@@ -179,7 +180,7 @@ pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRec
 }
 
 /// Checks the recording and reads zeros as gaps.
-fn checked(mut recording: MarkerRecording, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
+pub(super) fn checked(mut recording: MarkerRecording, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
     if let Some(i) = (1..recording.frames()).find(|&i| recording.times[i - 1] >= recording.times[i]) {
         let (earlier, later) = (recording.times[i - 1], recording.times[i]);
         return Err(MarkerError::TimeNotRising { name: recording.name, frame: i + 1, earlier, later });

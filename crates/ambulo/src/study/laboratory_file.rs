@@ -4,10 +4,11 @@ use crate::analysis::LaboratoryRecording;
 use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
-    Event, MarkerError, RecordedMotion, RecordedMotionError, SubjectParameters, events_from_c3d, markers_from_trc,
-    motion_from_c3d, subject_from_c3d,
+    Event, MarkerError, RecordedMotion, RecordedMotionError, SubjectParameters, events_from_c3d, markers_from_table,
+    markers_from_trc, motion_from_c3d, subject_from_c3d,
 };
 use ambulo_formats::c3d::C3d;
+use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
 use ambulo_formats::{Error, Remark};
 
@@ -29,7 +30,7 @@ pub enum LaboratoryFileError {
     /// The format.
     #[error(transparent)]
     Format(#[from] Error),
-    /// The markers of a TRC.
+    /// The markers of a TRC or a table.
     #[error(transparent)]
     Markers(#[from] MarkerError),
     /// The markers or poses of a C3D.
@@ -78,6 +79,23 @@ impl LaboratoryFile {
             poses,
             plates: plates_from_c3d(c3d, PlateSettings::default(), findings)?,
             unit: c3d.point_unit.clone(),
+        })
+    }
+
+    /// From a table of markers; `label` names the file in findings.
+    ///
+    /// # Errors
+    /// A table whose markers cannot be used.
+    pub fn from_table(
+        table: &Table,
+        label: &str,
+        findings: &mut Findings,
+    ) -> Result<LaboratoryFile, LaboratoryFileError> {
+        let markers = markers_from_table(table, label, findings)?;
+        Ok(LaboratoryFile {
+            recording: LaboratoryRecording { markers, poses: None, plates: Vec::new(), unit: "m".to_owned() },
+            events: Vec::new(),
+            subject: SubjectParameters::default(),
         })
     }
 

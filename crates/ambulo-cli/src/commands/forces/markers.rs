@@ -38,14 +38,19 @@ fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBody> {
     })
 }
 
-/// Reads a `.c3d` or a `.trc`.
+/// Reads a `.c3d`, a `.trc` or a `.csv`.
 fn read_laboratory_file(path: &Path, findings: &mut Findings) -> Result<LaboratoryFile> {
-    let bytes = files::read(path)?;
     let shown = path.display().to_string();
+    if files::ending(path) == "csv" {
+        let (table, remarks) = files::read_table(path)?;
+        files::note_remarks(&shown, &remarks, findings);
+        return LaboratoryFile::from_table(&table, &shown, findings).context(shown);
+    }
+    let bytes = files::read(path)?;
     let read = match files::ending(path).as_str() {
         "c3d" => LaboratoryFile::from_c3d(bytes, &shown, findings),
         "trc" => LaboratoryFile::from_trc(bytes, &shown, findings),
-        _ => bail!("{shown}: expected markers (.c3d or .trc)"),
+        _ => bail!("{shown}: expected markers (.c3d, .trc or .csv)"),
     };
     read.context(shown)
 }

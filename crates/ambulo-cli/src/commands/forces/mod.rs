@@ -17,7 +17,7 @@ use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
-use ambulo::motion::{Smoother, SubjectParameters, Window};
+use ambulo::motion::{Smoother, SubjectParameters, Window, is_marker_table};
 use ambulo::study::{self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, Outcome, Recording, Settings, Source};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
@@ -67,11 +67,14 @@ impl RecordingKind {
             other => format!("unknown kind of recording `.{other}`"),
         };
         match ending.as_str() {
+            "csv" if files::read_table(input).is_ok_and(|(table, _)| is_marker_table(&table)) => {
+                Ok(RecordingKind::Markers)
+            }
             "mot" | "sto" | "csv" => Ok(RecordingKind::Coordinates),
             "c3d" | "trc" => Ok(RecordingKind::Markers),
             "bvh" => Ok(RecordingKind::Skeleton),
             _ => bail!(
-                "{}: {found}; expected .c3d or .trc (markers), .mot, .sto or .csv (coordinates) or .bvh (a skeleton)",
+                "{}: {found}; expected .c3d, .trc or .csv (markers), .mot, .sto or .csv (coordinates) or .bvh (a skeleton)",
                 input.display()
             ),
         }

@@ -43,6 +43,24 @@ pub(super) fn describe_trc(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     Ok(sheet)
 }
 
+/// Describes markers that are all that a file holds.
+pub(super) fn describe_recording(
+    sheet: &mut Sheet,
+    path: &Path,
+    recording: &MarkerRecording,
+    unit: &str,
+    findings: &mut Findings,
+) {
+    sheet.value("frames", recording.frames());
+    sheet.value("from_s", recording.times.first().copied());
+    sheet.value("to_s", recording.times.last().copied());
+    sheet.value("rate_hz", recording.rate_hz);
+    let set = add_markers(sheet, recording);
+    let axes = laboratory(recording, &[], unit, findings);
+    sheet.text("axes", &axes.statement);
+    sheet.next(next(path, recording, set.is_some(), "--mass KG --height M"));
+}
+
 /// The command to type next with markers.
 pub(super) fn next(path: &Path, recording: &MarkerRecording, is_known: bool, subject: &str) -> String {
     let shown = path.display();

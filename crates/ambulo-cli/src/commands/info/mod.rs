@@ -6,6 +6,7 @@ mod markers;
 mod model;
 mod sheet;
 mod table;
+mod template;
 
 pub(crate) use sheet::Sheet;
 
@@ -17,7 +18,10 @@ use std::path::Path;
 
 pub(crate) fn run(args: &InfoArgs) -> Result<Completion> {
     let bytes = files::read(&args.file)?;
-    let sheet = describe(&args.file, &bytes).with_context(|| args.file.display().to_string())?;
+    let mut sheet = describe(&args.file, &bytes).with_context(|| args.file.display().to_string())?;
+    if let Some(target) = &args.markers {
+        sheet.text("template", &template::write(args, target, &bytes)?);
+    }
     printer::info(&sheet, args.print)?;
     Ok(Completion::Passed)
 }
@@ -29,7 +33,7 @@ fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
         "bvh" => bvh::describe(path, bytes),
         "osim" => model::describe(path, bytes),
         "mot" | "sto" => table::describe_storage(path, bytes),
-        "csv" => table::describe_csv(bytes),
+        "csv" => table::describe_csv(path, bytes),
         "xml" => loads(bytes),
         ending => bail!(
             "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .osim, .mot, .sto, .csv or .xml (external loads)"

@@ -1,6 +1,8 @@
 //! Description of tables: OpenSim storage and CSV.
 
-use super::Sheet;
+use super::{Sheet, markers};
+use ambulo::findings::Findings;
+use ambulo::motion::{is_marker_table, markers_from_table};
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 use anyhow::Result;
 use std::path::Path;
@@ -19,8 +21,17 @@ pub(super) fn describe_storage(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     Ok(sheet)
 }
 
-pub(super) fn describe_csv(bytes: &[u8]) -> Result<Sheet> {
+pub(super) fn describe_csv(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     let (table, remarks) = Table::read_csv(bytes)?;
+    if is_marker_table(&table) {
+        let mut sheet = Sheet::of("marker trajectories");
+        let mut findings = Findings::default();
+        let markers = markers_from_table(&table, &path.display().to_string(), &mut findings)?;
+        markers::describe_recording(&mut sheet, path, &markers, "m", &mut findings);
+        sheet.remarks(&remarks);
+        sheet.findings(&findings);
+        return Ok(sheet);
+    }
     let mut sheet = describe("CSV", &table);
     sheet.remarks(&remarks);
     Ok(sheet)

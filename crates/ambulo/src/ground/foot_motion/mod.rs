@@ -97,8 +97,17 @@ impl FootMotion {
 /// Feet without a heel or toe marker are left out, with a note.
 #[must_use]
 pub fn foot_motion(markers: &MarkerRecording, findings: &mut Findings) -> FootMotion {
-    let landmarks = Landmarks::find(markers);
-    let feet: Vec<Foot> = Side::BOTH.into_iter().map(|side| foot(markers, &landmarks, side)).collect();
+    foot_motion_of_landmarks(markers, &Landmarks::find(markers), findings)
+}
+
+/// [`foot_motion`] with known landmarks.
+#[must_use]
+pub fn foot_motion_of_landmarks(
+    markers: &MarkerRecording,
+    landmarks: &Landmarks,
+    findings: &mut Findings,
+) -> FootMotion {
+    let feet: Vec<Foot> = Side::BOTH.into_iter().map(|side| foot(markers, landmarks, side)).collect();
     let pelvis = mean_path(markers, &landmarks.pelvis());
     let floor = floor_speed(markers, &feet);
     let walking = pelvis.as_ref().map_or(f64::NAN, |p| mean_rate(markers, p) - floor);

@@ -1,6 +1,6 @@
 //! Assigns one contact to a foot and decides how much of the foot's load the plate measured.
 
-use super::feet::{Feet, OVER_EDGE_M};
+use super::feet::{FeetInMotion, OVER_EDGE_M};
 use super::{ContactQuality, FARTHEST_M, PlateContact};
 use crate::ground::phases::{Contact, contacts_from_force};
 use crate::model::Side;
@@ -31,7 +31,7 @@ pub(super) fn peak(plate: &PlateRecording, span: [f64; 2]) -> f64 {
 
 /// Assigns a contact to a foot and rates it by its own plate. `assigned` is the foot given by the user.
 pub(super) fn classified(
-    feet: &Feet<'_>,
+    feet: &FeetInMotion<'_>,
     index: usize,
     plate: &PlateRecording,
     span: [f64; 2],
@@ -65,7 +65,7 @@ pub(super) fn classified(
 }
 
 /// Mean distance of the foot from the centre of pressure, weighted by the load [m].
-fn mean_distance(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
+fn mean_distance(feet: &FeetInMotion<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
     let (mut sum, mut weight) = (0.0, 0.0);
     for i in samples(plate, span) {
         let load = plate.vertical(i);
@@ -88,7 +88,7 @@ fn unassigned_reason(distances: &[(Side, f64); 2]) -> String {
     }
 }
 
-fn quality(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> (ContactQuality, String) {
+fn quality(feet: &FeetInMotion<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> (ContactQuality, String) {
     if let Some(stance) = feet.stance_of(side, span) {
         if span[0] - stance[0] > SAME_EVENT_S {
             return (
@@ -110,21 +110,21 @@ fn quality(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) 
 }
 
 /// Explanation if both feet were on this plate during the span.
-fn both_feet(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2]) -> Option<String> {
+fn both_feet(feet: &FeetInMotion<'_>, plate: &PlateRecording, span: [f64; 2]) -> Option<String> {
     let [right, left] = Side::BOTH.map(|side| time_on_plate(feet, plate, span, side));
     (right.min(left) >= SECOND_FOOT_S)
         .then(|| format!("the right foot was on it for {right:.2} s, the left foot for {left:.2} s"))
 }
 
 /// How long the foot was on this plate during the span [s].
-fn time_on_plate(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
+fn time_on_plate(feet: &FeetInMotion<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
     let times = feet.markers.times.iter().filter(|t| (span[0]..=span[1]).contains(*t));
     let frames = times.filter(|t| feet.is_on(side, plate, **t)).count();
     frames as f64 / feet.markers.rate_hz
 }
 
 /// Explanation if heel or toe was off the plate in the middle of the contact, when the foot is flat.
-fn over_edge(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> Option<String> {
+fn over_edge(feet: &FeetInMotion<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> Option<String> {
     let length = span[1] - span[0];
     let middle = [span[0] + 0.3 * length, span[0] + 0.6 * length];
     let times = || feet.markers.times.iter().filter(|t| (middle[0]..=middle[1]).contains(*t));
@@ -139,7 +139,7 @@ fn over_edge(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side
 }
 
 /// Turns a partial contact into a shared one if together with other plates it covers the whole stance of its foot.
-pub(super) fn with_other_plates(feet: &Feet<'_>, all: &[PlateContact], index: usize) -> PlateContact {
+pub(super) fn with_other_plates(feet: &FeetInMotion<'_>, all: &[PlateContact], index: usize) -> PlateContact {
     let contact = &all[index];
     let Some(side) = contact.side.filter(|_| contact.quality == ContactQuality::Partial) else {
         return contact.clone();

@@ -14,13 +14,16 @@ pub(super) const OVER_EDGE_M: f64 = 0.02;
 const ON_PLATE_M: [f64; 2] = [-0.08, 0.14];
 
 /// Markers, the feet that they belong to, and the events that were detected from them.
-pub(super) struct Feet<'a> {
-    pub(super) markers: &'a MarkerRecording,
-    pub(super) landmarks: Landmarks,
-    pub(super) motion: &'a FootMotion,
+pub struct FeetInMotion<'a> {
+    /// The markers.
+    pub markers: &'a MarkerRecording,
+    /// Which of them are on the feet.
+    pub landmarks: Landmarks,
+    /// Their strikes and offs.
+    pub motion: &'a FootMotion,
 }
 
-impl Feet<'_> {
+impl FeetInMotion<'_> {
     /// Position of a marker at a time, interpolated linearly between frames.
     pub(super) fn place(&self, marker: Option<usize>, time_s: f64) -> Option<Vec3> {
         let path = &self.markers.markers[marker?].positions;

@@ -17,6 +17,8 @@ mod events;
 mod feet;
 mod windows;
 
+pub use feet::FeetInMotion;
+
 use super::foot_motion::FootMotion;
 use crate::findings::{Code, Findings};
 use crate::model::{BodyId, BySide, Side};
@@ -113,31 +115,42 @@ pub fn feet_on_plates(
     assigned: &[(usize, Side)],
     findings: &mut Findings,
 ) -> FeetOnPlates {
-    let feet = feet::Feet { markers, landmarks: Landmarks::find(markers), motion };
+    let feet = FeetInMotion { markers, landmarks: Landmarks::find(markers), motion };
+    feet_in_motion_on_plates(&feet, plates, assigned, findings)
+}
+
+/// [`feet_on_plates`] with known landmarks.
+#[must_use]
+pub fn feet_in_motion_on_plates(
+    feet: &FeetInMotion<'_>,
+    plates: &[PlateRecording],
+    assigned: &[(usize, Side)],
+    findings: &mut Findings,
+) -> FeetOnPlates {
     let highest = plates.iter().map(PlateRecording::peak_n).fold(0.0, f64::max);
     let mut found: Vec<PlateContact> = Vec::new();
     for (i, plate) in plates.iter().enumerate() {
         let assigned = assigned.iter().find(|(index, _)| *index == i).map(|(_, side)| *side);
         let spans =
             contact::loaded_spans(plate).into_iter().filter(|s| contact::peak(plate, *s) >= VIBRATION * highest);
-        found.extend(spans.map(|span| contact::classified(&feet, i, plate, span, assigned)));
+        found.extend(spans.map(|span| contact::classified(feet, i, plate, span, assigned)));
     }
     for i in 0..found.len() {
-        found[i] = contact::with_other_plates(&feet, &found, i);
+        found[i] = contact::with_other_plates(feet, &found, i);
     }
-    let windows = windows::windows(&feet, &found);
+    let windows = windows::windows(feet, &found);
     report(plates, &found, findings);
     if windows.is_empty() && !found.is_empty() {
         findings.report(Code::PlatesNoWindow, "there is no time at which the whole load of both feet was measured: the total force and the residual force at the pelvis cannot be checked");
     }
     let is_silent = |index: &usize| found.iter().all(|contact| contact.plate != *index);
     let without_load = (0..plates.len()).filter(is_silent);
-    let silent = without_load.flat_map(|index| silent_stances(&feet, index, &plates[index])).collect();
+    let silent = without_load.flat_map(|index| silent_stances(feet, index, &plates[index])).collect();
     FeetOnPlates { contacts: found, windows, silent }
 }
 
 /// Whole stances with heel and toe inside a plate in the middle of the stance.
-fn silent_stances(feet: &feet::Feet<'_>, plate: usize, recording: &PlateRecording) -> Vec<SilentStance> {
+fn silent_stances(feet: &FeetInMotion<'_>, plate: usize, recording: &PlateRecording) -> Vec<SilentStance> {
     let of_side = |side: Side| {
         let whole = feet.motion.contacts_of(side).iter().filter_map(|c| Some([c.strike_s?, c.off_s?]));
         let stands = move |[from, to]: &[f64; 2]| {

@@ -1,6 +1,6 @@
 //! Instrumented windows: the times when all loaded feet are on plates.
 
-use super::feet::Feet;
+use super::feet::FeetInMotion;
 use super::{ContactQuality, PlateContact};
 use crate::model::Side;
 
@@ -10,7 +10,7 @@ const FLIGHT_S: f64 = 0.3;
 const SHORTEST_WINDOW_S: f64 = 0.05;
 
 /// The instrumented windows, the longest first.
-pub(super) fn windows(feet: &Feet<'_>, found: &[PlateContact]) -> Vec<[f64; 2]> {
+pub(super) fn windows(feet: &FeetInMotion<'_>, found: &[PlateContact]) -> Vec<[f64; 2]> {
     let is_whole = |c: &&PlateContact| matches!(c.quality, ContactQuality::Clean | ContactQuality::Shared);
     if Side::BOTH.iter().any(|s| feet.stances(*s).is_empty()) {
         return Vec::new();

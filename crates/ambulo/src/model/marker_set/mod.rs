@@ -5,12 +5,15 @@
 
 mod file;
 mod landmark;
+mod name_index;
 mod recognised;
 mod segment;
+mod template;
 
 pub use landmark::Landmark;
 pub use recognised::{NamedMarker, RecognisedMarkers, RecognitionError, UnknownMarkers};
 pub use segment::Segment;
+pub use template::marker_template;
 
 use super::anthropometry::Human;
 use super::{Marker, Side};
@@ -73,7 +76,7 @@ pub enum MarkerSetError {
 }
 
 /// The built-in sets: name and file.
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 11] = [
     ("plug-in-gait", include_str!("../../../data/markers/plug-in-gait.toml")),
     ("oxford-foot", include_str!("../../../data/markers/oxford-foot.toml")),
     ("gait2392", include_str!("../../../data/markers/gait2392.toml")),
@@ -81,6 +84,10 @@ const FILES: [(&str, &str); 7] = [
     ("opencap", include_str!("../../../data/markers/opencap.toml")),
     ("keypoints", include_str!("../../../data/markers/keypoints.toml")),
     ("cast", include_str!("../../../data/markers/cast.toml")),
+    ("cmu", include_str!("../../../data/markers/cmu.toml")),
+    ("bts", include_str!("../../../data/markers/bts.toml")),
+    ("human-body-model", include_str!("../../../data/markers/human-body-model.toml")),
+    ("words", include_str!("../../../data/markers/words.toml")),
 ];
 
 impl MarkerSet {

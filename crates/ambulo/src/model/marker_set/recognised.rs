@@ -1,5 +1,6 @@
 //! Recognises the markers of a recording by their names.
 
+use super::name_index::{NameIndex, NameReading, RecordedName};
 use super::{Landmark, MarkerDefinition, MarkerSet, MarkerSetError};
 use crate::model::Side;
 use crate::toml_reader::listed;
@@ -60,11 +61,6 @@ pub enum RecognitionError {
     Set(#[from] MarkerSetError),
 }
 
-/// A name without the prefix of the subject, in lower case.
-fn plain(name: &str) -> String {
-    name.rsplit(':').next().unwrap_or(name).trim().to_lowercase()
-}
-
 impl MarkerSet {
     /// Recognises markers with the built-in sets that explain most of their names.
     ///
@@ -73,16 +69,11 @@ impl MarkerSet {
     pub fn recognise<'n>(names: impl IntoIterator<Item = &'n str>) -> Result<RecognisedMarkers, RecognitionError> {
         Ok(RecognisedMarkers::among(&MarkerSet::built_in()?, names)?)
     }
-
-    fn definition(&self, name: &str) -> Option<&MarkerDefinition> {
-        let name = plain(name);
-        self.markers.iter().find(|marker| marker.names.iter().any(|known| known.to_lowercase() == name))
-    }
 }
 
 impl RecognisedMarkers {
     /// Recognises markers with some of these sets: first the one that explains most names, then any that explain
-    /// at least two of the others.
+    /// at least two of the others. Names that are written as in a set go before names that only mean the same ([`NameIndex`]).
     ///
     /// # Errors
     /// Names that no set explains.
@@ -91,36 +82,21 @@ impl RecognisedMarkers {
         names: impl IntoIterator<Item = &'n str>,
     ) -> Result<RecognisedMarkers, UnknownMarkers> {
         let names: Vec<&str> = names.into_iter().collect();
-        let mut found: Vec<Option<&MarkerDefinition>> = vec![None; names.len()];
-        let mut used: Vec<&MarkerSet> = Vec::new();
-        loop {
-            let gain = |set: &MarkerSet| {
-                names.iter().zip(&found).filter(|(n, f)| f.is_none() && set.definition(n).is_some()).count()
-            };
-            // The first of several sets that explain the same number.
-            let best = sets.iter().rev().max_by_key(|set| gain(set));
-            let Some((set, cover)) = best.map(|set| (set, gain(set))) else { break };
-            if used.is_empty() && cover < LEAST_COVER {
-                return Err(unknown(&names, set, cover));
-            }
-            if cover < LEAST_GAIN {
-                break;
-            }
-            for (slot, name) in found.iter_mut().zip(&names).filter(|(slot, _)| slot.is_none()) {
-                *slot = set.definition(name);
-            }
-            used.push(set);
+        let indices: Vec<NameIndex<'_>> = sets.iter().map(NameIndex::new).collect();
+        let plain = RecordedName::all(&names);
+        let mut search =
+            Search { sets, indices: &indices, names: &plain, found: vec![None; names.len()], used: vec![] };
+        // Where twice as many names mean the same as are written the same, the laboratory writes them in its own way.
+        let most = |reading| (0..sets.len()).map(|set| search.gain(set, reading)).max().unwrap_or(0);
+        if most(NameReading::Meant) < 2 * most(NameReading::Written) {
+            search.rounds(NameReading::Written);
         }
-        if used.is_empty() {
-            let nothing = UnknownMarkers {
-                count: names.len(),
-                found: listed(names.iter().copied()),
-                cover: 0,
-                best: "none".to_owned(),
-                needed: "no markers".to_owned(),
-            };
-            return Err(nothing);
+        search.rounds(NameReading::Meant);
+        if search.used.is_empty() {
+            return Err(search.nothing(&names));
         }
+        let Search { found, used, .. } = search;
+        let used: Vec<&MarkerSet> = used.into_iter().map(|set| &sets[set]).collect();
         Ok(RecognisedMarkers::of(&used, &names, &found))
     }
 
@@ -151,12 +127,56 @@ impl RecognisedMarkers {
     }
 }
 
-fn unknown(names: &[&str], set: &MarkerSet, cover: usize) -> UnknownMarkers {
-    UnknownMarkers {
-        count: names.len(),
-        found: listed(names.iter().copied()),
-        cover,
-        best: set.name.clone(),
-        needed: listed(set.markers.iter().filter_map(|m| m.names.first().map(String::as_str))),
+/// A search for the sets that explain some names.
+struct Search<'a> {
+    sets: &'a [MarkerSet],
+    indices: &'a [NameIndex<'a>],
+    names: &'a [RecordedName],
+    found: Vec<Option<&'a MarkerDefinition>>,
+    /// Numbers of the sets that were used.
+    used: Vec<usize>,
+}
+
+impl Search<'_> {
+    /// Adds the sets that explain most of the names that are left.
+    fn rounds(&mut self, reading: NameReading) {
+        loop {
+            let gains: Vec<usize> = (0..self.sets.len()).map(|set| self.gain(set, reading)).collect();
+            // The first of several sets that explain the same number.
+            let Some(best) = (0..gains.len()).rev().max_by_key(|set| gains[*set]) else { return };
+            let least = if self.used.is_empty() { LEAST_COVER } else { LEAST_GAIN };
+            // A set that is already used explains further names without doubt.
+            let known = self.used.iter().copied().find(|set| gains[*set] > 0);
+            let Some(set) = known.or(Some(best).filter(|best| gains[*best] >= least)) else { return };
+            for (slot, name) in self.found.iter_mut().zip(self.names).filter(|(slot, _)| slot.is_none()) {
+                *slot = self.indices[set].find(name, reading);
+            }
+            if !self.used.contains(&set) {
+                self.used.push(set);
+            }
+        }
+    }
+
+    /// Number of further names that a set explains.
+    fn gain(&self, set: usize, reading: NameReading) -> usize {
+        let left = self.names.iter().zip(&self.found).filter(|(_, found)| found.is_none());
+        left.filter(|(name, _)| self.indices[set].find(name, reading).is_some()).count()
+    }
+
+    /// The error of names that no set explains.
+    fn nothing(&self, names: &[&str]) -> UnknownMarkers {
+        let found = listed(names.iter().copied());
+        let best = (0..self.sets.len()).rev().max_by_key(|set| self.gain(*set, NameReading::Meant));
+        let Some(best) = best else {
+            let (best, needed) = ("none".to_owned(), "no markers".to_owned());
+            return UnknownMarkers { count: names.len(), found, cover: 0, best, needed };
+        };
+        UnknownMarkers {
+            count: names.len(),
+            found,
+            cover: self.gain(best, NameReading::Meant),
+            best: self.sets[best].name.clone(),
+            needed: listed(self.sets[best].markers.iter().filter_map(|m| m.names.first().map(String::as_str))),
+        }
     }
 }

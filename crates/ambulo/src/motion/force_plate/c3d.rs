@@ -4,6 +4,7 @@ use super::decode::{PlateSource, decode, origin_was_reversed};
 use super::kind::Units;
 use super::{PlateRecording, PlateSettings, units};
 use crate::findings::{Code, Findings};
+use crate::motion::guessed_unit::metres_per_unit;
 use crate::spatial::Vec3;
 use ambulo_formats::c3d::{C3d, Channel, Platform};
 use std::ops::Range;
@@ -22,7 +23,7 @@ pub enum PlateError {
     Parameters(#[from] ambulo_formats::Error),
     /// Lengths without a unit.
     #[error(
-        "the force plates cannot be read: POINT:UNITS is `{found}`; expected a unit of length such as mm. hint: set POINT:UNITS in the file"
+        "the force plates cannot be read: POINT:UNITS is `{found}`, and neither markers nor plates have the size of a person or a plate in mm, cm or m; expected a unit of length such as mm. hint: set POINT:UNITS in the file"
     )]
     Unit {
         /// The unit in the file.
@@ -44,7 +45,7 @@ pub fn plates_from_c3d(
     if platforms.is_empty() {
         return Ok(Vec::new());
     }
-    let unit_m = file.metres_per_unit().ok_or_else(|| PlateError::Unit { found: file.point_unit.clone() })?;
+    let unit_m = metres_per_unit(file, findings).ok_or_else(|| PlateError::Unit { found: file.point_unit.clone() })?;
     let unit_m = plausible_unit(&platforms, unit_m, findings);
     report_polynomial(file, findings);
     let body = mean_marker(file).map(|p| p * unit_m);

@@ -20,6 +20,7 @@ mod labels;
 
 pub use error::SegmentPoseError;
 
+use super::guessed_unit::unit_of_frames;
 use super::marker_recording::{MarkerPath, MarkerRecording};
 use super::skeleton::{HEEL_SHARE, POINT_DISTANCE_M};
 use crate::findings::{Code, Findings};
@@ -79,7 +80,7 @@ const FOOT_LENGTHS_M: RangeInclusive<f64> = 0.01..=0.2;
 /// # Errors
 /// No poses of pelvis, thighs, shanks and feet; axes that are not those of a person: see [`SegmentPoseError`].
 pub fn segment_poses_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<SegmentPoses, SegmentPoseError> {
-    let unit_m = c3d.metres_per_unit().unwrap_or(1.0);
+    let unit_m = unit_m(c3d, findings);
     let samples = c3d.frames() * c3d.rotations_per_frame();
     let mut segments: Vec<(PosedSegment, Vec<Option<Pose>>)> = Vec::new();
     let mut defects = 0;
@@ -108,6 +109,26 @@ pub fn segment_poses_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<Segm
         statement: String::new(),
     };
     axes::aligned(poses)
+}
+
+/// Metres per unit of the positions: as stated, else as the distances between the origins of the segments tell.
+fn unit_m(c3d: &C3d, findings: &mut Findings) -> f64 {
+    let place = |rotation: &Rotation, sample: usize| {
+        let matrix = rotation.matrices.get(sample).filter(|_| labels::segment_of(&rotation.name).is_some())?;
+        Some(Vec3::from_fn(|row, _| matrix[row][3]))
+    };
+    if let Some(metres) = c3d.metres_per_unit() {
+        return metres;
+    }
+    let samples = c3d.frames() * c3d.rotations_per_frame();
+    let places = |sample: usize| c3d.rotations.iter().filter_map(move |rotation| place(rotation, sample));
+    let (name, metres) = unit_of_frames(samples, places).unwrap_or(("m", 1.0));
+    let message = format!(
+        "POINT:UNITS is `{}`, which is no unit of length; by the size of the poses lengths are in {name}",
+        c3d.point_unit
+    );
+    findings.report(Code::FileUnitGuessed, message);
+    metres
 }
 
 /// A pose in metres; `None` if it is missing or no rotation.

@@ -1,0 +1,168 @@
+//! Finds a marker of a set by its name, also if the name is written in another way.
+//!
+//! Two names mean the same if they agree without regard to case, separators (`.`, `_`, `-`, blanks), the ending `study`, and the place
+//! and the word of the side: `R.Knee.Lat`, `r_knee_lat`, `knee lat R`, `Right-KneeLat`. Names of a set have a known side; of a recorded
+//! name every reading is tried, the side in front first.
+
+use super::{MarkerDefinition, MarkerSet};
+use crate::model::Side;
+use std::collections::BTreeMap;
+
+/// Words of the sides, the longer ones first.
+const SIDES: [(&str, Side); 6] = [
+    ("right", Side::Right),
+    ("left", Side::Left),
+    ("rt", Side::Right),
+    ("lt", Side::Left),
+    ("r", Side::Right),
+    ("l", Side::Left),
+];
+/// An ending that says nothing about the place: OpenCap adds it to the names of markers that it derives from video.
+const ENDING: &str = "study";
+/// Fewest names with a common prefix that is taken for that of a subject.
+const FEWEST_WITH_PREFIX: usize = 4;
+
+/// How names are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NameReading {
+    /// As written; only the case may differ.
+    Written,
+    /// By side and meaning.
+    Meant,
+}
+
+/// The names of a set.
+pub(super) struct NameIndex<'s> {
+    /// Names as written, in lower case.
+    written: BTreeMap<String, &'s MarkerDefinition>,
+    /// Sides with names in letters and digits.
+    meant: BTreeMap<(Option<Side>, String), &'s MarkerDefinition>,
+}
+
+impl<'s> NameIndex<'s> {
+    pub(super) fn new(set: &'s MarkerSet) -> NameIndex<'s> {
+        let mut index = NameIndex { written: BTreeMap::new(), meant: BTreeMap::new() };
+        for marker in &set.markers {
+            for name in &marker.names {
+                index.written.entry(name.to_lowercase()).or_insert(marker);
+                let bare = bare(name);
+                let keys = match marker.side {
+                    Some(side) => {
+                        sided(&bare).filter(|(found, _)| *found == side).map(|(s, stem)| (Some(s), stem)).collect()
+                    }
+                    None => vec![(None, bare)],
+                };
+                for key in keys {
+                    index.meant.entry(key).or_insert(marker);
+                }
+            }
+        }
+        index
+    }
+
+    /// The marker of a name.
+    pub(super) fn find(&self, name: &RecordedName, reading: NameReading) -> Option<&'s MarkerDefinition> {
+        let RecordedName { whole, rest } = name;
+        match reading {
+            NameReading::Written => self.written(whole).or_else(|| self.written(rest)),
+            NameReading::Meant => self.meant(whole).or_else(|| self.meant(rest)),
+        }
+    }
+
+    /// The marker with exactly this name; only the case may differ.
+    fn written(&self, name: &str) -> Option<&'s MarkerDefinition> {
+        self.written.get(&name.to_lowercase()).copied()
+    }
+
+    /// The marker whose name means the same.
+    fn meant(&self, name: &str) -> Option<&'s MarkerDefinition> {
+        let bare = bare(name);
+        let of_side = sided(&bare).find_map(|(side, stem)| self.meant.get(&(Some(side), stem)));
+        of_side.or_else(|| self.meant.get(&(None, bare.clone()))).copied()
+    }
+}
+
+/// A name in lower case, letters and digits only, without [`ENDING`].
+fn bare(name: &str) -> String {
+    let bare: String = name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect();
+    bare.strip_suffix(ENDING).filter(|rest| !rest.is_empty()).map_or(bare.clone(), str::to_owned)
+}
+
+/// Every reading of a name as a side and the rest.
+fn sided(bare: &str) -> impl Iterator<Item = (Side, String)> {
+    let front = SIDES.into_iter().filter_map(move |(word, side)| Some((side, bare.strip_prefix(word)?)));
+    let back = SIDES.into_iter().filter_map(move |(word, side)| Some((side, bare.strip_suffix(word)?)));
+    front.chain(back).filter(|(_, rest)| !rest.is_empty()).map(|(side, rest)| (side, rest.to_owned()))
+}
+
+/// A recorded name, without the subject's prefix up to the last colon.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct RecordedName {
+    whole: String,
+    /// Without the beginning that all names share, up to a separator.
+    rest: String,
+}
+
+impl RecordedName {
+    /// The names of a recording.
+    pub(super) fn all(names: &[&str]) -> Vec<RecordedName> {
+        let plain: Vec<&str> = names.iter().map(|name| name.rsplit(':').next().unwrap_or(name).trim()).collect();
+        let shared = shared_prefix(&plain);
+        let name = |name: &str| RecordedName { whole: name.to_owned(), rest: name[shared..].to_owned() };
+        plain.into_iter().map(name).collect()
+    }
+}
+
+/// Length of the longest beginning that all names share and that ends with a separator; zero if it is the word of a side.
+fn shared_prefix(names: &[&str]) -> usize {
+    let Some(first) = names.first().filter(|_| names.len() >= FEWEST_WITH_PREFIX) else { return 0 };
+    let ends =
+        first.char_indices().filter(|(_, c)| matches!(c, '_' | '.' | '-' | ' ' | '|')).map(|(i, c)| i + c.len_utf8());
+    let is_shared = |end: &usize| names.iter().all(|name| name.len() > *end && name.starts_with(&first[..*end]));
+    let is_side = |end: &usize| {
+        SIDES.iter().any(|(word, _)| bare(&first[..*end]).ends_with(word) && bare(&first[..*end]).len() == word.len())
+    };
+    ends.filter(|end| is_shared(end) && !is_side(end)).max().unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_prefix_that_all_names_share_is_removed_but_never_a_side() {
+        let plain = |names: &[&str]| RecordedName::all(names).into_iter().map(|name| name.rest).collect::<Vec<_>>();
+        assert_eq!(plain(&["251112_KUO_LASI", "251112_KUO_RASI", "251112_KUO_C7", "251112_KUO_LKNE"])[0], "LASI");
+        assert_eq!(plain(&["Anna:LASI", "Anna:RASI", "Bob:LKNE"]), ["LASI", "RASI", "LKNE"]);
+        assert_eq!(plain(&["R_knee", "R_ankle", "R_toe", "R_heel"])[0], "R_knee");
+        assert_eq!(plain(&["P_R_knee", "P_R_ankle", "P_R_toe", "P_L_heel"])[0], "R_knee");
+        assert_eq!(plain(&["r knee 1", "r asis", "l asis", "c7"])[0], "r knee 1");
+        assert_eq!(plain(&["ä_LASI", "ä_RASI", "ä_LKNE", "ä_RKNE"])[3], "RKNE");
+    }
+
+    #[test]
+    fn every_way_to_write_a_side_means_the_same() {
+        let text = "name = \"one\"\n[[pair]]\nright = \"R.Knee.Lat\"\nleft = \"L.Knee.Lat\"\nlandmark = \"lateral_epicondyle\"\n";
+        let set = MarkerSet::from_toml(text).unwrap();
+        let index = NameIndex::new(&set);
+        for name in [
+            "R.Knee.Lat",
+            "r_knee_lat",
+            "RKneeLat",
+            "knee_lat_r",
+            "Knee.Lat.R",
+            "right knee lat",
+            "KneeLat-Right",
+            "RT KNEE LAT",
+        ] {
+            assert_eq!(index.meant(name).and_then(|marker| marker.side), Some(Side::Right), "{name}");
+        }
+        for name in ["l_knee_lat_study", "KneeLat_L", "Left.Knee.Lat"] {
+            assert_eq!(index.meant(name).and_then(|marker| marker.side), Some(Side::Left), "{name}");
+        }
+        for name in ["Knee.Lat", "R.Knee", "R", "L", "", "study"] {
+            assert!(index.meant(name).is_none(), "{name}");
+        }
+        assert!(index.written("r.knee.lat").is_some() && index.written("r_knee_lat").is_none());
+    }
+}
