@@ -374,7 +374,11 @@ fn mass_events_and_moments_of_the_synthetic_walk_are_recovered_over_the_whole_re
 fn the_command_that_info_suggests_works() {
     let bench = with_demo("next");
     let (_, text) = info(&bench, "demo/input/walk.trc");
-    assert!(text.contains("--height M -o out") && text.contains("or --model MODEL.osim"), "{text}");
+    assert!(text.contains("--height M -o out") && text.contains("keypoints"), "{text}");
+    // The joint centres of the figure have the names of key points.
+    let size = ["--mass", "75", "--height", "1.75"];
+    let run = bench.run(&[&["forces", "demo/input/walk.trc", "-o", "centres", "--quiet"], &size[..]].concat());
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
     bench.run(&["convert", "demo/input/walk.c3d", "walk.trc", "--world"]).done();
     bench.run(&["convert", "demo/input/walk.c3d", "grf.mot"]).done();
     let (_, text) = info(&bench, "walk.trc");

@@ -5,7 +5,7 @@ use ambulo::findings::Findings;
 use ambulo::kinematics::marker_proposal::{MarkerProposals, propose_markers};
 use ambulo::model::Side;
 use ambulo::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers, marker_template};
-use ambulo::motion::{MarkerPath, MarkerRecording};
+use ambulo::motion::{Heading, MarkerPath, MarkerRecording};
 use ambulo::study::LaboratoryFile;
 
 /// Markers of a recording in world axes.
@@ -40,7 +40,7 @@ fn hidden_names_of_a_walk_are_found_again_by_position() {
     let Some(walk) = recording("motonms-unipd/Walking1.c3d") else { return };
     let hidden = [("RME", "m01"), ("LMM", "m02"), ("RCA", "m03"), ("LVMH", "m04"), ("C7", "m05"), ("RHF", "m06")];
     let walk = renamed(&walk, &hidden);
-    let found = propose_markers(&walk, Some(&recognised(&walk)));
+    let found = propose_markers(&walk, Some(&recognised(&walk)), Heading::Walking);
     println!("{}", found.statement);
     for (old, new) in hidden {
         println!("{old}: {:?}", meaning(&found, new));
@@ -60,7 +60,7 @@ fn a_standing_person_without_any_known_name_gets_proposals() {
     for (i, marker) in nameless.markers.iter_mut().enumerate() {
         marker.name = format!("m{i:02}");
     }
-    let found = propose_markers(&nameless, None);
+    let found = propose_markers(&nameless, None, Heading::Facing);
     println!("{}", found.statement);
     let truth = recognised(&standing);
     let mut right_segment = 0;
@@ -89,7 +89,7 @@ fn a_standing_person_without_any_known_name_gets_proposals() {
 fn a_template_is_read_back_as_a_set_with_the_same_meaning() {
     let Some(walk) = recording("motonms-unipd/Walking1.c3d") else { return };
     let walk = renamed(&walk, &[("RME", "odd \"name\" \\ 1"), ("LMM", "m02")]);
-    let found = propose_markers(&walk, Some(&recognised(&walk)));
+    let found = propose_markers(&walk, Some(&recognised(&walk)), Heading::Walking);
     let text = marker_template("a walk\nwith two lines", &found.markers, &found.proposed, &found.unknown);
     let set = MarkerSet::from_toml(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let again = RecognisedMarkers::among(&[set], walk.markers.iter().map(|m| m.name.as_str())).unwrap();
@@ -110,8 +110,8 @@ fn a_recording_without_a_body_gets_no_proposals() {
         times: vec![0.0, 0.01, 0.02],
         markers: ["a", "b", "c"].map(path).to_vec(),
     };
-    let found = propose_markers(&few, None);
+    let found = propose_markers(&few, None, Heading::Unknown);
     assert_eq!((found.markers.len(), found.unknown.len()), (0, 3));
     let empty = MarkerRecording { markers: Vec::new(), times: Vec::new(), ..few };
-    assert_eq!(propose_markers(&empty, None).unknown.len(), 0);
+    assert_eq!(propose_markers(&empty, None, Heading::Unknown).unknown.len(), 0);
 }

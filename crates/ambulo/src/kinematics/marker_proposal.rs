@@ -19,9 +19,11 @@ use crate::model::Side;
 use crate::model::anthropometry::{Build, Human, SegmentTable};
 use crate::model::full_body::full_body;
 use crate::model::marker_set::{Landmark, MarkerDefinition, NamedMarker, RecognisedMarkers, Segment};
-use crate::motion::MarkerRecording;
+use crate::motion::{Heading, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
+use nalgebra::Rotation3;
+use std::f64::consts::FRAC_PI_2;
 
 /// Most frames that are compared.
 const FRAMES: usize = 60;
@@ -59,13 +61,19 @@ struct Reference {
 }
 
 /// Proposes the meaning of the markers that were not recognised by name. The recording is in world axes: x forward, y up, z right.
+///
+/// With an unknown heading, a standing body is turned to the four sides, and the one that fits best is used.
 #[must_use]
-pub fn propose_markers(recording: &MarkerRecording, recognised: Option<&RecognisedMarkers>) -> MarkerProposals {
+pub fn propose_markers(
+    recording: &MarkerRecording,
+    recognised: Option<&RecognisedMarkers>,
+    heading: Heading,
+) -> MarkerProposals {
     let mut markers: Vec<NamedMarker> = recognised.map(|known| known.markers.clone()).unwrap_or_default();
     let is_known = |name: &str| markers.iter().any(|marker| marker.name == name);
     let names: Vec<&str> = recording.markers.iter().map(|m| m.name.as_str()).filter(|name| !is_known(name)).collect();
     let fitted = recognised.and_then(|known| Reference::fitted(recording, known));
-    let Some(reference) = fitted.or_else(|| Reference::standing(recording)) else {
+    let Some(reference) = fitted.or_else(|| Reference::standing(recording, heading)) else {
         let unknown = names.iter().map(|name| (*name).to_owned()).collect();
         let statement = "no frame shows enough markers to place a body".to_owned();
         return MarkerProposals { markers, proposed: Vec::new(), unknown, statement };
@@ -104,7 +112,7 @@ impl Reference {
                 column.as_ref().map_or(coordinates[i].default_value, |column| column[frame])
             };
             let q: Vec<f64> = fit.motion.columns.iter().enumerate().map(value).collect();
-            (frame, poses(&human, &q, &rest, Vec3::zeros()))
+            (frame, poses(&human, &q, &rest, Pose::IDENTITY))
         });
         let frames: Vec<(usize, Vec<Pose>)> = frames.collect();
         let statement = format!("from a body that is fitted to {} known markers", recognised.markers.len());
@@ -112,7 +120,7 @@ impl Reference {
     }
 
     /// A standing body of the stature that fits best to the frame in which the markers reach highest.
-    fn standing(recording: &MarkerRecording) -> Option<Reference> {
+    fn standing(recording: &MarkerRecording, heading: Heading) -> Option<Reference> {
         let seen = |frame: usize| -> Vec<Vec3> {
             recording.markers.iter().filter(|m| m.is_seen(frame)).map(|m| m.positions[frame]).collect()
         };
@@ -126,7 +134,12 @@ impl Reference {
         let at = Vec3::new(middle(0), floor, middle(2));
         let [least, most_m] = STATURES_M;
         let count = ((most_m - least) / 0.05).round() as u32;
-        let bodies = (0..=count).filter_map(|k| Reference::of_stature(least + 0.05 * f64::from(k), frame, at));
+        let turns = if heading == Heading::Unknown { 4 } else { 1 };
+        let tries = (0..turns).flat_map(|turn| (0..=count).map(move |k| (turn, k)));
+        let bodies = tries.filter_map(|(turn, k)| {
+            let turn = *Rotation3::from_axis_angle(&Vec3::y_axis(), FRAC_PI_2 * f64::from(turn)).matrix();
+            Reference::of_stature(least + 0.05 * f64::from(k), frame, Pose { rotation: turn, translation: at })
+        });
         let cost = |reference: &Reference| {
             let distances =
                 places.iter().map(|place| reference.nearest(&[(frame, *place)]).map_or(FAR_M, |(score, _)| score));
@@ -135,7 +148,7 @@ impl Reference {
         bodies.map(|body| (cost(&body), body)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, body)| body)
     }
 
-    fn of_stature(height: f64, frame: usize, at: Vec3) -> Option<Reference> {
+    fn of_stature(height: f64, frame: usize, at: Pose) -> Option<Reference> {
         let build = Build { table: SegmentTable::DeLevaMale, mass: ANY_MASS_KG, height, toe_joint: true };
         let human = full_body(&build).ok()?;
         let q: Vec<f64> = human.model.coordinates().iter().map(|coordinate| coordinate.default_value).collect();
@@ -242,7 +255,7 @@ fn segments() -> impl Iterator<Item = (Segment, Option<Side>)> {
 }
 
 /// Poses of all bodies at a posture, moved by `at`.
-fn poses(human: &Human, q: &[f64], rest: &[f64], at: Vec3) -> Vec<Pose> {
-    let moved = |pose: Pose| Pose { translation: pose.translation + at, ..pose };
-    body_motion(&human.model, Posture { q, qd: rest, qdd: rest }).iter().map(|body| moved(body.pose)).collect()
+fn poses(human: &Human, q: &[f64], rest: &[f64], at: Pose) -> Vec<Pose> {
+    let bodies = body_motion(&human.model, Posture { q, qd: rest, qdd: rest });
+    bodies.iter().map(|body| at * body.pose).collect()
 }

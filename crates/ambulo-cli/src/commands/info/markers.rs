@@ -3,7 +3,8 @@
 use super::Sheet;
 use super::sheet::wrapped;
 use ambulo::findings::Findings;
-use ambulo::model::marker_set::MarkerSet;
+use ambulo::model::Side;
+use ambulo::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers};
 use ambulo::motion::{MarkerPath, MarkerRecording, laboratory, markers_from_trc};
 use ambulo_formats::trc::Trc;
 use anyhow::Result;
@@ -98,14 +99,20 @@ pub(super) fn add_markers(sheet: &mut Sheet, recording: &MarkerRecording) -> Opt
                 );
             }
             sheet.entry("marker_set", json!({ "sets": &recognised.sets, "known": known, "unknown": unknown }), lines);
-            // Without markers on landmarks no body can be built.
-            recognised.markers.iter().any(|marker| marker.definition.landmark.is_some()).then_some(recognised.sets)
+            shows_a_pelvis(&recognised).then_some(recognised.sets)
         }
         Err(error) => {
             sheet.entry("marker_set", Value::Null, vec![format!("not recognised: {error}")]);
             None
         }
     }
+}
+
+/// Whether the recognised markers show a pelvis, without which no body can be built.
+fn shows_a_pelvis(recognised: &RecognisedMarkers) -> bool {
+    let both = |landmark| Side::BOTH.into_iter().all(|side| recognised.on(landmark, Some(side)).is_some());
+    let back = both(Landmark::Psis) || recognised.on(Landmark::Sacrum, None).is_some();
+    both(Landmark::HipCentre) || (both(Landmark::Asis) && back)
 }
 
 /// Adds the gaps of markers.

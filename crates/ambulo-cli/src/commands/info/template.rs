@@ -35,7 +35,7 @@ pub(super) fn write(args: &InfoArgs, target: &Path, bytes: &[u8]) -> Result<Stri
     let names: Vec<String> = file.recording.markers.markers.iter().map(|marker| marker.name.clone()).collect();
     let recognised = MarkerSet::recognise(names.iter().map(String::as_str)).ok();
     let (axes, world) = file.recording.in_world(&mut findings);
-    let found = propose_markers(&world.markers, recognised.as_ref());
+    let found = propose_markers(&world.markers, recognised.as_ref(), axes.heading);
     let text = marker_template(&comment(&shown, &found, axes.heading), &found.markers, &found.proposed, &found.unknown);
     files::write(target, text.as_bytes())?;
     let (known, proposed, unknown) =
@@ -49,7 +49,7 @@ pub(super) fn write(args: &InfoArgs, target: &Path, bytes: &[u8]) -> Result<Stri
 
 fn comment(shown: &str, found: &MarkerProposals, heading: Heading) -> String {
     let sides = match heading {
-        Heading::Unknown => "\nThe direction in which the person faces is not known: right and left may be exchanged.",
+        Heading::Unknown => "\nThe direction in which the person faces was found with the body: check right and left.",
         Heading::Walking | Heading::Facing => "",
     };
     let name = Path::new(shown).file_name().unwrap_or_default().to_string_lossy().into_owned();
