@@ -197,11 +197,14 @@ fn landmark(recognised: &RecognisedMarkers, name: &str) -> Option<(Option<Landma
     Some((marker.definition.landmark, marker.definition.side))
 }
 
+/// The set that fits best, the names of a recording, and the landmarks of some markers on the right.
+type Case = (&'static str, &'static str, &'static [(&'static str, Landmark)]);
+
 #[test]
 fn names_of_other_laboratories_mean_what_they_say() {
     use Landmark as L;
     let right = Some(Side::Right);
-    let cases: [(&str, &str, &[(&str, L)]); 8] = [
+    let cases: [Case; 8] = [
         // OpenCap's laboratory names, as in keenon/nimblephysics data/grf/OpenCapUnfiltered.
         (
             "opencap",
