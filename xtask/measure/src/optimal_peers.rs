@@ -15,10 +15,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use walker::{ACCURACY, Solved, Walker};
 
-/// Folder of the peers' virtual environments, when `--env` is not given.
-const ENV_VARIABLE: &str = "AMBULO_PEERS_ENV";
-/// Programs that run the peers, relative to the workspace root.
-const PROGRAMS: &str = "xtask/measure/peers";
 /// Outcomes of the last complete run.
 const OUTCOMES: &str = "xtask/measure/peers/optimal_outcomes.json";
 /// The exported problem, and the peers' results.
@@ -58,8 +54,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
 
 impl Settings {
     fn parse(words: &[String]) -> Result<Settings, String> {
-        let env = std::env::var_os(ENV_VARIABLE).map(PathBuf::from);
-        let mut settings = Settings { env, resume: false, write: false };
+        let mut settings = Settings { env: workspace::peers_env(), resume: false, write: false };
         let mut words = words.iter();
         while let Some(word) = words.next() {
             match word.as_str() {
@@ -74,14 +69,8 @@ impl Settings {
 
     /// A peer's program in its environment, about to read the problem.
     fn program(&self, package: &str, script: &str) -> Result<Command, String> {
-        let hint = format!("hint: pass --env DIR or set {ENV_VARIABLE}; {PROGRAMS}/README.md says how to make one");
-        let env = self.env.as_ref().ok_or_else(|| format!("no folder of environments\n{hint}"))?;
-        let python = env.join(package).join("bin/python");
-        if !python.is_file() {
-            return Err(format!("{}: missing\n{hint}", python.display()));
-        }
-        let mut command = Command::new(python);
-        command.arg(workspace::root().join(PROGRAMS).join(script)).arg(file("problem"));
+        let mut command = workspace::peer_program(self.env.as_deref(), package, script)?;
+        command.arg(file("problem"));
         Ok(command)
     }
 }
@@ -121,7 +110,7 @@ fn measure(settings: &Settings) -> Result<Value, String> {
     });
     Ok(json!({
         "machine": crate::bench::machine(),
-        "commit": commit(),
+        "commit": workspace::commit(),
         "walker": walker.described(),
         "ours": ours_json(ours)?,
         "casadi": casadi,
@@ -157,14 +146,6 @@ fn result(name: &str, command: impl FnOnce() -> Result<Command, String>) -> Resu
 
 fn shown(path: &Path) -> String {
     path.strip_prefix(workspace::root()).unwrap_or(path).display().to_string()
-}
-
-/// The commit that ran, if git knows it.
-fn commit() -> String {
-    let mut git = Command::new("git");
-    git.current_dir(workspace::root()).args(["rev-parse", "--short=12", "HEAD"]);
-    let output = git.output().ok().filter(|output| output.status.success());
-    output.map_or_else(|| "unknown".to_owned(), |output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
 #[cfg(test)]

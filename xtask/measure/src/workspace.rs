@@ -8,6 +8,10 @@ use std::process::Command;
 const DATA_VARIABLE: &str = "AMBULO_DATA";
 /// The same, relative to the workspace root.
 const DATA: &str = "../shared";
+/// Folder of the peers' virtual environments, when `--env` is not given.
+const PEERS_VARIABLE: &str = "AMBULO_PEERS_ENV";
+/// Programs that run the peers, relative to the workspace root.
+const PEERS: &str = "xtask/measure/peers";
 /// Folder of the recording that is timed and drawn: model, motion, forces, and the bodies on which they act.
 const WALK: &str = "data/opensim-gait2392-subject01";
 
@@ -20,6 +24,32 @@ pub(crate) fn root() -> PathBuf {
 /// The folder that holds `data` and `reference`.
 pub(crate) fn data() -> PathBuf {
     std::env::var_os(DATA_VARIABLE).map_or_else(|| root().join(DATA), PathBuf::from)
+}
+
+/// Folder of the peers' virtual environments, if no other is given.
+pub(crate) fn peers_env() -> Option<PathBuf> {
+    std::env::var_os(PEERS_VARIABLE).map(PathBuf::from)
+}
+
+/// Python of a peer's environment, about to run one of our programs.
+pub(crate) fn peer_program(env: Option<&Path>, package: &str, script: &str) -> Result<Command, String> {
+    let hint = format!("hint: pass --env DIR or set {PEERS_VARIABLE}; {PEERS}/README.md says how to make one");
+    let env = env.ok_or_else(|| format!("no folder of environments\n{hint}"))?;
+    let python = env.join(package).join("bin/python");
+    if !python.is_file() {
+        return Err(format!("{}: missing\n{hint}", python.display()));
+    }
+    let mut command = Command::new(python);
+    command.arg(root().join(PEERS).join(script));
+    Ok(command)
+}
+
+/// The commit that runs, if git knows it.
+pub(crate) fn commit() -> String {
+    let mut git = Command::new("git");
+    git.current_dir(root()).args(["rev-parse", "--short=12", "HEAD"]);
+    let output = git.output().ok().filter(|output| output.status.success());
+    output.map_or_else(|| "unknown".to_owned(), |output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
 /// Whether the words of a command that has only the option `--write` contain it.
