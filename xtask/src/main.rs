@@ -46,6 +46,8 @@ usage: cargo xtask <command>
   optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes
                     [--env DIR] [--resume: keep results of peers]  [--write: docs/measured/OPTIMAL_PEERS.md from the record]
   optimal-walk      compare optimal walks in three dimensions with people  [--write: docs/measured/OPTIMAL_WALK.md]
+  physical-peers    let the controller of a walk drive the figure in MuJoCo, and record the outcomes  [--env DIR]
+                    [--write: docs/measured/PHYSICAL_PEERS.md from the record]
   physical-walk     figures that walk by their own torques: pushes, uneven ground  [--write: docs/measured/PHYSICAL_WALK.md]
   walk-bands        compare corrected walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
   help              print this text
@@ -60,7 +62,7 @@ environment:
 const OWN: [&str; 6] = ["check", "house", "build-time", "measured", "mutants", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 19] = [
+const MEASUREMENTS: [&str; 20] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -77,6 +79,7 @@ const MEASUREMENTS: [&str; 19] = [
     "validate",
     "optimal-peers",
     "optimal-walk",
+    "physical-peers",
     "physical-walk",
     "walk-plans",
     "walk-bands",

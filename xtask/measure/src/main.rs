@@ -13,6 +13,7 @@ mod optimal_peers;
 mod optimal_walk;
 mod oracle_c3d;
 mod peers;
+mod physical_peers;
 mod physical_walk;
 mod random;
 mod reproduction;
@@ -52,6 +53,7 @@ fn main() -> ExitCode {
         ("walk-plans", []) => walk_plans::run(),
         ("optimal-peers", _) => optimal_peers::run(rest),
         ("optimal-walk", _) => optimal_walk::run(rest),
+        ("physical-peers", _) => physical_peers::run(rest),
         ("physical-walk", _) => physical_walk::run(rest),
         _ => {
             eprintln!("error: unknown command `{}`\nhint: `cargo xtask help` lists the commands", words.join(" "));
