@@ -45,7 +45,7 @@ const FORCES: &[&str] = &[
     "xtask/measure/src/validate/recording.rs",
 ];
 
-const PAGES: [Page; 10] = [
+const PAGES: [Page; 11] = [
     Page { name: "VALIDATION", command: "validate", inputs: FORCES },
     Page { name: "GROUND_FIT", command: "fit-ground", inputs: FORCES },
     Page {
@@ -121,6 +121,12 @@ const PAGES: [Page; 10] = [
         name: "OPTIMAL_PEERS",
         command: "optimal-peers",
         inputs: &["xtask/measure/peers/optimal_outcomes.json", "xtask/measure/src/optimal_peers/page.rs"],
+    },
+    // Recorded outcomes: MuJoCo is not installed everywhere.
+    Page {
+        name: "PHYSICAL_PEERS",
+        command: "physical-peers",
+        inputs: &["xtask/measure/peers/physical_outcomes.json", "xtask/measure/src/physical_peers/page.rs"],
     },
     // Recorded outcomes instead of source: a run takes hours, and mutants are found by line and column, which any edit moves.
     Page { name: "MUTANTS", command: "mutants", inputs: &["xtask/mutants"] },
