@@ -1,11 +1,14 @@
 //! Reading and writing of files; every error names its file.
 
 use crate::args::Existing;
+use crate::caller::Caller;
 use crate::replacement::{is_input, recover, write_through};
 use ambulo::findings::{Code, Findings};
 use ambulo_formats::Remark;
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
+use std::error::Error;
+use std::fmt;
 use std::fs;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -13,17 +16,34 @@ use std::path::{Path, PathBuf};
 /// Larger files are rejected before they are read, which bounds the memory; no recording of walking needs more.
 const LARGEST_FILE_BYTES: u64 = 512 << 20;
 
+/// A file that does not exist.
+#[derive(Debug)]
+pub(crate) struct NoSuchFile(String);
+
+impl fmt::Display for NoSuchFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let NoSuchFile(shown) = self;
+        write!(
+            f,
+            "{shown}: there is no such file. hint: check the path; it is relative to the folder in which you typed the command"
+        )
+    }
+}
+
+impl Error for NoSuchFile {}
+
+/// Reads an input file from the caller's memory or, without one there, from the disk.
+pub(crate) fn read_input(caller: &Caller, path: &Path) -> Result<Vec<u8>> {
+    caller.content(path).map_or_else(|| read(path), |content| Ok(content.to_vec()))
+}
+
 /// Reads a file. If it is in a result folder, an interrupted run is finished or undone first.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     let shown = path.display();
     folders_around(path).iter().try_for_each(|folder| recover(folder))?;
     let metadata = match fs::metadata(path) {
         Ok(metadata) => metadata,
-        Err(e) if e.kind() == ErrorKind::NotFound => {
-            bail!(
-                "{shown}: there is no such file. hint: check the path; it is relative to the folder in which you typed the command"
-            )
-        }
+        Err(e) if e.kind() == ErrorKind::NotFound => return Err(NoSuchFile(shown.to_string()).into()),
         Err(e) => return Err(e).with_context(|| format!("{shown}: cannot be opened")),
     };
     if metadata.is_dir() {
@@ -54,9 +74,9 @@ pub(crate) fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
-/// Reads a table as CSV or as OpenSim storage, depending on the extension.
-pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
-    parse_table(path, &read(path)?)
+/// Reads a table as CSV or as OpenSim storage, depending on the extension; from the memory of the caller, if it is there.
+pub(crate) fn read_table(caller: &Caller, path: &Path) -> Result<(Table, Vec<Remark>)> {
+    parse_table(path, &read_input(caller, path)?)
 }
 
 /// The table in the content of a file.

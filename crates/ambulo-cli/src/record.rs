@@ -2,6 +2,7 @@
 //!
 //! The id is made from version, command, options and the content of all inputs, so the same run has the same id everywhere and always.
 
+use crate::caller::Caller;
 use ambulo_results::SUMMARY;
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
@@ -58,11 +59,15 @@ impl Record {
 }
 
 /// The id of a run: `options` are the command with all its options but those that only choose the folder and the printout.
-pub(crate) fn run_id(options: &str, inputs: &[PathBuf]) -> Result<String> {
+pub(crate) fn run_id(options: &str, inputs: &[PathBuf], caller: &Caller) -> Result<String> {
     let mut text = format!("{}\n{options}\n", env!("CARGO_PKG_VERSION"));
-    // A pipe can be read only once.
-    for input in inputs.iter().filter(|input| input.is_file()) {
-        text += &hash_of_file(input).with_context(|| format!("{}: cannot be read again", input.display()))?;
+    for input in inputs {
+        if let Some(content) = caller.content(input) {
+            text += &hash(content);
+        } else if input.is_file() {
+            // A pipe can be read only once.
+            text += &hash_of_file(input).with_context(|| format!("{}: cannot be read again", input.display()))?;
+        }
     }
     Ok(hash(text.as_bytes()))
 }

@@ -8,7 +8,6 @@ use ambulo_formats::Error;
 use ambulo_formats::table::{Table, TableRows};
 use std::io::{self, Write};
 use std::marker::PhantomData;
-use std::rc::Rc;
 
 /// A file to be written. Tables are computed when they are written or read, so that they take no memory before.
 pub struct OutputFile<'a> {
@@ -20,15 +19,17 @@ pub struct OutputFile<'a> {
 /// The data of a file. The report page of the same run uses it directly and parses nothing.
 enum Content<'a> {
     /// A table of time series.
-    Table { format: Format, make: Box<dyn MakeTable + 'a> },
+    Table { format: Format, make: Box<dyn MakeTable + Send + Sync + 'a> },
     /// The events of `events.csv`.
     Events(Vec<Event>),
     /// The curves of `cycles.csv`: their cycles, and what makes the curves of one.
-    Cycles { count: usize, rows: Box<dyn Fn(usize) -> Vec<CycleRow> + 'a> },
+    Cycles { count: usize, rows: Box<dyn Fn(usize) -> Vec<CycleRow> + Send + Sync + 'a> },
     /// A model, and its file.
     Body { model: Box<Model>, bytes: Vec<u8> },
     /// Bytes only.
     Bytes(Vec<u8>),
+    /// The content of another file.
+    Borrowed(&'a Content<'a>),
 }
 
 /// Makes a table. Other than the type of a closure, this allows a file to be used where one with a shorter life is asked for.
@@ -41,6 +42,17 @@ struct Made<'a, F>(F, PhantomData<&'a ()>);
 impl<'a, F: Fn() -> Result<TableRows<'a>, Error>> MakeTable for Made<'a, F> {
     fn make(&self) -> Result<TableRows<'_>, Error> {
         (self.0)()
+    }
+}
+
+impl MakeTable for Table {
+    fn make(&self) -> Result<TableRows<'_>, Error> {
+        let columns = self
+            .columns()
+            .map(|(name, values)| -> tables::LazyColumn<'_> { (name.to_owned(), Box::new(move |row| values[row])) });
+        let mut rows = TableRows::new(self.name.clone(), self.rows(), columns.collect())?;
+        rows.in_degrees = self.in_degrees;
+        Ok(rows)
     }
 }
 
@@ -85,20 +97,16 @@ impl<'a> OutputFile<'a> {
     }
 
     fn of_table(name: String, format: Format, table: Table) -> Result<OutputFile<'a>, Error> {
-        let table = Rc::new(table);
-        check_table(&name, &TableRows::of_table(&table))?;
-        Ok(OutputFile {
-            name,
-            content: Content::Table {
-                format,
-                make: Box::new(Made(move || Ok(TableRows::of_table(&table)), PhantomData)),
-            },
-        })
+        check_table(&name, &table.make()?)?;
+        Ok(OutputFile { name, content: Content::Table { format, make: Box::new(table) } })
     }
 
     /// A table as an OpenSim storage file, made when it is needed.
     #[must_use]
-    pub fn storage_by(name: impl Into<String>, make: impl Fn() -> Result<TableRows<'a>, Error> + 'a) -> OutputFile<'a> {
+    pub fn storage_by(
+        name: impl Into<String>,
+        make: impl Fn() -> Result<TableRows<'a>, Error> + Send + Sync + 'a,
+    ) -> OutputFile<'a> {
         OutputFile {
             name: name.into(),
             content: Content::Table { format: Format::Storage, make: Box::new(Made(make, PhantomData)) },
@@ -107,7 +115,10 @@ impl<'a> OutputFile<'a> {
 
     /// A table as comma-separated values, made when it is needed.
     #[must_use]
-    pub fn csv_by(name: impl Into<String>, make: impl Fn() -> Result<TableRows<'a>, Error> + 'a) -> OutputFile<'a> {
+    pub fn csv_by(
+        name: impl Into<String>,
+        make: impl Fn() -> Result<TableRows<'a>, Error> + Send + Sync + 'a,
+    ) -> OutputFile<'a> {
         OutputFile {
             name: name.into(),
             content: Content::Table { format: Format::Csv, make: Box::new(Made(make, PhantomData)) },
@@ -126,7 +137,7 @@ impl<'a> OutputFile<'a> {
 
     /// `cycles.csv`: the number of cycles, and what makes the curves of one.
     #[must_use]
-    pub fn cycles(count: usize, rows: impl Fn(usize) -> Vec<CycleRow> + 'a) -> OutputFile<'a> {
+    pub fn cycles(count: usize, rows: impl Fn(usize) -> Vec<CycleRow> + Send + Sync + 'a) -> OutputFile<'a> {
         OutputFile { name: CYCLES.to_owned(), content: Content::Cycles { count, rows: Box::new(rows) } }
     }
 
@@ -139,12 +150,25 @@ impl<'a> OutputFile<'a> {
         Ok(OutputFile { name: name.into(), content: Content::Body { model: Box::new(model.clone()), bytes } })
     }
 
+    /// The same file, borrowed.
+    #[must_use]
+    pub fn borrowed(&self) -> OutputFile<'_> {
+        OutputFile { name: self.name.clone(), content: Content::Borrowed(self.content()) }
+    }
+
+    fn content(&self) -> &Content<'_> {
+        match &self.content {
+            Content::Borrowed(content) => content,
+            own => own,
+        }
+    }
+
     /// Writes the content piece by piece.
     ///
     /// # Errors
     /// A table without rows or with a number that is not finite; a place that cannot be written to.
     pub fn write_to(&self, out: &mut dyn Write) -> Result<(), WriteError> {
-        match &self.content {
+        match self.content() {
             Content::Table { format, make } => {
                 let table = make.make()?;
                 check_table(&self.name, &table)?;
@@ -162,6 +186,8 @@ impl<'a> OutputFile<'a> {
                 }
             }
             Content::Body { bytes, .. } | Content::Bytes(bytes) => out.write_all(bytes)?,
+            // `content` leads to what was borrowed.
+            Content::Borrowed(_) => {}
         }
         Ok(())
     }
@@ -177,29 +203,29 @@ impl<'a> OutputFile<'a> {
     }
 
     /// The table that the file is made from, if it is one.
-    pub(crate) fn table(&self) -> Option<Result<Table, Error>> {
-        match &self.content {
+    pub fn table(&self) -> Option<Result<Table, Error>> {
+        match self.content() {
             Content::Table { make, .. } => Some(make.make().map(|rows| rows.table())),
             _ => None,
         }
     }
 
     pub(crate) fn listed_events(&self) -> Option<&[Event]> {
-        match &self.content {
+        match self.content() {
             Content::Events(events) => Some(events),
             _ => None,
         }
     }
 
     pub(crate) fn cycle_rows(&self) -> Option<Vec<CycleRow>> {
-        match &self.content {
+        match self.content() {
             Content::Cycles { count, rows } => Some((0..*count).flat_map(rows).collect()),
             _ => None,
         }
     }
 
     pub(crate) fn model(&self) -> Option<&Model> {
-        match &self.content {
+        match self.content() {
             Content::Body { model, .. } => Some(model),
             _ => None,
         }

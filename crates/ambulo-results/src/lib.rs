@@ -17,6 +17,7 @@ mod subject_summary;
 mod summary;
 mod tables;
 mod tracking_summary;
+mod units;
 mod walk_summary;
 mod walking_summary;
 
@@ -27,7 +28,7 @@ pub use files::{BodyFileError, OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use keep::{Keep, PAGE};
 pub use outcome::{outcome_summary, outcome_tables};
-pub use prediction_files::prediction_files;
+pub use prediction_files::{deviation_columns, prediction_files};
 #[cfg(feature = "schema")]
 pub use run_summary::summary_schema;
 pub use run_summary::{RunSummary, summary_json};
@@ -47,6 +48,7 @@ pub use summary::{
 };
 pub use tables::ground_columns;
 pub use tracking_summary::TrackingSummary;
+pub use units::{is_storage, unit_of};
 pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkPredictionSummary, WalkSummary};
 pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
 

@@ -2,7 +2,7 @@
 
 use crate::Keep;
 use crate::files::OutputFile;
-use crate::tables::{self, Column};
+use crate::tables;
 use ambulo::analysis::Analysis;
 use ambulo::ground::predict::{FootDeviation, Prediction};
 use ambulo::model::{Model, Side};
@@ -31,7 +31,8 @@ pub fn prediction_files<'a>(
 }
 
 /// `ground_force_{s}_vx_sd` .. `vz_sd` [N], `px_sd` .. `pz_sd` [m], `ground_torque_{s}_y_sd` [N.m]; zeros while a foot is unloaded.
-fn deviation_columns(deviations: &[FootDeviation], frames: usize) -> Vec<Column> {
+#[must_use]
+pub fn deviation_columns(deviations: &[FootDeviation], frames: usize) -> Vec<(String, Vec<f64>)> {
     let mut columns = Vec::new();
     for side in Side::BOTH {
         let letter = side.letter();

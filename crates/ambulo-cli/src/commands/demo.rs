@@ -4,6 +4,7 @@ use super::stopwatch::Stopwatch;
 use super::walk::SyntheticRun;
 use crate::Completion;
 use crate::args::DemoArgs;
+use crate::caller::Caller;
 use crate::replacement::ResultTarget;
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
@@ -29,18 +30,21 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
     };
     let walk = synthesise(&settings, &mut findings)?;
     clock.lap("walk");
+    let recorded = walk.clone();
     let run = SyntheticRun {
         walk: &walk,
         walk_settings: &settings,
         thresholds: Thresholds::default(),
         convention: Convention::default(),
-        read: &[],
+        read: Vec::new(),
+        caller: &Caller::default(),
         options: "demo".to_owned(),
         keep: Keep::of_names(&args.keep),
-        more: &|written| Ok(coordinate_files(written)?.into_iter().chain(recording_files(&walk)?).collect()),
-        check: args.check,
+        more: Box::new(move |written| {
+            Ok(coordinate_files(written)?.into_iter().chain(recording_files(&recorded)?).collect())
+        }),
     };
-    run.analyse_and_write(findings, clock, &target, args.print)
+    run.analyse(findings, clock)?.write(&target, args.print, args.check)
 }
 
 /// The results as recorded coordinates: model, motion, ground forces and external loads.

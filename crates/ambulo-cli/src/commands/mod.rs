@@ -9,9 +9,12 @@ pub(crate) mod info;
 pub(crate) mod report;
 pub(crate) mod reproduce;
 mod result_folder;
+mod results;
 mod run_files;
 pub(crate) mod simulate;
 mod stopwatch;
 pub(crate) mod sweep;
 pub(crate) mod view;
 pub(crate) mod walk;
+
+pub use results::Results;

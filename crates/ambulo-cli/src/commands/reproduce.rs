@@ -1,6 +1,7 @@
 //! `ambulo reproduce`: recomputes the claims and figures of the 1997 paper.
 
 use crate::args::ReproduceArgs;
+use crate::caller::Caller;
 use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, printer};
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     let keep = Keep::of_names(&args.keep);
     let options = format!("reproduce brief={} keep={:?}", args.brief, args.keep);
     written.retain(|file| keep.includes(&file.name));
-    let run_id = run_id(&options, &[])?;
+    let run_id = run_id(&options, &[], &Caller::default())?;
     target.replace(&written, &[], &mut |files| {
         let summary = json!({ "version": env!("CARGO_PKG_VERSION"), "run_id": run_id, "files": files });
         Ok(summary_json(&summary)?)

@@ -5,8 +5,8 @@ use crate::record::Record;
 use crate::replacement::recover;
 use ambulo_results::{PAGE, SUMMARY};
 use anyhow::{Error, Result, bail};
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Name of the file that only `ambulo reproduce` writes.
 const CLAIMS: &str = "claims.json";
@@ -21,7 +21,7 @@ pub(super) struct ResultFolder {
     path: PathBuf,
     summary: Vec<u8>,
     record: Record,
-    failure: RefCell<Option<Error>>,
+    failure: Mutex<Option<Error>>,
 }
 
 impl ResultFolder {
@@ -55,7 +55,7 @@ impl ResultFolder {
             );
         };
         record.check_all_but(path, PAGE)?;
-        Ok(ResultFolder { path: path.to_owned(), summary, record, failure: RefCell::default() })
+        Ok(ResultFolder { path: path.to_owned(), summary, record, failure: Mutex::default() })
     }
 
     /// Whether the run wrote this file and it still exists.
@@ -71,7 +71,7 @@ impl ResultFolder {
         if !self.record.files.contains_key(name) {
             return None;
         }
-        self.checked(name).map_err(|error| self.failure.borrow_mut().get_or_insert(error).to_string()).ok()
+        self.checked(name).map_err(|error| self.first_failure().get_or_insert(error).to_string()).ok()
     }
 
     /// The content of a recorded file, which must be the one of the run.
@@ -100,7 +100,16 @@ impl ResultFolder {
 
     /// Returns the error of the first file that could not be read.
     pub(super) fn check(&self) -> Result<()> {
-        self.failure.take().map_or(Ok(()), Err)
+        self.first_failure().take().map_or(Ok(()), Err)
+    }
+
+    /// The names of all files of the run but the summary.
+    pub(super) fn names(&self) -> impl Iterator<Item = &String> {
+        self.record.files.keys()
+    }
+
+    fn first_failure(&self) -> MutexGuard<'_, Option<Error>> {
+        self.failure.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

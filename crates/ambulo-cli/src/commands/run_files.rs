@@ -3,6 +3,7 @@
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
 use crate::args::{CheckArgs, PrintArgs};
+use crate::caller::Caller;
 use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
@@ -18,11 +19,11 @@ use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
 /// Makes files from other files of the same run.
-pub(super) type MoreFiles<'a> = dyn Fn(&[OutputFile<'_>]) -> Result<Vec<OutputFile<'static>>> + 'a;
+pub(super) type MoreFiles = dyn Fn(&[OutputFile<'_>]) -> Result<Vec<OutputFile<'static>>> + Send + Sync;
 
-/// An outcome with everything else that is written to the result folder.
-pub(super) struct RunFiles<'a> {
-    pub(super) outcome: &'a Outcome,
+/// The outcome of a recording or a synthetic walk, with everything else that is written to the result folder.
+pub(crate) struct MotionRun {
+    pub(super) outcome: Outcome,
     pub(super) input: Input,
     /// How angles of pelvis and hips are measured.
     pub(super) convention: Convention,
@@ -33,52 +34,73 @@ pub(super) struct RunFiles<'a> {
     /// The outputs that are written.
     pub(super) keep: Keep,
     /// Makes further files from the tables and figures of the run.
-    pub(super) more: &'a MoreFiles<'a>,
+    pub(super) more: Box<MoreFiles>,
     /// Every file that was read; none of them is overwritten.
-    pub(super) read: &'a [PathBuf],
+    pub(super) read: Vec<PathBuf>,
+    pub(super) caller: Caller,
     /// The command with the options that matter for the results.
     pub(super) options: String,
     pub(super) findings: Findings,
     pub(super) clock: Stopwatch,
-    pub(super) check: CheckArgs,
 }
 
-impl RunFiles<'_> {
+impl MotionRun {
     /// Writes all files and prints the outcome.
-    pub(super) fn write(self, target: &ResultTarget, print: PrintArgs) -> Result<Completion> {
-        let RunFiles { outcome, input, convention, walk, files, keep, more, read, options, findings, mut clock, check } =
-            self;
-        let needed = keep.needed();
-        let mut written = outcome_tables(outcome, &needed)?;
-        if keep.includes("figures/") {
-            written.extend(outcome_figures(outcome, convention)?);
-        }
-        let (clinical, convention) = clinical_file(outcome, convention);
-        written.push(clinical);
-        written.extend(files);
+    pub(super) fn write(&self, target: &ResultTarget, print: PrintArgs, check: CheckArgs) -> Result<Completion> {
+        let summary = self.save(target)?;
+        printer::forces(&summary, target.folder(), print)?;
+        let Outcome { quality, verdict, .. } = &self.outcome;
+        let is_refused = quality.state == QualityState::Bad || verdict.state == VerdictState::Infeasible;
+        Ok(completion(is_refused, check))
+    }
+
+    /// Writes all files.
+    pub(super) fn save(&self, target: &ResultTarget) -> Result<Summary> {
+        let mut clock = self.clock.clone();
+        let (mut written, mut summary) = self.tables_for(&self.keep)?;
         clock.lap("tables");
-        let mut summary = Summary { walk, convention: Some(convention), ..outcome_summary(outcome, input, &findings) };
-        if keep.includes(PAGE) {
+        if self.keep.includes(PAGE) {
             match page_of_run(target.folder(), &written, RunSummary::Motion(Box::new(summary.clone()))) {
                 Ok(page) => written.push(page),
                 Err(reason) => summary.findings.push(page_not_written(&reason)),
             }
         }
         clock.lap("report");
-        if keep.includes("input/") {
-            written.extend(more(&written)?);
+        if self.keep.includes("input/") {
+            written.extend((self.more)(&written)?);
         }
-        written.retain(|file| keep.includes(&file.name));
-        summary.run_id = run_id(&options, read)?;
+        written.retain(|file| self.keep.includes(&file.name));
+        summary.run_id = run_id(&self.options, &self.read, &self.caller)?;
         summary.timing_ms = clock.into_laps();
-        target.replace(&written, read, &mut |files| {
+        target.replace(&written, &self.read, &mut |files| {
             summary.files = files;
             Ok(summary_json(&summary)?)
         })?;
-        printer::forces(&summary, target.folder(), print)?;
-        let is_refused =
-            outcome.quality.state == QualityState::Bad || outcome.verdict.state == VerdictState::Infeasible;
-        Ok(completion(is_refused, check))
+        Ok(summary)
+    }
+
+    /// A table, or another file of the run that is neither a figure nor the page.
+    pub(super) fn file(&self, name: &str) -> Result<Option<OutputFile<'_>>> {
+        Ok(self.tables_for(&self.keep_tables())?.0.into_iter().find(|file| file.name == name))
+    }
+
+    /// The outputs without figures and page.
+    pub(super) fn keep_tables(&self) -> Keep {
+        Keep::of_names(&["tables", "model"].map(str::to_owned))
+    }
+
+    /// The tables and figures that are needed for these outputs, and the summary without the list of files.
+    pub(super) fn tables_for(&self, keep: &Keep) -> Result<(Vec<OutputFile<'_>>, Summary)> {
+        let mut written = outcome_tables(&self.outcome, &keep.needed())?;
+        if keep.includes("figures/") {
+            written.extend(outcome_figures(&self.outcome, self.convention)?);
+        }
+        let (clinical, convention) = clinical_file(&self.outcome, self.convention);
+        written.push(clinical);
+        written.extend(self.files.iter().map(OutputFile::borrowed));
+        let of_outcome = outcome_summary(&self.outcome, self.input.clone(), &self.findings);
+        let summary = Summary { walk: self.walk.clone(), convention: Some(convention), ..of_outcome };
+        Ok((written, summary))
     }
 }
 

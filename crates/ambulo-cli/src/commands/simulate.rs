@@ -4,6 +4,7 @@ use super::report::{page_not_written, page_of_run};
 use super::run_files::completion;
 use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
+use crate::caller::Caller;
 use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
@@ -12,18 +13,69 @@ use ambulo::analysis::{SceneVerdict, scene_verdict};
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
 use ambulo_report::{SceneCurves, scene_shapes};
-use ambulo_results::{Keep, OutputFile, PAGE, RunSummary, SceneExtremes, SceneInput, SceneTables, summary_json};
+use ambulo_results::{
+    Keep, OutputFile, PAGE, RunSummary, SceneExtremes, SceneInput, SceneSummary, SceneTables, summary_json,
+};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
+    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
+    let run = compute(args, &Caller::default())?;
+    let summary = run.save(&target)?;
+    if let Some(path) = &args.save {
+        files::write(path, &summary_json(&run.state)?)?;
+    }
+    printer::simulate(&summary, target.folder(), args.print)?;
+    let state = summary.verdict.as_ref().map_or(VerdictState::Feasible, |verdict| verdict.state);
+    Ok(completion(state == VerdictState::Infeasible, args.check))
+}
+
+/// A simulated scene, with everything that is written to the result folder.
+pub(crate) struct SceneRun {
+    pub(super) written: Vec<OutputFile<'static>>,
+    /// Without the list of files.
+    pub(super) summary: SceneSummary,
+    /// To go on from.
+    state: SavedState,
+    keep: Keep,
+    /// Every file that was read; the scene is the first.
+    inputs: Vec<PathBuf>,
+    caller: Caller,
+    options: String,
+    clock: Stopwatch,
+}
+
+impl SceneRun {
+    /// Writes all files.
+    pub(super) fn save(&self, target: &ResultTarget) -> Result<SceneSummary> {
+        let mut written: Vec<OutputFile<'_>> = self.written.iter().map(OutputFile::borrowed).collect();
+        let mut summary = self.summary.clone();
+        if self.keep.includes(PAGE) {
+            match page_of_run(target.folder(), &written, RunSummary::Scene(Box::new(summary.clone()))) {
+                Ok(page) => written.push(page),
+                Err(reason) => summary.findings.push(page_not_written(&reason)),
+            }
+        }
+        written.retain(|file| self.keep.includes(&file.name));
+        summary.run_id = run_id(&self.options, &self.inputs, &self.caller)?;
+        summary.timing_ms = self.clock.clone().into_laps();
+        target.replace(&written, &self.inputs, &mut |files| {
+            summary.files = files;
+            Ok(summary_json(&summary)?)
+        })?;
+        Ok(summary)
+    }
+}
+
+/// Reads a scene and simulates it.
+pub(crate) fn compute(args: &SimulateArgs, caller: &Caller) -> Result<SceneRun> {
     let mut clock = Stopwatch::new();
     let keep = Keep::of_names(&args.keep);
-    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
     let mut findings = Findings::default();
     let mut input = SceneInput { scene: args.scene.display().to_string(), ..SceneInput::default() };
     let mut inputs = vec![args.scene.clone()];
-    let mut scene = build(args, &mut inputs, &mut findings)?;
+    let mut scene = build(args, caller, &mut inputs, &mut findings)?;
     input.files = inputs[1..].iter().map(|path| path.display().to_string()).collect();
     if let Some(path) = &args.resume {
         resume(&mut scene, path)?;
@@ -49,31 +101,14 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     clock.lap("simulate");
 
     let verdict = scene_verdict(&scene, &Thresholds::default(), &mut findings)?;
-    let state = verdict.as_ref().map_or(VerdictState::Feasible, |verdict| verdict.state);
     clock.lap("feasibility");
 
-    let mut written = scene_files(&scene, tables, curves.as_ref(), verdict.as_ref())?;
+    let written = scene_files(&scene, tables, curves.as_ref(), verdict.as_ref())?;
     clock.lap("tables");
     let mut summary = extremes.summary(&scene, &statistics, input, &findings);
     summary.verdict = verdict;
-    if keep.includes(PAGE) {
-        match page_of_run(target.folder(), &written, RunSummary::Scene(Box::new(summary.clone()))) {
-            Ok(page) => written.push(page),
-            Err(reason) => summary.findings.push(page_not_written(&reason)),
-        }
-    }
-    written.retain(|file| keep.includes(&file.name));
-    summary.run_id = run_id(&options(args), &inputs)?;
-    summary.timing_ms = clock.into_laps();
-    target.replace(&written, &inputs, &mut |files| {
-        summary.files = files;
-        Ok(summary_json(&summary)?)
-    })?;
-    if let Some(path) = &args.save {
-        files::write(path, &summary_json(&scene.save())?)?;
-    }
-    printer::simulate(&summary, target.folder(), args.print)?;
-    Ok(completion(state == VerdictState::Infeasible, args.check))
+    let (state, options, caller) = (scene.save(), options(args), caller.clone());
+    Ok(SceneRun { written, summary, state, keep, inputs, caller, options, clock })
 }
 
 /// Tables, shapes and figures.
@@ -94,9 +129,9 @@ fn scene_files(
 }
 
 /// Builds the scene and reads every file that it names; adds their paths to `inputs`.
-fn build(args: &SimulateArgs, inputs: &mut Vec<PathBuf>, findings: &mut Findings) -> Result<Scene> {
+fn build(args: &SimulateArgs, caller: &Caller, inputs: &mut Vec<PathBuf>, findings: &mut Findings) -> Result<Scene> {
     let shown = || args.scene.display().to_string();
-    let bytes = files::read(&args.scene)?;
+    let bytes = files::read_input(caller, &args.scene)?;
     let text = String::from_utf8(bytes).map_err(|e| {
         anyhow::anyhow!("{}: byte {} is not UTF-8; expected a scene in TOML", shown(), e.utf8_error().valid_up_to())
     })?;
@@ -105,7 +140,7 @@ fn build(args: &SimulateArgs, inputs: &mut Vec<PathBuf>, findings: &mut Findings
     let folder = args.scene.parent().unwrap_or(Path::new(""));
     let mut load = |path: &str| {
         let path = folder.join(path);
-        let bytes = files::read(&path).map_err(|error| error.to_string())?;
+        let bytes = files::read_input(caller, &path).map_err(|error| error.to_string())?;
         inputs.push(path);
         Ok(bytes)
     };

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
+#[derive(Clone)]
 pub(super) struct Stopwatch {
     last: Instant,
     laps: Vec<(String, f64)>,

@@ -2,6 +2,7 @@
 
 use super::walk::{read_devices, source};
 use crate::args::{SweepArgs, Values};
+use crate::caller::Caller;
 use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, printer};
@@ -13,9 +14,10 @@ use ambulo::optimal::{Device, Load, WalkConditions};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, predict, synthesise};
 use ambulo::study::{self, Settings};
 use ambulo_report::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
-use ambulo_results::{Keep, summary_json};
+use ambulo_results::{Keep, OutputFile, summary_json};
 use anyhow::{Context, Result, bail};
-use serde_json::json;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -25,10 +27,41 @@ use std::thread;
 const MOST_WALKS: usize = 500;
 
 pub(crate) fn run(args: &SweepArgs) -> Result<Completion> {
+    // A mistake in the options is reported before the folder is made.
     let mut read = Vec::new();
     let sweep = Sweep::new(args, &mut read)?;
     let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
-    let walks = sweep.walks(args);
+    let run = walked(args, &sweep, read, &Caller::default())?;
+    run.save(&target)?;
+    printer::sweep(&run.walks, &args.output, args.print)?;
+    let is_good =
+        |walk: &SweptWalk| walk.found.as_ref().is_ok_and(|found| found.verdict != VerdictState::Infeasible.words());
+    let failed = args.check.check && !run.walks.iter().all(is_good);
+    Ok(if failed { Completion::Failed } else { Completion::Passed })
+}
+
+/// The walks of a sweep, with everything that is written to the result folder.
+pub(crate) struct SweepRun {
+    walks: Vec<SweptWalk>,
+    pub(super) written: Vec<OutputFile<'static>>,
+    mode: SyntheticMode,
+    read: Vec<PathBuf>,
+    caller: Caller,
+    options: String,
+}
+
+/// Computes all walks.
+pub(crate) fn compute(args: &SweepArgs, caller: &Caller) -> Result<SweepRun> {
+    let mut read = Vec::new();
+    let sweep = Sweep::new(args, &mut read)?;
+    walked(args, &sweep, read, caller)
+}
+
+fn walked(args: &SweepArgs, sweep: &Sweep, read: Vec<PathBuf>, caller: &Caller) -> Result<SweepRun> {
+    let walks = sweep.walks(args, caller);
+    if caller.is_stopped() {
+        bail!("the sweep was stopped after {} of {} walks", walks.len(), sweep.points.len());
+    }
     let found = walks.iter().filter(|walk| walk.found.is_ok()).count();
     if let (0, Some(Err(reason))) = (found, walks.first().map(|walk| &walk.found)) {
         match walks.len() {
@@ -37,25 +70,30 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Completion> {
         }
     }
     let keep = Keep::of_names(&args.keep);
-    let mut files = sweep_files(&sweep.title(), &walks)?;
-    files.retain(|file| keep.includes(&file.name));
-    let run_id = run_id(&options(args), &read)?;
-    target.replace(&files, &read, &mut |files| {
-        let summary = json!({
+    let mut written = sweep_files(&sweep.title(), &walks)?;
+    written.retain(|file| keep.includes(&file.name));
+    let (caller, options) = (caller.clone(), options(args));
+    Ok(SweepRun { walks, written, mode: sweep.mode, read, caller, options })
+}
+
+impl SweepRun {
+    /// Writes all files.
+    pub(super) fn save(&self, target: &ResultTarget) -> Result<()> {
+        let run_id = run_id(&self.options, &self.read, &self.caller)?;
+        target.replace(&self.written, &self.read, &mut |files| Ok(summary_json(&self.summary(&run_id, files))?))
+    }
+
+    /// The content of `summary.json`.
+    pub(super) fn summary(&self, run_id: &str, files: BTreeMap<String, String>) -> Value {
+        json!({
             "version": env!("CARGO_PKG_VERSION"),
             "run_id": run_id,
-            "walks": walks.len(),
-            "walks_found": found,
-            "mode": sweep.mode.name(),
+            "walks": self.walks.len(),
+            "walks_found": self.walks.iter().filter(|walk| walk.found.is_ok()).count(),
+            "mode": self.mode.name(),
             "files": files,
-        });
-        Ok(summary_json(&summary)?)
-    })?;
-    printer::sweep(&walks, &args.output, args.print)?;
-    let is_good =
-        |walk: &SweptWalk| walk.found.as_ref().is_ok_and(|found| found.verdict != VerdictState::Infeasible.words());
-    let failed = args.check.check && !walks.iter().all(is_good);
-    Ok(if failed { Completion::Failed } else { Completion::Passed })
+        })
+    }
 }
 
 /// The command with the options that matter for the results.
@@ -146,14 +184,14 @@ impl Sweep {
     }
 
     /// Computes all walks, in the order of the conditions.
-    fn walks(&self, args: &SweepArgs) -> Vec<SweptWalk> {
+    fn walks(&self, args: &SweepArgs, caller: &Caller) -> Vec<SweptWalk> {
         let next = AtomicUsize::new(0);
         let done: Mutex<Vec<Option<SweptWalk>>> = Mutex::new(vec![None; self.points.len()]);
         let workers = thread::available_parallelism().map_or(1, usize::from).min(self.points.len());
         let work = || {
             loop {
                 let place = next.fetch_add(1, Ordering::Relaxed);
-                let Some(point) = self.points.get(place) else { break };
+                let Some(point) = self.points.get(place).filter(|_| !caller.is_stopped()) else { break };
                 let found = self.walk(point).map_err(|error| format!("{error:#}"));
                 let walk = SweptWalk { conditions: *point, found };
                 let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);

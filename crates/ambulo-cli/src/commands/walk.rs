@@ -1,8 +1,9 @@
 //! `ambulo walk`: synthesises a walk and computes its forces.
 
-use super::run_files::{MoreFiles, RunFiles, read_thresholds};
+use super::run_files::{MoreFiles, MotionRun, read_thresholds};
 use super::stopwatch::Stopwatch;
-use crate::args::{CheckArgs, FigureArgs, GaitArgs, PrintArgs, TimedValue, WalkArgs, WalkMode};
+use crate::args::{FigureArgs, GaitArgs, TimedValue, WalkArgs, WalkMode};
+use crate::caller::Caller;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
@@ -25,52 +26,92 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
-    let mut clock = Stopwatch::new();
-    let mut findings = Findings::default();
-    let name = args.gait.gait.as_deref().unwrap_or(if args.torques.is_some() { "standard" } else { "free" });
-    let (gait, mut read) = gait(name, &args.gait, &mut findings)?;
-    let described_in = read.first().cloned();
-    let build = build(&args.figure)?;
-    let conditions = conditions(args, &mut read)?;
-    let by_gait = || Ok::<_, BuildError>(SyntheticMode::of(&gait, &build, build.human()?.dimensions.leg_length));
     if args.states {
-        let mode = asked_mode(args, &conditions)?.map_or_else(by_gait, Ok)?;
-        return states(args, &shaped(&gait, build, mode, args), &read, findings);
+        return states(args);
     }
+    let (clock, mut findings) = (Stopwatch::new(), Findings::default());
+    // A mistake in the options is reported before the folder is made.
+    let walk = Described::new(args, &mut findings)?;
     let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
     let target = ResultTarget::for_run(output, args.replace.existing())?;
+    walked(args, walk, findings, clock, &Caller::default())?.write(&target, args.print, args.check)
+}
+
+/// A walk as the options describe it, before it is computed.
+struct Described {
+    gait: Gait,
+    /// The name as it was typed.
+    name: String,
+    build: Build,
+    conditions: WalkConditions,
+    /// Every file that was read; a gait file is the first.
+    read: Vec<PathBuf>,
+    gait_file: Option<PathBuf>,
+}
+
+impl Described {
+    fn new(args: &WalkArgs, findings: &mut Findings) -> Result<Described> {
+        let name = args.gait.gait.as_deref().unwrap_or(if args.torques.is_some() { "standard" } else { "free" });
+        let (gait, mut read) = gait(name, &args.gait, findings)?;
+        let gait_file = read.first().cloned();
+        let build = build(&args.figure)?;
+        let conditions = conditions(args, &mut read)?;
+        Ok(Described { gait, name: name.to_owned(), build, conditions, read, gait_file })
+    }
+
+    /// The mode that the gait allows.
+    fn own_mode(&self) -> Result<SyntheticMode, BuildError> {
+        Ok(SyntheticMode::of(&self.gait, &self.build, self.build.human()?.dimensions.leg_length))
+    }
+}
+
+/// Synthesises a walk and computes its forces.
+pub(crate) fn compute(args: &WalkArgs, caller: &Caller) -> Result<MotionRun> {
+    let (clock, mut findings) = (Stopwatch::new(), Findings::default());
+    let walk = Described::new(args, &mut findings)?;
+    walked(args, walk, findings, clock, caller)
+}
+
+fn walked(
+    args: &WalkArgs,
+    mut walk: Described,
+    mut findings: Findings,
+    mut clock: Stopwatch,
+    caller: &Caller,
+) -> Result<MotionRun> {
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
-    read.extend(args.thresholds.clone());
-    let torques = args.torques.as_deref().map(|path| read_torques(path, &gait.name)).transpose()?;
-    read.extend(args.torques.clone());
-    let mode = match (&torques, asked_mode(args, &conditions)?) {
+    walk.read.extend(args.thresholds.clone());
+    let torques = args.torques.as_deref().map(|path| read_torques(path, &walk.gait.name)).transpose()?;
+    walk.read.extend(args.torques.clone());
+    let mode = match (&torques, asked_mode(args, &walk.conditions)?) {
         (Some(_), None | Some(SyntheticMode::Paper)) => SyntheticMode::Paper,
         (Some(_), Some(mode)) => {
             bail!("--torques: found the mode {mode}; expected the mode paper, in which the torques were computed")
         }
-        (None, mode) => mode.map_or_else(by_gait, Ok)?,
+        (None, mode) => mode.map_or_else(|| walk.own_mode(), Ok)?,
     };
-    let gait = if mode == SyntheticMode::Corrected { style_for_correction(gait, name, &args.gait) } else { gait };
+    let Described { gait, name, build, conditions, read, gait_file } = walk;
+    let gait = if mode == SyntheticMode::Corrected { style_for_correction(gait, &name, &args.gait) } else { gait };
     let walk_settings = shaped(&gait, build, mode, args);
     let walk = match &torques {
         Some(torques) => replay(&walk_settings, torques, &mut findings),
         None if mode == SyntheticMode::Predicted => predict(&walk_settings, &conditions, &mut findings),
         None => synthesise(&walk_settings, &mut findings),
     };
-    let walk = in_file(walk, described_in.as_ref())?;
+    let walk = in_file(walk, gait_file.as_ref())?;
     clock.lap("walk");
     let run = SyntheticRun {
         walk: &walk,
         walk_settings: &walk_settings,
         thresholds,
         convention: args.convention.into(),
-        read: &read,
+        read,
+        caller,
         options: options(args),
         keep: Keep::of_names(&args.keep),
-        more: &|_| Ok(Vec::new()),
-        check: args.check,
+        more: Box::new(|_| Ok(Vec::new())),
     };
-    run.analyse_and_write(findings, clock, &target, args.print)
+    run.analyse(findings, clock)
 }
 
 /// The mode that the user chose, or that the conditions need.
@@ -123,12 +164,12 @@ fn in_file<T>(result: Result<T, SyntheticError>, file: Option<&PathBuf>) -> Resu
 }
 
 /// Prints the machines of the gait and the run of their states while it happens; draws the gait if a folder is given.
-fn states(
-    args: &WalkArgs,
-    settings: &SyntheticWalkSettings<'_>,
-    read: &[PathBuf],
-    mut findings: Findings,
-) -> Result<Completion> {
+fn states(args: &WalkArgs) -> Result<Completion> {
+    let mut findings = Findings::default();
+    let described = Described::new(args, &mut findings)?;
+    let mode = asked_mode(args, &described.conditions)?.map_or_else(|| described.own_mode(), Ok)?;
+    let settings = &shaped(&described.gait, described.build, mode, args);
+    let read = &described.read;
     let human = settings.build.human()?;
     let walk = Walk::new(settings.gait, human.dimensions.leg_length, &mut findings)?;
     if let Some(output) = &args.output {
@@ -139,7 +180,7 @@ fn states(
     }
     // The same remarks would be made about the same gait.
     let run = |tell: &mut dyn FnMut(&StateChange)| {
-        in_file(run_of_states(settings, tell, &mut Findings::default()), read.first())
+        in_file(run_of_states(settings, tell, &mut Findings::default()), described.gait_file.as_ref())
     };
     printer::states(&walk, &findings, args.print, run).map(|()| Completion::Passed)
 }
@@ -159,36 +200,30 @@ pub(super) struct SyntheticRun<'a> {
     pub(super) thresholds: Thresholds,
     /// How angles of pelvis and hips are measured.
     pub(super) convention: Convention,
-    pub(super) read: &'a [PathBuf],
+    pub(super) read: Vec<PathBuf>,
+    pub(super) caller: &'a Caller,
     /// The command with the options that matter for the results.
     pub(super) options: String,
     /// The outputs that are written.
     pub(super) keep: Keep,
     /// Makes further files from the tables and figures of the run.
-    pub(super) more: &'a MoreFiles<'a>,
-    pub(super) check: CheckArgs,
+    pub(super) more: Box<MoreFiles>,
 }
 
 impl SyntheticRun<'_> {
-    /// Computes the forces as for a recording, beginning with a complete motion, and writes all files.
-    pub(super) fn analyse_and_write(
-        self,
-        mut findings: Findings,
-        mut clock: Stopwatch,
-        target: &ResultTarget,
-        print: PrintArgs,
-    ) -> Result<Completion> {
+    /// Computes the forces as for a recording, beginning with a complete motion.
+    pub(super) fn analyse(self, mut findings: Findings, mut clock: Stopwatch) -> Result<MotionRun> {
         let prediction = self.walk.report.prediction.as_ref();
         let weak = prediction.map(|prediction| prediction.conditions.strengths.clone()).unwrap_or_default();
         let settings = Settings { thresholds: Thresholds { weak, ..self.thresholds.clone() }, ..Settings::default() };
         let mut watch = |stage: Stage| {
             clock.lap(stage.word());
-            ControlFlow::Continue(())
+            if self.caller.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let outcome =
             study::run_observed(source(self.walk, self.walk_settings.mode), &settings, &mut findings, &mut watch)?;
-        let files = RunFiles {
-            outcome: &outcome,
+        Ok(MotionRun {
+            outcome,
             input: input(self.walk_settings),
             convention: self.convention,
             walk: Some(WalkSummary::new(&self.walk.human.model, &self.walk.report)),
@@ -196,12 +231,11 @@ impl SyntheticRun<'_> {
             keep: self.keep,
             more: self.more,
             read: self.read,
+            caller: self.caller.clone(),
             options: self.options,
             findings,
             clock,
-            check: self.check,
-        };
-        files.write(target, print)
+        })
     }
 
     /// The figure as an OpenSim model, and the picture of the gait.

@@ -74,8 +74,16 @@ pub(crate) fn guide() -> Result<()> {
 
 /// Prints an error: where and what on the first line, what to do on the second.
 pub(crate) fn error(error: &anyhow::Error) {
-    let message = error.chain().map(ToString::to_string).collect::<Vec<_>>().join(": ");
-    eprintln!("error: {}", visible(&with_hint(&message, hints::of_error(error))));
+    eprintln!("error: {}", visible(&with_hint(&chain(error), hints::of_error(error))));
+}
+
+/// An error as [`error`] prints it: what and where, and what to do.
+pub(crate) fn error_parts(error: &anyhow::Error) -> (String, Option<String>) {
+    parts(&chain(error), hints::of_error(error))
+}
+
+fn chain(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).collect::<Vec<_>>().join(": ")
 }
 
 /// Prints which long computation begins, unless the output is JSON.
@@ -177,12 +185,16 @@ fn reasons_shown(count: usize, print: PrintArgs) -> usize {
 
 /// A message with its own hint and the hint of the command on a second line.
 fn with_hint(message: &str, of_command: Option<&str>) -> String {
+    match parts(message, of_command) {
+        (what, None) => what,
+        (what, Some(hint)) => format!("{}\n  hint: {hint}", what.trim_end()),
+    }
+}
+
+fn parts(message: &str, of_command: Option<&str>) -> (String, Option<String>) {
     let (what, own) = message.split_once("hint: ").map_or((message, None), |(what, own)| (what, Some(own)));
     let hints: Vec<&str> = own.into_iter().chain(of_command).collect();
-    match hints.is_empty() {
-        true => what.to_owned(),
-        false => format!("{}\n  hint: {}", what.trim_end(), hints.join("; ")),
-    }
+    (what.to_owned(), (!hints.is_empty()).then(|| hints.join("; ")))
 }
 
 /// Prints the verdict: feasible with the check that came closest to its limit, infeasible with the reasons, or why it is not judged.

@@ -3,7 +3,6 @@
 use super::{Reading, added_mass, ground_table, read_model, size};
 use crate::args::{ForcesArgs, MarkerFitting, SubjectArgs};
 use crate::files;
-use ambulo::findings::Findings;
 use ambulo::model::Model;
 use ambulo::motion::{Motion, coordinates_from_table};
 use ambulo::study::Source;
@@ -21,7 +20,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     size::check(&args.subject)?;
     let model = read_model(model_path, reading)?;
     reading.clock.lap("read_model");
-    let motion = read_motion(&model, &args.input, &mut reading.findings)?;
+    let motion = read_motion(&model, &args.input, reading)?;
     reading.clock.lap("read_motion");
     let forces = ground_table::read(args, reading)?;
     reading.clock.lap("read_forces");
@@ -49,9 +48,9 @@ fn reject_marker_options(args: &ForcesArgs) -> Result<()> {
     }
 }
 
-fn read_motion(model: &Model, path: &Path, findings: &mut Findings) -> Result<Motion> {
+fn read_motion(model: &Model, path: &Path, reading: &mut Reading) -> Result<Motion> {
     let shown = path.display().to_string();
-    let (table, remarks) = files::read_table(path)?;
-    files::note_remarks(&shown, &remarks, findings);
-    coordinates_from_table(model, &table, &shown, findings).context(shown)
+    let (table, remarks) = files::read_table(&reading.caller, path)?;
+    files::note_remarks(&shown, &remarks, &mut reading.findings);
+    coordinates_from_table(model, &table, &shown, &mut reading.findings).context(shown)
 }

@@ -2,8 +2,8 @@
 
 use super::Reading;
 use crate::args::{FootColumns, ForcesArgs};
+use crate::caller::Caller;
 use crate::files;
-use ambulo::findings::Findings;
 use ambulo::study::{ForceTable, MeasuredForces};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use anyhow::{Context, Result, bail};
@@ -14,13 +14,13 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<MeasuredF
     if args.no_ground || (args.grf.is_none() && args.loads.is_none()) {
         return Ok(MeasuredForces::InRecording);
     }
-    let loads = args.loads.as_deref().map(|path| read_loads(path, &mut reading.findings)).transpose()?;
+    let loads = args.loads.as_deref().map(|path| read_loads(path, reading)).transpose()?;
     let path = match (&args.grf, &loads) {
         (Some(path), _) => path.clone(),
-        (None, Some(loads)) => data_file(args.loads.as_deref(), loads)?,
+        (None, Some(loads)) => data_file(args.loads.as_deref(), loads, &reading.caller)?,
         (None, None) => return Ok(MeasuredForces::InRecording),
     };
-    let (table, remarks) = files::read_table(&path)?;
+    let (table, remarks) = files::read_table(&reading.caller, &path)?;
     files::note_remarks(&path.display().to_string(), &remarks, &mut reading.findings);
     reading.read.push(path.clone());
     reading.read.extend(args.loads.clone());
@@ -28,15 +28,16 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<MeasuredF
     Ok(MeasuredForces::Table(ForceTable { table, loads: loads.or_else(|| named(args)) }))
 }
 
-fn read_loads(path: &Path, findings: &mut Findings) -> Result<ExternalLoads> {
+fn read_loads(path: &Path, reading: &mut Reading) -> Result<ExternalLoads> {
     let shown = path.display().to_string();
-    let (loads, remarks) = ExternalLoads::read(&files::read(path)?).with_context(|| shown.clone())?;
-    files::note_remarks(&shown, &remarks, findings);
+    let (loads, remarks) =
+        ExternalLoads::read(&files::read_input(&reading.caller, path)?).with_context(|| shown.clone())?;
+    files::note_remarks(&shown, &remarks, &mut reading.findings);
     Ok(loads)
 }
 
 /// The data file named in the external loads: by its relative path, or a file of that name in the same folder.
-fn data_file(xml: Option<&Path>, loads: &ExternalLoads) -> Result<PathBuf> {
+fn data_file(xml: Option<&Path>, loads: &ExternalLoads, caller: &Caller) -> Result<PathBuf> {
     let Some(named) = &loads.datafile else {
         bail!("the external loads name no <datafile>; expected --grf FILE");
     };
@@ -44,7 +45,7 @@ fn data_file(xml: Option<&Path>, loads: &ExternalLoads) -> Result<PathBuf> {
     let named = Path::new(named);
     let in_folder = named.file_name().map(|name| folder.join(name));
     let candidates = [Some(folder.join(named)), in_folder];
-    match candidates.into_iter().flatten().find(|path| path.is_file()) {
+    match candidates.into_iter().flatten().find(|path| caller.has_file(path)) {
         Some(path) => Ok(path),
         None => bail!(
             "the external loads name the data file `{}`, which does not exist. hint: give the file with --grf",

@@ -2,6 +2,7 @@
 
 use super::{Reading, added_mass, ground_table, read_model, size};
 use crate::args::{ForcesArgs, PlateFoot, SubjectArgs};
+use crate::caller::Caller;
 use crate::files;
 use ambulo::findings::Findings;
 use ambulo::model::marker_set::MarkerSet;
@@ -11,7 +12,7 @@ use std::path::Path;
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     check_options(args)?;
-    let trial = read_laboratory_file(&args.input, &mut reading.findings)?;
+    let trial = read_laboratory_file(&args.input, &reading.caller, &mut reading.findings)?;
     let standing = args.subject.still.as_deref().map(|path| read_standing_trial(path, reading)).transpose()?;
     reading.clock.lap("read_markers");
     let body = body(args, reading)?;
@@ -39,14 +40,18 @@ fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBody> {
 }
 
 /// Reads a `.c3d`, a `.trc` or a `.csv`.
-fn read_laboratory_file(path: &Path, findings: &mut Findings) -> Result<LaboratoryFile> {
+fn read_laboratory_file(path: &Path, caller: &Caller, findings: &mut Findings) -> Result<LaboratoryFile> {
+    parse_laboratory_file(files::read_input(caller, path)?, path, findings)
+}
+
+/// The recording in the content of a `.c3d`, a `.trc` or a `.csv`.
+pub(crate) fn parse_laboratory_file(bytes: Vec<u8>, path: &Path, findings: &mut Findings) -> Result<LaboratoryFile> {
     let shown = path.display().to_string();
     if files::ending(path) == "csv" {
-        let (table, remarks) = files::read_table(path)?;
+        let (table, remarks) = files::parse_table(path, &bytes)?;
         files::note_remarks(&shown, &remarks, findings);
         return LaboratoryFile::from_table(&table, &shown, findings).context(shown);
     }
-    let bytes = files::read(path)?;
     let read = match files::ending(path).as_str() {
         "c3d" => LaboratoryFile::from_c3d(bytes, &shown, findings),
         "trc" => LaboratoryFile::from_trc(bytes, &shown, findings),
@@ -81,7 +86,8 @@ fn check_options(args: &ForcesArgs) -> Result<()> {
 
 fn read_standing_trial(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile> {
     reading.read.push(path.to_owned());
-    standing_trial(&mut reading.findings, |findings| read_laboratory_file(path, findings))
+    let Reading { caller, findings, .. } = reading;
+    standing_trial(findings, |findings| read_laboratory_file(path, caller, findings))
 }
 
 /// A marker set by its name, or from a file.
@@ -90,7 +96,7 @@ fn read_set(name_or_file: &str, reading: &mut Reading) -> Result<MarkerSet> {
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         return MarkerSet::named(name_or_file).context("--markers");
     }
-    let text = String::from_utf8(files::read(path)?).with_context(|| name_or_file.to_owned())?;
+    let text = String::from_utf8(files::read_input(&reading.caller, path)?).with_context(|| name_or_file.to_owned())?;
     reading.read.push(path.to_owned());
     MarkerSet::from_toml(&text).with_context(|| name_or_file.to_owned())
 }

@@ -3,13 +3,14 @@
 mod coordinates;
 mod errors;
 mod ground_table;
-mod markers;
+pub(crate) mod markers;
 mod size;
 mod skeleton;
 
-use super::run_files::{RunFiles, read_thresholds};
+use super::run_files::{MotionRun, read_thresholds};
 use super::stopwatch::Stopwatch;
 use crate::args::{Adjusted, Filter, ForceCutoff, ForcesArgs, MarkerFitting};
+use crate::caller::Caller;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files};
 use ambulo::analysis::Adjustable;
@@ -27,13 +28,25 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
+    check_range(args)?;
+    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
+    compute(args, &Caller::default())?.write(&target, args.print, args.check)
+}
+
+fn check_range(args: &ForcesArgs) -> Result<()> {
     if let (Some(from), Some(to)) = (args.from, args.to)
         && from > to
     {
         bail!("--from {from} is after --to {to}; expected a start before the end");
     }
-    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
+    Ok(())
+}
+
+/// Reads the recording and computes its forces.
+pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
+    check_range(args)?;
     let mut reading = Reading {
+        caller: caller.clone(),
         findings: Findings::default(),
         clock: Stopwatch::new(),
         read: vec![args.input.clone()],
@@ -46,7 +59,7 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
     };
     let source = Source { device: read_device(args, &mut reading)?, ..source };
     reading.read.extend(args.device.iter().chain(&args.thresholds).cloned());
-    compute(args, source, reading, &target)
+    studied(args, source, reading)
 }
 
 /// The kinds of recording, by the extension of the file name.
@@ -83,6 +96,7 @@ impl RecordingKind {
 
 /// Collected while the input files are read.
 struct Reading {
+    caller: Caller,
     findings: Findings,
     clock: Stopwatch,
     /// Every file that was read; none of them is overwritten.
@@ -91,12 +105,12 @@ struct Reading {
     ground: Option<PathBuf>,
 }
 
-fn compute(args: &ForcesArgs, source: Source, reading: Reading, target: &ResultTarget) -> Result<Completion> {
+fn studied(args: &ForcesArgs, source: Source, reading: Reading) -> Result<MotionRun> {
     let settings = settings(args)?;
-    let Reading { mut findings, mut clock, read, ground } = reading;
+    let Reading { caller, mut findings, mut clock, read, ground } = reading;
     let mut watch = |stage: study::Stage| {
         clock.lap(stage.word());
-        ControlFlow::Continue(())
+        if caller.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
     let stated = match &source.recording {
         Recording::Markers(markers) => markers.trial.subject.clone(),
@@ -108,21 +122,20 @@ fn compute(args: &ForcesArgs, source: Source, reading: Reading, target: &ResultT
         .map_err(|error| errors::with_file(error, args, ground.as_deref()))?;
     let body = body_file(&outcome.body, &mut findings);
     let input = input(args, ground.as_deref(), stated, &outcome);
-    let files = RunFiles {
-        outcome: &outcome,
+    Ok(MotionRun {
+        outcome,
         input,
         convention: args.convention.into(),
         walk: None,
         files: body.into_iter().collect(),
         keep: Keep::of_names(&args.keep),
-        more: &|_| Ok(Vec::new()),
-        read: &read,
+        more: Box::new(|_| Ok(Vec::new())),
+        read,
+        caller,
         options: options(args),
         findings,
         clock,
-        check: args.check,
-    };
-    files.write(target, args.print)
+    })
 }
 
 /// The command with the options that matter for the results.
@@ -163,10 +176,16 @@ fn input(args: &ForcesArgs, ground: Option<&Path>, stated: SubjectParameters, ou
 }
 
 fn read_model(path: &Path, reading: &mut Reading) -> Result<Model> {
-    let shown = || path.display().to_string();
-    let document = OsimModel::read(&files::read(path)?).with_context(shown)?;
+    let model = parse_model(&files::read_input(&reading.caller, path)?, path, &mut reading.findings)?;
     reading.read.push(path.to_owned());
-    from_osim(&document, &mut reading.findings).with_context(shown)
+    Ok(model)
+}
+
+/// The model in the content of an OpenSim file.
+pub(crate) fn parse_model(bytes: &[u8], path: &Path, findings: &mut Findings) -> Result<Model> {
+    let shown = || path.display().to_string();
+    let document = OsimModel::read(bytes).with_context(shown)?;
+    from_osim(&document, findings).with_context(shown)
 }
 
 fn added_mass(args: &ForcesArgs) -> Vec<AddedMass> {
@@ -175,7 +194,7 @@ fn added_mass(args: &ForcesArgs) -> Vec<AddedMass> {
 
 fn read_device(args: &ForcesArgs, reading: &mut Reading) -> Result<Option<Table>> {
     let Some(path) = &args.device else { return Ok(None) };
-    let (table, remarks) = files::read_table(path)?;
+    let (table, remarks) = files::read_table(&reading.caller, path)?;
     files::note_remarks(&path.display().to_string(), &remarks, &mut reading.findings);
     Ok(Some(table))
 }

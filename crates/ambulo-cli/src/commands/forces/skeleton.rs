@@ -14,7 +14,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     let Some(mass_kg) = args.subject.mass else {
         bail!("{shown}: a BVH contains no body mass; expected --mass KG");
     };
-    let (bvh, remarks) = Bvh::read(&files::read(&args.input)?).with_context(|| shown.clone())?;
+    let (bvh, remarks) = Bvh::read(&files::read_input(&reading.caller, &args.input)?).with_context(|| shown.clone())?;
     files::note_remarks(&shown, &remarks, &mut reading.findings);
     reading.clock.lap("read_skeleton");
     let skeleton = skeleton_from_bvh(&bvh, &shown, args.subject.height, &mut reading.findings).context(shown)?;

@@ -1,0 +1,78 @@
+//! Why a call failed, in parts: what the command prints, and where.
+
+use crate::files::NoSuchFile;
+use crate::printer;
+use ambulo::analysis::Stopped;
+use ambulo_results::ResultsError;
+use std::io;
+
+/// An error of a call.
+#[derive(Debug)]
+pub struct Failure {
+    /// What happened, where, and what was expected; the text that the command prints after `error:`, without the hint.
+    pub message: String,
+    /// What to do.
+    pub hint: Option<String>,
+    /// The input file concerned, as it was named.
+    pub file: Option<String>,
+    /// The line of that file, counted from 1.
+    pub line: Option<usize>,
+    /// The kind of error of the operating system, if it is one.
+    pub system: Option<io::ErrorKind>,
+    /// Whether the caller stopped the computation.
+    pub stopped: bool,
+}
+
+impl Failure {
+    pub(crate) fn refused(message: String) -> Failure {
+        Failure { message, hint: None, file: None, line: None, system: None, stopped: false }
+    }
+
+    /// The same, with the name of the file if the message begins with one of these.
+    pub(crate) fn in_one_of<'a>(mut self, names: impl Iterator<Item = &'a str>) -> Failure {
+        let begins = |name: &&str| {
+            !name.is_empty() && self.message.strip_prefix(*name).is_some_and(|rest| rest.starts_with([':', ' ', '/']))
+        };
+        self.file = names.filter(begins).max_by_key(|name| name.len()).map(str::to_owned);
+        if let Some(file) = &self.file {
+            self.line = line(&self.message[file.len()..]);
+        }
+        self
+    }
+}
+
+/// The number after the word `line`.
+fn line(text: &str) -> Option<usize> {
+    let after = &text[text.find(" line ")? + " line ".len()..];
+    after.chars().take_while(char::is_ascii_digit).collect::<String>().parse().ok()
+}
+
+impl From<anyhow::Error> for Failure {
+    fn from(error: anyhow::Error) -> Failure {
+        let (message, hint) = printer::error_parts(&error);
+        let missing = error.chain().any(|cause| cause.is::<NoSuchFile>()).then_some(io::ErrorKind::NotFound);
+        let of_system = || error.chain().find_map(|cause| Some(cause.downcast_ref::<io::Error>()?.kind()));
+        let stopped = error.chain().any(|cause| cause.is::<Stopped>());
+        Failure { hint, system: missing.or_else(of_system), stopped, ..Failure::refused(message) }
+    }
+}
+
+impl From<ResultsError> for Failure {
+    fn from(error: ResultsError) -> Failure {
+        anyhow::Error::new(error).into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_has_the_file_and_the_line_of_its_message() {
+        let message = "walk.mot: line 12: found `x`; expected a number";
+        let failure = Failure::refused(message.to_owned()).in_one_of(["walk", "walk.mot", ""].into_iter());
+        assert_eq!((failure.file.as_deref(), failure.line), (Some("walk.mot"), Some(12)));
+        let failure = Failure::refused(message.to_owned()).in_one_of(["alk.mot"].into_iter());
+        assert_eq!((failure.file, failure.line), (None, None));
+    }
+}

@@ -1,0 +1,71 @@
+//! The `ambulo` command: reads files, calls the library, writes files and messages.
+//!
+//! [`command`] is the whole command. [`forces`], [`walk`], [`simulate`] and [`sweep`] compute the same as the verbs of these names from the
+//! same words and return [`Results`] instead of writing a folder, for bindings to other languages; [`open`] reads a folder again.
+
+mod args;
+mod bug_report;
+mod caller;
+mod calls;
+mod commands;
+mod failure;
+mod files;
+mod folder_lock;
+mod hints;
+mod printer;
+mod record;
+mod replacement;
+
+pub use caller::Caller;
+pub use calls::{forces, laboratory, model, open, read, simulate, sweep, table, walk};
+pub use commands::Results;
+pub use failure::Failure;
+
+use args::{Args, Command};
+use clap::Parser;
+use std::ffi::OsString;
+
+/// Runs the command with these words, of which the first is the name of the program. Returns the exit code.
+pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
+    bug_report::install();
+    let args = match Args::try_parse_from(words) {
+        Ok(args) => args,
+        Err(refused) => {
+            // Help goes to standard output, errors to standard error; where neither can be written to, the exit code is all there is.
+            let _ = refused.print();
+            return u8::try_from(refused.exit_code()).unwrap_or(2);
+        }
+    };
+    let done = match args.command {
+        None => printer::guide().map(|()| Completion::Passed),
+        Some(Command::Forces(args)) => commands::forces::run(&args),
+        Some(Command::Walk(args)) => commands::walk::run(&args),
+        Some(Command::Sweep(args)) => commands::sweep::run(&args),
+        Some(Command::Demo(args)) => commands::demo::run(&args),
+        Some(Command::Simulate(args)) => commands::simulate::run(&args),
+        Some(Command::Reproduce(args)) => commands::reproduce::run(&args),
+        Some(Command::Report(args)) => commands::report::run(&args),
+        Some(Command::View(args)) => commands::view::run(&args),
+        Some(Command::Info(args)) => commands::info::run(&args),
+        Some(Command::Convert(args)) => commands::convert::run(&args),
+        Some(Command::Events(args)) => commands::events::run(&args),
+        Some(Command::Compare(args)) => commands::compare::run(&args),
+    };
+    match done {
+        Ok(Completion::Passed) => 0,
+        Ok(Completion::Failed) => 1,
+        Err(error) => {
+            printer::error(&error);
+            2
+        }
+    }
+}
+
+/// The result of a command that ran to its end; it sets the exit code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Completion {
+    /// Exit code 0.
+    Passed,
+    /// An infeasible motion with --check, or an exceeded limit: exit code 1.
+    Failed,
+}

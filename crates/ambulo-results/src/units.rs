@@ -1,0 +1,82 @@
+//! Units of the columns of tables (docs/OUTPUTS.md).
+
+use ambulo::model::{CoordinateKind, Model};
+
+/// Whether a file is an OpenSim storage file; other tables are comma-separated values.
+#[must_use]
+pub fn is_storage(file: &str) -> bool {
+    file.ends_with(".sto") || file.ends_with(".mot")
+}
+
+/// The unit of a column of a table: `deg`, `N.m`, `s`; empty if it has none or is not known. `model` is the body of the run.
+#[must_use]
+pub fn unit_of(file: &str, column: &str, model: Option<&Model>) -> &'static str {
+    if column.eq_ignore_ascii_case("time") {
+        return "s";
+    }
+    match file {
+        "kinematics.mot" => model.map_or("", |model| unit_of_coordinate(column, model)),
+        "moments.sto" | "moments_biological.sto" if column.ends_with("_force") => "N",
+        "moments.sto" | "moments_biological.sto" => "N.m",
+        "powers.sto" => "W",
+        "reactions.sto" | "grf.mot" | "grf_sd.mot" | "grf_measured.mot" => unit_of_load(column),
+        "clinical.csv" => unit_of_clinical(column),
+        _ => "",
+    }
+}
+
+fn unit_of_coordinate(name: &str, model: &Model) -> &'static str {
+    match model.coordinates().iter().find(|coordinate| coordinate.name == name).map(|coordinate| coordinate.kind) {
+        Some(CoordinateKind::Rotation) => "deg",
+        Some(CoordinateKind::Translation) => "m",
+        Some(CoordinateKind::Coupled) => "rad",
+        None => "",
+    }
+}
+
+/// Force and moment have a letter for the kind before that of the axis: `_vx`, `_fx`, `_px`, `_mx`; the free moment is a torque.
+fn unit_of_load(column: &str) -> &'static str {
+    let column = column.trim_end_matches("_sd");
+    if column.starts_with("ground_torque") {
+        return "N.m";
+    }
+    match column.as_bytes() {
+        [.., b'v' | b'f', _] => "N",
+        [.., b'm', _] => "N.m",
+        [.., b'p', _] => "m",
+        _ => "",
+    }
+}
+
+/// Body weights are a ratio, so ground forces have the unit `BW` of `cycles.csv`.
+fn unit_of_clinical(column: &str) -> &'static str {
+    if column.starts_with("ground_force") {
+        "BW"
+    } else if column.contains("_moment") {
+        "N.m/kg"
+    } else if column.contains("_power") {
+        "W/kg"
+    } else {
+        "deg"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_follow_from_the_names_of_columns() {
+        let of = |file, column| unit_of(file, column, None);
+        assert_eq!(of("grf.mot", "time"), "s");
+        assert_eq!(of("grf.mot", "ground_force_r_vy"), "N");
+        assert_eq!(of("grf.mot", "ground_force_l_px"), "m");
+        assert_eq!(of("grf_sd.mot", "ground_force_l_px_sd"), "m");
+        assert_eq!(of("grf_sd.mot", "ground_torque_l_y_sd"), "N.m");
+        assert_eq!(of("reactions.sto", "hip_r_on_femur_r_in_ground_mz"), "N.m");
+        assert_eq!(of("moments.sto", "pelvis_ty_force"), "N");
+        assert_eq!(of("moments.sto", "knee_angle_r_moment"), "N.m");
+        assert_eq!(of("clinical.csv", "knee_flexion_moment_r"), "N.m/kg");
+        assert_eq!(of("clinical.csv", "knee_flexion_r"), "deg");
+    }
+}
