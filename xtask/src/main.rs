@@ -10,6 +10,7 @@ mod documents;
 mod house;
 mod measured;
 mod mutants;
+mod python;
 mod sweep;
 mod workspace;
 
@@ -25,6 +26,8 @@ usage: cargo xtask <command>
   measured          write the generated pages of docs/measured/  [PAGE..] [--check: list pages that are out of date]
   mutants           run mutants of the science and write docs/measured/MUTANTS.md  [MODULE..] [--sample N] [--seed S]
                     [--resume: those not yet run] [--retry: survivors again] [--page: only the page]
+  python            make a wheel of the Python package from the module that `cargo test` has compiled, and test it in a bare environment
+                    [--measure: build the wheel for users with maturin and print its size and times]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
@@ -59,7 +62,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 6] = ["check", "house", "build-time", "measured", "mutants", "sweep"];
+const OWN: [&str; 7] = ["check", "house", "build-time", "measured", "mutants", "python", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
 const MEASUREMENTS: [&str; 20] = [
@@ -97,6 +100,7 @@ fn main() -> ExitCode {
         ("build-time", _) => build_time::run(rest),
         ("measured", _) => measured::run(rest),
         ("mutants", _) => mutants::run(rest),
+        ("python", _) => python::run(rest),
         ("sweep", []) => sweep::run(),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),

@@ -125,6 +125,10 @@ fn other_verb() -> Failure {
 
 /// Adds the file to an error that begins with the name of one.
 fn named(words: &[String], call: impl FnOnce() -> Result<Results, Failure>) -> Result<Results, Failure> {
-    let values = words.iter().map(|word| word.split_once('=').map_or(word.as_str(), |(_, value)| value));
+    let value = |option: &'_ str| option.split_once('=').map_or("", |(_, value)| value).len();
+    let values = words.iter().map(|word| {
+        // Only an option has a value; the name of a file may contain the sign.
+        if word.starts_with("--") { &word[word.len() - value(word)..] } else { word.as_str() }
+    });
     call().map_err(|failure| failure.in_one_of(values))
 }

@@ -1,0 +1,39 @@
+"""Joint moments, powers and ground forces of human walking, from motion alone.
+
+>>> import ambulo
+>>> walk = ambulo.walk(speed=1.2)
+>>> walk.moments["knee_angle_r_moment"].shape
+(330,)
+
+The functions compute what the command ``ambulo`` computes, with the same defaults, checks and messages.
+"""
+
+from ambulo._ambulo import Model
+from ambulo._ambulo import version as _version
+from ambulo._calls import calibrate, forces, model, open, simulate, sweep, walk
+from ambulo._errors import AmbuloError, AmbuloWarning, InputError
+from ambulo._recording import Recording, coordinates, markers, read
+from ambulo._result import Result
+from ambulo._table import Table
+
+__version__: str = _version()
+
+__all__ = [
+    "AmbuloError",
+    "AmbuloWarning",
+    "InputError",
+    "Model",
+    "Recording",
+    "Result",
+    "Table",
+    "calibrate",
+    "coordinates",
+    "forces",
+    "markers",
+    "model",
+    "open",
+    "read",
+    "simulate",
+    "sweep",
+    "walk",
+]

@@ -1,0 +1,435 @@
+"""The functions of the package: the verbs of the command."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ambulo import _ambulo
+from ambulo._errors import InputError
+from ambulo._recording import Recording
+from ambulo._result import Result
+from ambulo._words import Words, joined
+
+if TYPE_CHECKING:
+    from ambulo._ambulo import Model
+    from ambulo._table import Table
+
+    _Path = str | os.PathLike[str]
+    _Cutoff = float | str
+
+_Verb = Callable[[list[str], list[tuple[str, bytes]]], _ambulo.Results]
+
+
+def model(path: _Path | bytes, name: str | None = None) -> Model:
+    """Read an OpenSim model.
+
+    Parameters
+    ----------
+    path : str, path-like or bytes
+        An ``.osim`` file, or its content.
+    name : str, optional
+        Name for messages.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    FileNotFoundError, PermissionError
+        A file that cannot be read.
+    InputError
+        A file that is not a model of a tree of bodies.
+    """
+    if isinstance(path, (bytes, bytearray, memoryview)):
+        return _ambulo.Model(bytes(path), "model.osim" if name is None else name)
+    return _ambulo.Model(_ambulo.read(path), os.fspath(path) if name is None else name)
+
+
+def forces(
+    recording: Recording | _Path,
+    model: Model | _Path | bytes | None = None,
+    *,
+    mass: float | None = None,
+    height: float | None = None,
+    static: Recording | _Path | None = None,
+    grf: Recording | Table | _Path | None = None,
+    loads: _Path | bytes | None = None,
+    right: str | None = None,
+    left: str | None = None,
+    plates: Mapping[int, str] | None = None,
+    predict: bool = False,
+    track: bool = False,
+    ground: bool = True,
+    figure: str | None = None,
+    markers: _Path | None = None,
+    fit: str | None = None,
+    max_gap: float | None = None,
+    convention: str | None = None,
+    start: float | None = None,
+    end: float | None = None,
+    rate: float | None = None,
+    filter: str | None = None,
+    cutoff: _Cutoff | None = None,
+    force_cutoff: _Cutoff | None = None,
+    order: int | None = None,
+    consistent: str | None = None,
+    device: Recording | Table | _Path | None = None,
+    add_mass: Sequence[str] | None = None,
+    thresholds: _Path | None = None,
+) -> Result:
+    """Compute joint moments, powers, reactions and ground forces of a recording: ``ambulo forces``.
+
+    An option that is None has the default of the command (``ambulo forces --help``).
+
+    Parameters
+    ----------
+    recording : Recording, str or path-like
+        Markers (``.c3d``, ``.trc``), coordinates of a model (``.mot``, ``.sto``, ``.csv``) or a skeleton (``.bvh``).
+    model : Model, str, path-like or bytes, optional
+        The body; required for coordinates.
+    mass : float, optional
+        Body mass [kg].
+    height : float, optional
+        Stature [m].
+    static : Recording, str or path-like, optional
+        Standing trial of the same person.
+    grf : Recording, Table, str or path-like, optional
+        Measured ground forces.
+    loads : str, path-like or bytes, optional
+        OpenSim external loads: which columns act on which body.
+    right, left : str, optional
+        Body and column prefix of a foot, such as ``"calcn_r:ground_force_"``.
+    plates : mapping of int to str, optional
+        Foot of each force plate, counted from 1: ``{1: "r", 2: "off"}``.
+    predict : bool, optional
+        Predict the ground forces even if they were measured, and compare both.
+    track : bool, optional
+        Change the motion until feet on soft ground alone supply its external forces.
+    ground : bool, optional
+        False computes without ground forces.
+    figure : str, optional
+        Table of segment masses of the built-in body.
+    markers : str or path-like, optional
+        The marker set: a name, or a ``.toml``.
+    fit : {"frames", "trajectory"}, optional
+        How markers are fitted.
+    max_gap : float, optional
+        Longest marker gap that is interpolated [s].
+    convention : {"clinical", "opensim"}, optional
+        Reference of the pelvis and hip angles of `Result.clinical`.
+    start, end : float, optional
+        The analysed time range [s].
+    rate : float, optional
+        Frame rate of the results [Hz].
+    filter : {"butterworth", "spline"}, optional
+        How the motion is smoothed.
+    cutoff : float or "off", optional
+        Low-pass filter of the motion [Hz].
+    force_cutoff : float, "same" or "off", optional
+        Low-pass filter of the measured forces [Hz].
+    order : int, optional
+        Order of one pass of the Butterworth filters.
+    consistent : {"motion", "body"}, optional
+        Residual reduction: what may change so that the motion agrees with the forces.
+    device : Recording, Table, str or path-like, optional
+        Joint moments of a worn device [N.m].
+    add_mass : sequence of str, optional
+        Point masses fixed to bodies: ``"torso:2.5:-0.1,0.3,0"``, kilograms and metres.
+    thresholds : str or path-like, optional
+        Limits of a person for the verdict: ``.toml``.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    FileNotFoundError, PermissionError
+        A file that cannot be read.
+    InputError
+        Inputs that give no forces; the message is the one of the command.
+
+    Warns
+    -----
+    AmbuloWarning
+        Once for each kind of warning in `Result.findings`.
+
+    Notes
+    -----
+    Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the computation ends after its present stage. Methods and sources:
+    docs/THEORY.md.
+    """
+    words = Words()
+    words.input(recording, "recording")
+    words.file("model", model, "model.osim")
+    words.file("static", static, "static")
+    words.file("grf", grf, "grf.mot")
+    words.file("loads", loads, "loads.xml")
+    words.file("device", device, "device.sto")
+    words.option("plate", [f"{plate}={foot}" for plate, foot in (plates or {}).items()])
+    words.option("no-ground", not ground)
+    words.options(
+        {
+            "mass": mass,
+            "height": height,
+            "right": right,
+            "left": left,
+            "predict": predict,
+            "track": track,
+            "figure": figure,
+            "markers": markers,
+            "fit": fit,
+            "max_gap": max_gap,
+            "convention": convention,
+            "from": start,
+            "to": end,
+            "rate": rate,
+            "filter": filter,
+            "cutoff": cutoff,
+            "force_cutoff": force_cutoff,
+            "order": order,
+            "consistent": consistent,
+            "add_mass": None if add_mass is None else list(add_mass),
+            "thresholds": thresholds,
+        }
+    )
+    return _computed(_ambulo.forces, words)
+
+
+def calibrate(recording: Recording | _Path, **options: Any) -> Model:
+    """Return the body that `forces` uses for a recording: the built-in body calibrated from markers, or a scaled model.
+
+    Parameters
+    ----------
+    recording : Recording, str or path-like
+        The recording.
+    **options
+        Options of `forces`, such as `static`, `mass`, `height`, `model`.
+
+    Returns
+    -------
+    Model
+        As ``subject.osim`` of the command.
+
+    Raises
+    ------
+    InputError
+        As `forces`.
+    """
+    body = forces(recording, **options).model
+    if body is None:
+        raise InputError("found a body that no OpenSim model can represent; `forces(...).findings` has the reason")
+    return body
+
+
+def walk(
+    *,
+    speed: float | None = None,
+    gait: _Path | None = None,
+    step_length: float | None = None,
+    cadence: float | None = None,
+    step_height: float | None = None,
+    style: str | None = None,
+    speed_change: Sequence[str] | None = None,
+    step_length_change: Sequence[str] | None = None,
+    cadence_change: Sequence[str] | None = None,
+    figure: str | None = None,
+    mass: float | None = None,
+    height: float | None = None,
+    toe_joint: bool = True,
+    mode: str | None = None,
+    slope: float | None = None,
+    load: str | None = None,
+    weak: Sequence[str] | None = None,
+    device: _Path | None = None,
+    step_width: float | None = None,
+    asymmetric: bool = False,
+    torques: _Path | None = None,
+    cycles: int | None = None,
+    rate: float | None = None,
+    convention: str | None = None,
+    thresholds: _Path | None = None,
+) -> Result:
+    """Synthesise a walk at any speed and in any style, and compute its forces: ``ambulo walk``.
+
+    An option that is None has the default of the command (``ambulo walk --help``).
+
+    Parameters
+    ----------
+    speed : float, optional
+        Walking speed [m/s].
+    gait : str or path-like, optional
+        Name of a gait, or a gait file (docs/GAITS.md).
+    step_length : float, optional
+        Step length [m].
+    cadence : float, optional
+        Steps per minute.
+    step_height : float, optional
+        Foot clearance as a multiple of the natural one.
+    style : str, optional
+        How joint curves are interpolated.
+    speed_change, step_length_change, cadence_change : sequence of str, optional
+        Changes on the way: ``"3:1.6:2"`` is to 1.6 from 3 s on, within 2 s.
+    figure : str, optional
+        Table of segment masses.
+    mass : float, optional
+        Body mass [kg].
+    height : float, optional
+        Stature [m].
+    toe_joint : bool, optional
+        False walks on feet of one segment.
+    mode : {"optimal", "predict", "corrected", "paper"}, optional
+        How the walk is computed.
+    slope : float, optional
+        Slope of the ground [%].
+    load : str, optional
+        A load that is carried: ``"12kg:back"``.
+    weak : sequence of str, optional
+        Share of its strength that a joint has left: ``"ankle=0.6"``.
+    device : str or path-like, optional
+        Devices at joints: ``.toml``.
+    step_width : float, optional
+        Distance between the paths of both feet [m].
+    asymmetric : bool, optional
+        Let both sides move differently.
+    torques : str or path-like, optional
+        Replay torques of a file without feedback.
+    cycles : int, optional
+        Whole gait cycles per foot.
+    rate : float, optional
+        Frame rate of the results [Hz].
+    convention : {"clinical", "opensim"}, optional
+        Reference of the pelvis and hip angles of `Result.clinical`.
+    thresholds : str or path-like, optional
+        Limits of a person for the verdict: ``.toml``.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    InputError
+        Options that give no walk; the message is the one of the command.
+    """
+    options = dict(locals())
+    options["no_toe_joint"] = not options.pop("toe_joint")
+    words = Words()
+    words.options(options)
+    return _computed(_ambulo.walk, words)
+
+
+def simulate(
+    scene: _Path | bytes, *, duration: float | None = None, step: float | None = None, resume: _Path | None = None
+) -> Result:
+    """Simulate a scene: ``ambulo simulate``.
+
+    Parameters
+    ----------
+    scene : str, path-like or bytes
+        A scene file (``.toml``), or its content.
+    duration : float, optional
+        Duration of the simulation [s].
+    step : float, optional
+        Time step [s].
+    resume : str or path-like, optional
+        A state to begin with, saved by ``ambulo simulate --save``.
+
+    Returns
+    -------
+    Result
+        With the tables of the scene: `Result.tables`.
+
+    Raises
+    ------
+    FileNotFoundError, PermissionError
+        A file that cannot be read.
+    InputError
+        A scene that cannot be built; the message is the one of the command.
+    """
+    words = Words()
+    words.input(scene, "scene.toml")
+    words.options({"duration": duration, "step": step, "resume": resume})
+    return _computed(_ambulo.simulate, words)
+
+
+def sweep(
+    *,
+    speed: float | str | Sequence[float] | None = None,
+    mass: float | str | Sequence[float] | None = None,
+    height: float | str | Sequence[float] | None = None,
+    slope: float | str | Sequence[float] | None = None,
+    load: float | str | Sequence[float] | None = None,
+    weak: Sequence[str] | None = None,
+    device: _Path | None = None,
+    predict: bool = False,
+    figure: str | None = None,
+) -> Result:
+    """Compute walks at many speeds, of many bodies, on slopes and with loads: ``ambulo sweep``.
+
+    Every combination of the values is one walk.
+
+    Parameters
+    ----------
+    speed : float, str or sequence of float, optional
+        Walking speeds [m/s]: numbers, or a range as text, ``"0.8:1.6:0.2"``.
+    mass : float, str or sequence of float, optional
+        Body masses [kg].
+    height : float, str or sequence of float, optional
+        Statures [m].
+    slope : float, str or sequence of float, optional
+        Slopes of the ground [%].
+    load : float, str or sequence of float, optional
+        Loads [kg]; as text with their place: ``"0,15:hands"``.
+    weak : sequence of str, optional
+        Share of its strength that a joint has left, in all walks: ``"ankle=0.6"``.
+    device : str or path-like, optional
+        Devices at joints in all walks: ``.toml``.
+    predict : bool, optional
+        Predict all walks.
+    figure : str, optional
+        Table of segment masses.
+
+    Returns
+    -------
+    Result
+        With the tables ``walks`` and ``sweep``: `Result.table`.
+
+    Raises
+    ------
+    InputError
+        Values that give no walk; the message is the one of the command.
+    """
+    words = Words()
+    numbers = {"speed": speed, "mass": mass, "height": height, "slope": slope, "load": load}
+    words.options({name: joined(values) for name, values in numbers.items()})
+    words.options({"weak": weak, "device": device, "predict": predict, "figure": figure, "quiet": True})
+    return _computed(_ambulo.sweep, words)
+
+
+def open(folder: _Path) -> Result:
+    """Open a result folder that a run wrote.
+
+    Parameters
+    ----------
+    folder : str or path-like
+        The folder.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    InputError
+        A folder that no run wrote, or whose files were changed.
+    """
+    return Result(_ambulo.open(folder))
+
+
+def _computed(verb: _Verb, words: Words) -> Result:
+    """Call a verb; warnings point to the caller of the function of the package."""
+    return Result(verb(words.words, words.listed()))._warn(stacklevel=4)

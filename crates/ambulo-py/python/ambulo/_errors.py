@@ -1,0 +1,49 @@
+"""Exceptions and warnings."""
+
+from __future__ import annotations
+
+import errno
+import os
+
+
+class AmbuloError(Exception):
+    """An input that gives no results, or results that cannot be written.
+
+    The text is the one that the command prints: where, what was found, what was expected and what to do.
+
+    Attributes
+    ----------
+    file : str or None
+        The input file concerned, as it was named.
+    line : int or None
+        The line of that file, counted from 1.
+    hint : str or None
+        What to do.
+    """
+
+    file: str | None = None
+    line: int | None = None
+    hint: str | None = None
+
+
+class InputError(AmbuloError, ValueError):
+    """A file, an array or an option that cannot be used."""
+
+
+class AmbuloWarning(UserWarning):
+    """A warning about the data; the results exist, and `Result.findings` lists it too."""
+
+
+def failure(
+    message: str, hint: str | None, file: str | None, line: int | None, system: str | None
+) -> AmbuloError | OSError:
+    """Make the exception of a failed call; `system` is the name of an error of the operating system."""
+    what = message.rstrip()
+    if system is not None:
+        number = getattr(errno, system, errno.EIO)
+        error = OSError(number, what if hint is None else f"{what} hint: {hint}", file or os.curdir)
+        error.hint = hint  # type: ignore[attr-defined]
+        return error
+    refused = InputError(what if hint is None else f"{what}\n  hint: {hint}")
+    refused.file, refused.line, refused.hint = file, line, hint
+    return refused

@@ -1,0 +1,197 @@
+"""Recordings: files in memory."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+from ambulo import _ambulo
+from ambulo._errors import InputError
+from ambulo._table import Table
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike
+
+
+class Recording:
+    """The content of a recording, with its name.
+
+    Attributes
+    ----------
+    name : str
+        Name of the file, for messages; its ending is the format.
+    data : bytes
+        The content of the file.
+    """
+
+    __slots__ = ("_content", "data", "name")
+
+    name: str
+    data: bytes
+
+    def __init__(self, data: bytes, name: str) -> None:
+        self.data = bytes(data)
+        self.name = name
+        self._content: dict[str, Any] | None = None
+
+    @property
+    def format(self) -> str:
+        """The ending of the name in lower case: ``"c3d"``, ``"trc"``, ``"mot"``, ``"sto"``, ``"csv"``, ``"bvh"``."""
+        return PurePath(self.name).suffix[1:].lower()
+
+    def _markers(self) -> dict[str, Any]:
+        if self._content is None:
+            self._content = _ambulo.read_markers(self.data, self.name)
+        return self._content
+
+    @property
+    def marker_names(self) -> list[str]:
+        """Names of the markers of a C3D or TRC file."""
+        return list(self._markers()["names"])
+
+    @property
+    def markers(self) -> np.ndarray:
+        """Positions of the markers in the laboratory's axes [m], shape (frames, markers, 3); not a number in gaps."""
+        return self._markers()["positions"]
+
+    @property
+    def times(self) -> np.ndarray:
+        """Times of the frames [s], shape (frames,)."""
+        if self.format in ("c3d", "trc"):
+            return self._markers()["times"]
+        return self.table["time"]
+
+    @property
+    def rate(self) -> float | None:
+        """Frame rate [Hz]."""
+        return self._markers()["rate"] if self.format in ("c3d", "trc") else self.table.rate
+
+    @property
+    def plates(self) -> list[dict[str, Any]]:
+        """Force plates of a C3D: ``name``, ``times`` [s], ``force`` (n, 3) [N], ``moment`` (n, 3) about the origin [N.m], ``corners`` (4, 3) [m]."""
+        return list(self._markers()["plates"])
+
+    @property
+    def events(self) -> list[tuple[str, str, float]]:
+        """Foot strikes and foot offs that the file lists: side (``r``, ``l``), event (``strike``, ``off``), time [s]."""
+        return list(self._markers()["events"])
+
+    @property
+    def table(self) -> Table:
+        """The table of a ``.mot``, ``.sto`` or ``.csv`` file, in the units of the file."""
+        return Table._of_parts(_ambulo.read_table(self.data, self.name))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the file."""
+        with open(path, "wb") as file:
+            file.write(self.data)
+
+    def __repr__(self) -> str:
+        """Describe the recording in one line."""
+        return f"<Recording {self.name}: {len(self.data)} bytes>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle content and name."""
+        return Recording, (self.data, self.name)
+
+
+def read(path: str | os.PathLike[str] | bytes, name: str | None = None) -> Recording:
+    """Read a recording: markers (``.c3d``, ``.trc``), coordinates or forces (``.mot``, ``.sto``, ``.csv``), a skeleton (``.bvh``).
+
+    Parameters
+    ----------
+    path : str, path-like or bytes
+        A file, or the content of a file.
+    name : str, optional
+        Name of the recording for messages; required for bytes, because its ending is the format.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    FileNotFoundError, PermissionError
+        A file that cannot be read.
+    InputError
+        Bytes without a name.
+
+    Notes
+    -----
+    The content is decoded where it is needed, so errors in it are raised by `forces` and by the attributes of the recording.
+    """
+    if isinstance(path, (bytes, bytearray, memoryview)):
+        if name is None:
+            raise InputError("found bytes without a name; expected a name whose ending is the format, such as walk.c3d")
+        return Recording(bytes(path), name)
+    return Recording(_ambulo.read(path), os.fspath(path) if name is None else name)
+
+
+def markers(names: Sequence[str], positions: ArrayLike, rate: float, *, name: str = "markers.trc") -> Recording:
+    """Make a recording of markers from arrays.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of the markers.
+    positions : array_like, shape (frames, markers, 3)
+        Positions in the laboratory's axes [m]; not a number where a marker is missing.
+    rate : float
+        Frame rate [Hz].
+    name : str, optional
+        Name for messages.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    InputError
+        Arrays of other shapes, equal names, a rate that is not above zero.
+    """
+    import numpy as np
+
+    array = np.asarray(positions, dtype=np.float64)
+    if array.ndim != 3:
+        raise InputError(f"positions: found {array.ndim} dimensions; expected an array (frames, markers, 3) in metres")
+    return Recording(_ambulo.write_markers(list(names), array, rate), name)
+
+
+def coordinates(
+    times: ArrayLike, columns: Mapping[str, ArrayLike], *, degrees: bool, name: str = "coordinates.sto"
+) -> Recording:
+    """Make a recording of coordinates, or a table of forces, from arrays.
+
+    Parameters
+    ----------
+    times : array_like, shape (frames,)
+        Times [s].
+    columns : mapping of str to array_like, shape (frames,)
+        Values by the name of the coordinate; translations in metres.
+    degrees : bool
+        Whether rotations are in degrees, not in radians.
+    name : str, optional
+        Name for messages.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    InputError
+        Columns of other lengths.
+    """
+    import numpy as np
+
+    arrays = {"time": times, **columns}
+    lengths = {key: np.shape(values) for key, values in arrays.items()}
+    for key, shape in lengths.items():
+        if shape != lengths["time"] or len(shape) != 1:
+            raise InputError(f"column `{key}`: found the shape {shape}; expected {lengths['time']}, one value per time")
+    array = np.column_stack([np.asarray(values, dtype=np.float64) for values in arrays.values()])
+    return Recording(_ambulo.write_table("Coordinates", degrees, list(arrays), array), name)

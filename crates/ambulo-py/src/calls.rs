@@ -1,0 +1,106 @@
+//! The verbs of the command as functions. They take the words of a command line, so that defaults, checks and messages are those of the command.
+
+use crate::failure::exception;
+use crate::results::Results;
+use ambulo_cli::{Caller, Failure};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedBytes;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+/// How often a computation looks whether the user pressed Ctrl-C.
+const SIGNALS: Duration = Duration::from_millis(50);
+/// As much as the first thread of a program usually has.
+const STACK_BYTES: usize = 8 << 20;
+
+type Verb = fn(&[String], &Caller) -> Result<ambulo_cli::Results, Failure>;
+/// Input files in memory: name and content.
+type Files = Vec<(PathBuf, PyBackedBytes)>;
+
+/// Version of the package.
+#[pyfunction]
+pub(crate) fn version() -> &'static str {
+    env!("CARGO_PKG_VERSION")
+}
+
+/// Runs the whole command; the first word is the name of the program. Returns its exit code.
+#[pyfunction]
+pub(crate) fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
+    py.detach(|| ambulo_cli::command(words))
+}
+
+/// `ambulo forces`.
+#[pyfunction]
+pub(crate) fn forces(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
+    results(py, ambulo_cli::forces, words, &files)
+}
+
+/// `ambulo walk`.
+#[pyfunction]
+pub(crate) fn walk(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
+    results(py, ambulo_cli::walk, words, &files)
+}
+
+/// `ambulo simulate`.
+#[pyfunction]
+pub(crate) fn simulate(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
+    results(py, ambulo_cli::simulate, words, &files)
+}
+
+/// `ambulo sweep`.
+#[pyfunction]
+pub(crate) fn sweep(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
+    results(py, ambulo_cli::sweep, words, &files)
+}
+
+/// Opens a result folder.
+#[pyfunction]
+pub(crate) fn open(py: Python<'_>, folder: PathBuf) -> PyResult<Results> {
+    py.detach(|| ambulo_cli::open(&folder)).map(Results).map_err(|failure| exception(py, failure))
+}
+
+fn results(py: Python<'_>, verb: Verb, words: Vec<String>, files: &Files) -> PyResult<Results> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let files = files.iter().map(|(name, content)| (name.clone(), Arc::from(&content[..]))).collect();
+    let caller = Caller { files, stop: Arc::clone(&stop) };
+    let computed = interruptible(py, stop, move || verb(&words, &caller))?;
+    computed.map(Results).map_err(|failure| exception(py, failure))
+}
+
+/// Computes in a thread of its own, without the lock of the interpreter. Ctrl-C raises `KeyboardInterrupt` at once; the computation ends after
+/// its present stage, and its result is dropped.
+fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    stop: Arc<AtomicBool>,
+    compute: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    let (sender, receiver) = mpsc::channel();
+    // Without a receiver, the result is not needed.
+    let compute = move || drop(sender.send(compute()));
+    thread::Builder::new().name("ambulo".to_owned()).stack_size(STACK_BYTES).spawn(compute)?;
+    py.detach(move || {
+        loop {
+            match receiver.recv_timeout(SIGNALS) {
+                Ok(computed) => return Ok(computed),
+                Err(RecvTimeoutError::Timeout) => {
+                    Python::attach(|py| py.check_signals()).inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
+                }
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(PyRuntimeError::new_err(concat!(
+                        "this is a bug in ambulo ",
+                        env!("CARGO_PKG_VERSION"),
+                        "; the message above says where. hint: report it at ",
+                        env!("CARGO_PKG_REPOSITORY"),
+                        "/issues"
+                    )));
+                }
+            }
+        }
+    })
+}

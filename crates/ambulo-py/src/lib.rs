@@ -1,0 +1,24 @@
+//! `ambulo._ambulo`, the compiled part of the Python package: converts arguments, calls the library and the functions of the command, and
+//! converts results. It has no formula and no default of its own. The Python part is in `python/ambulo`.
+
+mod arrays;
+mod arrow;
+mod calls;
+mod failure;
+mod model;
+mod recordings;
+mod results;
+
+#[pyo3::pymodule(gil_used = false)]
+mod _ambulo {
+    #[pymodule_export]
+    use super::arrow::arrow_stream;
+    #[pymodule_export]
+    use super::calls::{command, forces, open, simulate, sweep, version, walk};
+    #[pymodule_export]
+    use super::model::Model;
+    #[pymodule_export]
+    use super::recordings::{read, read_markers, read_table, write_markers, write_table};
+    #[pymodule_export]
+    use super::results::Results;
+}

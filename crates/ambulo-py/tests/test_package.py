@@ -1,0 +1,189 @@
+"""Inputs in memory, pickles, threads, interrupts, the command and the examples of the documents."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import REPOSITORY, command
+
+import ambulo
+
+
+def same(one, other):
+    return np.array_equal(one.moments.values, other.moments.values)
+
+
+def test_files_bytes_and_arrays_give_the_same_forces(files, predicted):
+    table = ambulo.read(files / "walk.mot").table
+    columns = {name: table[name] for name in table.names}
+    recordings = [
+        ambulo.read(files / "walk.mot"),
+        ambulo.read((files / "walk.mot").read_bytes(), "mine.mot"),
+        ambulo.coordinates(table.time, columns, degrees=True),
+        str(files / "walk.mot"),
+    ]
+    models = [ambulo.model(files / "figure.osim"), (files / "figure.osim").read_bytes(), files / "figure.osim"]
+    for recording in recordings:
+        assert same(ambulo.forces(recording, models[0]), predicted)
+    for model in models:
+        assert same(ambulo.forces(recordings[0], model), predicted)
+
+
+def test_markers_from_arrays_give_the_forces_of_their_file(files):
+    file = ambulo.read(files / "walk.trc")
+    made = ambulo.markers(file.marker_names, file.markers, file.rate)
+    assert made.marker_names == file.marker_names
+    # Positions are written in metres instead of millimetres, which changes their last bit.
+    assert np.allclose(made.markers, file.markers, rtol=0, atol=1e-15, equal_nan=True)
+    model = ambulo.model(files / "figure.osim")
+    one, other = ambulo.forces(file, model), ambulo.forces(made, model)
+    assert np.abs(one.moments.values - other.moments.values).max() < 1e-6
+
+
+def test_ground_forces_in_memory_are_used(files):
+    grf = ambulo.read(files / "walk_grf.mot")
+    loads = files / "walk_grf.xml"
+    on_disk = ambulo.forces(files / "walk.mot", files / "figure.osim", grf=files / "walk_grf.mot", loads=loads)
+    in_memory = ambulo.forces(files / "walk.mot", files / "figure.osim", grf=grf, loads=loads.read_bytes())
+    assert same(on_disk, in_memory)
+    assert on_disk.summary["ground"]["source"] == in_memory.summary["ground"]["source"] == "measured"
+
+
+def test_a_recording_shows_its_content(files):
+    recording = ambulo.read(files / "walk.c3d")
+    assert recording.markers.shape == (len(recording.times), len(recording.marker_names), 3)
+    assert recording.rate == 100
+    assert len(recording.plates) >= 2
+    assert recording.plates[0]["force"].shape == (len(recording.plates[0]["times"]), 3)
+    assert recording.plates[0]["corners"].shape == (4, 3)
+
+
+def test_a_calibrated_body_is_the_one_of_the_command(files, folder):
+    body = ambulo.calibrate(files / "walk.c3d", static=files / "standing.c3d", mass=75)
+    assert body.data == (folder / "subject.osim").read_bytes()
+    assert body.mass == pytest.approx(75)
+
+
+def test_models_recordings_and_tables_can_be_pickled(files, result):
+    model = pickle.loads(pickle.dumps(ambulo.model(files / "figure.osim")))
+    recording = pickle.loads(pickle.dumps(ambulo.read(files / "walk.mot")))
+    assert same(ambulo.forces(recording, model), ambulo.forces(files / "walk.mot", files / "figure.osim"))
+    table = pickle.loads(pickle.dumps(result.moments))
+    assert table.names == result.moments.names
+    assert np.array_equal(table.values, result.moments.values)
+    assert pickle.loads(pickle.dumps(result.events))["side"] == result.events["side"]
+
+
+def test_threads_share_a_model_and_compute_the_same(files, predicted):
+    model = ambulo.model(files / "figure.osim")
+    motion = [np.asfortranarray(0.1 * np.ones((5000, len(model.coordinates)))) for _ in range(3)]
+    alone = model.inverse_dynamics(*motion)
+    with ThreadPoolExecutor(4) as pool:
+        runs = [pool.submit(ambulo.forces, files / "walk.mot", model) for _ in range(4)]
+        batches = [pool.submit(model.inverse_dynamics, *motion) for _ in range(8)]
+    assert all(same(run.result(), predicted) for run in runs)
+    assert all(np.array_equal(batch.result(), alone) for batch in batches)
+
+
+def test_other_threads_run_during_a_computation(files):
+    ticks = []
+    stop = threading.Event()
+
+    def tick():
+        while not stop.wait(0.001):
+            ticks.append(time.perf_counter())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.perf_counter()
+    ambulo.walk(speed=1.05, mode="corrected", cycles=1)
+    end = time.perf_counter()
+    stop.set()
+    thread.join()
+    # A lock that is not released would leave no tick between start and end; a busy machine leaves fewer than one per millisecond.
+    assert sum(start < tick < end for tick in ticks) > 100 * (end - start)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+def test_ctrl_c_stops_a_long_computation():
+    code = """
+import time, ambulo
+print("begins", flush=True)
+start = time.perf_counter()
+try:
+    ambulo.sweep(speed="0.8:1.7:0.01", predict=True)
+except KeyboardInterrupt:
+    print("stopped", time.perf_counter() - start, flush=True)
+import os; os._exit(0)
+"""
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as program:
+        assert program.stdout.readline() == "begins\n"
+        time.sleep(0.5)
+        program.send_signal(signal.SIGINT)
+        word, seconds = program.stdout.read().split()
+    assert word == "stopped"
+    # Half a second, and at most one interval of 50 ms on a busy machine.
+    assert float(seconds) < 2
+
+
+def test_the_page_is_shown_in_a_notebook(result):
+    page = result.page()
+    assert page.startswith("<!DOCTYPE html>") or page.lower().startswith("<!doctype html>")
+    shown = result._repr_html_()
+    assert shown.startswith("<iframe srcdoc=")
+    assert "de-leva" in shown
+
+
+def test_curves_are_drawn(result):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    for over in ("time", "cycle"):
+        figure = result.plot(over=over)
+        lines = [line for panel in figure.axes for line in panel.get_lines()]
+        assert len(figure.axes) == 6
+        assert len(lines) == 12
+    with pytest.raises(ambulo.InputError, match="found 'nothing'"):
+        result.plot(["nothing"])
+
+
+def test_the_command_is_inside(tmp_path):
+    assert command("--version", folder=tmp_path).stdout.startswith(f"ambulo {ambulo.__version__}")
+    assert command(folder=tmp_path).stdout.startswith("Ambulo")
+    refused = command("forces", folder=tmp_path)
+    assert refused.returncode == 2
+    assert "Usage" in refused.stderr
+    missing = command("forces", "missing.c3d", folder=tmp_path)
+    assert missing.returncode == 2
+    assert missing.stderr.startswith("error: missing.c3d: there is no such file")
+    module = subprocess.run([sys.executable, "-m", "ambulo", "--version"], capture_output=True, text=True, check=True)
+    assert module.stdout == command("--version", folder=tmp_path).stdout
+
+
+def blocks(document: Path) -> list[str]:
+    return re.findall(r"```python\n(.*?)```", document.read_text(), re.DOTALL)
+
+
+@pytest.mark.parametrize("document", ["README.md", "docs/PYTHON.md", "crates/ambulo-py/README.md"])
+def test_the_examples_of_a_document_run(document, files, tmp_path, monkeypatch):
+    for file in files.iterdir():
+        if file.is_file():
+            (tmp_path / file.name).symlink_to(file)
+    (tmp_path / "pendulum.toml").symlink_to(REPOSITORY / "examples/pendulum.toml")
+    monkeypatch.chdir(tmp_path)
+    examples = blocks(REPOSITORY / document)
+    assert examples
+    names: dict[str, object] = {}
+    for example in examples:
+        exec(compile(example, document, "exec"), names)

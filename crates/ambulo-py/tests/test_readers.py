@@ -1,0 +1,56 @@
+"""pandas, polars, pyarrow, DuckDB and xarray read the tables."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import numpy as np
+
+KNEE = "knee_angle_r_moment"
+
+
+def test_pandas_reads_a_table(result):
+    frame = result.moments.to_pandas()
+    assert list(frame.columns) == ["time", *result.moments.names]
+    assert np.array_equal(frame[KNEE].to_numpy(), result.moments[KNEE])
+    assert frame.attrs["units"][KNEE] == "N.m"
+    assert list(result.events.to_pandas()["side"]) == result.events["side"]
+
+
+def test_polars_reads_a_table_with_and_without_our_function(result):
+    import polars
+
+    for frame in (result.moments.to_polars(), polars.DataFrame(result.moments)):
+        assert frame.columns == ["time", *result.moments.names]
+        assert np.array_equal(frame[KNEE].to_numpy(), result.moments[KNEE])
+    assert polars.DataFrame(result.events)["side"].to_list() == result.events["side"]
+
+
+def test_duckdb_and_pyarrow_read_a_table(result):
+    import duckdb
+    import pyarrow
+
+    moments = pyarrow.table(result.moments)
+    assert moments.schema.field(KNEE).metadata == {b"unit": b"N.m"}
+    assert np.array_equal(moments[KNEE].to_numpy(), result.moments[KNEE])
+    found = duckdb.sql(f"select max({KNEE}) from moments").fetchall()
+    assert found == [(result.moments[KNEE].max(),)]
+
+
+def test_xarray_reads_a_table(result):
+    data = result.moments.to_xarray()
+    assert data[KNEE].attrs["units"] == "N.m"
+    assert data.time.attrs["units"] == "s"
+    assert np.array_equal(data[KNEE].values, result.moments[KNEE])
+
+
+def test_import_loads_none_of_them():
+    code = "import sys, ambulo; print([name for name in ('numpy', 'pandas', 'polars', 'xarray', 'matplotlib', 'json') if name in sys.modules])"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.strip() in ("[]", "['json']")
+
+
+def test_numpy_takes_a_table_as_an_array(result):
+    assert np.asarray(result.moments) is result.moments.values
+    assert np.asarray(result.moments, dtype=np.float32).dtype == np.float32
