@@ -1,7 +1,8 @@
 //! What CI runs, in order, up to the first failure: `cargo xtask check`; with `--full` everything that takes longer, too.
 //!
-//! The steps are plain commands of cargo (in the dev profile) and, in `viewer/`, of npm, so you can repeat a failed step alone. A step whose program or target is not installed is skipped with a message; where `CI` is set, that is a failure.
+//! The steps are plain commands of cargo (in the dev profile), of this program and, in `viewer/`, of npm, so you can repeat a failed step alone. A step whose program or target is not installed is skipped with a message; where `CI` is set, that is a failure.
 
+use crate::python::interpreter;
 use crate::workspace;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -18,6 +19,8 @@ enum Tool {
     Npm,
     /// This program.
     Xtask,
+    /// The same, for a step that needs Python.
+    Python,
 }
 
 /// One command.
@@ -34,7 +37,7 @@ struct Step {
 /// The 32-bit target that the library is built for, so that it can run in a browser.
 const WASM: &str = "wasm32-unknown-unknown";
 
-const STEPS: [Step; 11] = [
+const STEPS: [Step; 12] = [
     Step {
         name: "format",
         tool: Tool::Cargo,
@@ -77,6 +80,13 @@ const STEPS: [Step; 11] = [
         arguments: &["test", "--workspace", "--locked", "--doc"],
         variable: None,
         hint: "run the failing example alone with `cargo test --package NAME --doc EXAMPLE`",
+    },
+    Step {
+        name: "Python package",
+        tool: Tool::Python,
+        arguments: &["python"],
+        variable: None,
+        hint: "`cargo xtask python` repeats this step with the module that the tests' step has compiled",
     },
     Step {
         name: "documentation",
@@ -206,6 +216,12 @@ fn has_wasm_target() -> bool {
     output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir())
 }
 
+/// Whether there is a Python that makes virtual environments and reads TOML.
+fn has_venv() -> bool {
+    let mut python = Command::new(interpreter());
+    python.args(["-c", "import ensurepip, tomllib, venv"]).output().is_ok_and(|output| output.status.success())
+}
+
 impl Tool {
     /// What a step needs and the machine does not have.
     fn lacking(self) -> Option<&'static str> {
@@ -216,6 +232,7 @@ impl Tool {
             Tool::CargoForWasm => {
                 (!has_wasm_target()).then_some("the target wasm32-unknown-unknown (`rustup target add`)")
             }
+            Tool::Python => (!has_venv()).then_some("Python 3.11 or later with venv"),
             Tool::Npm => ["npm", "chromium"].into_iter().find(|name| !starts(name)),
         }
     }
@@ -224,14 +241,14 @@ impl Tool {
         match self {
             Tool::Cargo | Tool::CargoForWasm => "cargo",
             Tool::Npm => "npm",
-            Tool::Xtask => "cargo xtask",
+            Tool::Xtask | Tool::Python => "cargo xtask",
         }
     }
 
     fn command(self) -> Command {
         match self {
             Tool::Cargo | Tool::CargoForWasm => workspace::cargo(),
-            Tool::Xtask => Command::new(std::env::current_exe().unwrap_or_else(|_| "xtask".into())),
+            Tool::Xtask | Tool::Python => Command::new(std::env::current_exe().unwrap_or_else(|_| "xtask".into())),
             Tool::Npm => {
                 let mut command = Command::new("npm");
                 command.current_dir(workspace::root().join("viewer")).env("AMBULO", debug_program());
