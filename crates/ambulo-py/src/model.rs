@@ -14,9 +14,10 @@ use ambulo::ground::predict::{PredictSettings, predict};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use ambulo::motion::{MarkerPath, MarkerRecording, TimeGrid};
+use ambulo::simulation::synthetic::RATES_HZ;
 use ambulo::spatial::{Vec3, Wrench};
 use ambulo_results::{deviation_columns, ground_columns};
-use numpy::ndarray::{ArrayView2, ArrayViewMut2, s};
+use numpy::ndarray::{Array2, ArrayView2, ArrayViewMut2, s};
 use numpy::{
     AllowTypeChange, IntoPyArray, PyArray2, PyArray4, PyArrayLike2, PyArrayLike3, PyArrayMethods, PyReadwriteArray2,
     PyUntypedArrayMethods,
@@ -32,7 +33,7 @@ use std::time::Instant;
 /// Frames of one block of inverse dynamics.
 const BLOCK: usize = 128;
 
-type Array2<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
+type MotionArray<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
 /// A body: an OpenSim model. `ambulo.model` reads one, `ambulo.calibrate` makes one.
 #[pyclass(frozen, module = "ambulo")]
@@ -153,14 +154,14 @@ impl Model {
     fn inverse_dynamics<'py>(
         &self,
         py: Python<'py>,
-        q: Array2<'py>,
-        qd: Array2<'py>,
-        qdd: Array2<'py>,
+        q: MotionArray<'py>,
+        qd: MotionArray<'py>,
+        qdd: MotionArray<'py>,
         loads: Option<Bound<'py, PyDict>>,
         out: Option<Bound<'py, PyArray2<f64>>>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let motion = self.motion(py, [&q, &qd, &qdd])?;
-        let loads: Vec<(String, Array2<'_>)> = match loads {
+        let loads: Vec<(String, MotionArray<'_>)> = match loads {
             Some(loads) => {
                 loads.iter().map(|(body, load)| Ok((body.extract()?, load.extract()?))).collect::<PyResult<_>>()?
             }
@@ -208,11 +209,11 @@ impl Model {
     fn forward_kinematics<'py>(
         &self,
         py: Python<'py>,
-        q: Array2<'py>,
-        qd: Option<Array2<'py>>,
-        qdd: Option<Array2<'py>>,
+        q: MotionArray<'py>,
+        qd: Option<MotionArray<'py>>,
+        qdd: Option<MotionArray<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let still = q.as_array().mapv(|_| 0.0);
+        let still = Array2::zeros(q.as_array().dim());
         let still = still.view();
         let rates = qd.as_ref().map_or(still, |qd| qd.as_array());
         let accelerations = qdd.as_ref().map_or(still, |qdd| qdd.as_array());
@@ -276,9 +277,9 @@ impl Model {
     fn _time_of_batch(
         &self,
         py: Python<'_>,
-        q: Array2<'_>,
-        qd: Array2<'_>,
-        qdd: Array2<'_>,
+        q: MotionArray<'_>,
+        qd: MotionArray<'_>,
+        qdd: MotionArray<'_>,
         repeats: usize,
     ) -> PyResult<f64> {
         let motion = self.motion(py, [&q, &qd, &qdd])?;
@@ -312,12 +313,15 @@ impl Model {
     fn predict_ground<'py>(
         &self,
         py: Python<'py>,
-        q: Array2<'py>,
-        qd: Array2<'py>,
-        qdd: Array2<'py>,
+        q: MotionArray<'py>,
+        qd: MotionArray<'py>,
+        qdd: MotionArray<'py>,
         rate: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
-        check_rate(py, rate)?;
+        let [lowest, highest] = RATES_HZ;
+        if !(lowest..=highest).contains(&rate) {
+            return Err(refused(py, format!("rate: found {rate} Hz; expected {lowest} to {highest} Hz")));
+        }
         let motion = self.motion(py, [&q, &qd, &qdd])?;
         let columns = py.detach(|| self.predicted_columns(motion, rate)).map_err(|message| refused(py, message))?;
         let content = PyDict::new(py);
@@ -344,7 +348,7 @@ impl Model {
     }
 
     /// The arrays of a motion, which have the shape that the model needs.
-    fn motion<'a>(&self, py: Python<'_>, motion: [&'a Array2<'_>; 3]) -> PyResult<[ArrayView2<'a, f64>; 3]> {
+    fn motion<'a>(&self, py: Python<'_>, motion: [&'a MotionArray<'_>; 3]) -> PyResult<[ArrayView2<'a, f64>; 3]> {
         self.checked(py, motion.map(|array| array.as_array()))
     }
 
@@ -365,8 +369,8 @@ impl Model {
     }
 
     /// Loads on bodies, one array per body with the columns of `grf.mot`: force, point, moment about the point.
-    fn loads(&self, py: Python<'_>, loads: &[(String, Array2<'_>)], frames: usize) -> PyResult<Vec<LoadSeries>> {
-        let series = |(name, array): &(String, Array2<'_>)| {
+    fn loads(&self, py: Python<'_>, loads: &[(String, MotionArray<'_>)], frames: usize) -> PyResult<Vec<LoadSeries>> {
+        let series = |(name, array): &(String, MotionArray<'_>)| {
             let array = array.as_array();
             let Some(body) = self.model.body(name) else {
                 let known = self.bodies().join(", ");
@@ -380,6 +384,10 @@ impl Model {
                         "loads: `{name}`: found the shape {found:?}; expected ({frames}, 9): force [N], point [m], moment about the point [N.m]"
                     ),
                 ));
+            }
+            if let Some(((row, column), found)) = array.indexed_iter().find(|(_, x)| !x.is_finite()) {
+                let found = format!("loads: `{name}`: found {found} in row {row}, column {column}");
+                return Err(refused(py, format!("{found}; expected finite numbers")));
             }
             let at = |frame: usize, first: usize| Vec3::from_fn(|axis, _| array[[frame, first + axis]]);
             let wrench = |frame: usize| Wrench { force: at(frame, 0), moment: at(frame, 6) };

@@ -135,6 +135,12 @@ def test_bad_arrays_are_refused_with_their_place(model, motion):
         model.inverse_dynamics(q, qd, qdd, {"nobody": np.zeros((300, 9))})
     with pytest.raises(ambulo.InputError, match=r"expected \(300, 9\)"):
         model.inverse_dynamics(q, qd, qdd, {"pelvis": np.zeros((300, 8))})
-    with pytest.raises(ambulo.InputError, match="rate"):
-        model.predict_ground(q, qd, qdd, 0)
+    with pytest.raises(ambulo.InputError, match="column 4; expected finite numbers"):
+        model.inverse_dynamics(q, qd, qdd, {"pelvis": np.where(np.arange(9) == 4, np.inf, np.zeros((300, 9)))})
+    for rate in (0, -1, 1e-300, 1e300, np.nan, np.inf):
+        with pytest.raises(ambulo.InputError, match="rate: found"):
+            model.predict_ground(q, qd, qdd, rate)
+    for compute in (model.forward_kinematics, lambda none: model.predict_ground(none, none, none, 100)):
+        with pytest.raises(ambulo.InputError, match="no frames"):
+            compute(q[:0])
     assert model.inverse_dynamics(q[:0], qd[:0], qdd[:0]).shape == (0, len(model.coordinates))

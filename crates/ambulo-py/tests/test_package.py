@@ -112,7 +112,7 @@ def test_other_threads_run_during_a_computation(files):
     stop.set()
     thread.join()
     # A lock that is not released would leave no tick between start and end; a busy machine leaves fewer than one per millisecond.
-    assert sum(start < tick < end for tick in ticks) > 100 * (end - start)
+    assert sum(start < tick < end for tick in ticks) > 20 * (end - start)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
@@ -133,8 +133,8 @@ import os; os._exit(0)
         program.send_signal(signal.SIGINT)
         word, seconds = program.stdout.read().split()
     assert word == "stopped"
-    # Half a second, and at most one interval of 50 ms on a busy machine.
-    assert float(seconds) < 2
+    # The sweep takes minutes; the interrupt comes after half a second and is seen within 50 ms, later on a busy machine.
+    assert float(seconds) < 10
 
 
 def test_the_page_is_shown_in_a_notebook(result):

@@ -161,6 +161,12 @@ impl Results {
     /// # Errors
     /// A folder that cannot be written, or that has files of others.
     pub fn save(&self, folder: &Path, force: bool) -> Result<(), Failure> {
+        let shown = folder.display().to_string();
+        let saved = self.write(folder, force);
+        saved.map_err(|error| Failure::from(error).in_one_of(std::iter::once(shown.as_str())))
+    }
+
+    fn write(&self, folder: &Path, force: bool) -> Result<()> {
         let existing = if force { Existing::Replaced } else { Existing::Kept };
         let target = ResultTarget::for_run(folder, existing)?;
         match &self.0 {

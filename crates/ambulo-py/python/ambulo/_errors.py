@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import os
 
 
 class AmbuloError(Exception):
@@ -41,7 +40,8 @@ def failure(
     what = message.rstrip()
     if system is not None:
         number = getattr(errno, system, errno.EIO)
-        error = OSError(number, what if hint is None else f"{what} hint: {hint}", file or os.curdir)
+        text = what if hint is None else f"{what} hint: {hint}"
+        error = OSError(number, text) if file is None else OSError(number, text, file)
         error.hint = hint  # type: ignore[attr-defined]
         return error
     refused = InputError(what if hint is None else f"{what}\n  hint: {hint}")
