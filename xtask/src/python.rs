@@ -65,7 +65,10 @@ fn measure() -> Result<(), String> {
     if wheels.is_dir() {
         fs::remove_dir_all(&wheels).map_err(|e| format!("{}: {e}", wheels.display()))?;
     }
-    environment.python(&package, &["-m", "maturin", "build", "--locked", "--out", &wheels.display().to_string()])?;
+    let folder = wheels.display().to_string();
+    let smallest = ["--compression-level", "9"];
+    environment
+        .python(&package, &[&["-m", "maturin", "build", "--locked", "--out", &folder][..], &smallest].concat())?;
     let found = fs::read_dir(&wheels).ok().and_then(|mut files| files.next()?.ok());
     let wheel = found.ok_or_else(|| format!("{}: maturin has made no wheel", wheels.display()))?.path();
     let wheel = wheel.display().to_string();

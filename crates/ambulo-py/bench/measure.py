@@ -50,17 +50,13 @@ def import_ms() -> float:
     return statistics.median(once() for _ in range(21))
 
 
-def cpu_us(frames: int, call) -> float:  # noqa: ANN001
-    """Return the processor time per frame of the fastest of several series."""
+def series_us(frames: int, call) -> float:  # noqa: ANN001
+    """Return the wall time per frame of one series of calls."""
     repeats = max(1, 20000 // frames)
-
-    def series() -> float:
-        start = time.thread_time()
-        for _ in range(repeats):
-            call()
-        return 1e6 * (time.thread_time() - start) / (repeats * frames)
-
-    return min(series() for _ in range(15))
+    start = time.perf_counter()
+    for _ in range(repeats):
+        call()
+    return 1e6 * (time.perf_counter() - start) / (repeats * frames)
 
 
 def human() -> ambulo.Model:
@@ -74,17 +70,25 @@ def human() -> ambulo.Model:
 def inverse_dynamics() -> None:
     model = human()
     count = len(model.coordinates)
-    print(f"\ninverse dynamics, {count} coordinates, processor time per frame")
+    print(f"\ninverse dynamics, {count} coordinates, wall time per frame of the fastest of several series")
     for frames in FRAMES:
         motion = [np.random.default_rng(1).standard_normal((frames, count)) for _ in range(3)]
         columns = [np.asfortranarray(array) for array in motion]
         out = np.empty((frames, count), order="F")
-        # One after the other in each series, so that both meet the same machine.
-        rust = [model._time_of_batch(*columns, max(1, 20000 // frames)) for _ in range(15)]
-        reused = cpu_us(frames, lambda columns=columns, out=out: model.inverse_dynamics(*columns, out=out))
-        fresh = cpu_us(frames, lambda columns=columns: model.inverse_dynamics(*columns))
-        rows = cpu_us(frames, lambda motion=motion: model.inverse_dynamics(*motion))
-        own = 1e6 * min(rust)
+        calls = [
+            lambda columns=columns, out=out: model.inverse_dynamics(*columns, out=out),
+            lambda columns=columns: model.inverse_dynamics(*columns),
+            lambda motion=motion: model.inverse_dynamics(*motion),
+        ]
+        # All take turns, so that they meet the same machine.
+        times = [
+            [
+                1e6 * model._time_of_batch(*columns, max(1, 20000 // frames)),
+                *(series_us(frames, call) for call in calls),
+            ]
+            for _ in range(15)
+        ]
+        own, reused, fresh, rows = (min(column) for column in zip(*times, strict=True))
         row(f"{frames} frames, Rust alone", own, "us")
         row(f"{frames} frames, Fortran order, memory reused", reused, "us")
         limit = 1.5 if frames >= 1000 else None
