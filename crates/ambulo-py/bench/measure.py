@@ -64,7 +64,7 @@ def human() -> ambulo.Model:
     named = os.environ.get("AMBULO_DATA")
     data = Path(named) if named else Path(__file__).resolve().parents[4] / "shared"
     model = data / "reference/peers/data/human.osim"
-    return ambulo.model(model) if model.is_file() else ambulo.walk(mode="paper", cycles=1).model
+    return ambulo.model(model) if model.is_file() else ambulo.walk(cycles=1).model
 
 
 def inverse_dynamics() -> None:
