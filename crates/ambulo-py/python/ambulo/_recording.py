@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from ambulo import _ambulo
@@ -40,7 +39,7 @@ class Recording:
     @property
     def format(self) -> str:
         """The ending of the name in lower case: ``"c3d"``, ``"trc"``, ``"mot"``, ``"sto"``, ``"csv"``, ``"bvh"``."""
-        return PurePath(self.name).suffix[1:].lower()
+        return os.path.splitext(self.name)[1][1:].lower()
 
     def _markers(self) -> dict[str, Any]:
         if self._content is None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import warnings
 from collections.abc import Sequence
@@ -133,6 +132,8 @@ class Result:
     def summary(self) -> dict[str, Any]:
         """The content of ``summary.json`` (docs/OUTPUTS.md); ``run_id``, ``files`` and ``timing_ms`` are filled by `save`."""
         if self._summary is None:
+            import json
+
             self._summary = json.loads(self._results.summary())
         return self._summary
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
@@ -86,6 +84,9 @@ class Table:
     @classmethod
     def _of_csv(cls, title: str, content: bytes) -> Table:
         """Read comma-separated values; a column is text if one of its cells is no number."""
+        import csv
+        import io
+
         import numpy as np
 
         names, *rows = csv.reader(io.StringIO(content.decode()))
