@@ -337,6 +337,16 @@ fn a_fall_in_a_scene_is_told_with_its_time_and_cause() {
         .collect();
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(told[0].starts_with("`ann` fell at ") && told[0].contains(" steps; "), "{told:?}");
+    let seconds = scene.state().time_s;
+    let fell_s: f64 = told[0].split(' ').nth(3).unwrap().parse().unwrap();
+    assert!((seconds - fell_s - 2.0).abs() < 0.02, "the run ended at {seconds} s");
+    // She lies on the floor, and her joints are within their ranges.
+    for (body, pose) in scene.world().bodies.iter().zip(&scene.state().poses) {
+        assert!(pose.translation.y > 0.0 && pose.translation.y < 0.7, "{}: {}", body.name, pose.translation.y);
+    }
+    let knee = scene.world().joints.iter().position(|joint| joint.name.contains("knee_angle_r")).unwrap();
+    let knee = scene.state().coordinates[knee][0].to_degrees();
+    assert!((-150.0..5.0).contains(&knee), "{knee}");
 }
 
 #[test]

@@ -463,7 +463,7 @@ codes! {
         "The replayed torques were computed for a figure of another mass."
         "Use the figure that the torques were computed for, or compute torques for this one.";
     FigureFell "figure.fell" Warning
-        "A figure that walks by its own torques fell: its pelvis sank below 0.7 of its first height over the ground. Its joints are then only damped."
+        "A figure that walks by its own torques fell: its pelvis sank below 0.7 of its first height over the ground. Its joints are then only damped, it lies on the ground, and the run ends 2 s after all such figures have fallen."
         "Nothing to do if it was meant to fall; otherwise lift its soles further (`lift`), push it less, or choose another speed.";
     DriveGaveWay "drive.gave_way" Warning
         "A drive without a largest force would need an unreasonable one, above 1,000 times the total weight; it gave way."

@@ -5,7 +5,7 @@ use super::event::EventAction;
 use super::file::MOST_STEPS;
 use super::model_figure::PlacedFigure;
 use super::output::Outputs;
-use super::recorder::FigureRecord;
+use super::recorder::{FigureRecord, Recorder};
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::findings::{Code, Findings};
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
@@ -22,6 +22,8 @@ use crate::spatial::{Pose, Wrench};
 
 /// Times closer than this share of a step are simultaneous: for rounded times in files.
 const SAME_INSTANT: f64 = 1e-6;
+/// Duration of a scene after all figures that walk by their own torques have fallen [s].
+const AFTER_FALL_S: f64 = 2.0;
 /// Largest number of rows of output, counted for each body, joint and closure: they take about 200 bytes each.
 const MOST_ROWS: f64 = 1e7;
 
@@ -180,7 +182,7 @@ impl Scene {
             let energy = energy(&self.world, &self.state);
             visit(&SceneFrame { scene: self, forces: None, impacts: Vec::new(), energy });
         }
-        while self.steps < self.steps_in_all() {
+        while self.steps < self.steps_in_all() && !self.has_ended() {
             statistics.add(&self.step(findings)?);
             let of_step = self.workspace.impacts().iter();
             impacts.extend(of_step.flat_map(|impact| impact.contacts.iter().map(|contact| (impact.time_s, *contact))));
@@ -191,6 +193,12 @@ impl Scene {
             }
         }
         Ok(statistics)
+    }
+
+    /// Whether all figures that walk by their own torques have fallen some time ago.
+    fn has_ended(&self) -> bool {
+        let last = self.recorders.iter().filter_map(Recorder::falls_at).reduce(f64::max);
+        last.is_some_and(|fall_s| self.state.time_s >= fall_s + AFTER_FALL_S)
     }
 
     fn check_length(&self) -> Result<(), RunError> {

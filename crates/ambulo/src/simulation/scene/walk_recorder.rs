@@ -16,6 +16,8 @@ use crate::simulation::world::{Owner, World};
 
 /// A contact belongs to the ground if the vertical component of its normal is at least this: less than 45° from the vertical.
 const GROUND: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Radius of the spheres by which a fallen figure lies on the ground [m].
+const BODY_RADIUS_M: f64 = 0.08;
 /// Largest number of recorded steps.
 const MOST_ROWS: usize = 1_000_000;
 
@@ -111,6 +113,11 @@ impl FigureRecorder {
         }
     }
 
+    /// Whether it walks by its own torques.
+    pub(super) fn is_controlled(&self) -> bool {
+        matches!(self.live, Some(Live::Controller(_)))
+    }
+
     /// The fall of a figure that walks by its own torques.
     pub(super) fn fall(&self) -> Option<Fall> {
         match &self.live {
@@ -133,10 +140,17 @@ impl FigureRecorder {
         let last = self.feet[0].force.len().checked_sub(1);
         let loads_n = last.map_or([0.0; 2], |last| [0, 1].map(|foot| self.feet[foot].force[last].y));
         let joint_of = world.joint_of_body();
+        let stood = controller.fall().is_none();
         for (motor, place) in controller.act(&self.before, loads_n).into_iter().zip(&self.tree.places) {
             if let (Some(motor), Some((joint, k))) = (motor, place.joint(&joint_of)) {
                 world.joints[joint].coordinates[k].motor = Some(motor);
             }
+        }
+        if stood && controller.fall().is_some() {
+            self.tree.stop_at_ranges(world, &self.before);
+            let material = self.soles.first().map_or(0, |(sole, _)| world.surfaces[*sole].material);
+            // The radius is valid.
+            let _touches = self.tree.touch_ground(world, BODY_RADIUS_M, material);
         }
     }
 
