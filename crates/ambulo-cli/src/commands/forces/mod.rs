@@ -52,7 +52,7 @@ pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
         read: vec![args.input.clone()],
         ground: None,
     };
-    let source = match RecordingKind::of(&args.input)? {
+    let source = match RecordingKind::of(&args.input, caller)? {
         RecordingKind::Coordinates => coordinates::read(args, &mut reading)?,
         RecordingKind::Markers => markers::read(args, &mut reading)?,
         RecordingKind::Skeleton => skeleton::read(args, &mut reading)?,
@@ -71,7 +71,7 @@ enum RecordingKind {
 }
 
 impl RecordingKind {
-    fn of(input: &Path) -> Result<RecordingKind> {
+    fn of(input: &Path, caller: &Caller) -> Result<RecordingKind> {
         let ending = files::ending(input);
         let found = match ending.as_str() {
             _ if input.as_os_str() == "-" => "standard input is not read".to_owned(),
@@ -80,7 +80,7 @@ impl RecordingKind {
             other => format!("unknown kind of recording `.{other}`"),
         };
         match ending.as_str() {
-            "csv" if files::read_table(input).is_ok_and(|(table, _)| is_marker_table(&table)) => {
+            "csv" if files::read_table(caller, input).is_ok_and(|(table, _)| is_marker_table(&table)) => {
                 Ok(RecordingKind::Markers)
             }
             "mot" | "sto" | "csv" => Ok(RecordingKind::Coordinates),
