@@ -1,6 +1,6 @@
 //! Transfers the motion of a skeleton (animation file) to the built-in body.
 //!
-//! The body gets the segment lengths of the skeleton ([`body_of_joint_centres`]), and its motion by [`fit_markers`]. The floor is placed so that the ankles are at the height of the body's ankles during stance: at the
+//! The body gets the segment lengths of the skeleton (`skeleton_body`), and its motion by [`fit_markers`]. The floor is placed so that the ankles are at the height of the body's ankles during stance: at the
 //! [`STANDING`] quantile of their height.
 //!
 //! Not handled: uneven floors, shoulders that move relative to the trunk, hands.

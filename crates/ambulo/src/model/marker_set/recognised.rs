@@ -73,7 +73,7 @@ impl MarkerSet {
 
 impl RecognisedMarkers {
     /// Recognises markers with some of these sets: first the one that explains most names, then any that explain
-    /// at least two of the others. Names that are written as in a set go before names that only mean the same ([`NameIndex`]).
+    /// at least two of the others. Names that are written as in a set go before names that only mean the same (`NameIndex`).
     ///
     /// # Errors
     /// Names that no set explains.
