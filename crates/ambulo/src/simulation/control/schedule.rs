@@ -71,6 +71,8 @@ mod tests {
             assert!((schedule.at(time_s) - speed).abs() < 1e-12, "at {time_s} s");
         }
         let plans = schedule.plans();
-        assert_eq!((plans.len(), plans[0], plans[6]), (7, 1.0, 1.6));
+        let ends = [plans[0], plans[plans.len() - 1]];
+        assert!((ends[0] - 1.0).abs() < 1e-12 && (ends[1] - 1.6).abs() < 1e-12, "{plans:?}");
+        assert!(plans.windows(2).all(|two| two[1] > two[0] && two[1] - two[0] < 0.1 + 1e-9), "{plans:?}");
     }
 }
