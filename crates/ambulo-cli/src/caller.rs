@@ -1,4 +1,4 @@
-//! What a program that calls the functions of this crate supplies besides the words of a command line.
+//! Inputs of a calling program besides the words of a command line.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -277,10 +277,10 @@ fn a_walker_without_a_hand_goes_twelve_metres() {
     assert_eq!(verdict(&scene).state, VerdictState::Feasible);
 }
 
-/// What makes a figure of a scene one in three dimensions.
+/// With these words, a figure of a scene has three dimensions; without them it is planar.
 const SPATIAL_MODE: &str = ", mode = \"optimal\"";
 
-/// Runs a scene to its end: nobody falls, the walk is feasible, and the first figure has come as far as said [m].
+/// Runs a scene to its end. Nobody may fall, the walk has to be feasible, and the first figure has to walk a distance [m].
 fn walks_on(name: &str, text: &str, distance: f64) -> Scene {
     let mut scene = scene(text);
     let mut findings = Findings::default();

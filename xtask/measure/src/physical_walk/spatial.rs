@@ -34,7 +34,7 @@ pub(super) const PUSHES: [(&str, [f64; 2], f64); 12] = [
 /// Steps of a walk on uneven or inclined ground, and by another figure.
 pub(super) const STEPS: usize = 50;
 
-/// What the man in three dimensions did.
+/// Measurements of the man in three dimensions.
 pub(super) struct Results {
     /// CPU time of plan and gains [s].
     pub(super) made_s: [f64; 2],

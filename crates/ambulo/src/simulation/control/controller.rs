@@ -71,7 +71,7 @@ pub struct Fall {
 }
 
 impl Fall {
-    /// What is said about the fall of a figure with a name and a model.
+    /// A sentence about the fall: time, steps and cause.
     pub(in crate::simulation) fn told(&self, name: &str, model: &Model) -> String {
         let cause = self.at_limit.map_or("no torque was at its limit".to_owned(), |(id, since_s)| {
             format!(

@@ -99,7 +99,7 @@ impl PhysicalWalk {
         self.controller.fall()
     }
 
-    /// What the simulator found on the way.
+    /// Findings of the simulator so far.
     #[must_use]
     pub fn findings(&self) -> &Findings {
         &self.findings
