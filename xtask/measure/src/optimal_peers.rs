@@ -41,10 +41,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         let outcomes = measure(&settings)?;
         workspace::save(OUTCOMES, &format!("{outcomes:#}\n"))?;
     }
-    let path = workspace::root().join(OUTCOMES);
-    let recorded = fs::read_to_string(&path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
-    let outcomes = serde_json::from_str(&recorded).map_err(|e| format!("{}: {e}", path.display()))?;
-    let page = page::text(&outcomes)?;
+    let page = page::text(&workspace::recorded(OUTCOMES)?)?;
     println!("{page}");
     if settings.write {
         workspace::save("docs/measured/OPTIMAL_PEERS.md", &page)?;

@@ -20,7 +20,6 @@ use cpu_time::ThreadTime;
 use figure::Dynamics;
 use mujoco::MuJoCo;
 use serde_json::{Value, json};
-use std::fs;
 use std::path::PathBuf;
 
 /// Outcomes of the last run.
@@ -74,10 +73,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         let outcomes = measure(&settings)?;
         workspace::save(OUTCOMES, &format!("{outcomes:#}\n"))?;
     }
-    let path = workspace::root().join(OUTCOMES);
-    let recorded = fs::read_to_string(&path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
-    let outcomes = serde_json::from_str(&recorded).map_err(|e| format!("{}: {e}", path.display()))?;
-    let page = page::text(&outcomes)?;
+    let page = page::text(&workspace::recorded(OUTCOMES)?)?;
     println!("{page}");
     if settings.write {
         workspace::save("docs/measured/PHYSICAL_PEERS.md", &page)?;

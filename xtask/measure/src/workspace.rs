@@ -127,3 +127,10 @@ pub(crate) fn build_program() -> Result<PathBuf, String> {
     let program = target().join("release").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX));
     if program.is_file() { Ok(program) } else { Err(format!("{}: missing after the build", program.display())) }
 }
+
+/// Outcomes that a command has recorded in a JSON file, relative to the workspace root.
+pub(crate) fn recorded(path: &str) -> Result<serde_json::Value, String> {
+    let path = root().join(path);
+    let text = fs::read_to_string(&path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
+    serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))
+}
