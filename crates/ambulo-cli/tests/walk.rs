@@ -99,29 +99,31 @@ fn figure_speed_and_steps_can_be_chosen() {
         let found = value.as_f64().unwrap();
         assert!((found - expected).abs() < 1e-6, "{found} instead of {expected}");
     };
+    let planar = |more: &[&str]| walk(&[&["--planar"], more].concat());
     let woman = walk(&["--figure", "de-leva-female", "--mass", "58", "--height", "1.62", "--speed", "1.1"]);
     near(&woman["mass_kg"], 58.0);
     near(&woman["height_m"], 1.62);
     near(&woman["walk"]["speed_asked_m_s"], 1.1);
     assert_eq!(woman["walk"]["figure"], "de-leva-female");
-    let steps = walk(&["--step-length", "0.6", "--cadence", "110", "--no-toe-joint"]);
+    let steps = planar(&["--step-length", "0.6", "--cadence", "110", "--no-toe-joint"]);
     near(&steps["walk"]["step_length_m"], 0.6);
     near(&steps["walk"]["cadence_steps_min"], 110.0);
     near(&steps["walk"]["speed_asked_m_s"], 0.6 * 110.0 / 60.0);
     assert!(!bench.text("out/moments.sto").contains("mtp_angle"));
     // With one number given, the gait decides the rest: short steps stay short at another speed.
-    near(&walk(&["--step-length", "0.65"])["walk"]["step_length_m"], 0.65);
-    let [short, standard] = ["short", "standard"].map(|gait| walk(&["--gait", gait, "--speed", "1.2"])["walk"].clone());
+    near(&planar(&["--step-length", "0.65"])["walk"]["step_length_m"], 0.65);
+    let [short, standard] =
+        ["short", "standard"].map(|gait| planar(&["--gait", gait, "--speed", "1.2"])["walk"].clone());
     near(&short["speed_asked_m_s"], 1.2);
     near(&short["step_length_m"], 0.62 * standard["step_length_m"].as_f64().unwrap());
     let rows = |rate: &str| {
-        walk(&["--rate", rate]);
+        planar(&["--rate", rate]);
         bench.table("out/moments.sto").rows()
     };
     assert!(rows("200").abs_diff(2 * rows("100")) <= 2);
     bench.write("mine.toml", "base = \"slow\"\nspeed = 0.9\n");
-    near(&walk(&["--gait", "mine.toml"])["walk"]["speed_asked_m_s"], 0.9);
-    assert_eq!(walk(&["--style", "1997"])["walk"]["style"], "1997");
+    near(&planar(&["--gait", "mine.toml"])["walk"]["speed_asked_m_s"], 0.9);
+    assert_eq!(planar(&["--style", "1997"])["walk"]["style"], "1997");
 }
 
 #[test]
