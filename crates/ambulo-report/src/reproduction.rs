@@ -7,6 +7,7 @@ use ambulo::reproduction::{
     Claim, Evidence, GAITS, PaperFigure, Sensitivity, angular_laws, assumptions, muscle_table, paper_figures,
     paper_human, torque_series,
 };
+use ambulo::simulation::walking::TorqueSeries;
 use ambulo_results::OutputFile;
 use std::fmt::Write;
 
@@ -116,31 +117,10 @@ fn torques_csv<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) ->
 }
 
 fn torques_toml<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -> String {
-    let mut text = String::from(
-        "# Torques as harmonics of the gait cycle, N.m, with the sign of the model's coordinate:\n\
-         # torque(t) = mean + sum over k of cosine[k-1] cos(2 pi k t / cycle_s) + sine[k-1] sin(2 pi k t / cycle_s),\n\
-         # t from the right foot's nominal contact. Impacts are not included.\n",
-    );
-    for (mode, evidence) in modes {
-        for (gait, run) in GAITS.iter().zip(&evidence.gaits) {
-            for series in torque_series(run) {
-                let list = |values: &[f64]| values.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
-                let _ = write!(
-                    text,
-                    "\n[[torque]]\nmode = \"{mode}\"\ngait = \"{gait}\"\ncoordinate = \"{}\"\ncycle_s = {:?}\nbody_kg = {:.3}\nmean = {:.6}\n\
-                     cosine = [{}]\nsine = [{}]\nr_squared = {:.6}\n",
-                    series.coordinate,
-                    series.cycle_s,
-                    series.body_kg,
-                    series.mean,
-                    list(&series.cosine),
-                    list(&series.sine),
-                    series.r_squared
-                );
-            }
-        }
-    }
-    text
+    let of_mode = |(mode, evidence): (&'static str, &'a Evidence)| {
+        GAITS.iter().zip(&evidence.gaits).map(move |(gait, run)| (mode, *gait, torque_series(run)))
+    };
+    TorqueSeries::text(modes.flat_map(of_mode))
 }
 
 /// One row per claim and alternative value; a row without a claim means that no alternative was tried, or that no walk was possible with it.

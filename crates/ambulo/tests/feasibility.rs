@@ -2,12 +2,12 @@
 
 use crate::common::assert_near;
 use ambulo::analysis::feasibility::{
-    Check, CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, Hill, Person, StrengthCurve, Thresholds,
-    check_frame,
+    Check, CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, Person, Thresholds, check_frame,
 };
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::{BySide, Movement};
+use ambulo::optimal::{Hill, StrengthCurve};
 use ambulo::spatial::{Vec3, Wrench};
 
 const DOCUMENT: &str = include_str!("../../../docs/FEASIBILITY.md");

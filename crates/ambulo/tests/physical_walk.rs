@@ -5,12 +5,16 @@ use ambulo::analysis::feasibility::VerdictState;
 use ambulo::contact::Shape;
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, Speed, Walk};
+use ambulo::model::Movement;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
-use ambulo::optimal::{OptimalWalk, Solution, soles_with_width};
+use ambulo::optimal::{ECCENTRIC, OptimalWalk, Solution, StrengthCurve, soles_with_width};
 use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
-use ambulo::simulation::control::{ControlError, ControlSettings, PhysicalWalk, WalkController};
+use ambulo::simulation::control::{
+    Balance, ControlError, ControlSettings, FootPlacement, PhysicalWalk, TorqueCurves, WalkController,
+};
 use ambulo::simulation::scene::{Scene, SceneError, SceneFile, SceneSettings};
+use ambulo::simulation::walking::TorqueSeries;
 use ambulo::simulation::{Obstacle, Owner, StepSettings, Surface};
 use ambulo::spatial::{Pose, Vec3, Wrench};
 use std::sync::LazyLock;
@@ -99,7 +103,7 @@ fn nothing_but_joints_and_ground_moves_a_figure_that_walks_by_its_own_torques() 
 #[test]
 fn without_feedback_of_the_state_the_figure_falls() {
     let case = &*LEVEL;
-    let settings = ControlSettings { feedback: false, ..ControlSettings::default() };
+    let settings = ControlSettings { balance: Balance::Nothing, ..ControlSettings::default() };
     let own = controller(&case.human, &case.walk, &settings);
     let mut walk = PhysicalWalk::with(&case.human, case.walk.solution(), StepSettings::default(), own).unwrap();
     let fall = walk.walk_until(20.0).unwrap().unwrap();
@@ -128,31 +132,6 @@ fn pushes_of_150_n_are_survived_and_a_blow_is_not() {
 }
 
 /// Torques stay within the isometric strength of muscles, also while a push is survived.
-#[test]
-fn no_torque_exceeds_strength() {
-    let case = &*LEVEL;
-    let trunk = case.human.model.body("torso").unwrap().index();
-    let mut walk = case.walk();
-    walk.world_mut().bodies[trunk].load = Wrench { moment: Vec3::zeros(), force: Vec3::x() * -400.0 };
-    let weight_height = MAN.mass * 9.80665 * MAN.height;
-    let names = ["hip_flexion_r", "knee_angle_r", "ankle_angle_r"];
-    let mut largest = [[0.0_f64; 2]; 3];
-    while walk.time_s() < 1.5 && walk.fall().is_none() {
-        walk.step().unwrap();
-        let efforts = walk.efforts();
-        for ([up, down], name) in largest.iter_mut().zip(names) {
-            let torque = efforts[case.index(name)] / weight_height;
-            (*up, *down) = (up.max(torque), down.max(-torque));
-        }
-    }
-    println!("{largest:.3?} of weight times height");
-    // Hip: flexion, extension. Knee, whose coordinate grows in extension: extension, flexion. Ankle: dorsiflexion, plantarflexion.
-    for ((found, limits), name) in largest.iter().zip([[0.157, 0.274], [0.210, 0.122], [0.0443, 0.186]]).zip(names) {
-        assert!(found[0] <= limits[0] + 1e-6 && found[1] <= limits[1] + 1e-6, "{name}: {found:?} above {limits:?}");
-    }
-    assert!(largest[0][1] > 0.15, "the push must need much of the hip: {largest:?}");
-}
-
 #[test]
 fn uneven_ground_needs_a_plan_that_lifts_the_feet() {
     let walked = |case: &Case| {
@@ -235,7 +214,7 @@ fn one_controller_of_several_plans_changes_its_speed_on_the_way() {
     steps(&mut walk, 20);
     assert!(walk.fall().is_none(), "{:?}", walk.fall());
     let other = Build { mass: 60.0, ..MAN }.human().unwrap();
-    let other = controller(&other, &at(1.25), &ControlSettings { feedback: false, ..settings });
+    let other = controller(&other, &at(1.25), &ControlSettings { balance: Balance::Nothing, ..settings });
     let error = WalkController::joined(&[case.controller.clone(), other]).unwrap_err();
     assert!(error.to_string().contains("different impedances"), "{error}");
     assert!(WalkController::joined(&[]).is_err());
@@ -244,11 +223,103 @@ fn one_controller_of_several_plans_changes_its_speed_on_the_way() {
 #[test]
 fn a_few_harmonics_of_the_torques_suffice() {
     let case = &*LEVEL;
-    let settings = ControlSettings { harmonics: Some(5), ..ControlSettings::default() };
+    let settings = ControlSettings { torques: TorqueCurves::Harmonics(5), ..ControlSettings::default() };
     let own = controller(&case.human, &case.walk, &settings);
     let mut walk = PhysicalWalk::with(&case.human, case.walk.solution(), StepSettings::default(), own).unwrap();
     steps(&mut walk, 20);
     assert!(walk.fall().is_none(), "{:?}", walk.fall());
+}
+
+#[test]
+fn torque_curves_of_a_file_replace_those_of_the_plan() {
+    let case = &*LEVEL;
+    let text = TorqueSeries::text([("physical", "free", case.controller.torque_series())]);
+    let curves = TorqueSeries::read(&text, "physical", "free").unwrap();
+    let given = |curves: Vec<TorqueSeries>| {
+        let settings = ControlSettings {
+            torques: TorqueCurves::Given(curves),
+            balance: Balance::Nothing,
+            ..ControlSettings::default()
+        };
+        WalkController::new(&case.human, case.walk.solution(), StepSettings::default(), &settings)
+    };
+    // Six harmonics of six harmonics are the same six harmonics, in twice as heavy a figure twice as large.
+    let back = given(curves.clone()).unwrap().torque_series();
+    for (one, other) in curves.iter().zip(&back) {
+        assert_eq!(one.coordinate, other.coordinate);
+        assert!((0..50).all(|k| (one.at(f64::from(k) / 50.0) - other.at(f64::from(k) / 50.0)).abs() < 1e-3), "{one:?}");
+    }
+    let of_legs = curves
+        .iter()
+        .filter(|one| ["hip_flexion", "knee_angle", "ankle_angle"].iter().any(|leg| one.coordinate.starts_with(leg)));
+    assert!(of_legs.clone().count() == 6 && of_legs.clone().all(|one| one.r_squared > 0.9), "{curves:?}");
+    let light: Vec<TorqueSeries> =
+        curves.iter().map(|one| TorqueSeries { body_kg: 0.5 * one.body_kg, ..one.clone() }).collect();
+    let heavy = given(light).unwrap().torque_series();
+    assert!(curves.iter().zip(&heavy).all(|(one, other)| (2.0 * one.at(0.3) - other.at(0.3)).abs() < 1e-3));
+    // Curves of another walk, and of what is not a joint.
+    let slow = curves.iter().map(|one| TorqueSeries { cycle_s: 2.0 * one.cycle_s, ..one.clone() }).collect();
+    assert!(matches!(given(slow), Err(ControlError::TorqueCycle { .. })));
+    let root = TorqueSeries { coordinate: "pelvis_tilt".to_owned(), ..curves[0].clone() };
+    assert!(matches!(given(vec![root]), Err(ControlError::TorqueOf { .. })));
+    assert!(TorqueSeries::read(&text, "paper", "free").unwrap_err().to_string().contains("in the mode `paper`"));
+}
+
+#[test]
+fn no_torque_exceeds_the_strength_of_its_muscles_at_the_angle_and_the_speed_of_the_joint() {
+    let case = &*LEVEL;
+    let mut walk = case.walk();
+    walk.walk_until(2.2).unwrap();
+    // A push that takes several joints to their limits.
+    let trunk = case.human.model.body("torso").unwrap().index();
+    walk.world_mut().bodies[trunk].load = Wrench { moment: Vec3::zeros(), force: Vec3::x() * -300.0 };
+    let curve = |movement| StrengthCurve::built_in(movement, 75.0, 1.75).unwrap();
+    let joints = [
+        ("hip_flexion", curve(Movement::HipFlexion)),
+        ("knee_angle", curve(Movement::KneeFlexion)),
+        ("ankle_angle", curve(Movement::AnkleDorsiflexion)),
+    ];
+    let mut at_limit = 0;
+    for _ in 0..400 {
+        let now = walk.coordinates();
+        walk.step().unwrap();
+        if walk.fall().is_some() {
+            break;
+        }
+        for (joint, strength) in &joints {
+            for side in ["r", "l"] {
+                let id = case.human.model.coordinate(&format!("{joint}_{side}")).unwrap();
+                let sign = case.human.model.anatomy().meaning(id).unwrap().sign;
+                let ([q, rate], effort) = (now[id.index()], sign * walk.efforts()[id.index()]);
+                let most = strength.available(sign * q, sign * rate, effort, ECCENTRIC);
+                assert!(effort.abs() <= most + 1e-6, "{joint}_{side}: {effort} N.m instead of at most {most}");
+                at_limit += usize::from(effort.abs() > 0.999 * most);
+            }
+        }
+    }
+    assert!(at_limit > 10, "{at_limit}");
+}
+
+#[test]
+fn a_figure_whose_feedback_acts_40_ms_late_survives_a_push() {
+    let case = &*LEVEL;
+    let own = controller(&case.human, &case.walk, &ControlSettings { delay_s: 0.04, ..ControlSettings::default() });
+    let walk = Case { controller: own, human: case.human.clone(), walk: case.walk.clone() }.pushed(100.0, 2.2);
+    assert!(walk.fall().is_none(), "{:?}", walk.fall());
+}
+
+#[test]
+fn foot_placement_is_for_planar_figures_and_keeps_a_figure_up_for_longer_than_nothing() {
+    let case = &*LEVEL;
+    let law = FootPlacement { distance: 2.0, velocity: 0.1, trunk: [300.0, 30.0] };
+    let with = |balance: Balance| {
+        let own = controller(&case.human, &case.walk, &ControlSettings { balance, ..ControlSettings::default() });
+        let mut walk = PhysicalWalk::with(&case.human, case.walk.solution(), StepSettings::default(), own).unwrap();
+        walk.walk_until(8.0).unwrap().map_or(8.0, |fall| fall.time_s)
+    };
+    let [placed, nothing] = [with(Balance::FootPlacement(law)), with(Balance::Nothing)];
+    println!("until the fall: {placed:.1} s with foot placement, {nothing:.1} s without");
+    assert!(placed > nothing, "{placed} {nothing}");
 }
 
 #[test]

@@ -238,13 +238,18 @@ impl SyntheticRun<'_> {
         })
     }
 
-    /// The figure as an OpenSim model, and the picture of the gait.
+    /// The figure as an OpenSim model, the picture of the gait, and the torques of a controller's plan.
     fn files(&self) -> Result<Vec<OutputFile<'static>>> {
-        Ok(vec![
+        let mut files = vec![
             OutputFile::body("figure.osim", &self.walk.human.model)?,
             gait_file(&self.walk.walk)?,
             OutputFile::new(STATES, states_csv(&self.walk.states).into_bytes()),
-        ])
+        ];
+        if !self.walk.torques.is_empty() {
+            let text = TorqueSeries::text([("physical", &*self.walk.report.gait, self.walk.torques.clone())]);
+            files.push(OutputFile::new("torques.toml", text.into_bytes()));
+        }
+        Ok(files)
     }
 }
 
@@ -340,7 +345,7 @@ fn gait(name: &str, args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, V
 fn read_torques(path: &Path, gait: &str) -> Result<Vec<TorqueSeries>> {
     let shown = || path.display().to_string();
     let text = String::from_utf8(files::read(path)?).with_context(shown)?;
-    TorqueSeries::read(&text, gait).with_context(shown)
+    TorqueSeries::read(&text, "paper", gait).with_context(shown)
 }
 
 /// An angle of a recording [rad] against time.

@@ -1,5 +1,5 @@
 //! Numerical methods: natural splines and their banded solver, periodic and uniform B-splines, band matrices, nonlinear
-//! least squares, medians. Nothing here knows mechanics.
+//! least squares, medians, harmonics. Nothing here knows mechanics.
 //!
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.
@@ -7,6 +7,7 @@
 mod band_cholesky;
 mod banded;
 mod dense;
+mod harmonics;
 mod least_squares;
 mod median;
 mod natural_spline;
@@ -21,6 +22,7 @@ use serde::Deserialize;
 
 pub use band_cholesky::{BandFactor, BandMatrix};
 pub(crate) use dense::DenseLu;
+pub use harmonics::Harmonics;
 pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
 pub use median::median;
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};

@@ -69,8 +69,8 @@ const ADULT: f64 = 75.0 * 9.80665 * 1.75;
 /// Mechanical power below which muscles cost more than their work [W/kg]: smooths the cost where the power changes its sign.
 const SMOOTH: f64 = 0.067;
 /// Isometric strength of muscles, positive and negative moments of the movement, as shares of body weight times stature. Hip, knee and ankle: the
-/// largest moments of Gait2392 near the postures of walking (feasibility/strength.csv); the others are our estimates.
-pub(crate) fn strength_of(movement: Option<Movement>) -> [f64; 2] {
+/// largest moments of Gait2392 near the postures of walking (strength.csv); the others are our estimates.
+pub(super) fn strength_of(movement: Option<Movement>) -> [f64; 2] {
     match movement {
         Some(Movement::HipFlexion) => [0.157, 0.274],
         Some(Movement::KneeFlexion) => [0.122, 0.210],

@@ -18,10 +18,15 @@
 //! Not handled: tendons that recoil, two-joint muscles whose length the other joint changes.
 //! Pinned by: tests/feasibility.rs
 
+use super::muscles::strength_of;
 use crate::model::anatomy::Movement;
 
 /// Isometric moments, with their source.
 const TABLE: &str = include_str!("strength.csv");
+/// Largest moment of muscles while they are stretched, as a share of the isometric one.
+pub const ECCENTRIC: f64 = 1.4;
+/// Standard gravity [m/s²].
+const GRAVITY: f64 = 9.80665;
 /// Mass times stature of the man of the table [kg.m].
 const REFERENCE: f64 = 72.6 * 1.80;
 
@@ -109,11 +114,20 @@ impl StrengthCurve {
         let in_table = StrengthCurve { angles, positive, negative, hill };
         Some(if sign < 0.0 { in_table.reversed() } else { in_table })
     }
+
+    /// The curve of any movement for a person: the built-in one, or the same isometric moments at all angles.
+    pub(crate) fn of_movement(movement: Option<Movement>, mass_kg: f64, height_m: f64) -> StrengthCurve {
+        let constant = || {
+            let [positive, negative] = strength_of(movement).map(|share| vec![share * mass_kg * GRAVITY * height_m]);
+            StrengthCurve { angles: vec![0.0], positive, negative, hill: None }
+        };
+        movement.and_then(|known| StrengthCurve::built_in(known, mass_kg, height_m)).unwrap_or_else(constant)
+    }
 }
 
 impl Hill {
     /// Muscles that the source lacks are treated like the hip extensors.
-    pub(super) const UNKNOWN: [Hill; 2] = [HIP_EXTENSORS; 2];
+    pub(crate) const UNKNOWN: [Hill; 2] = [HIP_EXTENSORS; 2];
 
     /// The muscles of the positive and of the negative moment of a coordinate that increases (`sign` above zero) or decreases during a
     /// movement.

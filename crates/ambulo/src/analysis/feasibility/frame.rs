@@ -3,13 +3,13 @@
 //! Every check returns the share of the limit that is used; above 1 the frame is infeasible.
 
 use super::person::Person;
-use super::strength::{Hill, StrengthCurve};
 use super::thresholds::Thresholds;
 use super::verdict::Check;
 use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
 use crate::kinematics::BodyMotion;
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, CoordinateId, CoordinateKind, Drive, Model, Side};
+use crate::optimal::{Hill, StrengthCurve};
 use crate::spatial::{Vec3, Wrench, level_distance};
 
 /// A sole point lower than this above the ground [m] ...

@@ -13,7 +13,6 @@ mod judgement;
 mod motion_and_forces;
 mod person;
 mod spans;
-mod strength;
 mod thresholds;
 mod verdict;
 
@@ -21,7 +20,6 @@ pub use frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, 
 pub use judgement::check;
 pub use motion_and_forces::{MotionAndForces, PredictedForces};
 pub use person::Person;
-pub use strength::{Hill, StrengthCurve};
 pub use thresholds::Thresholds;
 pub use verdict::{Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState};
 

@@ -1,7 +1,7 @@
 //! The limits of all checks, by default or from a file.
 
-use super::strength::StrengthCurve;
 use super::verdict::Check;
+use crate::optimal::{ECCENTRIC, StrengthCurve};
 use crate::toml_reader::{Source, Table, TomlError, Value};
 
 /// Limits of every check. docs/FEASIBILITY.md gives the reasons for the defaults.
@@ -65,7 +65,7 @@ impl Default for Thresholds {
             strength_share: 1.0,
             weak: Vec::new(),
             strength_tolerance_nm_kg: 0.1,
-            eccentric: 1.4,
+            eccentric: ECCENTRIC,
             tables: Vec::new(),
             friction: 0.6,
             friction_load_bw: 0.1,

@@ -1,16 +1,19 @@
 //! The controller: phase, impedance and feedback of the state.
 
 use super::figure::FigureWorld;
+use super::foot_placement::{Followed, PlacedFeet};
 use super::linear::Impedance;
 use super::plan::{CyclePlan, PlannedStep, Root, STRIKE};
-use super::riccati::periodic_gains;
-use super::settings::{ControlError, ControlSettings, TrackingCosts};
+use super::riccati::{foreseen, periodic_gains};
+use super::settings::{Balance, ControlError, ControlSettings, TrackingCosts};
 use crate::kinematics::{Posture, body_motion};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, Model, Movement, Side};
-use crate::optimal::{Solution, strength_of};
+use crate::optimal::{Solution, StrengthCurve};
+use crate::simulation::walking::TorqueSeries;
 use crate::simulation::{Motor, StepSettings};
 use nalgebra::{DMatrix, DVector};
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Mass times stature of the adult of the settings [kg.m].
@@ -66,7 +69,7 @@ pub struct Fall {
     pub time_s: f64,
     /// Foot strikes until then.
     pub strikes: usize,
-    /// The first joint torque that reached the strength of its muscles in the second before, and when [s].
+    /// The first joint that needed clearly more than the strength of its muscles in the second before, and when [s].
     pub at_limit: Option<(CoordinateId, f64)>,
 }
 
@@ -140,7 +143,13 @@ pub struct WalkController {
     carrying: Vec<usize>,
     /// Foot of ankles and toes, and the lever of its load by which feedback may turn it [m].
     feet: Vec<Option<(usize, f64)>>,
+    /// Balance by foot placement instead of gains.
+    placed_feet: Option<PlacedFeet>,
     body: Arc<Body>,
+    /// The foot that struck last.
+    stance: usize,
+    /// Feedback that does not act yet, the oldest first.
+    late: VecDeque<Vec<f64>>,
     /// Height of the ground on which the figure stands [m].
     level_m: f64,
     /// Hip height over that of the figure of the plan.
@@ -158,7 +167,7 @@ pub struct WalkController {
     time_s: f64,
     /// Height of the pelvis at the start [m].
     height_m: Option<f64>,
-    /// The first joint at its limit, since when, and when one was last [s].
+    /// The first joint that needed more than its strength, since when, and when one did last [s].
     at_limit: Option<(usize, f64, f64)>,
     fall: Option<Fall>,
 }
@@ -175,22 +184,29 @@ impl WalkController {
         settings: &ControlSettings,
     ) -> Result<WalkController, ControlError> {
         let mut plan = CyclePlan::new(human, solution, step.step_s)?;
-        if let Some(count) = settings.harmonics {
-            plan.keep_harmonics(count);
-        }
+        plan.set_torques(&human.model, solution.cycle_s(), &settings.torques)?;
         let (joints, places) = (plan.joints(), plan.places());
         let impedances = impedances(human, &joints, settings);
-        let gains = if settings.feedback {
+        let delay = (settings.delay_s / step.step_s).round() as usize;
+        let gains = if settings.balance == Balance::WholeState {
             let maps = FigureWorld::new(human, solution.problem().shoes, step)?.maps(&plan, &impedances)?;
             let [of_state, of_input] = costs(human, &plan, &settings.costs, step.step_s);
-            periodic_gains(&maps, &of_state, &of_input).ok_or(ControlError::Riccati)?
+            let gains = periodic_gains(&maps, &of_state, &of_input).ok_or(ControlError::Riccati)?;
+            foreseen(&maps, &gains, delay)
         } else {
             Vec::new()
+        };
+        let placed_feet = match settings.balance {
+            Balance::FootPlacement(law) => Some(PlacedFeet::new(&human.model, law, size_of(human))?),
+            Balance::Nothing | Balance::WholeState => None,
         };
         let body = Body::of(human);
         let soles_m = [0, 1].map(|foot| body.lowest(&plan.steps[plan.strikes[foot]].state[0])[foot]);
         Ok(WalkController {
+            placed_feet,
             body: Arc::new(body),
+            stance: 0,
+            late: VecDeque::from(vec![vec![0.0; human.model.coordinates().len()]; delay]),
             level_m: 0.0,
             taller: 1.0,
             speed: solution.speed(),
@@ -319,6 +335,18 @@ impl WalkController {
         self.between().planned(self.phase).state
     }
 
+    /// The torques of the joints along the plan of the slowest speed, as harmonics of the cycle, without impedance and feedback.
+    #[must_use]
+    pub fn torque_series(&self) -> Vec<TorqueSeries> {
+        let plan = &self.paces[0].plan;
+        let (middles, model) = (plan.middles(), &self.body.model);
+        let of = |&c: &usize| {
+            let about = [plan.steps.len() as f64 * self.step_s, model.mass()];
+            TorqueSeries::of(&model.coordinates()[c].name, about, &middles, &plan.torques(c))
+        };
+        self.joints.iter().map(of).collect()
+    }
+
     /// The largest stiffness by which an angle acts on the torque of its own joint, impedance and feedback together [N.m/rad]: names are those of
     /// the figure's coordinates.
     #[must_use]
@@ -340,11 +368,12 @@ impl WalkController {
         self.feel(now, loads_n);
         self.look_for_a_fall(now);
         if self.fall.is_some() {
-            let limp = |impedance: &Impedance| (impedance.stiffness > 0.0).then(|| impedance.limp());
-            return self.impedances.iter().map(limp).collect();
+            let limp =
+                |(impedance, now): (&Impedance, &[f64; 2])| (impedance.stiffness > 0.0).then(|| impedance.limp(*now));
+            return self.impedances.iter().zip(now).map(limp).collect();
         }
         let planned = self.between().planned(self.phase);
-        let feedback = self.feedback(&planned, now, loads_n);
+        let feedback = self.delayed(self.feedback(&planned, now, loads_n));
         let motor = |(c, impedance): (usize, &Impedance)| {
             let target = [planned.target[0][c], planned.target[1][c]];
             (impedance.stiffness > 0.0).then(|| impedance.motor(target, planned.torques[c] + feedback[c], now[c]))
@@ -355,14 +384,29 @@ impl WalkController {
         motors
     }
 
+    /// The feedback that acts now, if `feedback` is the one of the present state.
+    fn delayed(&mut self, feedback: Vec<f64>) -> Vec<f64> {
+        self.late.push_back(feedback);
+        self.late.pop_front().unwrap_or_default()
+    }
+
     /// Torque of each coordinate from the deviation of the state [N.m].
     fn feedback(&self, planned: &PlannedStep, now: &[[f64; 2]], loads_n: [f64; 2]) -> Vec<f64> {
+        let mut feedback = vec![0.0; now.len()];
+        if let Some(law) = &self.placed_feet {
+            let [q, qd]: [Vec<f64>; 2] = [0, 1].map(|k| now.iter().map(|now| now[k]).collect());
+            let planned = [&*planned.state[0], &*planned.state[1]];
+            let state = Followed { now: [&q, &qd], planned };
+            for (hip, torque) in law.torques(&self.body.model, &self.impedances, &state, self.stance) {
+                feedback[hip] = torque;
+            }
+            return feedback;
+        }
         let up = self.root().up;
         let higher = self.level_m + (self.taller - 1.0) * planned.state[0][up];
         let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
         let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
         let apart = DVector::from_iterator(self.places.len() + now.len(), places.chain(rates));
-        let mut feedback = vec![0.0; now.len()];
         if let Some(torques) = self.between().feedback(self.phase, &apart) {
             for (joint, torque) in self.joints.iter().zip(torques.iter()) {
                 let most = self.feet[*joint].map_or(f64::INFINITY, |(foot, lever_m)| lever_m * loads_n[foot].max(0.0));
@@ -389,7 +433,7 @@ impl WalkController {
     }
 
     fn watch_limits(&mut self, motors: &[Option<Motor>], now: &[[f64; 2]]) {
-        let is_limited = |c: &usize| motors[*c].as_ref().is_some_and(|motor| Impedance::is_at_limit(motor, now[*c]));
+        let is_limited = |c: &usize| motors[*c].as_ref().is_some_and(|motor| Impedance::is_overloaded(motor, now[*c]));
         let first = self.carrying.iter().copied().find(is_limited);
         self.at_limit = match (self.at_limit, first) {
             (Some((c, since_s, _)), Some(_)) => Some((c, since_s, self.time_s)),
@@ -433,6 +477,7 @@ impl WalkController {
     }
 
     fn strike(&mut self, foot: usize) {
+        self.stance = foot;
         let planned = self.between().strike(foot);
         let ahead = (planned - self.phase).rem_euclid(1.0);
         if ahead.min(1.0 - ahead) < FURTHEST {
@@ -473,16 +518,13 @@ fn size_of(human: &Human) -> f64 {
 }
 
 fn impedances(human: &Human, joints: &[usize], settings: &ControlSettings) -> Vec<Impedance> {
-    let weight_height = human.model.mass() * human.model.gravity().norm() * human.build.height;
     let of = |c: usize| {
-        if !joints.contains(&c) {
-            return Impedance { stiffness: 0.0, damping: 0.0, strength: [0.0; 2] };
-        }
         let (share, movement) = share_of(human, c);
-        let stiffness = settings.stiffness * share * size_of(human);
-        let [with, against] = strength_of(movement).map(|strength| strength * weight_height);
+        let is_driven = if joints.contains(&c) { 1.0 } else { 0.0 };
+        let stiffness = is_driven * settings.stiffness * share * size_of(human);
+        let strength = StrengthCurve::of_movement(movement, human.model.mass(), human.build.height);
         let sign = human.model.anatomy().meaning(CoordinateId(c)).map_or(1.0, |meaning| meaning.sign);
-        let strength = if sign < 0.0 { [against, with] } else { [with, against] };
+        let strength = if sign < 0.0 { strength.reversed() } else { strength };
         Impedance { stiffness, damping: stiffness * settings.damping_s, strength }
     };
     (0..human.model.coordinates().len()).map(of).collect()

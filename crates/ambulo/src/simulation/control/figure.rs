@@ -2,7 +2,7 @@
 
 use super::settings::ControlError;
 use crate::contact::{HuntCrossley, Shape};
-use crate::dynamics::LinkError;
+use crate::dynamics::{Convergence, LinkError};
 use crate::findings::Findings;
 use crate::kinematics::Posture;
 use crate::model::Side;
@@ -64,9 +64,8 @@ impl FigureWorld {
     }
 
     /// Makes one step.
-    pub(super) fn step(&mut self, findings: &mut Findings) -> Result<(), LinkError> {
-        step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
-        Ok(())
+    pub(super) fn step(&mut self, findings: &mut Findings) -> Result<Convergence, LinkError> {
+        step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)
     }
 
     /// Vertical force of the last step on the right and the left foot [N].

@@ -8,6 +8,7 @@ use super::plan::{CyclePlan, PlannedStep};
 use super::riccati::StepMap;
 use super::settings::ControlError;
 use crate::findings::Findings;
+use crate::optimal::{ECCENTRIC, StrengthCurve};
 use crate::simulation::walking::WalkingError;
 use crate::simulation::{Motor, Signal};
 use nalgebra::{DMatrix, DVector};
@@ -15,63 +16,83 @@ use nalgebra::{DMatrix, DVector};
 /// Differences of coordinates [rad or m], rates [rad/s or m/s] and torques [N.m].
 const DIFFERENCES: [f64; 3] = [1e-6, 1e-5, 1e-2];
 
-/// Stiffness, damping and largest torques of the motor of a coordinate; no motor where the stiffness is zero.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Muscles need clearly more than they have from this share of their strength on. Push-off takes the ankle to its strength in every step.
+const OVERLOAD: f64 = 1.2;
+
+/// Stiffness, damping and strength of the motor of a coordinate; no motor where the stiffness is zero.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Impedance {
     /// [N.m/rad].
     pub(super) stiffness: f64,
     /// [N.m.s/rad].
     pub(super) damping: f64,
-    /// Largest positive and negative torque of the muscles [N.m].
-    pub(super) strength: [f64; 2],
+    /// Of the muscles.
+    pub(super) strength: StrengthCurve,
 }
 
 impl Impedance {
+    /// Largest torque in the direction of `sign` at an angle and a rate [N.m].
+    fn available(&self, [q, rate]: [f64; 2], sign: f64) -> f64 {
+        self.strength.available(q, rate, sign, ECCENTRIC)
+    }
+
     /// A motor that only damps, of a figure that has fallen.
-    pub(super) fn limp(&self) -> Motor {
-        let max = self.strength[0].min(self.strength[1]);
+    pub(super) fn limp(&self, [q, _]: [f64; 2]) -> Motor {
+        let max = [1.0, -1.0].map(|sign| self.available([q, 0.0], sign)).into_iter().fold(f64::INFINITY, f64::min);
         Motor { target: Signal::Constant(0.0), kp: 0.0, kd: self.damping, max }
     }
 
-    /// Whether a motor is at its limit in a state.
-    pub(super) fn is_at_limit(motor: &Motor, [q, rate]: [f64; 2]) -> bool {
-        (motor.kp * (motor.target.at(0.0)[0] - q) - motor.kd * rate).abs() >= motor.max
+    /// Whether a motor would need clearly more than its muscles have in a state.
+    pub(super) fn is_overloaded(motor: &Motor, [q, rate]: [f64; 2]) -> bool {
+        (motor.kp * (motor.target.at(0.0)[0] - q) - motor.kd * rate).abs() >= OVERLOAD * motor.max
     }
 
-    /// The motor whose torque at the target value and rate is `torque`. Its limit is that of the direction in which it acts at `now`.
-    pub(super) fn motor(&self, [target, target_rate]: [f64; 2], torque: f64, [q, rate]: [f64; 2]) -> Motor {
+    /// The motor whose torque at the target value and rate is `torque`. Its limit is the strength at the angle and the rate of `now`, in the direction in
+    /// which it acts there.
+    pub(super) fn motor(&self, [target, target_rate]: [f64; 2], torque: f64, now: [f64; 2]) -> Motor {
+        let [q, rate] = now;
         let ahead = (self.damping * target_rate + torque) / self.stiffness;
         let acts = self.stiffness * (target + ahead - q) - self.damping * rate;
-        let max = self.strength[usize::from(acts < 0.0)];
+        let max = self.available(now, acts);
         Motor { target: Signal::Constant(target + ahead), kp: self.stiffness, kd: self.damping, max }
     }
 }
 
 impl FigureWorld {
-    /// The maps of all time steps of a plan from state and torque of the joints to the next state.
+    /// The maps of all time steps of a plan from state and torque of the joints to the next state. Where the second half of the cycle is the mirror image
+    /// of the first, so are its maps.
     pub(super) fn maps(&mut self, plan: &CyclePlan, impedances: &[Impedance]) -> Result<Vec<StepMap>, ControlError> {
-        let (places, joints) = (plan.places(), plan.joints());
-        let (width, states) = (impedances.len(), places.len() + impedances.len());
-        let mut maps = Vec::with_capacity(plan.steps.len());
-        for planned in &plan.steps {
-            let mut probe = |place: Option<(usize, f64)>, torque: Option<(usize, f64)>| {
-                self.probe(planned, impedances, &places, place, torque)
-            };
-            let mut by_state = DMatrix::zeros(states, states);
-            for i in 0..states {
-                let moved = if i < places.len() { places[i] } else { width + i - places.len() };
-                let size = DIFFERENCES[usize::from(i >= places.len())];
-                let [up, down] = [size, -size].map(|size| probe(Some((moved, size)), None));
-                by_state.set_column(i, &((up? - down?) / (2.0 * size)));
-            }
-            let mut by_input = DMatrix::zeros(states, joints.len());
-            for (i, joint) in joints.iter().enumerate() {
-                let [up, down] = [DIFFERENCES[2], -DIFFERENCES[2]].map(|size| probe(None, Some((*joint, size))));
-                by_input.set_column(i, &((up? - down?) / (2.0 * DIFFERENCES[2])));
-            }
-            maps.push(StepMap { by_state, by_input });
+        let count = plan.steps.len();
+        let first = if plan.mirror.is_some() { count / 2 } else { count };
+        let mut maps = (0..first).map(|k| self.map(plan, impedances, k)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(mirror) = &plan.mirror {
+            let images: Vec<StepMap> = maps.iter().map(|map| mirrored(map, plan, mirror)).collect();
+            maps.extend(images);
         }
         Ok(maps)
+    }
+
+    /// The map of one time step.
+    fn map(&mut self, plan: &CyclePlan, impedances: &[Impedance], step: usize) -> Result<StepMap, ControlError> {
+        let (places, joints) = (plan.places(), plan.joints());
+        let (width, states) = (impedances.len(), places.len() + impedances.len());
+        let planned = &plan.steps[step];
+        let mut probe = |place: Option<(usize, f64)>, torque: Option<(usize, f64)>| {
+            self.probe(planned, impedances, &places, place, torque)
+        };
+        let mut by_state = DMatrix::zeros(states, states);
+        for i in 0..states {
+            let moved = if i < places.len() { places[i] } else { width + i - places.len() };
+            let size = DIFFERENCES[usize::from(i >= places.len())];
+            let [up, down] = [size, -size].map(|size| probe(Some((moved, size)), None));
+            by_state.set_column(i, &((up? - down?) / (2.0 * size)));
+        }
+        let mut by_input = DMatrix::zeros(states, joints.len());
+        for (i, joint) in joints.iter().enumerate() {
+            let [up, down] = [DIFFERENCES[2], -DIFFERENCES[2]].map(|size| probe(None, Some((*joint, size))));
+            by_input.set_column(i, &((up? - down?) / (2.0 * DIFFERENCES[2])));
+        }
+        Ok(StepMap { by_state, by_input })
     }
 
     /// The state after one step from the plan, with a change of one coordinate or rate, or of one torque.
@@ -103,6 +124,26 @@ impl FigureWorld {
     }
 }
 
+/// The map of the same step half a cycle later.
+fn mirrored(map: &StepMap, plan: &CyclePlan, mirror: &[(usize, f64)]) -> StepMap {
+    // Row or column and sign of the mirror image of each one.
+    let image = |coordinates: &[usize]| {
+        let place = |c: usize| coordinates.iter().position(|other| *other == c).unwrap_or(0);
+        coordinates.iter().map(|c| (place(mirror[*c].0), mirror[*c].1)).collect::<Vec<(usize, f64)>>()
+    };
+    let places = image(&plan.places());
+    let all: Vec<usize> = (0..mirror.len()).collect();
+    let rates = image(&all).into_iter().map(|(c, sign)| (places.len() + c, sign));
+    let states: Vec<(usize, f64)> = places.iter().copied().chain(rates).collect();
+    let inputs = image(&plan.joints());
+    let of = |matrix: &DMatrix<f64>, columns: &[(usize, f64)]| {
+        DMatrix::from_fn(states.len(), columns.len(), |i, j| {
+            states[i].1 * columns[j].1 * matrix[(states[i].0, columns[j].0)]
+        })
+    };
+    StepMap { by_state: of(&map.by_state, &states), by_input: of(&map.by_input, &inputs) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,8 +152,42 @@ mod tests {
     use crate::kinematics::Posture;
     use crate::model::anthropometry::{Build, SegmentTable};
     use crate::model::full_body::full_body;
+    use crate::optimal::mirror;
     use crate::simulation::StepSettings;
     use crate::simulation::control::plan::Root;
+
+    #[test]
+    fn maps_of_the_second_half_of_a_cycle_are_mirror_images_of_those_of_the_first() {
+        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+        let human = full_body(&build).unwrap();
+        let (count, mirror) = (human.model.coordinates().len(), mirror(&human.model));
+        let root = Root::of(&human.model);
+        let first: Vec<f64> = (0..count).map(|k| 0.2 * (1.0 + 1.7 * k as f64).sin()).collect();
+        let second: Vec<f64> = mirror.iter().map(|(c, sign)| sign * first[*c]).collect();
+        let on_the_ground = |q: &[f64]| {
+            let mut q = q.to_vec();
+            q[root.up] = 0.9;
+            q
+        };
+        let step = |q: &[f64]| PlannedStep {
+            state: [on_the_ground(q), q.to_vec()],
+            target: [on_the_ground(q), q.to_vec()],
+            torques: q.iter().map(|q| 50.0 * q).collect(),
+        };
+        let steps = vec![step(&first), step(&second)];
+        let plan = CyclePlan { steps, strikes: [0; 2], root: root.clone(), mirror: Some(mirror) };
+        let strength = StrengthCurve { angles: vec![0.0], positive: vec![1e3], negative: vec![1e3], hill: None };
+        let impedance = |stiffness: f64| Impedance { stiffness, damping: 5.0, strength: strength.clone() };
+        let joints = plan.joints();
+        let impedances: Vec<Impedance> =
+            (0..count).map(|c| impedance(if joints.contains(&c) { 50.0 } else { 0.0 })).collect();
+        let mut figure = FigureWorld::new(&human, HuntCrossley::SOFT_SHOES, StepSettings::default()).unwrap();
+        let image = figure.maps(&plan, &impedances).unwrap().remove(1);
+        let found = figure.map(&plan, &impedances, 1).unwrap();
+        let [by_state, by_input] = [(&found.by_state, &image.by_state), (&found.by_input, &image.by_input)]
+            .map(|(a, b)| (a - b).amax() / a.amax());
+        assert!(by_state < 1e-6 && by_input < 1e-6, "{by_state} {by_input}");
+    }
 
     /// In the air, a torque e of one joint changes the rates by Δ with (M + h d + h² k) Δ = h e, and M Δ is what inverse dynamics says.
     #[test]
@@ -128,8 +203,9 @@ mod tests {
         let qd = vec![0.0; count];
         let step =
             PlannedStep { state: [q.clone(), qd.clone()], target: [q.clone(), qd.clone()], torques: vec![0.0; count] };
-        let plan = CyclePlan { steps: vec![step], strikes: [0; 2], root };
-        let impedance = |stiffness: f64| Impedance { stiffness, damping: 0.1 * stiffness, strength: [1e3; 2] };
+        let plan = CyclePlan { steps: vec![step], strikes: [0; 2], root, mirror: None };
+        let strength = StrengthCurve { angles: vec![0.0], positive: vec![1e3], negative: vec![1e3], hill: None };
+        let impedance = |stiffness: f64| Impedance { stiffness, damping: 0.1 * stiffness, strength: strength.clone() };
         let impedances: Vec<Impedance> =
             (0..count).map(|c| impedance(if plan.joints().contains(&c) { 50.0 + c as f64 } else { 0.0 })).collect();
         let settings = StepSettings::default();

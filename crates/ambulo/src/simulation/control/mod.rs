@@ -24,6 +24,7 @@
 
 mod controller;
 mod figure;
+mod foot_placement;
 mod linear;
 mod physical;
 mod plan;
@@ -34,4 +35,4 @@ mod settings;
 pub use controller::{Fall, WalkController};
 pub use physical::PhysicalWalk;
 pub use schedule::SpeedSchedule;
-pub use settings::{ControlError, ControlSettings, TrackingCosts};
+pub use settings::{Balance, ControlError, ControlSettings, FootPlacement, TorqueCurves, TrackingCosts};

@@ -3,6 +3,7 @@
 use super::controller::{Fall, WalkController};
 use super::figure::FigureWorld;
 use super::settings::{ControlError, ControlSettings};
+use crate::dynamics::Convergence;
 use crate::findings::Findings;
 use crate::model::anthropometry::Human;
 use crate::optimal::Solution;
@@ -105,19 +106,18 @@ impl PhysicalWalk {
         &self.findings
     }
 
-    /// Makes one step.
+    /// Makes one step, and says whether its equations were solved.
     ///
     /// # Errors
     /// Joints that do not form trees.
-    pub fn step(&mut self) -> Result<(), WalkingError> {
+    pub fn step(&mut self) -> Result<Convergence, WalkingError> {
         let (now, loads) = (self.figure.read(), self.figure.loads());
         for (c, motor) in self.controller.act(&now, loads).into_iter().enumerate() {
             if let Some(motor) = motor {
                 self.figure.drive(c, motor);
             }
         }
-        self.figure.step(&mut self.findings)?;
-        Ok(())
+        Ok(self.figure.step(&mut self.findings)?)
     }
 
     /// A recorder of the figure.
@@ -132,10 +132,10 @@ impl PhysicalWalk {
     /// As [`PhysicalWalk::step`].
     pub(in crate::simulation) fn record_step(&mut self, recorder: &mut FigureRecorder) -> Result<(), WalkingError> {
         recorder.before_step(&self.figure.world, &self.figure.state);
-        self.step()?;
+        let converged = self.step()?.converged;
         let FigureWorld { world, state, workspace, settings, .. } = &mut self.figure;
         workspace.read_wrenches();
-        recorder.after_step(world, state, workspace, settings.step_s, true);
+        recorder.after_step(world, state, workspace, settings.step_s, converged);
         Ok(())
     }
 

@@ -1,13 +1,19 @@
 //! The planned walk at the time steps of the simulator.
 
-use super::settings::ControlError;
+use super::settings::{ControlError, TorqueCurves};
 use crate::model::anthropometry::Human;
 use crate::model::{Model, Side};
-use crate::optimal::{Sample, Solution};
-use std::f64::consts::TAU;
+use crate::numerics::Harmonics;
+use crate::optimal::{Sample, Solution, mirror};
 
 /// Fewest and most time steps of a cycle.
 const STEPS: [usize; 2] = [100, 5000];
+
+/// Postures and rates [rad, m, rad/s, m/s] and torques [N.m] of mirror images differ by less.
+const MIRRORED: [f64; 2] = [1e-6, 1e-3];
+
+/// Cycles whose durations differ by a smaller share are the same.
+const SAME_CYCLE: f64 = 0.05;
 
 /// Share of the body weight at which a foot strikes.
 pub(super) const STRIKE: f64 = 0.05;
@@ -43,6 +49,8 @@ pub(super) struct CyclePlan {
     /// Numbers of the steps in which the right and the left foot strike: their load passes [`STRIKE`].
     pub(super) strikes: [usize; 2],
     pub(super) root: Root,
+    /// The coordinate on the other side and its sign, if the second half of the cycle is the mirror image of the first.
+    pub(super) mirror: Option<Vec<(usize, f64)>>,
 }
 
 /// Numbers of the coordinates of the root.
@@ -72,11 +80,12 @@ impl Root {
 impl CyclePlan {
     pub(super) fn new(human: &Human, solution: &Solution, step_s: f64) -> Result<CyclePlan, ControlError> {
         let cycle_s = solution.cycle_s();
-        let found = (cycle_s / step_s).round() as usize;
+        // An even number, so that halves of the cycle can be compared.
+        let found = 2 * (0.5 * cycle_s / step_s).round() as usize;
         if !(STEPS[0]..=STEPS[1]).contains(&found) {
             return Err(ControlError::Steps { found, least: STEPS[0], most: STEPS[1] });
         }
-        // The cycle becomes a whole number of steps, which changes its duration by less than half a step.
+        // The cycle becomes a whole number of steps, which changes its duration by at most one step.
         let at = |shift: f64| (0..found).map(|k| cycle_s * (k as f64 + shift) / found as f64).collect::<Vec<f64>>();
         let (starts, middles) = (solution.samples(&at(0.0))?, solution.samples(&at(0.5))?);
         let weight_n = human.model.mass() * human.model.gravity().norm();
@@ -94,29 +103,77 @@ impl CyclePlan {
             target: two(middle.posture),
             torques: middle.forces,
         });
-        Ok(CyclePlan { steps: steps.collect(), strikes, root: Root::of(&human.model) })
+        let mut plan = CyclePlan { steps: steps.collect(), strikes, root: Root::of(&human.model), mirror: None };
+        plan.find_mirror(&human.model);
+        Ok(plan)
     }
 
-    /// Replaces the torques by their mean and the first `count` harmonics.
-    pub(super) fn keep_harmonics(&mut self, count: usize) {
-        let steps = self.steps.len() as f64;
-        let wave = |k: usize, harmonic: usize| (TAU * harmonic as f64 * (k as f64 + 0.5) / steps).sin_cos();
-        for c in 0..self.steps[0].torques.len() {
-            let torques: Vec<f64> = self.steps.iter().map(|step| step.torques[c]).collect();
-            let mut kept = vec![torques.iter().sum::<f64>() / steps; torques.len()];
-            for harmonic in 1..=count {
-                let part = |of: fn((f64, f64)) -> f64| {
-                    torques.iter().enumerate().map(|(k, torque)| torque * of(wave(k, harmonic))).sum::<f64>() * 2.0
-                        / steps
-                };
-                let (sine, cosine) = (part(|wave| wave.0), part(|wave| wave.1));
-                for (k, kept) in kept.iter_mut().enumerate() {
-                    let (sin, cos) = wave(k, harmonic);
-                    *kept += sine * sin + cosine * cos;
+    /// Looks whether the second half of the cycle is the mirror image of the first.
+    fn find_mirror(&mut self, model: &Model) {
+        let mirror = mirror(model);
+        let half = self.steps.len() / 2;
+        let differ = |a: &[f64], b: &[f64], tolerance: f64| {
+            let apart = |c: usize| (a[c] - mirror[c].1 * b[mirror[c].0]).abs() > tolerance;
+            (0..a.len()).any(|c| c != self.root.forward && apart(c))
+        };
+        let is_image = |(first, second): (&PlannedStep, &PlannedStep)| {
+            let postures = |step: &PlannedStep| [step.state.clone(), step.target.clone()].concat();
+            let moved = postures(second).iter().zip(&postures(first)).any(|(b, a)| differ(b, a, MIRRORED[0]));
+            !moved && !differ(&second.torques, &first.torques, MIRRORED[1])
+        };
+        let (first, second) = self.steps.split_at(half);
+        self.mirror = first.iter().zip(second).all(is_image).then_some(mirror);
+    }
+
+    /// Shares of the cycle in the middle of each step.
+    pub(super) fn middles(&self) -> Vec<f64> {
+        let count = self.steps.len();
+        (0..count).map(|k| (k as f64 + 0.5) / count as f64).collect()
+    }
+
+    /// Replaces the torque of a coordinate by a function of the share of the cycle.
+    fn replace_torque(&mut self, c: usize, torque: impl Fn(f64) -> f64) {
+        let middles = self.middles();
+        self.steps.iter_mut().zip(middles).for_each(|(step, middle)| step.torques[c] = torque(middle));
+    }
+
+    /// Torques of a coordinate in all steps [N.m].
+    pub(super) fn torques(&self, c: usize) -> Vec<f64> {
+        self.steps.iter().map(|step| step.torques[c]).collect()
+    }
+
+    /// Replaces the torques of the plan as the settings ask.
+    pub(super) fn set_torques(
+        &mut self,
+        model: &Model,
+        cycle_s: f64,
+        curves: &TorqueCurves,
+    ) -> Result<(), ControlError> {
+        match curves {
+            TorqueCurves::Plan => {}
+            TorqueCurves::Harmonics(count) => {
+                let middles = self.middles();
+                for c in 0..self.steps[0].torques.len() {
+                    let kept = Harmonics::of(&middles, &self.torques(c), *count);
+                    self.replace_torque(c, |phase| kept.at(phase));
                 }
             }
-            self.steps.iter_mut().zip(kept).for_each(|(step, kept)| step.torques[c] = kept);
+            TorqueCurves::Given(all) => {
+                for series in all {
+                    let joint = model.coordinate(&series.coordinate).map(|id| id.index());
+                    let Some(c) = joint.filter(|c| !self.root.contains(*c)) else {
+                        return Err(ControlError::TorqueOf { coordinate: series.coordinate.clone() });
+                    };
+                    if (series.cycle_s / cycle_s - 1.0).abs() > SAME_CYCLE {
+                        return Err(ControlError::TorqueCycle { found_s: series.cycle_s, cycle_s });
+                    }
+                    let scale = model.mass() / series.body_kg;
+                    self.replace_torque(c, |phase| scale * series.at(phase));
+                }
+            }
         }
+        self.find_mirror(model);
+        Ok(())
     }
 
     /// The number of the step at a share of the cycle.

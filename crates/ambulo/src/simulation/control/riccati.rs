@@ -18,7 +18,7 @@ pub(super) struct StepMap {
 /// Largest number of periods.
 const MOST_PERIODS: usize = 100;
 /// Relative change of P over a period at which it is periodic.
-const PERIODIC: f64 = 1e-9;
+const PERIODIC: f64 = 1e-7;
 
 /// Gains K_k of all steps; `None` if the recursion does not converge.
 pub(super) fn periodic_gains(
@@ -46,6 +46,16 @@ pub(super) fn periodic_gains(
     None
 }
 
+/// Gains for inputs that act `delay` steps later: the state then is foreseen by the closed system, u_{k+d} = -K_{k+d} (Π (A_j - B_j K_j)) x_k.
+pub(super) fn foreseen(steps: &[StepMap], gains: &[DMatrix<f64>], delay: usize) -> Vec<DMatrix<f64>> {
+    let count = steps.len();
+    let closed: Vec<DMatrix<f64>> =
+        steps.iter().zip(gains).map(|(step, gain)| &step.by_state - &step.by_input * gain).collect();
+    let of =
+        |k: usize| (k..k + delay).rev().fold(gains[(k + delay) % count].clone(), |row, j| row * &closed[j % count]);
+    (0..count).map(of).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,6 +74,21 @@ mod tests {
         let steps = vec![StepMap { by_state: scalar(a), by_input: scalar(b) }; 3];
         for gain in periodic_gains(&steps, &scalar(q), &scalar(r)).unwrap() {
             assert!((gain[(0, 0)] - expected).abs() < 1e-9, "{gain} instead of {expected}");
+        }
+    }
+
+    /// Without disturbance, an input that is computed ahead is the one that feedback without delay gives then.
+    #[test]
+    fn foreseen_gains_give_the_inputs_of_the_closed_system_ahead_of_time() {
+        let steps: Vec<StepMap> =
+            [0.9, 1.2, 1.4].map(|a| StepMap { by_state: scalar(a), by_input: scalar(0.5) }).to_vec();
+        let gains = periodic_gains(&steps, &scalar(1.0), &scalar(1.0)).unwrap();
+        let ahead = foreseen(&steps, &gains, 2);
+        let mut x = 1.0;
+        for k in 0..6 {
+            let then = (k..k + 2).fold(x, |x, j| (steps[j % 3].by_state[0] - 0.5 * gains[j % 3][0]) * x);
+            assert!((ahead[k % 3][0] * x - gains[(k + 2) % 3][0] * then).abs() < 1e-14);
+            x *= steps[k % 3].by_state[0] - 0.5 * gains[k % 3][0];
         }
     }
 

@@ -2,21 +2,56 @@
 
 use crate::dynamics::CurvedJointError;
 use crate::simulation::figure_tree::FigureJointError;
-use crate::simulation::walking::WalkingError;
+use crate::simulation::walking::{TorqueSeries, WalkingError};
 
 /// Settings of a [`WalkController`](super::WalkController). Torques are those of an adult of 75 kg and 1.75 m; they grow with mass times stature.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ControlSettings {
     /// Stiffness of the impedance of hips, knees, ankles and lumbar joint [N.m/rad]; arms have 0.3 and toes 0.2 times as much.
     pub stiffness: f64,
     /// Damping of the impedance over its stiffness [s].
     pub damping_s: f64,
-    /// Whether the state of the whole figure is fed back.
-    pub feedback: bool,
-    /// Number of harmonics of the cycle by which the torques of the plan are replaced; `None` keeps them.
-    pub harmonics: Option<usize>,
+    /// What keeps the figure up.
+    pub balance: Balance,
+    /// Time after which feedback of the state acts [s]; the state then is foreseen. Muscles need some 40 ms.
+    pub delay_s: f64,
+    /// Torques along the plan.
+    pub torques: TorqueCurves,
     /// Deviations that cost 1 per second.
     pub costs: TrackingCosts,
+}
+
+/// What keeps a figure up besides the impedances of its joints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Balance {
+    /// Nothing: it falls.
+    Nothing,
+    /// Feedback of the state of the whole figure.
+    WholeState,
+    /// The place of the next foot and the torque of the stance hip; planar figures only.
+    FootPlacement(FootPlacement),
+}
+
+/// Balance by foot placement (Yin, Loken, van de Panne 2007).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FootPlacement {
+    /// Further flexion of the swing hip per distance of the mass centre in front of the stance foot [rad/m].
+    pub distance: f64,
+    /// And per velocity of the mass centre [rad.s/m].
+    pub velocity: f64,
+    /// Stiffness [N.m/rad] and damping [N.m.s/rad] by which the stance hip of an adult keeps the pelvis upright.
+    pub trunk: [f64; 2],
+}
+
+/// Torques of the joints over the cycle, to which impedance and feedback add theirs.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TorqueCurves {
+    /// Those of the plan.
+    Plan,
+    /// Mean and this number of harmonics of those of the plan.
+    Harmonics(usize),
+    /// Curves of a file, in proportion to the mass of the figure; joints without one keep that of the plan.
+    Given(Vec<TorqueSeries>),
 }
 
 /// Deviations from the plan that cost as much as each other.
@@ -44,8 +79,9 @@ impl Default for ControlSettings {
         ControlSettings {
             stiffness: 200.0,
             damping_s: 0.1,
-            feedback: true,
-            harmonics: None,
+            balance: Balance::WholeState,
+            delay_s: 0.0,
+            torques: TorqueCurves::Plan,
             costs: TrackingCosts {
                 angle: 0.1,
                 rate: 1.0,
@@ -89,6 +125,23 @@ pub enum ControlError {
         least: usize,
         /// Most.
         most: usize,
+    },
+    /// A law for planar figures only.
+    #[error("balance by foot placement is for planar figures; expected feedback of the whole state")]
+    NotPlanar,
+    /// A torque curve of no joint of the figure.
+    #[error("found a torque curve of `{coordinate}`; expected coordinates of joints of the figure")]
+    TorqueOf {
+        /// The coordinate.
+        coordinate: String,
+    },
+    /// Torque curves of another walk.
+    #[error("found torque curves of a cycle of {found_s:.3} s; expected that of the plan, {cycle_s:.3} s")]
+    TorqueCycle {
+        /// That of the curves [s].
+        found_s: f64,
+        /// That of the plan [s].
+        cycle_s: f64,
     },
     /// Controllers that cannot be joined.
     #[error(

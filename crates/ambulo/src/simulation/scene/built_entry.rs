@@ -25,7 +25,7 @@ pub struct BuiltFigure {
     /// Coordinates that do not follow the walk exactly.
     pub coordinates: Vec<BuiltCoordinate>,
     /// Place and settings of its controller: the figure then walks by its own torques.
-    pub control: Option<(Place, ControlSettings)>,
+    pub control: Option<ControlEntry>,
 }
 
 /// Abduction of an arm.
@@ -104,11 +104,23 @@ pub struct WalkTracking {
     pub max: f64,
 }
 
+/// The controller of a figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ControlEntry {
+    pub(super) place: Place,
+    /// Settings; torque curves of a file are not read yet.
+    pub settings: ControlSettings,
+    /// File of torque curves.
+    pub torques: Option<(Place, String)>,
+}
+
 /// Keys of a built-in figure.
 pub(super) const KEYS: &[&str] =
     &["name", "build", "walk", "arms", "shoes", "coordinate", "control", "at", "rotation", "sphere"];
 /// Soles are not lifted further [m].
 const MOST_LIFT_M: f64 = 0.1;
+/// Feedback that is later comes when the figure lies on the ground [s].
+const MOST_DELAY_S: f64 = 0.2;
 /// Why a figure in three dimensions needs a controller.
 const CONTROLLED: &str = "a controller, as in `control = {}`: a figure in three dimensions walks by its own torques";
 /// Larger abductions of an arm are mistakes [rad].
@@ -156,8 +168,15 @@ fn build(value: &Value<'_>) -> Result<(Build, Human), SceneError> {
     Ok((build, human))
 }
 
+/// Delay of feedback [s].
+fn delay(table: &Table<'_>) -> Result<f64, SceneError> {
+    let Some(value) = table.get("delay") else { return Ok(0.0) };
+    let delay_s = value.zero_or_more()?;
+    if delay_s <= MOST_DELAY_S { Ok(delay_s) } else { Err(value.wrong("a delay of at most 0.2 s")) }
+}
+
 /// The controller of a figure, which needs a corrected walk of one pace and all joints for itself.
-fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<(Place, ControlSettings)>, SceneError> {
+fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<ControlEntry>, SceneError> {
     let is_spatial = walk.is_some_and(|walk| walk.mode == FigureWalkMode::Optimal);
     let Some(value) = table.get("control") else {
         return if is_spatial { Err(table.missing("control", CONTROLLED)) } else { Ok(None) };
@@ -166,7 +185,7 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<(Place,
         return Err(arms.wrong("no such key for a walk in the mode `optimal`, which moves the arms"));
     }
     let own = value.table("{ stiffness = …, damping = … }")?;
-    own.only(&[&["stiffness", "damping"]])?;
+    own.only(&[&["stiffness", "damping", "delay", "torques"]])?;
     if !walk.is_some_and(|walk| walk.mode != FigureWalkMode::Curves) {
         return Err(value
             .wrong("no such key without a `walk` in the mode `corrected` or `optimal`, which the controller follows"));
@@ -178,9 +197,11 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<(Place,
     let settings = ControlSettings {
         stiffness: own.above_zero_or("stiffness", default.stiffness)?,
         damping_s: own.zero_or_more_or("damping", default.damping_s)?,
+        delay_s: delay(&own)?,
         ..default
     };
-    Ok(Some((value.place(), settings)))
+    let torques = own.get("torques").map(|file| Ok((file.place(), file.filled_text()?))).transpose()?;
+    Ok(Some(ControlEntry { place: value.place(), settings, torques }))
 }
 
 fn arms(table: &Table<'_>) -> Result<[ArmEntry; 2], SceneError> {

@@ -120,9 +120,9 @@ fn walking(
 ) -> Result<(Human, Motion, Option<ScheduledController>), SceneError> {
     let wrong = |e: &dyn std::error::Error| entry.place.error(chain(e));
     let mut gait = gait_of(entry, sources)?;
-    if let Some((place, settings)) = &built.control {
+    if let Some(control) = &built.control {
         let planner = Planner { entry, build: &built.build, gait: &gait };
-        let controller = planner.controller(place, settings, sources)?;
+        let controller = planner.controller(control, sources)?;
         let plan = planner.plan(entry.speed, sources)?;
         return Ok((plan.human.clone(), along_plan(plan, entry.phase), Some(controller)));
     }

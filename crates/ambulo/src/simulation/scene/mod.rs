@@ -39,7 +39,9 @@ mod walk_recorder;
 pub use crate::toml_reader::{Place, TomlError as SceneError};
 pub use body::BodyEntry;
 pub use build::{Scene, SceneSettings};
-pub use built_entry::{ArmEntry, BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
+pub use built_entry::{
+    ArmEntry, BuiltCoordinate, BuiltFigure, ControlEntry, FigureWalkMode, GaitSource, WalkEntry, WalkTracking,
+};
 pub use closure::{Anchor, ClosureEntry};
 pub use coordinate::{CoordinateEntry, DriveEntry, Limits, MotionKind, MotorEntry};
 pub use event::{EventAction, EventEntry};

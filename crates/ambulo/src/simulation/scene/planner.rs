@@ -1,13 +1,14 @@
 //! Plans and controllers of figures in a scene: walks without outside forces, and who follows them by torques.
 
-use super::built_entry::{FigureWalkMode, WalkEntry};
+use super::SceneError;
+use super::built_entry::{ControlEntry, FigureWalkMode, WalkEntry};
 use super::sources::{InputFiles, PlannedWalk, chain};
-use super::{Place, SceneError};
 use crate::gait::{Gait, PaceChange, Speed, Walk};
 use crate::model::anthropometry::Build;
 use crate::optimal::OptimalWalk;
 use crate::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
-use crate::simulation::control::{ControlSettings, SpeedSchedule, WalkController};
+use crate::simulation::control::{ControlSettings, SpeedSchedule, TorqueCurves, WalkController};
+use crate::simulation::walking::TorqueSeries;
 
 /// Duration of a change of speed without one of its own [s].
 const CHANGE_S: f64 = 2.0;
@@ -68,16 +69,17 @@ impl Planner<'_> {
     /// The controller of a figure that walks by its own torques, through all changes of its speed.
     pub(super) fn controller(
         &self,
-        place: &Place,
-        settings: &ControlSettings,
+        control: &ControlEntry,
         sources: &mut InputFiles<'_, '_>,
     ) -> Result<ScheduledController, SceneError> {
+        let place = &control.place;
         if !(self.gait.pace_changes.is_empty() && self.gait.machines.is_empty()) {
             let found = format!("found the gait `{}` with machines or changes of pace of its own", self.gait.name);
             return Err(place.error(found + "; expected one pace. hint: changes of speed can be given by the scene"));
         }
         let first = self.plan(self.entry.speed, sources)?.solution.speed();
         let changes = self.schedule(first)?;
+        let settings = &self.settings(control, sources)?;
         let steps = sources.steps;
         let mut all = Vec::new();
         let speeds =
@@ -91,12 +93,34 @@ impl Planner<'_> {
                     made.map_err(|e| place.error(chain(&e)))?
                 }
             };
-            plan.controller = Some((*settings, one.clone()));
+            plan.controller = Some((settings.clone(), one.clone()));
             all.push(one);
         }
         let mut controller = WalkController::joined(&all).map_err(|e| place.error(chain(&e)))?;
         controller.set_speed(first).map_err(|e| place.error(chain(&e)))?;
         Ok(ScheduledController { controller: controller.starting_at(self.entry.phase), schedule: changes })
+    }
+
+    /// The settings of a controller with the torque curves of its file.
+    fn settings(
+        &self,
+        control: &ControlEntry,
+        sources: &mut InputFiles<'_, '_>,
+    ) -> Result<ControlSettings, SceneError> {
+        let mut settings = control.settings.clone();
+        if let Some((place, path)) = &control.torques {
+            if !self.entry.changes.is_empty() {
+                return Err(place.error(
+                    "found torque curves and `changes` of speed; expected one speed, to which the curves belong"
+                        .to_owned(),
+                ));
+            }
+            let text = sources.text(place, path)?;
+            let curves = TorqueSeries::read(&text, "physical", &self.gait.name);
+            let curves = curves.map_err(|e| place.error(format!("{path}: {}", chain(&e))))?;
+            settings.torques = TorqueCurves::Given(curves);
+        }
+        Ok(settings)
     }
 
     fn schedule(&self, first: f64) -> Result<SpeedSchedule, SceneError> {

@@ -90,7 +90,8 @@ fn corrected(
     report_residuals(solutions, findings)?;
     let first = corrections.into_iter().next();
     let recording = changing.simulate(&human, &own, settings.step_s(), kept.simulated_s, findings)?;
-    let made = Made { recording: &recording, states: kept.states(settings, &walk), correction: first };
+    let made =
+        Made { recording: &recording, states: kept.states(settings, &walk), correction: first, torques: Vec::new() };
     steady(settings, &kept, human, walk, made)
 }
 
@@ -129,7 +130,7 @@ fn paper(
     let (walk, kept) = paper_plan(settings, &human, findings)?;
     let planned = Planned { human: &human, walk: &walk, kept: &kept };
     let (recording, states) = paper_run(settings, &planned, &mut |_| {}, findings)?;
-    steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None })
+    steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None, torques: Vec::new() })
 }
 
 fn paper_plan(
@@ -240,7 +241,13 @@ pub fn replay(
         },
     );
     let states = kept.states(settings, &walk);
-    steady(settings, &kept, human, walk, Made { recording: &released.recording, states, correction: None })
+    steady(
+        settings,
+        &kept,
+        human,
+        walk,
+        Made { recording: &released.recording, states, correction: None, torques: Vec::new() },
+    )
 }
 
 /// Torques hold a figure of the mass that they were computed for.

@@ -86,6 +86,7 @@ fn made(
         efforts: efforts(&found.solution, &frame_times)?,
         states: states.periods,
         state_changes: states.changes,
+        torques: Vec::new(),
         report,
         human: found.human,
         walk,

@@ -40,7 +40,9 @@ pub(super) fn physical(
         kept = KeptPart::of_rows(settings, kept.first.min(recording.grid().frames - 1), recording.grid().frames);
     }
     let correction = CorrectionReport::of(&first.problem, &first.solution, first.solution.cycle_s())?;
-    let made = Made { recording: &recording, states: kept.states(settings, &walk), correction: Some(correction) };
+    let torques = figure.controller().torque_series();
+    let made =
+        Made { recording: &recording, states: kept.states(settings, &walk), correction: Some(correction), torques };
     steady(settings, &kept, first.human, walk, made)
 }
 

@@ -9,7 +9,7 @@ use crate::model::anthropometry::{Human, SegmentTable};
 use crate::motion::ForceRecording;
 use crate::optimal::WalkConditions;
 use crate::simulation::consistent_walk::{CorrectionReport, Magnitude};
-use crate::simulation::walking::{ExcerptRows, StanceSlip, WalkRecording};
+use crate::simulation::walking::{ExcerptRows, StanceSlip, TorqueSeries, WalkRecording};
 use std::ops::Range;
 
 /// A synthetic walk.
@@ -29,6 +29,8 @@ pub struct SyntheticWalk {
     pub states: Vec<StatePeriod>,
     /// The same states as changes in order of time, beginning with the first state of each machine.
     pub state_changes: Vec<StateChange>,
+    /// Torques of the joints along the plan of a controller, without its impedance and feedback; empty in the other modes.
+    pub torques: Vec<TorqueSeries>,
     /// How the walk was made, in numbers.
     pub report: WalkReport,
 }
@@ -266,6 +268,7 @@ pub(super) struct Made<'a> {
     pub(super) recording: &'a WalkRecording,
     pub(super) states: StateRun,
     pub(super) correction: Option<CorrectionReport>,
+    pub(super) torques: Vec<TorqueSeries>,
 }
 
 /// The kept part of a simulated walk.
@@ -276,13 +279,13 @@ pub(super) fn steady(
     walk: Walk,
     made: Made<'_>,
 ) -> Result<SyntheticWalk, SyntheticError> {
-    let Made { recording, states, correction } = made;
+    let Made { recording, states, correction, torques } = made;
     let rows = ExcerptRows { first: kept.first, every: settings.steps_per_frame(), frames: kept.frames };
     let excerpt = recording.excerpt(rows)?;
     let report = report(settings, rows, &human, &walk, recording, correction);
     let (trajectory, loads, efforts) = (excerpt.trajectory, excerpt.loads, excerpt.efforts);
     let StateRun { periods: states, changes: state_changes } = states;
-    Ok(SyntheticWalk { human, walk, trajectory, loads, efforts, states, state_changes, report })
+    Ok(SyntheticWalk { human, walk, trajectory, loads, efforts, states, state_changes, torques, report })
 }
 
 /// The changes of pace in time of the kept motion, which begins at `start_s`.

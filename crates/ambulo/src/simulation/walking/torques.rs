@@ -1,9 +1,11 @@
-//! Torques of the gait cycle as harmonics, written by `ambulo reproduce` and replayed by a walker without feedback.
+//! Torques of the gait cycle as harmonics. Those of `ambulo reproduce` are replayed by a walker without feedback, those of a walk by own torques by a
+//! controller.
 //!
 //!   τ(t) = mean + Σ_k (cosine_k cos(2π k t/T) + sine_k sin(2π k t/T))          t from the nominal foot strike of the right foot
 
+use crate::numerics::Harmonics;
 use crate::toml_reader::{Source, Table, TomlError};
-use std::f64::consts::TAU;
+use std::fmt::Write;
 
 /// Number of harmonics.
 pub const HARMONICS: usize = 6;
@@ -31,21 +33,54 @@ pub struct TorqueSeries {
 }
 
 impl TorqueSeries {
+    /// The harmonics of torques [N.m] at phases [cycles] that divide one or more cycles evenly.
+    #[must_use]
+    pub fn of(coordinate: &str, [cycle_s, body_kg]: [f64; 2], phases: &[f64], torques: &[f64]) -> TorqueSeries {
+        let found = Harmonics::of(phases, torques, HARMONICS);
+        let r_squared = found.r_squared(phases, torques);
+        let [cosine, sine] = [found.cosine, found.sine].map(|parts| std::array::from_fn(|k| parts[k]));
+        TorqueSeries { coordinate: coordinate.to_owned(), cycle_s, body_kg, mean: found.mean, cosine, sine, r_squared }
+    }
+
     /// The torque at a share of the cycle [N.m].
     #[must_use]
     pub fn at(&self, phase: f64) -> f64 {
-        let wave = |k: usize| {
-            let (sin, cos) = (TAU * (k + 1) as f64 * phase).sin_cos();
-            self.cosine[k] * cos + self.sine[k] * sin
-        };
-        self.mean + (0..HARMONICS).map(wave).sum::<f64>()
+        Harmonics { mean: self.mean, cosine: self.cosine.to_vec(), sine: self.sine.to_vec() }.at(phase)
     }
 
-    /// The torques of a gait in the paper's mode from the text of a `torques.toml`.
+    /// The torques of gaits as the text of a `torques.toml`: mode, gait and torques.
+    #[must_use]
+    pub fn text<'a>(gaits: impl IntoIterator<Item = (&'a str, &'a str, Vec<TorqueSeries>)>) -> String {
+        let mut text = String::from(
+            "# Torques as harmonics of the gait cycle, N.m, with the sign of the model's coordinate:\n\
+             # torque(t) = mean + sum over k of cosine[k-1] cos(2 pi k t / cycle_s) + sine[k-1] sin(2 pi k t / cycle_s),\n\
+             # t from the right foot's nominal contact. Impacts are not included.\n",
+        );
+        for (mode, gait, torques) in gaits {
+            for series in torques {
+                let list = |values: &[f64]| values.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
+                let _ = write!(
+                    text,
+                    "\n[[torque]]\nmode = \"{mode}\"\ngait = \"{gait}\"\ncoordinate = \"{}\"\ncycle_s = {:?}\nbody_kg = {:.3}\nmean = {:.6}\n\
+                     cosine = [{}]\nsine = [{}]\nr_squared = {:.6}\n",
+                    series.coordinate,
+                    series.cycle_s,
+                    series.body_kg,
+                    series.mean,
+                    list(&series.cosine),
+                    list(&series.sine),
+                    series.r_squared
+                );
+            }
+        }
+        text
+    }
+
+    /// The torques of a gait in a mode (`paper` or `physical`) from the text of a `torques.toml`.
     ///
     /// # Errors
     /// Text that is no such file, with line and key; a gait that it does not have.
-    pub fn read(text: &str, gait: &str) -> Result<Vec<TorqueSeries>, TomlError> {
+    pub fn read(text: &str, mode: &str, gait: &str) -> Result<Vec<TorqueSeries>, TomlError> {
         let source = Source::new(text, DOCUMENT);
         let parsed = source.parse()?;
         let root = Table::root(&source, &parsed);
@@ -63,10 +98,10 @@ impl TorqueSeries {
                 "sine",
                 "r_squared",
             ]])?;
-            let mode = table.need("mode", "the mode in which the torques were computed")?.filled_text()?;
+            let own_mode = table.need("mode", "the mode in which the torques were computed")?.filled_text()?;
             let own = table.need("gait", "the gait whose torques they are")?.filled_text()?;
             let found = read_series(&table)?;
-            if mode != "paper" {
+            if own_mode != mode {
                 continue;
             }
             if own == gait {
@@ -81,9 +116,9 @@ impl TorqueSeries {
         }
         if series.is_empty() {
             let known = if gaits.is_empty() { "none".to_owned() } else { gaits.join(", ") };
-            return Err(
-                root.wrong(format!("found no torques of the gait `{gait}` in the mode `paper`; the file has {known}"))
-            );
+            return Err(root.wrong(format!(
+                "found no torques of the gait `{gait}` in the mode `{mode}`; in that mode the file has {known}"
+            )));
         }
         Ok(series)
     }

@@ -1,0 +1,69 @@
+//! Harmonics of a function of the phase: mean + Σ_k (a_k cos(2π k φ) + b_k sin(2π k φ)).
+
+use std::f64::consts::TAU;
+
+/// Mean and harmonics of values over whole cycles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Harmonics {
+    /// Mean of the values.
+    pub mean: f64,
+    /// a_1, a_2, ...
+    pub cosine: Vec<f64>,
+    /// b_1, b_2, ...
+    pub sine: Vec<f64>,
+}
+
+impl Harmonics {
+    /// The first `count` harmonics of values at phases [cycles] that divide one or more cycles evenly.
+    #[must_use]
+    pub fn of(phases: &[f64], values: &[f64], count: usize) -> Harmonics {
+        let samples = values.len() as f64;
+        let along = |wave: fn(f64) -> f64| {
+            let part = |k: usize| {
+                let terms = phases.iter().zip(values).map(|(phase, value)| value * wave(TAU * k as f64 * phase));
+                2.0 * terms.sum::<f64>() / samples
+            };
+            (1..=count).map(part).collect()
+        };
+        Harmonics { mean: values.iter().sum::<f64>() / samples, cosine: along(f64::cos), sine: along(f64::sin) }
+    }
+
+    /// The value at a phase [cycles].
+    #[must_use]
+    pub fn at(&self, phase: f64) -> f64 {
+        let waves = self.cosine.iter().zip(&self.sine).zip(1..).map(|((cosine, sine), k)| {
+            let (sin, cos) = (TAU * f64::from(k) * phase).sin_cos();
+            cosine * cos + sine * sin
+        });
+        self.mean + waves.sum::<f64>()
+    }
+
+    /// Share of the variance of values that these harmonics represent; 1 for values without variance.
+    #[must_use]
+    pub fn r_squared(&self, phases: &[f64], values: &[f64]) -> f64 {
+        let left: f64 = phases.iter().zip(values).map(|(phase, value)| (value - self.at(*phase)).powi(2)).sum();
+        let all: f64 = values.iter().map(|value| (value - self.mean).powi(2)).sum();
+        if all > 0.0 { 1.0 - left / all } else { 1.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_harmonics_of_a_sum_of_waves_are_these_waves() {
+        let known = Harmonics { mean: 0.3, cosine: vec![1.0, 0.0, -0.5], sine: vec![0.0, 2.0, 0.25] };
+        let phases: Vec<f64> = (0..40).map(|k| (f64::from(k) + 0.5) / 20.0).collect();
+        let values: Vec<f64> = phases.iter().map(|phase| known.at(*phase)).collect();
+        let found = Harmonics::of(&phases, &values, 3);
+        let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
+        assert!((found.mean - 0.3).abs() < 1e-14 && apart(&found.cosine, &known.cosine), "{found:?}");
+        assert!(apart(&found.sine, &known.sine) && found.r_squared(&phases, &values) > 1.0 - 1e-14, "{found:?}");
+        // Without the third harmonic, the variance of that harmonic is missing.
+        let [third, all] = [0.25 + 0.0625, 1.0 + 4.0 + 0.25 + 0.0625];
+        let two = Harmonics::of(&phases, &values, 2);
+        assert!((two.r_squared(&phases, &values) - (1.0 - third / all)).abs() < 1e-14);
+        assert!((Harmonics::of(&phases, &[2.0; 40], 2).r_squared(&phases, &[2.0; 40]) - 1.0).abs() < 1e-14);
+    }
+}
