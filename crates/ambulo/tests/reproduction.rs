@@ -236,7 +236,7 @@ fn the_measured_force_is_that_of_the_data() {
 
 #[test]
 fn other_bodies_and_figures_behave_as_the_paper_says() {
-    for id in ["n1", "n2", "n3", "n4"] {
+    for id in ["n1", "n2", "n3", "n4", "o"] {
         println!("{id}: {}", claim(id).note);
         assert!(claim(id).pass, "{}", claim(id).note);
     }

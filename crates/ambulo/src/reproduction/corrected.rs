@@ -84,7 +84,7 @@ fn thickness(human: &Human) -> f64 {
 }
 
 /// The same figure with a toe joint and the same radii of the soles.
-fn with_toes(human: &Human) -> Result<Human, ReproductionError> {
+pub(super) fn with_toes(human: &Human) -> Result<Human, ReproductionError> {
     let mut figure = Build { toe_joint: true, ..human.build }.human()?;
     let (old, new) = (thickness(human), thickness(&figure));
     for sole in &mut figure.soles {

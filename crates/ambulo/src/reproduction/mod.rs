@@ -24,6 +24,7 @@ mod interaction;
 mod joints;
 mod laws;
 mod mass;
+mod own_torques;
 mod shares;
 mod sliding;
 mod statements;

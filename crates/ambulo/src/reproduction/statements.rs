@@ -2,10 +2,12 @@
 
 use super::claim::{Claim, Judgement, Statement};
 use super::evidence::{Evidence, Scope};
-use super::{action, bounce, convergence, forward, gaits, ground_force, interaction, joints, laws, mass, sliding};
+use super::{
+    action, bounce, convergence, forward, gaits, ground_force, interaction, joints, laws, mass, own_torques, sliding,
+};
 
 /// All statements, in the order of the figures in the paper.
-const STATEMENTS: [Statement; 34] = [
+const STATEMENTS: [Statement; 35] = [
     laws::SMOOTH,
     laws::SPEED_LAW,
     laws::CHANGE,
@@ -39,6 +41,7 @@ const STATEMENTS: [Statement; 34] = [
     interaction::OBSTACLE,
     interaction::GRASP_CLAIM,
     interaction::HAND_IN_HAND,
+    own_torques::OWN_TORQUES,
     bounce::SPEED,
 ];
 
