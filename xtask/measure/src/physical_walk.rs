@@ -4,6 +4,7 @@
 //! another mass and other legs; then plans of other speeds and other figures. With `--write` the page goes to docs/measured/PHYSICAL_WALK.md.
 
 mod page;
+mod placement;
 mod spatial;
 
 use crate::random::Random;
@@ -12,9 +13,10 @@ use ambulo::contact::Shape;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::numerics::Harmonics;
 use ambulo::optimal::Solution;
 use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
-use ambulo::simulation::control::{ControlSettings, PhysicalWalk, WalkController};
+use ambulo::simulation::control::{Balance, ControlSettings, PhysicalWalk, TorqueCurves, WalkController};
 use ambulo::simulation::{Obstacle, Owner, StepSettings, Surface};
 use ambulo::spatial::{Pose, Vec3, Wrench};
 use cpu_time::ThreadTime;
@@ -49,6 +51,9 @@ const TILE: f64 = 0.02;
 const SEEDS: u64 = 20;
 /// Height by which the plan for tiles lifts the soles further, in the middle of swing [m].
 const LIFT: f64 = 0.027;
+
+/// Delays of feedback [s].
+const DELAYS_S: [f64; 4] = [0.01, 0.02, 0.04, 0.06];
 
 /// A figure with its plan.
 struct Figure {
@@ -96,6 +101,9 @@ struct Results {
     others: Vec<(String, Walked, usize)>,
     /// Number of harmonics, share of the variance of hip, knee and ankle torques that they keep, the walk, and pushes as above.
     harmonics: Vec<(usize, [f64; 3], Walked, usize)>,
+    /// Delay of feedback [s], the walk, and pushes as above.
+    delays: Vec<(f64, Walked, usize)>,
+    placement: placement::Results,
     /// The same man in three dimensions.
     spatial: spatial::Results,
 }
@@ -138,9 +146,16 @@ fn measure() -> Result<Results, String> {
     }
     let mut harmonics = Vec::new();
     for count in [1, 2, 3, 4, 5, 6, 8, 12] {
-        let own = self::controller(&man, &ControlSettings { harmonics: Some(count), ..settings })?;
+        let own =
+            self::controller(&man, &ControlSettings { torques: TorqueCurves::Harmonics(count), ..settings.clone() })?;
         let survived = pushed_both_ways(&man, &own)?;
         harmonics.push((count, kept(&man, count)?, walked(with_controller(&man, &own)?, &man, 100)?, survived));
+    }
+    let mut delays = Vec::new();
+    for delay_s in DELAYS_S {
+        let own = self::controller(&man, &ControlSettings { delay_s, ..settings.clone() })?;
+        let survived = pushed_both_ways(&man, &own)?;
+        delays.push((delay_s, walked(with_controller(&man, &own)?, &man, 100)?, survived));
     }
     Ok(Results {
         machine: crate::bench::machine(),
@@ -162,6 +177,8 @@ fn measure() -> Result<Results, String> {
         speeds,
         others,
         harmonics,
+        delays,
+        placement: placement::measure(&man, &settings)?,
         spatial: spatial::measure(&settings)?,
     })
 }
@@ -340,7 +357,7 @@ fn stiffness(figure: &Figure, controller: &WalkController) -> Vec<(&'static str,
 }
 
 fn fall_without_feedback(figure: &Figure, settings: &ControlSettings) -> Result<Option<f64>, String> {
-    let own = controller(figure, &ControlSettings { feedback: false, ..*settings })?;
+    let own = controller(figure, &ControlSettings { balance: Balance::Nothing, ..settings.clone() })?;
     let fall = with_controller(figure, &own)?.walk_until(60.0).map_err(|e| e.to_string())?;
     Ok(fall.map(|fall| fall.time_s))
 }
@@ -348,20 +365,12 @@ fn fall_without_feedback(figure: &Figure, settings: &ControlSettings) -> Result<
 /// Share of the variance of the torques of right hip, knee and ankle that the first harmonics of the cycle keep.
 fn kept(figure: &Figure, count: usize) -> Result<[f64; 3], String> {
     let cycle_s = figure.plan.cycle_s();
-    let times: Vec<f64> = (0..1000).map(|k| cycle_s * f64::from(k) / 1000.0).collect();
+    let phases: Vec<f64> = (0..1000).map(|k| f64::from(k) / 1000.0).collect();
+    let times: Vec<f64> = phases.iter().map(|phase| cycle_s * phase).collect();
     let samples = figure.plan.samples(&times).map_err(|e| e.to_string())?;
     Ok(["hip_flexion_r", "knee_angle_r", "ankle_angle_r"].map(|name| {
         let c = figure.human.model.coordinate(name).map_or(0, |id| id.index());
         let torques: Vec<f64> = samples.iter().map(|sample| sample.forces[c]).collect();
-        let mean = torques.iter().sum::<f64>() / 1000.0;
-        let variance = torques.iter().map(|torque| (torque - mean).powi(2)).sum::<f64>() / 1000.0;
-        let power = |harmonic: usize| {
-            let part = |of: fn(f64) -> f64| {
-                let turn = |k: usize| std::f64::consts::TAU * harmonic as f64 * k as f64 / 1000.0;
-                torques.iter().enumerate().map(|(k, torque)| torque * of(turn(k))).sum::<f64>() * 2.0 / 1000.0
-            };
-            0.5 * (part(f64::sin).powi(2) + part(f64::cos).powi(2))
-        };
-        (1..=count).map(power).sum::<f64>() / variance
+        Harmonics::of(&phases, &torques, count).r_squared(&phases, &torques)
     }))
 }

@@ -11,7 +11,7 @@ pub(super) fn text(results: &Results) -> String {
         page,
         "# Walking under own torques\n\nMeasured by `cargo xtask physical-walk --write` on {}. A figure in the sagittal plane follows its corrected walk \
          with the default controller (`simulation::control`, [PHYSICAL_WALK.md](../PHYSICAL_WALK.md)): a man of 75 kg and 1.75 m at {SPEED} m/s unless the row says \
-         otherwise; further down in three dimensions, along his optimal walk. Nothing but joints and ground acts on him. Torques are limited by the isometric strength of muscles. Legs pass through each other.\n\n\
+         otherwise; further down in three dimensions, along his optimal walk. Nothing but joints and ground acts on him. Torques are limited by the strength of muscles at the angle and the speed of the joint. Legs pass through each other.\n\n\
          The settings were chosen by hand on pushes of this man at this speed, at other phases than those of this page, and in three dimensions one more (the cost of the place sideways) on pushes from eight sides at other phases. The rules \
          for the phase, the level of the ground and the ankle were made while he was tried on slopes, on tiles and with other legs in the plane. Other speeds, figures \
          and masses played no part.\n\n",
@@ -20,6 +20,8 @@ pub(super) fn text(results: &Results) -> String {
     page += &main_table(results);
     page += &pushes(results);
     page += &others(results);
+    page += &delays(results);
+    page += &results.placement.section();
     page += &in_three_dimensions(&results.spatial);
     page += &harmonics(results);
     page
@@ -92,6 +94,23 @@ fn others(results: &Results) -> String {
     format!(
         "## Other speeds and figures\n\nEach with a plan and gains of its own. Pushes grow with mass; half of them are backward. Other figures walk at \
          {SPEED} m/s times the root of their stature over that of the man.\n\n{}\n",
+        table.text()
+    )
+}
+
+fn delays(results: &Results) -> String {
+    let mut table = Table::new(&["delay [ms]", "steps of 100", "RMS [deg]", "pushes of 100 N"]);
+    for (delay_s, walked, survived) in &results.delays {
+        table.row([
+            format!("{:.0}", 1e3 * delay_s),
+            steps(walked),
+            format!("{:.2}", walked.apart.to_degrees()),
+            format!("{survived} of {}", 2 * PHASES),
+        ]);
+    }
+    format!(
+        "## Feedback that acts later\n\nThe same man in the plane; feedback acts after a delay, for which it foresees the state by the linear system. Plan and impedance act at \
+         once. Pushes forward and backward, survived for {AFTER_PUSH} steps.\n\n{}\n",
         table.text()
     )
 }
