@@ -1,11 +1,12 @@
 //! Numerical methods: natural splines and their banded solver, periodic and uniform B-splines, band matrices, nonlinear
-//! least squares, medians, harmonics. Nothing here knows mechanics.
+//! least squares, evolution strategies, random numbers, medians, harmonics. Nothing here knows mechanics.
 //!
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.
 
 mod band_cholesky;
 mod banded;
+mod cma;
 mod dense;
 mod harmonics;
 mod least_squares;
@@ -13,6 +14,7 @@ mod median;
 mod natural_spline;
 mod periodic_spline;
 mod profile_cholesky;
+mod random;
 mod shown;
 mod spline_fitter;
 mod spline_grid;
@@ -21,6 +23,7 @@ mod uniform_spline;
 use serde::Deserialize;
 
 pub use band_cholesky::{BandFactor, BandMatrix};
+pub use cma::Cma;
 pub(crate) use dense::DenseLu;
 pub use harmonics::Harmonics;
 pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
@@ -28,6 +31,7 @@ pub use median::median;
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
 pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues, quintic_splines};
 pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
+pub use random::Random;
 pub(crate) use shown::Shown;
 pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};
 pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};

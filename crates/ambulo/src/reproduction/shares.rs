@@ -10,6 +10,7 @@ use super::paper_settings::PaperSettings;
 use super::statements::judgements;
 use crate::contact::HuntCrossley;
 use crate::gait::Style;
+use crate::numerics::Random;
 use crate::simulation::ImpactLaw;
 use std::sync::LazyLock;
 
@@ -120,24 +121,6 @@ impl OpenValues {
         let settings = self.settings();
         let mut mode = |trial: &TrialSettings<'_>| paper_walk_with(&settings, trial);
         Ok(judgements(&Evidence::gather(&mut mode, Scope::Brief, None)?))
-    }
-}
-
-/// Splitmix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn new(seed: u64, number: u64) -> Random {
-        Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03))
-    }
-
-    /// From 0 to below 1.
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 

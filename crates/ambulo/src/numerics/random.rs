@@ -1,0 +1,57 @@
+//! Random numbers that are the same for the same seed.
+
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Splitmix64 (Steele, Lea, Flood 2014; unverified). Its state is one number, so that a computation can be stopped and resumed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Random(u64);
+
+impl Random {
+    /// One of many sequences of a seed.
+    #[must_use]
+    pub fn new(seed: u64, number: u64) -> Random {
+        Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03))
+    }
+
+    /// From 0 to below 1.
+    pub fn share(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Normally distributed, with mean 0 and standard deviation 1 (Box and Muller 1958; unverified).
+    pub fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.share()).ln()).sqrt();
+        radius * (TAU * self.share()).cos()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normal_numbers_have_the_moments_of_the_normal_distribution() {
+        let mut random = Random::new(7, 0);
+        let count = 20_000;
+        let numbers: Vec<f64> = (0..count).map(|_| random.normal()).collect();
+        let moment = |power: i32| numbers.iter().map(|x| x.powi(power)).sum::<f64>() / f64::from(count);
+        // Standard errors of the moments of so many numbers: 0.007, 0.010, 0.027 and 0.069.
+        for (power, expected, error) in [(1, 0.0, 0.03), (2, 1.0, 0.04), (3, 0.0, 0.11), (4, 3.0, 0.28)] {
+            assert!((moment(power) - expected).abs() < error, "{power}: {}", moment(power));
+        }
+    }
+
+    #[test]
+    fn sequences_of_one_seed_differ_and_repeat() {
+        let first = |number: u64| {
+            let mut random = Random::new(3, number);
+            [random.share(), random.share()]
+        };
+        assert!(first(0) != first(1) && first(0) == first(0));
+    }
+}
