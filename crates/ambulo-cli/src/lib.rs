@@ -43,6 +43,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
         Some(Command::Sweep(args)) => commands::sweep::run(&args),
         Some(Command::Demo(args)) => commands::demo::run(&args),
         Some(Command::Simulate(args)) => commands::simulate::run(&args),
+        Some(Command::Tune(args)) => commands::tune::run(&args),
         Some(Command::Reproduce(args)) => commands::reproduce::run(&args),
         Some(Command::Report(args)) => commands::report::run(&args),
         Some(Command::View(args)) => commands::view::run(&args),

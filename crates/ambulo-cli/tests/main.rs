@@ -37,6 +37,7 @@ mod segment_poses;
 mod simulate;
 mod summary_schema;
 mod sweep;
+mod tune;
 mod tutorials;
 mod verdict;
 mod walk;

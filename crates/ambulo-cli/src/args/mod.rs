@@ -10,7 +10,7 @@ mod walk;
 pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Adjusted, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
-pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
+pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
 pub(crate) use values::{FootColumns, ForceCutoff, PlateFoot, TimedValue, Values};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
 
@@ -36,6 +36,8 @@ pub(crate) enum Command {
     Demo(DemoArgs),
     /// Simulate a scene file: poses, joint efforts, contact forces, energies.
     Simulate(SimulateArgs),
+    /// Tune the gains of a figure that walks by its own torques, by pushes.
+    Tune(TuneArgs),
     /// Recompute every figure and claim of the 1997 paper.
     Reproduce(ReproduceArgs),
     /// Write the report page of a result folder again, or compare two or three runs on one page.

@@ -1,6 +1,6 @@
-//! Options of `ambulo simulate`, `info`, `compare` and `reproduce`.
+//! Options of `ambulo simulate`, `tune`, `info`, `compare` and `reproduce`.
 
-use super::values::{above_zero, limit, outputs_of_paper, outputs_of_scene, seconds};
+use super::values::{above_zero, force, limit, outputs_of_paper, outputs_of_scene, seconds};
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
@@ -39,6 +39,55 @@ pub(crate) struct SimulateArgs {
     pub(crate) replace: ReplaceArgs,
     #[command(flatten)]
     pub(crate) check: CheckArgs,
+    #[command(flatten)]
+    pub(crate) print: PrintArgs,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Example (in the source folder, which contains examples/):
+  ambulo tune examples/pushed-walker.toml -o tuned.toml
+
+The figure walks on level ground without the rest of its scene and is pushed at the trunk for 0.2 s: forward and backward, or from all sides if
+it has three dimensions. CMA-ES changes the gains; the cost counts falls, the deviation from the plan, effort and speed. The pushes that compare
+candidates, those that choose the result and those of the report are three different sets, drawn from --seed. Gains that are not better than
+those of the scene are not chosen. docs/PHYSICAL_WALK.md has the formula.
+
+Files written after every generation: FILE with the key `control` to paste into the scene, and FILE with the ending .state.json for --resume. A
+run that is stopped loses one generation at most. The result depends on all options but --jobs.
+
+Gains: stiffness, damping, angle_deg, rate_deg, pelvis_deg, height, sideways, velocity, velocity_up, torque, as in docs/SCENES.md.")]
+pub(crate) struct TuneArgs {
+    /// The scene (.toml), with a figure that has the key `control`.
+    pub(crate) scene: PathBuf,
+    /// File for the tuned gains; an existing one is only overwritten with --force or --resume.
+    #[arg(short, long, value_name = "FILE.toml", default_value = "tuned.toml")]
+    pub(crate) output: PathBuf,
+    /// Name of the figure [default: the first one with `control`].
+    #[arg(long, value_name = "NAME")]
+    pub(crate) figure: Option<String>,
+    /// Gains to tune, separated by commas [default: all but torque, and but sideways in the plane].
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub(crate) gains: Vec<String>,
+    /// Number of evaluations; the last generation is not begun if it would exceed it.
+    #[arg(long, value_name = "N", default_value_t = 330, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    pub(crate) evaluations: u32,
+    /// Seed of the search and of its pushes.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u32,
+    /// Force of the pushes for a body of 75 kg [N]; it grows with the mass of the figure.
+    #[arg(long, value_name = "N", default_value_t = 200.0, value_parser = force)]
+    pub(crate) push: f64,
+    /// Number of pushes per candidate; the choice of the result has twice as many, the report nine times.
+    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) pushes: u32,
+    /// Candidates that are tried at the same time [default: the number of processors].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) jobs: Option<u32>,
+    /// Continue a run of the same scene and options that was stopped, or one with fewer evaluations.
+    #[arg(long)]
+    pub(crate) resume: bool,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

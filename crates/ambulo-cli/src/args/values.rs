@@ -73,6 +73,14 @@ pub(super) fn above_zero(text: &str) -> Result<f64, String> {
     }
 }
 
+/// The force of a push [N]; larger ones are typing errors.
+pub(super) fn force(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(force) if (1.0..=10_000.0).contains(&force) => Ok(force),
+        _ => Err("expected a force from 1 to 10000 N".into()),
+    }
+}
+
 pub(super) fn limit(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(limit) if limit.is_finite() && limit >= 0.0 => Ok(limit),

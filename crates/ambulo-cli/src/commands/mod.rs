@@ -11,9 +11,11 @@ pub(crate) mod reproduce;
 mod result_folder;
 mod results;
 mod run_files;
+mod side_by_side;
 pub(crate) mod simulate;
 mod stopwatch;
 pub(crate) mod sweep;
+pub(crate) mod tune;
 pub(crate) mod view;
 pub(crate) mod walk;
 

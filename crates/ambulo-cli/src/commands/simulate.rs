@@ -130,21 +130,32 @@ fn scene_files(
 
 /// Builds the scene and reads every file that it names; adds their paths to `inputs`.
 fn build(args: &SimulateArgs, caller: &Caller, inputs: &mut Vec<PathBuf>, findings: &mut Findings) -> Result<Scene> {
-    let shown = || args.scene.display().to_string();
-    let bytes = files::read_input(caller, &args.scene)?;
-    let text = String::from_utf8(bytes).map_err(|e| {
+    let file = read_scene(&args.scene, caller)?;
+    let changes = SceneSettings { step_s: args.step, duration_s: args.duration };
+    let mut load = |path: &str| read_named(&args.scene, path, caller, inputs);
+    Scene::build(&file, changes, &mut load, findings).with_context(|| args.scene.display().to_string())
+}
+
+/// Reads a scene file.
+pub(super) fn read_scene(scene: &Path, caller: &Caller) -> Result<SceneFile> {
+    let shown = || scene.display().to_string();
+    let text = String::from_utf8(files::read_input(caller, scene)?).map_err(|e| {
         anyhow::anyhow!("{}: byte {} is not UTF-8; expected a scene in TOML", shown(), e.utf8_error().valid_up_to())
     })?;
-    let file = SceneFile::parse(&text).with_context(shown)?;
-    let changes = SceneSettings { step_s: args.step, duration_s: args.duration };
-    let folder = args.scene.parent().unwrap_or(Path::new(""));
-    let mut load = |path: &str| {
-        let path = folder.join(path);
-        let bytes = files::read_input(caller, &path).map_err(|error| error.to_string())?;
-        inputs.push(path);
-        Ok(bytes)
-    };
-    Scene::build(&file, changes, &mut load, findings).with_context(shown)
+    SceneFile::parse(&text).with_context(shown)
+}
+
+/// Reads a file that a scene names, whose path is relative to it, and adds its path to `inputs`.
+pub(super) fn read_named(
+    scene: &Path,
+    path: &str,
+    caller: &Caller,
+    inputs: &mut Vec<PathBuf>,
+) -> Result<Vec<u8>, String> {
+    let path = scene.parent().unwrap_or(Path::new("")).join(path);
+    let bytes = files::read_input(caller, &path).map_err(|error| error.to_string())?;
+    inputs.push(path);
+    Ok(bytes)
 }
 
 fn resume(scene: &mut Scene, path: &Path) -> Result<()> {

@@ -1,5 +1,6 @@
 //! `ambulo sweep`: walks at many speeds, of many bodies, on slopes and with loads.
 
+use super::side_by_side::{processors, side_by_side};
 use super::walk::{read_devices, source};
 use crate::args::{SweepArgs, Values};
 use crate::caller::Caller;
@@ -20,8 +21,6 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 /// More walks take hours.
 const MOST_WALKS: usize = 500;
@@ -185,27 +184,15 @@ impl Sweep {
 
     /// Computes all walks, in the order of the conditions.
     fn walks(&self, args: &SweepArgs, caller: &Caller) -> Vec<SweptWalk> {
-        let next = AtomicUsize::new(0);
-        let done: Mutex<Vec<Option<SweptWalk>>> = Mutex::new(vec![None; self.points.len()]);
-        let workers = thread::available_parallelism().map_or(1, usize::from).min(self.points.len());
-        let work = || {
-            loop {
-                let place = next.fetch_add(1, Ordering::Relaxed);
-                let Some(point) = self.points.get(place).filter(|_| !caller.is_stopped()) else { break };
-                let found = self.walk(point).map_err(|error| format!("{error:#}"));
-                let walk = SweptWalk { conditions: *point, found };
-                let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-                done[place] = Some(walk);
-                let count = done.iter().flatten().count();
-                printer::progress(&format!("{count} of {} walks", self.points.len()), args.print);
-            }
-        };
-        thread::scope(|scope| {
-            for _ in 0..workers {
-                scope.spawn(work);
-            }
+        let done = AtomicUsize::new(0);
+        let walks = side_by_side(self.points.len(), processors(), |place| {
+            let point = self.points.get(place).filter(|_| !caller.is_stopped())?;
+            let found = self.walk(point).map_err(|error| format!("{error:#}"));
+            let count = done.fetch_add(1, Ordering::Relaxed) + 1;
+            printer::progress(&format!("{count} of {} walks", self.points.len()), args.print);
+            Some(SweptWalk { conditions: *point, found })
         });
-        done.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().flatten().collect()
+        walks.into_iter().flatten().collect()
     }
 
     /// One walk, with its forces computed as for a recording.

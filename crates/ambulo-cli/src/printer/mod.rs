@@ -11,6 +11,7 @@ mod simulate;
 mod subject;
 mod sweep;
 mod tools;
+mod tune;
 
 pub(crate) use forces::forces;
 pub(crate) use report::{report, view};
@@ -18,6 +19,7 @@ pub(crate) use reproduce::reproduce;
 pub(crate) use simulate::simulate;
 pub(crate) use sweep::sweep;
 pub(crate) use tools::{ComparedColumn, EventSource, SourceAgreement, compare, convert, events, info};
+pub(crate) use tune::{TunedGains, tune, tuning};
 
 use crate::args::PrintArgs;
 use crate::hints;
@@ -59,6 +61,7 @@ pub(crate) fn guide() -> Result<()> {
   ambulo forces MOTION.trc --mass 70                         the same without force plates: predicted ground forces
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    the same from coordinates of an OpenSim model
   ambulo simulate SCENE.toml                                 simulate a scene
+  ambulo tune SCENE.toml                                     tune the gains of a figure that walks by its own torques
   ambulo reproduce -o paper                                  recompute the claims of the 1997 paper
   ambulo view DIR                                            open the report page of a run in the browser
   ambulo report DIR --compare DIR2                           write the page again, here with two runs compared

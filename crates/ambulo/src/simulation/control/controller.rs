@@ -2,9 +2,9 @@
 
 use super::figure::FigureWorld;
 use super::foot_placement::{Followed, PlacedFeet};
-use super::linear::Impedance;
+use super::linear::{Impedance, with_impedances};
 use super::plan::{CyclePlan, PlannedStep, Root, STRIKE};
-use super::riccati::{foreseen, periodic_gains};
+use super::riccati::{StepMap, foreseen, periodic_gains};
 use super::settings::{Balance, ControlError, ControlSettings, TrackingCosts};
 use crate::kinematics::{Posture, body_motion};
 use crate::model::anthropometry::{ContactSphere, Human};
@@ -87,7 +87,7 @@ impl Fall {
 }
 
 /// A plan at one speed, and its gains.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Pace {
     /// [m/s].
     speed: f64,
@@ -187,12 +187,9 @@ impl WalkController {
         plan.set_torques(&human.model, solution.cycle_s(), &settings.torques)?;
         let (joints, places) = (plan.joints(), plan.places());
         let impedances = impedances(human, &joints, settings);
-        let delay = (settings.delay_s / step.step_s).round() as usize;
         let gains = if settings.balance == Balance::WholeState {
             let maps = FigureWorld::new(human, solution.problem().shoes, step)?.maps(&plan, &impedances)?;
-            let [of_state, of_input] = costs(human, &plan, &settings.costs, step.step_s);
-            let gains = periodic_gains(&maps, &of_state, &of_input).ok_or(ControlError::Riccati)?;
-            foreseen(&maps, &gains, delay)
+            gains(human, &plan, &maps, settings, step.step_s)?
         } else {
             Vec::new()
         };
@@ -206,7 +203,7 @@ impl WalkController {
             placed_feet,
             body: Arc::new(body),
             stance: 0,
-            late: VecDeque::from(vec![vec![0.0; human.model.coordinates().len()]; delay]),
+            late: late(human, settings, step.step_s),
             level_m: 0.0,
             taller: 1.0,
             speed: solution.speed(),
@@ -227,6 +224,43 @@ impl WalkController {
             at_limit: None,
             fall: None,
         })
+    }
+
+    /// The maps of the time steps of its plan, with its impedances.
+    pub(super) fn maps(
+        &self,
+        human: &Human,
+        solution: &Solution,
+        step: StepSettings,
+    ) -> Result<Vec<StepMap>, ControlError> {
+        FigureWorld::new(human, solution.problem().shoes, step)?.maps(&self.paces[0].plan, &self.impedances)
+    }
+
+    /// The controller of the same plan with other settings; `maps` are those of this one.
+    pub(super) fn with_settings(
+        &self,
+        human: &Human,
+        settings: &ControlSettings,
+        maps: &[StepMap],
+    ) -> Result<WalkController, ControlError> {
+        let plan = &self.paces[0].plan;
+        let impedances = impedances(human, &self.joints, settings);
+        let maps = with_impedances(maps, plan, [&self.impedances, &impedances], self.step_s);
+        let gains = gains(human, plan, &maps.ok_or(ControlError::Riccati)?, settings, self.step_s)?;
+        let pace = Pace { gains, ..Pace::clone(&self.paces[0]) };
+        let late = late(human, settings, self.step_s);
+        Ok(WalkController { paces: vec![Arc::new(pace)], impedances, late, ..self.clone() })
+    }
+
+    /// Mean square, over hips, knees, ankles and the lumbar joint, of the difference of their angles from the plan [rad²] and of their torques over
+    /// the isometric strength of their muscles.
+    pub(super) fn deviation_and_effort(&self, now: &[[f64; 2]], torques: &[f64]) -> [f64; 2] {
+        let planned = self.between().planned(self.phase);
+        let count = self.carrying.len().max(1) as f64;
+        let apart = |&c: &usize| now[c][0] - planned.state[0][c];
+        let used = |&c: &usize| torques[c] / self.impedances[c].isometric(now[c][0], torques[c]);
+        let mean = |of: &dyn Fn(&usize) -> f64| self.carrying.iter().map(|c| of(c).powi(2)).sum::<f64>() / count;
+        [mean(&apart), mean(&used)]
     }
 
     /// One controller of controllers of the same figure at several speeds: between them, plans and gains are mixed linearly. It starts as the
@@ -528,6 +562,29 @@ fn impedances(human: &Human, joints: &[usize], settings: &ControlSettings) -> Ve
         Impedance { stiffness, damping: stiffness * settings.damping_s, strength }
     };
     (0..human.model.coordinates().len()).map(of).collect()
+}
+
+/// Steps after which feedback acts.
+fn delay_steps(settings: &ControlSettings, step_s: f64) -> usize {
+    (settings.delay_s / step_s).round() as usize
+}
+
+/// The feedback that acts before the first one arrives: none.
+fn late(human: &Human, settings: &ControlSettings, step_s: f64) -> VecDeque<Vec<f64>> {
+    VecDeque::from(vec![vec![0.0; human.model.coordinates().len()]; delay_steps(settings, step_s)])
+}
+
+/// Gains of all steps of a plan with these maps.
+fn gains(
+    human: &Human,
+    plan: &CyclePlan,
+    maps: &[StepMap],
+    settings: &ControlSettings,
+    step_s: f64,
+) -> Result<Vec<DMatrix<f64>>, ControlError> {
+    let [of_state, of_input] = costs(human, plan, &settings.costs, step_s);
+    let gains = periodic_gains(maps, &of_state, &of_input).ok_or(ControlError::Riccati)?;
+    Ok(foreseen(maps, &gains, delay_steps(settings, step_s)))
 }
 
 /// The diagonal matrices Q and R of a time step.

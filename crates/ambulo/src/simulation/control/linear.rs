@@ -36,9 +36,14 @@ impl Impedance {
         self.strength.available(q, rate, sign, ECCENTRIC)
     }
 
+    /// Largest torque in the direction of `sign` at an angle, at rest [N.m].
+    pub(super) fn isometric(&self, q: f64, sign: f64) -> f64 {
+        self.available([q, 0.0], sign)
+    }
+
     /// A motor that only damps, of a figure that has fallen.
     pub(super) fn limp(&self, [q, _]: [f64; 2]) -> Motor {
-        let max = [1.0, -1.0].map(|sign| self.available([q, 0.0], sign)).into_iter().fold(f64::INFINITY, f64::min);
+        let max = [1.0, -1.0].map(|sign| self.isometric(q, sign)).into_iter().fold(f64::INFINITY, f64::min);
         Motor { target: Signal::Constant(0.0), kp: 0.0, kd: self.damping, max }
     }
 
@@ -144,6 +149,38 @@ fn mirrored(map: &StepMap, plan: &CyclePlan, mirror: &[(usize, f64)]) -> StepMap
     StepMap { by_state: of(&map.by_state, &states), by_input: of(&map.by_input, &inputs) }
 }
 
+/// The maps of a figure whose joints have other impedances, from those with the impedances `before`.
+///
+/// A motor acts by the value q at the start of a step and the rate q̇⁺ at its end: τ = c - k q - (k h + d) q̇⁺. With the changes Δk and Δd, and the torques
+/// u = e - Δk q - (Δk h + Δd) q̇⁺ =: e - V x - W x⁺ in x⁺ = A x + B u,
+///
+///   S = I + W B      A' = A - B S⁻¹ (V + W A)      B' = B S⁻¹
+pub(super) fn with_impedances(
+    maps: &[StepMap],
+    plan: &CyclePlan,
+    [before, after]: [&[Impedance]; 2],
+    step_s: f64,
+) -> Option<Vec<StepMap>> {
+    let (places, joints) = (plan.places(), plan.joints());
+    let states = places.len() + before.len();
+    let (mut by_value, mut by_rate) = (DMatrix::zeros(joints.len(), states), DMatrix::zeros(joints.len(), states));
+    for (row, &joint) in joints.iter().enumerate() {
+        let stiffer = after[joint].stiffness - before[joint].stiffness;
+        let damped = after[joint].damping - before[joint].damping;
+        if let Some(place) = places.iter().position(|place| *place == joint) {
+            by_value[(row, place)] = stiffer;
+        }
+        by_rate[(row, places.len() + joint)] = stiffer * step_s + damped;
+    }
+    let changed = |StepMap { by_state, by_input }: &StepMap| {
+        let inverse = (DMatrix::identity(joints.len(), joints.len()) + &by_rate * by_input).try_inverse()?;
+        let by_input = by_input * inverse;
+        let by_state = by_state - &by_input * (&by_value + &by_rate * by_state);
+        Some(StepMap { by_state, by_input })
+    };
+    maps.iter().map(changed).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -227,6 +264,48 @@ mod tests {
                 let found = inertial[c] - weight[c] + yields;
                 assert!((found - expected).abs() < 1e-6 * h.max(1e-3), "{joint}, {c}: {found} instead of {expected}");
             }
+        }
+    }
+
+    /// On the ground, maps of another impedance are those of differences with it, but for how far one step goes from the plan with either.
+    #[test]
+    fn maps_of_another_impedance_follow_from_those_of_one() {
+        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+        let human = build.human().unwrap();
+        let count = human.model.coordinates().len();
+        let root = Root::of(&human.model);
+        let mut q = vec![0.05; count];
+        q[root.up] = 0.0;
+        let mut figure = FigureWorld::new(&human, HuntCrossley::SOFT_SHOES, StepSettings::default()).unwrap();
+        figure.place(&q, &vec![0.0; count]);
+        // Soles 3 mm in the ground.
+        let motions =
+            figure.tree.motions(&figure.world, Posture { q: &q, qd: &vec![0.0; count], qdd: &vec![0.0; count] });
+        let centers = human.soles.iter().map(|sole| {
+            let body = &human.model.bodies()[sole.body.index()];
+            motions[sole.body.index()].pose.place(sole.center - body.inertia.center()).y - sole.radius
+        });
+        q[root.up] = -0.003 - centers.fold(f64::INFINITY, f64::min);
+        let qd: Vec<f64> = (0..count).map(|k| 0.3 * (1.0 + 1.7 * k as f64).sin()).collect();
+        let state = [q, qd];
+        let step = PlannedStep { state: state.clone(), target: state, torques: vec![0.0; count] };
+        let plan = CyclePlan { steps: vec![step], strikes: [0; 2], root };
+        let with = |stiffness: f64, damping: f64| -> Vec<Impedance> {
+            let of = |c: usize| Impedance { stiffness: stiffness + c as f64, damping, strength: [1e3; 2] };
+            let none = Impedance { stiffness: 0.0, damping: 0.0, strength: [0.0; 2] };
+            (0..count).map(|c| if plan.joints().contains(&c) { of(c) } else { none }).collect()
+        };
+        let [soft, stiff] = [with(20.0, 1.0), with(250.0, 30.0)];
+        let own = figure.maps(&plan, &soft).unwrap();
+        let direct = figure.maps(&plan, &stiff).unwrap().remove(0);
+        let found = with_impedances(&own, &plan, [&soft, &stiff], StepSettings::default().step_s).unwrap().remove(0);
+        for (name, found, direct, other) in [
+            ("state", found.by_state, direct.by_state, &own[0].by_state),
+            ("input", found.by_input, direct.by_input, &own[0].by_input),
+        ] {
+            let (apart, change) = ((found - &direct).amax(), (other - &direct).amax());
+            println!("{name}: {apart:.1e} of a change of {change:.1e}");
+            assert!(apart < 1e-3 * change, "{name}: {apart} of a change of {change}");
         }
     }
 }

@@ -31,6 +31,7 @@ mod plan;
 mod riccati;
 mod schedule;
 mod settings;
+pub mod tuning;
 
 pub use controller::{Fall, WalkController};
 pub use physical::PhysicalWalk;

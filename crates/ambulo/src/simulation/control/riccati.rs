@@ -48,6 +48,9 @@ pub(super) fn periodic_gains(
 
 /// Gains for inputs that act `delay` steps later: the state then is foreseen by the closed system, u_{k+d} = -K_{k+d} (Π (A_j - B_j K_j)) x_k.
 pub(super) fn foreseen(steps: &[StepMap], gains: &[DMatrix<f64>], delay: usize) -> Vec<DMatrix<f64>> {
+    if delay == 0 {
+        return gains.to_vec();
+    }
     let count = steps.len();
     let closed: Vec<DMatrix<f64>> =
         steps.iter().zip(gains).map(|(step, gain)| &step.by_state - &step.by_input * gain).collect();

@@ -150,7 +150,7 @@ impl Scene {
     }
 }
 
-fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings {
+pub(super) fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings {
     StepSettings {
         step_s: changes.step_s.unwrap_or(file.step_s),
         integrator: file.integrator,

@@ -3,6 +3,7 @@
 use super::SceneError;
 use super::coordinate::{CoordinateEntry, MotionKind};
 use super::material::MaterialEntry;
+use super::tracking_costs;
 use crate::gait::{Gait, PaceChange};
 use crate::model::anthropometry::{Build, Human, SegmentTable};
 use crate::model::{CoordinateId, CoordinateKind as ModelKind, Side};
@@ -185,7 +186,7 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<Control
         return Err(arms.wrong("no such key for a walk in the mode `optimal`, which moves the arms"));
     }
     let own = value.table("{ stiffness = …, damping = … }")?;
-    own.only(&[&["stiffness", "damping", "delay", "torques"]])?;
+    own.only(&[&["stiffness", "damping", "delay", "costs", "torques"]])?;
     if !walk.is_some_and(|walk| walk.mode != FigureWalkMode::Curves) {
         return Err(value
             .wrong("no such key without a `walk` in the mode `corrected` or `optimal`, which the controller follows"));
@@ -198,6 +199,7 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<Control
         stiffness: own.above_zero_or("stiffness", default.stiffness)?,
         damping_s: own.zero_or_more_or("damping", default.damping_s)?,
         delay_s: delay(&own)?,
+        costs: tracking_costs::read(&own, default.costs)?,
         ..default
     };
     let torques = own.get("torques").map(|file| Ok((file.place(), file.filled_text()?))).transpose()?;

@@ -144,7 +144,7 @@ fn walking(
     Ok((human, motion, None))
 }
 
-fn gait_of(entry: &WalkEntry, sources: &mut InputFiles<'_, '_>) -> Result<Gait, SceneError> {
+pub(super) fn gait_of(entry: &WalkEntry, sources: &mut InputFiles<'_, '_>) -> Result<Gait, SceneError> {
     let place = &entry.place;
     let wrong = |e: &dyn std::error::Error| place.error(chain(e));
     match &entry.gait {

@@ -10,6 +10,7 @@ mod built_entry;
 mod built_figure;
 mod closing;
 mod closure;
+mod controlled;
 mod coordinate;
 mod event;
 mod figure;
@@ -32,6 +33,7 @@ mod solver;
 mod sources;
 mod starting;
 mod surfaces;
+mod tracking_costs;
 mod tree;
 mod uniform;
 mod walk_recorder;
@@ -43,6 +45,7 @@ pub use built_entry::{
     ArmEntry, BuiltCoordinate, BuiltFigure, ControlEntry, FigureWalkMode, GaitSource, WalkEntry, WalkTracking,
 };
 pub use closure::{Anchor, ClosureEntry};
+pub use controlled::ControlledFigure;
 pub use coordinate::{CoordinateEntry, DriveEntry, Limits, MotionKind, MotorEntry};
 pub use event::{EventAction, EventEntry};
 pub use figure::{DrivenCoordinates, FigureEntry, RootMotion, SphereEntry};

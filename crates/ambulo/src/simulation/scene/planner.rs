@@ -102,7 +102,7 @@ impl Planner<'_> {
     }
 
     /// The settings of a controller with the torque curves of its file.
-    fn settings(
+    pub(super) fn settings(
         &self,
         control: &ControlEntry,
         sources: &mut InputFiles<'_, '_>,

@@ -1,0 +1,117 @@
+//! What became of trials, and what it costs.
+
+use serde::{Deserialize, Serialize};
+
+/// Weight of the mean square deviation from the plan [1/rad²]: 0.1 rad cost as much as falls of one push in twenty.
+const DEVIATION: f64 = 10.0;
+/// Weight of the mean square of torques over their strength.
+const EFFORT: f64 = 0.5;
+/// Weight of the error of the speed, as a share.
+const SPEED: f64 = 0.5;
+
+/// What became of a walk and its pushes.
+///
+/// With the time t until a fall after the push and the time T that is asked for,
+///
+///   cost = mean over pushes of { 0 if it is survived, else 2 - t/T } + 10 D² + E²/2 + V/2
+///
+/// D is the root mean square deviation of hips, knees, ankles and the lumbar joint from the plan [rad], E that of their torques as shares of their strength,
+/// V the mean over trials of the difference of the speed from that of the plan, as a share of it. A fall costs more than all else can.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct TrialOutcome {
+    /// The cost; without a number if there are no gains.
+    #[serde(deserialize_with = "crate::numerics::or_nan")]
+    pub cost: f64,
+    /// Number of pushes.
+    pub pushes: usize,
+    /// Number of pushes that were survived.
+    pub survived: usize,
+    /// D [rad].
+    pub deviation: f64,
+    /// E.
+    pub effort: f64,
+    /// V.
+    pub speed_error: f64,
+}
+
+impl TrialOutcome {
+    /// The outcome of settings without gains: the Riccati equation does not converge.
+    pub(super) fn without_gains(pushes: usize) -> TrialOutcome {
+        TrialOutcome { cost: f64::NAN, pushes, survived: 0, deviation: 0.0, effort: 0.0, speed_error: 0.0 }
+    }
+}
+
+/// Sums over trials.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Sums {
+    pushes: usize,
+    survived: usize,
+    falls: f64,
+    samples: f64,
+    deviation: f64,
+    effort: f64,
+    speed_error: f64,
+    speeds: f64,
+}
+
+impl Sums {
+    /// Adds mean squares of deviation and effort at an instant.
+    pub(super) fn sample(&mut self, [deviation, effort]: [f64; 2]) {
+        self.samples += 1.0;
+        self.deviation += deviation;
+        self.effort += effort;
+    }
+
+    /// Adds the speed of a trial without a fall, over that of the plan.
+    pub(super) fn speed(&mut self, share: f64) {
+        self.speeds += 1.0;
+        self.speed_error += (share - 1.0).abs();
+    }
+
+    /// Adds a push; `fell` is the share of the time after which the figure fell.
+    pub(super) fn push(&mut self, fell: Option<f64>) {
+        self.pushes += 1;
+        match fell {
+            None => self.survived += 1,
+            Some(share) => self.falls += 2.0 - share.clamp(0.0, 1.0),
+        }
+    }
+
+    pub(super) fn outcome(&self) -> TrialOutcome {
+        let samples = self.samples.max(1.0);
+        let (deviation, effort) = (self.deviation / samples, self.effort / samples);
+        // Where nothing walked, nothing had the speed.
+        let speed_error = if self.speeds > 0.0 { self.speed_error / self.speeds } else { 1.0 };
+        let falls = self.falls / self.pushes.max(1) as f64;
+        TrialOutcome {
+            cost: falls + DEVIATION * deviation + EFFORT * effort + SPEED * speed_error,
+            pushes: self.pushes,
+            survived: self.survived,
+            deviation: deviation.sqrt(),
+            effort: effort.sqrt(),
+            speed_error,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cost_is_that_of_the_formula() {
+        let mut sums = Sums::default();
+        sums.sample([0.01, 0.04]);
+        sums.sample([0.03, 0.12]);
+        sums.speed(0.9);
+        sums.speed(1.0);
+        sums.push(None);
+        sums.push(Some(0.25));
+        let found = sums.outcome();
+        assert_eq!((found.pushes, found.survived), (2, 1));
+        let expected = 0.5 * 1.75 + 10.0 * 0.02 + 0.5 * 0.08 + 0.5 * 0.05;
+        assert!((found.cost - expected).abs() < 1e-12, "{found:?}");
+        assert!((found.deviation - 0.02_f64.sqrt()).abs() < 1e-12 && (found.speed_error - 0.05).abs() < 1e-12);
+        assert!(TrialOutcome::without_gains(3).cost.is_nan());
+    }
+}

@@ -1,0 +1,134 @@
+//! Pushes at the trunk, drawn from a seed.
+
+use crate::numerics::Random;
+use crate::spatial::Vec3;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, TAU};
+
+/// Body mass for which forces are given [kg]; they grow with the mass of the figure.
+pub(super) const PUSHED_KG: f64 = 75.0;
+/// Duration of a push [s].
+pub(super) const PUSH_S: f64 = 0.2;
+/// 2 - golden ratio: directions that are so far apart, as shares of a circle, fill it evenly for any number of them.
+const GOLDEN: f64 = 0.381_966_011_250_105;
+
+/// A push at the mass centre of the trunk for 0.2 s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Push {
+    /// Phase of the cycle at which it begins, 0 to 1.
+    pub phase: f64,
+    /// Its direction about the vertical [rad]: 0 is forward, positive to the right.
+    pub direction: f64,
+    /// Force for a figure of 75 kg [N].
+    pub force_n: f64,
+}
+
+impl Push {
+    /// The force on a figure [N]; x is forward, z to the right.
+    pub(super) fn force(&self, mass: f64) -> Vec3 {
+        let (sin, cos) = self.direction.sin_cos();
+        Vec3::new(cos, 0.0, sin) * (self.force_n * mass / PUSHED_KG)
+    }
+}
+
+/// How pushes are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PushSettings {
+    /// Equal seeds give equal pushes.
+    pub seed: u64,
+    /// Force for a figure of 75 kg [N].
+    pub force_n: f64,
+    /// Number of pushes of a candidate; the choice has twice as many, the report three times.
+    pub count: usize,
+    /// Whether directions are all around; otherwise they are forward and backward.
+    pub all_around: bool,
+}
+
+/// What pushes are for: each use has random numbers of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PushUse {
+    /// Compares the candidates of a generation.
+    Search {
+        /// The generation.
+        generation: u64,
+    },
+    /// Chooses among the means of all generations.
+    Choice,
+    /// Judges what was chosen.
+    Report,
+}
+
+impl PushUse {
+    /// Number of the sequence of random numbers; 0 is that of the optimiser.
+    fn sequence(self) -> u64 {
+        match self {
+            PushUse::Choice => 1,
+            PushUse::Report => 2,
+            PushUse::Search { generation } => 3 + generation,
+        }
+    }
+
+    /// Pushes per push of a candidate: the choice and the report have more, because they decide.
+    fn times(self) -> usize {
+        match self {
+            PushUse::Search { .. } => 1,
+            PushUse::Choice => 2,
+            PushUse::Report => 3,
+        }
+    }
+}
+
+impl PushSettings {
+    /// Pushes in the order of their phases: one in each of equal parts of the cycle, at a random phase of it. In the plane every second one is
+    /// backward; in three dimensions directions fill the circle evenly, from a random one on.
+    #[must_use]
+    pub fn pushes(&self, of: PushUse) -> Vec<Push> {
+        let mut random = Random::new(self.seed, of.sequence());
+        let first = random.share();
+        let count = self.count * of.times();
+        let push = |i: usize| {
+            let turn = TAU * (first + i as f64 * GOLDEN).fract();
+            let backward = (i % 2 == 1) != (first < 0.5);
+            let direction = if self.all_around { turn } else { f64::from(u8::from(backward)) * PI };
+            Push { phase: (i as f64 + random.share()) / count as f64, direction, force_n: self.force_n }
+        };
+        (0..count).map(push).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pushes_of_different_uses_differ_and_cover_the_cycle() {
+        let settings = PushSettings { seed: 5, force_n: 100.0, count: 12, all_around: false };
+        let uses =
+            [PushUse::Search { generation: 0 }, PushUse::Search { generation: 1 }, PushUse::Choice, PushUse::Report];
+        let sets = uses.map(|of| settings.pushes(of));
+        for (set, of) in sets.iter().zip(uses) {
+            assert_eq!(set, &settings.pushes(of));
+            assert!(set.windows(2).all(|two| two[0].phase < two[1].phase) && set.len() == 12 * of.times());
+            let forward = set.iter().filter(|push| push.force(75.0).x > 99.0).count();
+            assert_eq!(2 * forward, set.len());
+        }
+        let phases = sets.iter().flatten().map(|push| push.phase.to_bits());
+        let mut different: Vec<u64> = phases.collect();
+        let all = different.len();
+        different.sort_unstable();
+        different.dedup();
+        assert_eq!(different.len(), all);
+        assert!(settings.pushes(PushUse::Choice) != PushSettings { seed: 6, ..settings }.pushes(PushUse::Choice));
+    }
+
+    #[test]
+    fn pushes_all_around_fill_the_circle() {
+        let settings = PushSettings { seed: 1, force_n: 60.0, count: 12, all_around: true };
+        let mut turns: Vec<f64> = settings.pushes(PushUse::Choice).iter().map(|push| push.direction / TAU).collect();
+        turns.sort_by(f64::total_cmp);
+        let widest = turns.windows(2).map(|two| two[1] - two[0]).fold(1.0 - turns[23] + turns[0], f64::max);
+        assert!(widest < 2.0 / 24.0, "{widest}");
+        let right = Push { phase: 0.0, direction: 0.25 * TAU, force_n: 100.0 }.force(150.0);
+        assert!((right - Vec3::z() * 200.0).norm() < 1e-9, "{right}");
+    }
+}
