@@ -13,7 +13,7 @@ walk = { gait = "free", speed = 1.2 }
 control = { stiffness = 150, costs = { height = 0.06 } }
 "#;
 /// Few and large pushes: all end in a fall, which takes a second.
-const QUICK: [&str; 8] = ["tune", "scene.toml", "--gains", "stiffness,angle_deg", "--push", "900", "--pushes", "1"];
+const QUICK: [&str; 8] = ["tune", "scene.toml", "--gains", "stiffness,angle_deg", "--push", "2000", "--pushes", "1"];
 
 fn bench(name: &str) -> Workbench {
     let bench = Workbench::empty(name);
@@ -31,7 +31,7 @@ fn a_run_in_two_parts_writes_the_same_bytes_as_one_run_with_one_thread() {
     let bench = bench("tune_resume");
     let whole = bench.run(&words(&["--evaluations", "14", "--jobs", "1", "-o", "whole.toml"])).done();
     assert!(whole.stderr.contains("7 of 14 evaluations") && whole.stderr.contains("14 of 14"), "{}", whole.stderr);
-    assert!(whole.stdout.contains("held-out, 1125 N"), "{}", whole.stdout);
+    assert!(whole.stdout.contains("held-out, 2000 N"), "{}", whole.stdout);
     bench.run(&words(&["--evaluations", "13", "--quiet", "-o", "parts.toml"])).done();
     assert!(bench.text("parts.toml").contains(": 7 evaluations"));
     bench.run(&words(&["--evaluations", "14", "--jobs", "3", "--resume", "--quiet", "-o", "parts.toml"])).done();
@@ -66,7 +66,7 @@ fn a_run_in_two_parts_writes_the_same_bytes_as_one_run_with_one_thread() {
         all
     };
     for (option, value, was) in
-        [("--seed", "2", "1"), ("--push", "800", "900"), ("--gains", "damping", "stiffness,angle_deg")]
+        [("--seed", "2", "1"), ("--push", "800", "2000"), ("--gains", "damping", "stiffness,angle_deg")]
     {
         let found = format!("found {option} {value}; expected {was}");
         bench.run(&with(option, value)).refused(&["whole.state.json", &found]);

@@ -74,11 +74,11 @@ pub(crate) struct TuneArgs {
     /// Seed of the search and of its pushes.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u32,
-    /// Force of the pushes for a body of 75 kg [N]; it grows with the mass of the figure.
-    #[arg(long, value_name = "N", default_value_t = 200.0, value_parser = force)]
+    /// Largest force of the pushes for a body of 75 kg [N]; it grows with the mass of the figure.
+    #[arg(long, value_name = "N", default_value_t = 300.0, value_parser = force)]
     pub(crate) push: f64,
-    /// Number of pushes per candidate; the choice of the result has twice as many, the report nine times.
-    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    /// Number of pushes per candidate; the choice of the result has three times as many, the report nine times.
+    #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) pushes: u32,
     /// Candidates that are tried at the same time [default: the number of processors].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]

@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Forces of the report as shares of those of the search.
-const REPORTED: [f64; 3] = [0.75, 1.0, 1.25];
+/// Forces of the report as shares of the largest one of the search.
+const REPORTED: [f64; 3] = [0.5, 0.75, 1.0];
 
 pub(crate) fn run(args: &TuneArgs) -> Result<Completion> {
     let gains = if args.gains.is_empty() { None } else { Some(Gain::named(&args.gains).context("--gains")?) };
@@ -54,17 +54,10 @@ pub(crate) fn run(args: &TuneArgs) -> Result<Completion> {
 
 /// Refuses files that are in the way, before anything is computed.
 fn check_targets(args: &TuneArgs, state: &Path) -> Result<()> {
-    if args.resume {
-        return Ok(());
-    }
-    let hint = "to continue the run that wrote it, use --resume";
-    for path in [&args.output, state] {
-        files::check_target(path, &[], args.replace.existing()).map_err(|error| {
-            let message = error.to_string();
-            if message.contains("already exists") { anyhow::anyhow!("{message}; {hint}") } else { error }
-        })?;
-    }
-    Ok(())
+    let existing = if args.resume { Existing::Replaced } else { args.replace.existing() };
+    [&args.output, state]
+        .into_iter()
+        .try_for_each(|path| files::check_target(path, std::slice::from_ref(&args.scene), existing))
 }
 
 /// The figure with its plan; adds the files that its walk names to `inputs`.
@@ -162,11 +155,16 @@ impl TuneRun<'_> {
         let tuning = &self.saved.tuning;
         let (Some(start), Some(best)) = (tuning.start(), tuning.best()) else { return Ok(Vec::new()) };
         printer::progress("pushing with the gains of the scene and with the tuned ones", self.args.print);
-        let tasks =
-            REPORTED.map(|factor| [start, best].map(|judged| tuning.report(self.problem, &judged.point, factor)));
-        let outcomes = self.outcomes(tasks.as_flattened())?;
-        let forces = REPORTED.map(|factor| factor * self.args.push);
-        Ok(forces.into_iter().zip(outcomes.chunks(2).map(|two| [two[0], two[1]])).collect())
+        // Each is tried once if they are the same.
+        let judged = if best == start { vec![start] } else { vec![start, best] };
+        let mut tasks = Vec::new();
+        for share in REPORTED {
+            tasks.extend(judged.iter().map(|own| tuning.report(self.problem, &own.point, share)));
+        }
+        let outcomes = self.outcomes(&tasks)?;
+        let pairs = outcomes.chunks(judged.len()).map(|own| [own[0], own[own.len() - 1]]);
+        let forces = REPORTED.map(|share| share * self.args.push);
+        Ok(forces.into_iter().zip(pairs).collect())
     }
 
     fn tuned<'r>(&'r self, report: &'r [(f64, [TrialOutcome; 2])]) -> Option<TunedGains<'r>> {

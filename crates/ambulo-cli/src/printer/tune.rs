@@ -27,7 +27,7 @@ impl TunedGains<'_> {
     pub(crate) fn file(&self) -> String {
         let mut lines = vec![
             format!(
-                "# Gains of `{}` in {}, tuned by Ambulo {}: {} evaluations, seed {}, pushes of {} N per 75 kg.",
+                "# Gains of `{}` in {}, tuned by Ambulo {}: {} evaluations, seed {}, pushes up to {} N per 75 kg.",
                 self.figure,
                 self.scene,
                 env!("CARGO_PKG_VERSION"),

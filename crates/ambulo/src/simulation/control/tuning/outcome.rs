@@ -16,7 +16,7 @@ const SPEED: f64 = 0.5;
 ///   cost = mean over pushes of { 0 if it is survived, else 2 - t/T } + 10 D² + E²/2 + V/2
 ///
 /// D is the root mean square deviation of hips, knees, ankles and the lumbar joint from the plan [rad], E that of their torques as shares of their strength,
-/// V the mean over trials of the difference of the speed from that of the plan, as a share of it. A fall costs more than all else can.
+/// V the mean difference of the speed from that of the plan, as a share of it. These three are those of level walking and of the pushes that were survived.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TrialOutcome {
     /// The cost; without a number if there are no gains.
@@ -68,13 +68,21 @@ impl Sums {
         self.speed_error += (share - 1.0).abs();
     }
 
-    /// Adds a push; `fell` is the share of the time after which the figure fell.
-    pub(super) fn push(&mut self, fell: Option<f64>) {
+    /// Adds a push that ended in a fall after a share of the time.
+    pub(super) fn fell(&mut self, share: f64) {
         self.pushes += 1;
-        match fell {
-            None => self.survived += 1,
-            Some(share) => self.falls += 2.0 - share.clamp(0.0, 1.0),
-        }
+        self.falls += 2.0 - share.clamp(0.0, 1.0);
+    }
+
+    /// Adds a push that was survived, with its own sums.
+    pub(super) fn survived(&mut self, own: &Sums) {
+        self.pushes += 1;
+        self.survived += 1;
+        self.samples += own.samples;
+        self.deviation += own.deviation;
+        self.effort += own.effort;
+        self.speed_error += own.speed_error;
+        self.speeds += own.speeds;
     }
 
     pub(super) fn outcome(&self) -> TrialOutcome {
@@ -102,11 +110,12 @@ mod tests {
     fn the_cost_is_that_of_the_formula() {
         let mut sums = Sums::default();
         sums.sample([0.01, 0.04]);
-        sums.sample([0.03, 0.12]);
-        sums.speed(0.9);
+        let mut own = Sums::default();
+        own.sample([0.03, 0.12]);
+        own.speed(0.9);
         sums.speed(1.0);
-        sums.push(None);
-        sums.push(Some(0.25));
+        sums.survived(&own);
+        sums.fell(0.25);
         let found = sums.outcome();
         assert_eq!((found.pushes, found.survived), (2, 1));
         let expected = 0.5 * 1.75 + 10.0 * 0.02 + 0.5 * 0.08 + 0.5 * 0.05;

@@ -126,25 +126,24 @@ impl TuningProblem {
         Ok(sums.outcome())
     }
 
-    /// A push at the present state of a walk, which goes on without it.
+    /// A push at the present state of a walk, which goes on without it. Deviation and effort of a walk that ends in a fall do not count: the fall does.
     fn pushed(&self, level: &PhysicalWalk, push: &Push, sums: &mut Sums) -> Result<(), ControlError> {
-        let mut walk = level.clone();
+        let (mut walk, mut own) = (level.clone(), Sums::default());
         let (start_s, after_s) = (walk.time_s(), AFTER * self.plan.cycle_s());
         walk.world_mut().bodies[self.trunk].load =
             Wrench { force: push.force(self.human.model.mass()), ..Wrench::ZERO };
-        self.walk(&mut walk, start_s + PUSH_S, sums)?;
+        self.walk(&mut walk, start_s + PUSH_S, &mut own)?;
         walk.world_mut().bodies[self.trunk].load = Wrench::ZERO;
-        self.walk(&mut walk, start_s + SPEED_FROM * after_s, sums)?;
+        self.walk(&mut walk, start_s + SPEED_FROM * after_s, &mut own)?;
         let (from_s, place) = (walk.time_s(), walk.coordinates()[self.forward][0]);
-        self.walk(&mut walk, start_s + after_s, sums)?;
-        match walk.fall() {
-            Some(fall) => sums.push(Some((fall.time_s - start_s) / after_s)),
-            None => {
-                let speed = (walk.coordinates()[self.forward][0] - place) / (walk.time_s() - from_s);
-                sums.speed(speed / self.plan.speed());
-                sums.push(None);
-            }
+        self.walk(&mut walk, start_s + after_s, &mut own)?;
+        if let Some(fall) = walk.fall() {
+            sums.fell((fall.time_s - start_s) / after_s);
+            return Ok(());
         }
+        let speed = (walk.coordinates()[self.forward][0] - place) / (walk.time_s() - from_s);
+        own.speed(speed / self.plan.speed());
+        sums.survived(&own);
         Ok(())
     }
 

@@ -9,8 +9,11 @@ use std::f64::consts::{PI, TAU};
 pub(super) const PUSHED_KG: f64 = 75.0;
 /// Duration of a push [s].
 pub(super) const PUSH_S: f64 = 0.2;
-/// 2 - golden ratio: directions that are so far apart, as shares of a circle, fill it evenly for any number of them.
-const GOLDEN: f64 = 0.381_966_011_250_105;
+/// Steps of directions and of forces, as shares of their ranges, so that any number of pushes fills phases, directions and forces evenly together: 1/g and 1/g² with
+/// g³ = g + 1, the plastic ratio (Roberts 2018, The unreasonable effectiveness of quasirandom sequences; unverified).
+const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053];
+/// The smallest force of a set, as a share of the largest. With the largest alone, gains were found that lose the smaller ones.
+const SMALLEST: f64 = 0.4;
 
 /// A push at the mass centre of the trunk for 0.2 s.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,9 +39,9 @@ impl Push {
 pub struct PushSettings {
     /// Equal seeds give equal pushes.
     pub seed: u64,
-    /// Force for a figure of 75 kg [N].
+    /// Largest force for a figure of 75 kg [N].
     pub force_n: f64,
-    /// Number of pushes of a candidate; the choice has twice as many, the report three times.
+    /// Number of pushes of a candidate; choice and report have three times as many.
     pub count: usize,
     /// Whether directions are all around; otherwise they are forward and backward.
     pub all_around: bool,
@@ -72,25 +75,25 @@ impl PushUse {
     fn times(self) -> usize {
         match self {
             PushUse::Search { .. } => 1,
-            PushUse::Choice => 2,
-            PushUse::Report => 3,
+            PushUse::Choice | PushUse::Report => 3,
         }
     }
 }
 
 impl PushSettings {
-    /// Pushes in the order of their phases: one in each of equal parts of the cycle, at a random phase of it. In the plane every second one is
-    /// backward; in three dimensions directions fill the circle evenly, from a random one on.
+    /// Pushes in the order of their phases: one in each of equal parts of the cycle, at a random phase of it. Forces are from 0.4 times the largest one
+    /// to it. In the plane every second push is backward; in three dimensions directions fill the circle.
     #[must_use]
     pub fn pushes(&self, of: PushUse) -> Vec<Push> {
         let mut random = Random::new(self.seed, of.sequence());
-        let first = random.share();
+        let first = [random.share(), random.share()];
         let count = self.count * of.times();
         let push = |i: usize| {
-            let turn = TAU * (first + i as f64 * GOLDEN).fract();
-            let backward = (i % 2 == 1) != (first < 0.5);
-            let direction = if self.all_around { turn } else { f64::from(u8::from(backward)) * PI };
-            Push { phase: (i as f64 + random.share()) / count as f64, direction, force_n: self.force_n }
+            let [turn, strength] = [0, 1].map(|k| (first[k] + i as f64 * STEPS[k]).fract());
+            let backward = (i % 2 == 1) != (first[0] < 0.5);
+            let direction = if self.all_around { TAU * turn } else { f64::from(u8::from(backward)) * PI };
+            let phase = (i as f64 + random.share()) / count as f64;
+            Push { phase, direction, force_n: self.force_n * (SMALLEST + (1.0 - SMALLEST) * strength) }
         };
         (0..count).map(push).collect()
     }
@@ -109,8 +112,11 @@ mod tests {
         for (set, of) in sets.iter().zip(uses) {
             assert_eq!(set, &settings.pushes(of));
             assert!(set.windows(2).all(|two| two[0].phase < two[1].phase) && set.len() == 12 * of.times());
-            let forward = set.iter().filter(|push| push.force(75.0).x > 99.0).count();
-            assert_eq!(2 * forward, set.len());
+            let forces: Vec<f64> = set.iter().map(|push| push.force(75.0).x).collect();
+            assert_eq!(2 * forces.iter().filter(|force| **force > 0.0).count(), set.len());
+            assert!(forces.iter().all(|force| (40.0..=100.0).contains(&force.abs())), "{forces:?}");
+            let mean = forces.iter().map(|force| force.abs()).sum::<f64>() / set.len() as f64;
+            assert!((mean - 70.0).abs() < 4.0, "{mean}");
         }
         let phases = sets.iter().flatten().map(|push| push.phase.to_bits());
         let mut different: Vec<u64> = phases.collect();
@@ -126,8 +132,8 @@ mod tests {
         let settings = PushSettings { seed: 1, force_n: 60.0, count: 12, all_around: true };
         let mut turns: Vec<f64> = settings.pushes(PushUse::Choice).iter().map(|push| push.direction / TAU).collect();
         turns.sort_by(f64::total_cmp);
-        let widest = turns.windows(2).map(|two| two[1] - two[0]).fold(1.0 - turns[23] + turns[0], f64::max);
-        assert!(widest < 2.0 / 24.0, "{widest}");
+        let widest = turns.windows(2).map(|two| two[1] - two[0]).fold(1.0 - turns[35] + turns[0], f64::max);
+        assert!(widest < 4.0 / 36.0, "{widest}");
         let right = Push { phase: 0.0, direction: 0.25 * TAU, force_n: 100.0 }.force(150.0);
         assert!((right - Vec3::z() * 200.0).norm() < 1e-9, "{right}");
     }

@@ -134,11 +134,11 @@ impl Tuning {
         self.start.get_or_insert(judged);
     }
 
-    /// The pushes of the report with their force times a factor.
+    /// The pushes of the report, all with one force, a share of the largest one.
     #[must_use]
-    pub fn report(&self, problem: &TuningProblem, point: &[f64], factor: f64) -> Task {
+    pub fn report(&self, problem: &TuningProblem, point: &[f64], share: f64) -> Task {
         let mut task = self.task(problem, point.to_vec(), PushUse::Report);
-        task.pushes.iter_mut().for_each(|push| push.force_n *= factor);
+        task.pushes.iter_mut().for_each(|push| push.force_n = self.pushes.force_n * share);
         task
     }
 
