@@ -94,7 +94,7 @@ impl Constants {
 }
 
 impl Cma {
-    /// Starts at a point, with the standard deviation `sigma` of each unknown. Equal seeds give equal candidates.
+    /// Starts at a point of one or more unknowns, with the standard deviation `sigma` of each unknown. Equal seeds give equal candidates.
     #[must_use]
     pub fn new(start: &[f64], sigma: f64, seed: u64) -> Cma {
         let count = start.len();
@@ -183,7 +183,8 @@ impl Cma {
         let path_sigma = smoothed(&self.path_sigma, own.c_sigma, own.effective, &even);
         let length = path_sigma.norm_squared() / n;
         // |p_σ|²/n is 1 on average, from the first generation on by this divisor; while it is larger, C does not follow the mean.
-        let begun = 1.0 - (1.0 - own.c_sigma).powi(2 * i32::try_from(self.generations).unwrap_or(i32::MAX / 2));
+        let begun =
+            1.0 - (1.0 - own.c_sigma).powi(i32::try_from(self.generations).unwrap_or(i32::MAX).saturating_mul(2));
         let follows = if length / begun < 2.0 + 4.0 / (n + 1.0) { 1.0 } else { 0.0 };
         let path = smoothed(&self.path, own.c_path, own.effective, &(&step * follows));
 

@@ -125,7 +125,8 @@ impl Gain {
     /// Its value in settings, in its unit.
     #[must_use]
     pub fn value(&self, settings: &ControlSettings) -> f64 {
-        *(self.place)(&mut settings.clone()) / self.scale
+        let mut settings = *settings;
+        *(self.place)(&mut settings) / self.scale
     }
 
     /// Sets it to a value in its unit.
@@ -145,8 +146,8 @@ impl Gain {
     fn written(&self, settings: &ControlSettings) -> f64 {
         let value = self.value(settings);
         let wanted = (value * self.scale).to_bits();
-        let digits = (1..17).map(|digits| rounded_to(value, digits));
-        digits.into_iter().find(|short| (short * self.scale).to_bits() == wanted).unwrap_or(value)
+        let mut digits = (1..17).map(|digits| rounded_to(value, digits));
+        digits.find(|short| (short * self.scale).to_bits() == wanted).unwrap_or(value)
     }
 
     /// The key `control` of a scene with these settings. Settings that have their usual values and are not listed are left out.

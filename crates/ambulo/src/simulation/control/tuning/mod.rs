@@ -68,7 +68,10 @@ mod tests {
         let (same, outside) = problem.settings_at(&[0.0; 8]);
         assert!(same == figure.settings && outside == 0.0);
         let (far, outside) = problem.settings_at(&[9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        assert!(far.stiffness == 300.0 && (outside - (9.0 - 2_f64.ln()).powi(2)).abs() < 1e-9, "{far:?} {outside}");
+        assert!(
+            (far.stiffness - 300.0).abs() < 1e-9 && (outside - (9.0 - 2_f64.ln()).powi(2)).abs() < 1e-9,
+            "{far:?} {outside}"
+        );
 
         // What the tuner writes is what a scene reads.
         let (tuned, _) = problem.settings_at(&[0.1, -0.2, 0.3, -0.4, 0.5, -0.6, 0.7, -0.8]);
