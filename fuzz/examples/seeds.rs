@@ -31,6 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     save("csv", "two.csv", &table.write_csv())?;
     let (loads, _) = ExternalLoads::read(LOADS.as_bytes())?;
     save("external_loads", "one.xml", &loads.write())?;
+    save("setup", "scale.xml", SCALE_SETUP.as_bytes())?;
     save("osim", "two.osim", &OsimModel::read(OSIM.as_bytes())?.write()?)?;
     save("bvh", "leg.bvh", &bvh()?.write())?;
     save("gait", "slow.toml", b"speed = 0.9\nheight = 1.7\nstyle = \"1997\"\n[pelvis]\nrotation = 1.5\n")?;
@@ -65,6 +66,14 @@ fn saved() -> Result<Vec<u8>, Box<dyn Error>> {
     }
     Ok(serde_json::to_vec(&scene.save())?)
 }
+
+const SCALE_SETUP: &str = "<ScaleTool name=\"s\"><mass>70</mass><GenericModelMaker><model_file>m.osim</model_file></GenericModelMaker>\
+    <ModelScaler><scaling_order>measurements manualScale</scaling_order><MeasurementSet><objects><Measurement name=\"thigh\">\
+    <MarkerPairSet><objects><MarkerPair><markers>A B</markers></MarkerPair></objects></MarkerPairSet><BodyScaleSet><objects>\
+    <BodyScale name=\"f\"><axes>X Y</axes></BodyScale></objects></BodyScaleSet></Measurement></objects></MeasurementSet><ScaleSet><objects>\
+    <Scale><scales>1 2 3</scales><segment>f</segment></Scale></objects></ScaleSet><time_range>0 1</time_range></ModelScaler>\
+    <MarkerPlacer><IKTaskSet><objects><IKMarkerTask name=\"A\"><weight>2</weight></IKMarkerTask><IKCoordinateTask name=\"q\">\
+    <value_type>manual_value</value_type><value>1</value></IKCoordinateTask></objects></IKTaskSet></MarkerPlacer></ScaleTool>\n";
 
 const THRESHOLDS: &str = "shortest_s = 0.05\nskip = [\"power\"]\n[person]\nmass_kg = 60.0\n[strength]\nshare = 0.8\n\
     [friction]\navailable = 0.5\n[support]\nacceleration_ratio = 1.5\n";

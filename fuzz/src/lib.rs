@@ -15,7 +15,8 @@ use ambulo::study::{self, LaboratoryFile, MarkerBody, MarkerSource, Settings, So
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::external_loads::ExternalLoads;
-use ambulo_formats::osim::OsimModel;
+use ambulo_formats::osim::{OsimMarkerSet, OsimModel};
+use ambulo_formats::setup::Setup;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
 use ambulo_results::Folder;
@@ -24,13 +25,14 @@ use ambulo_results::Folder;
 pub type Check = fn(&[u8]);
 
 /// All checks, by the name of target and corpus folder.
-pub const CHECKS: [(&str, Check); 16] = [
+pub const CHECKS: [(&str, Check); 17] = [
     ("c3d", c3d),
     ("trc", trc),
     ("storage", storage),
     ("csv", csv),
     ("osim", osim),
     ("external_loads", external_loads),
+    ("setup", setup),
     ("bvh", bvh),
     ("scene", scene),
     ("gait", gait),
@@ -79,10 +81,13 @@ pub fn csv(bytes: &[u8]) {
     assert!(again.columns().map(|(name, _)| name).eq(table.columns().map(|(name, _)| name)));
 }
 
-/// OpenSim models: the document, and the model made from it.
+/// OpenSim models: the document, and the model made from it; its markers as a set.
 pub fn osim(bytes: &[u8]) {
     if let Ok(document) = OsimModel::read(bytes) {
         let _ = from_osim(&document, &mut Findings::default());
+        if let Ok(set) = OsimMarkerSet::read(bytes) {
+            let _ = document.with_marker_set(&set);
+        }
     }
 }
 
@@ -90,6 +95,13 @@ pub fn osim(bytes: &[u8]) {
 pub fn external_loads(bytes: &[u8]) {
     if let Ok((loads, _)) = ExternalLoads::read(bytes) {
         let _ = ExternalLoads::read(&loads.write()).expect("what was written reads back");
+    }
+}
+
+/// Set-ups of OpenSim's tools.
+pub fn setup(bytes: &[u8]) {
+    if let Ok((setup, _)) = Setup::read(bytes) {
+        let _ = setup.tool();
     }
 }
 

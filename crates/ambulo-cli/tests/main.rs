@@ -24,6 +24,7 @@ mod folders;
 mod keep;
 mod marker_input;
 mod one_road;
+mod opensim_setup;
 mod option_sweep;
 mod pages;
 mod panics;

@@ -214,7 +214,11 @@ fn markers_on_a_model_with_a_table_of_forces() {
     let Some(data) = shared_data::data() else { return };
     let mut reader = Reader::of(data.join("opensim-rajagopal-walk"));
     let (model, walk, grf) = ("subject_walk_scaled.osim", "markers_walk.trc", "grf_walk.mot");
-    let source = reader.markers(walk, None, |reader| MarkerBody::Model { model: reader.model(model), mass_kg: None });
+    let source = reader.markers(walk, None, |reader| MarkerBody::Model {
+        model: reader.model(model),
+        mass_kg: None,
+        protocol: None,
+    });
     let source = source.with_forces(reader.forces(grf, None));
     let [walk, model, grf] = [walk, model, grf].map(|name| reader.shown(name));
     let bench = Workbench::empty("one_road_rajagopal");

@@ -11,13 +11,15 @@
 //! | [`c3d`] | recordings `.c3d`: points, analog channels, force plates, events, all parameters | yes | yes |
 //! | [`bvh`] | skeletons in motion `.bvh` | yes | yes |
 //! | [`external_loads`] | OpenSim `ExternalLoads` XML | yes | yes |
-//! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600 | yes | yes |
+//! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600; `MarkerSet` XML | yes | yes; no |
+//! | [`setup`] | OpenSim set-ups of scaling, inverse kinematics and inverse dynamics | yes | no |
 
 pub mod bvh;
 pub mod c3d;
 pub mod error;
 pub mod external_loads;
 pub mod osim;
+pub mod setup;
 pub mod table;
 pub mod trc;
 mod xml;

@@ -197,6 +197,7 @@ fn marked(frames: usize) -> (Model, MarkerRecording) {
         name: format!("m{k}"),
         body: Some(*id),
         location: *location,
+        fixed: false,
     };
     let markers: Vec<Marker> = places.iter().enumerate().map(marker).collect();
     let model = Model::new("marked", Vec3::zeros(), chain.bodies().to_vec(), chain.coordinates().to_vec(), markers);
@@ -292,7 +293,12 @@ fn walked_to_and_fro(frames: usize) -> Option<MarkerSource> {
         marker.positions = (0..frames).map(|i| marker.positions[frame(i)]).collect();
     }
     markers.times = (0..frames).map(|i| i as f64 / markers.rate_hz).collect();
-    Some(MarkerSource { trial, standing: None, body: MarkerBody::Model { model, mass_kg: None }, plates: Vec::new() })
+    Some(MarkerSource {
+        trial,
+        standing: None,
+        body: MarkerBody::Model { model, mass_kg: None, protocol: None },
+        plates: Vec::new(),
+    })
 }
 
 /// Bytes a frame that a study of two lengths holds at the end and at most, its source included, and allocations a frame.

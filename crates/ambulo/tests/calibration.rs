@@ -62,7 +62,7 @@ fn subject() -> Human {
     let mut shapes = SegmentShape::of(&generic);
     let mut markers = upper_markers(&generic);
     let mut put = |name: String, body: &str, location: Vec3| {
-        markers.push(Marker { name, body: Some(model.body(body).unwrap()), location });
+        markers.push(Marker { name, body: Some(model.body(body).unwrap()), location, fixed: false });
     };
     let (width, depth, hip) = pelvis();
     let tilted = turn(Vec3::z(), -STANDING_TILT);
@@ -416,7 +416,7 @@ fn seen_by_video() -> Human {
     let d = human.dimensions;
     let mut markers = Vec::new();
     let mut put = |name: &str, body: &str, location: Vec3| {
-        markers.push(Marker { name: name.to_owned(), body: Some(model.body(body).unwrap()), location });
+        markers.push(Marker { name: name.to_owned(), body: Some(model.body(body).unwrap()), location, fixed: false });
     };
     put("Hip", "pelvis", Vec3::zeros());
     let place = |body: &str| model.bodies()[model.body(body).unwrap().index()].joint.parent_from_joint.translation;

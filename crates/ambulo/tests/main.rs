@@ -77,6 +77,7 @@ mod marker_proposal;
 mod marker_recording;
 mod marker_sets;
 mod marker_smoothing;
+mod marker_tasks;
 mod mujoco_parity;
 mod opensim_parity;
 mod optimal;

@@ -14,7 +14,12 @@ fn marked(r: &mut Random, model: &Model) -> Model {
     let markers = model
         .body_ids()
         .flat_map(|id| (0..4).map(move |k| (id, k)))
-        .map(|(id, k)| Marker { name: format!("m{}_{k}", id.index()), body: Some(id), location: r.vector(0.2) })
+        .map(|(id, k)| Marker {
+            name: format!("m{}_{k}", id.index()),
+            body: Some(id),
+            location: r.vector(0.2),
+            fixed: false,
+        })
         .collect();
     let (bodies, coordinates) = (model.bodies().to_vec(), model.coordinates().to_vec());
     Model::new("invented", model.gravity(), bodies, coordinates, markers).unwrap()
@@ -353,7 +358,7 @@ fn weights_decide_between_markers() {
     let mut r = Random::new(10);
     let model = random::chain_of(&mut r, &[Kind::Slider], Curves::Smooth);
     let body = model.body_ids().next();
-    let marker = |name: &str| Marker { name: name.into(), body, location: Vec3::zeros() };
+    let marker = |name: &str| Marker { name: name.into(), body, location: Vec3::zeros(), fixed: false };
     let markers = vec![marker("a"), marker("b"), marker("c")];
     let model =
         Model::new("slider", Vec3::zeros(), model.bodies().to_vec(), model.coordinates().to_vec(), markers).unwrap();

@@ -18,6 +18,7 @@ fn marked(r: &mut Random, kinds: &[Kind], on_each: usize) -> Model {
         name: format!("m{k}"),
         body: Some(*id),
         location: *location,
+        fixed: false,
     };
     let markers = places.iter().enumerate().map(marker).collect();
     Model::new("marked", Vec3::zeros(), model.bodies().to_vec(), model.coordinates().to_vec(), markers).unwrap()

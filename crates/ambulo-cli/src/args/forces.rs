@@ -8,7 +8,7 @@ use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::study::Settings;
 use clap::{Args as ClapArgs, ValueEnum};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, ClapArgs)]
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
@@ -16,6 +16,7 @@ use std::path::PathBuf;
   ambulo forces demo/input/walk.trc --model demo/input/figure.osim --loads demo/input/walk_grf.xml -o out
   ambulo forces demo/input/walk.mot --model demo/input/figure.osim -o out
   ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
+  ambulo forces --setup Setup_Scale.xml --setup Setup_IK.xml --setup Setup_InverseDynamics.xml -o out
 
 Markers (.c3d, .trc) are fitted with the built-in body, which is calibrated from --static or else from the trial itself, or with an OpenSim
 model, which --static scales. Poses of segments in a .c3d (Theia3D) drive the built-in body directly. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
@@ -33,7 +34,11 @@ residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 i
 are bad or the motion is infeasible.")]
 pub(crate) struct ForcesArgs {
     /// The recording: markers (.c3d, .trc, .csv with three columns per marker), poses of segments (.c3d), coordinates (.mot, .sto) or a skeleton (.bvh).
-    pub(crate) input: PathBuf,
+    #[arg(required_unless_present = "setup")]
+    pub(crate) input: Option<PathBuf>,
+    /// Set-up of OpenSim's ScaleTool, InverseKinematicsTool or InverseDynamicsTool (.xml), which names files and settings; may be repeated, once for each tool, for one run of all (docs/OPENSIM.md).
+    #[arg(long, value_name = "FILE")]
+    pub(crate) setup: Vec<PathBuf>,
     /// The body as an OpenSim model (.osim); required for coordinates [default for markers and skeletons: the built-in body].
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
@@ -72,10 +77,10 @@ pub(crate) struct ForcesArgs {
     /// Frame rate of the results [default: as recorded].
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
     pub(crate) rate: Option<f64>,
-    /// Low-pass filter of the motion: cut-off in Hz (0.1 to half the frame rate) of one pass of the zero-phase Butterworth filter, or off.
-    #[arg(long, value_name = "HZ|off", default_value_t = Cutoff(Some(Settings::LOW_PASS.cutoff_hz)), allow_hyphen_values = true)]
-    pub(crate) cutoff: Cutoff,
-    /// Low-pass filter of the measured forces: cut-off in Hz, `same` for the filter of the motion, or off [default: 25 Hz for walking; the motion's, at least 8 Hz, for running and landing; off with --cutoff off; 20 Hz, order 2, when compared with a prediction].
+    /// Low-pass filter of the motion: cut-off in Hz (0.1 to half the frame rate) of one pass of the zero-phase Butterworth filter, or off [default: 6, or as in --setup].
+    #[arg(long, value_name = "HZ|off", allow_hyphen_values = true)]
+    pub(crate) cutoff: Option<Cutoff>,
+    /// Low-pass filter of the measured forces: cut-off in Hz, `same` for the filter of the motion, or off [default: 25 Hz for walking; the motion's, at least 8 Hz, for running and landing; off with --cutoff off; 20 Hz, order 2, when compared with a prediction; off with a --setup of inverse dynamics].
     #[arg(long, value_name = "same|HZ|off", allow_hyphen_values = true)]
     pub(crate) force_cutoff: Option<ForceCutoff>,
     /// Order of one pass of the Butterworth filters (1 to 8).
@@ -108,6 +113,18 @@ pub(crate) struct ForcesArgs {
     pub(crate) check: CheckArgs,
     #[command(flatten)]
     pub(crate) print: PrintArgs,
+}
+
+impl ForcesArgs {
+    /// The recording; without one the name is empty.
+    pub(crate) fn recording(&self) -> &Path {
+        self.input.as_deref().unwrap_or(Path::new(""))
+    }
+
+    /// The low-pass filter of the motion.
+    pub(crate) fn cutoff(&self) -> Cutoff {
+        self.cutoff.unwrap_or(Cutoff(Some(Settings::LOW_PASS.cutoff_hz)))
+    }
 }
 
 /// How angles of pelvis and hips are measured.
@@ -165,6 +182,9 @@ pub(crate) struct SubjectArgs {
     /// The marker set: a name from docs/MARKERS.md or a .toml [default: recognised from the marker names].
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) markers: Option<String>,
+    /// Markers for --model in a file of their own: an OpenSim MarkerSet (.xml). A marker replaces the one of its name, others are added.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) marker_set: Option<PathBuf>,
     /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; may be repeated [default: detected].
     #[arg(long, value_name = "N=r|l|off")]
     pub(crate) plate: Vec<PlateFoot>,

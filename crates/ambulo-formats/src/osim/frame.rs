@@ -4,6 +4,7 @@ use super::{OsimBody, OsimFrame, is_ground, name_of};
 use crate::error::Error;
 use crate::xml;
 use roxmltree::Node;
+use std::collections::BTreeMap;
 
 /// Offset frames may be fixed to offset frames; a longer chain than this is a cycle.
 const LONGEST_CHAIN: usize = 32;
@@ -83,6 +84,12 @@ impl<'d> Frames<'d> {
         Ok(Frames { bodies: bodies.iter().map(|b| b.name.clone()).collect(), offsets })
     }
 
+    /// Every offset frame that leads to a body, by `owner/name`.
+    pub(super) fn by_owner(&self) -> BTreeMap<String, OsimFrame> {
+        let key = |offset: &Offset<'_>| format!("{}/{}", offset.owner, offset.name);
+        self.offsets.iter().filter_map(|offset| Some((key(offset), self.stack(offset, 0)?))).collect()
+    }
+
     /// The frame named by a socket of a component.
     pub(super) fn of_socket(&self, node: Node<'_, '_>, name: &str) -> Result<OsimFrame, Error> {
         match socket(node, name) {
@@ -144,7 +151,7 @@ fn owner_of<'d>(node: Node<'d, '_>) -> &'d str {
 }
 
 /// The connectee of a socket, in the syntax of any version since 30505.
-fn socket<'d>(node: Node<'d, '_>, name: &str) -> Option<&'d str> {
+pub(super) fn socket<'d>(node: Node<'d, '_>, name: &str) -> Option<&'d str> {
     for tag in
         [format!("socket_{name}"), format!("socket_{name}_connectee_name"), format!("connector_{name}_connectee_name")]
     {

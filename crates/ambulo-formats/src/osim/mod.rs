@@ -12,11 +12,13 @@ mod constraint;
 mod frame;
 mod function;
 mod joint;
+mod marker_set;
 mod write;
 
 pub use constraint::OsimConstraint;
 pub use function::{Knots, OsimFunction};
 pub use joint::{OsimAxis, OsimCoordinate, OsimJoint, OsimJointKind};
+pub use marker_set::{OsimMarkerSet, OsimSetMarker};
 
 use crate::error::{Error, Remark, quoted};
 use crate::xml;
@@ -46,6 +48,8 @@ pub struct OsimModel {
     pub constraints: Vec<OsimConstraint>,
     /// Markers in document order.
     pub markers: Vec<OsimMarker>,
+    /// Offset frames of bodies, joints and other components, by `owner/name`.
+    pub frames: BTreeMap<String, OsimFrame>,
     /// Number of ignored elements, by tag.
     pub ignored: BTreeMap<String, usize>,
     /// Remarks on the document.
@@ -87,6 +91,8 @@ pub struct OsimMarker {
     pub body: String,
     /// Place in the body frame [m].
     pub location_m: [f64; 3],
+    /// Whether scaling leaves the marker where it is on its body.
+    pub fixed: bool,
 }
 
 impl OsimModel {
@@ -150,7 +156,7 @@ fn read_model(model: Node<'_, '_>, document_version: u32, remarks: Vec<Remark>) 
         joints.push(joint::read_framed(node, &frames)?);
     }
     let constraints = members(model, "ConstraintSet").map(constraint::read).collect::<Result<_, _>>()?;
-    let markers = members(model, "MarkerSet").map(|m| read_marker(m, &frames)).collect::<Result<_, _>>()?;
+    let markers = marker_set::of_model(model, &frames)?;
     Ok(OsimModel {
         name: name_of(model).to_owned(),
         document_version,
@@ -159,6 +165,7 @@ fn read_model(model: Node<'_, '_>, document_version: u32, remarks: Vec<Remark>) 
         joints,
         constraints,
         markers,
+        frames: frames.by_owner(),
         ignored: count_ignored(model),
         remarks,
     })
@@ -198,15 +205,6 @@ fn read_inertia(body: Node<'_, '_>) -> Result<[f64; 6], Error> {
         *value = xml::number(body, &format!("inertia_{axes}"))?.unwrap_or(0.0);
     }
     Ok(inertia)
-}
-
-fn read_marker(node: Node<'_, '_>, frames: &Frames) -> Result<OsimMarker, Error> {
-    let location = xml::triple(node, "location")?.unwrap_or_default();
-    let frame = match xml::text(node, "body") {
-        Some(body) => frames.resolve(node, body)?,
-        None => frames.of_socket(node, "parent_frame")?,
-    };
-    Ok(OsimMarker { name: name_of(node).to_owned(), location_m: frame.place(location), body: frame.body })
 }
 
 /// Counts components without a role in the dynamics, by tag, within their sets.

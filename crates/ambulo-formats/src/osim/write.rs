@@ -178,7 +178,7 @@ fn constraint(constraint: &OsimConstraint) -> Result<String, Error> {
 fn marker(marker: &OsimMarker) -> Result<String, Error> {
     let content = element(5, "socket_parent_frame", &path(&marker.body))
         + &element(5, "location", &numbers(&marker.location_m)?)
-        + &element(5, "fixed", "false");
+        + &element(5, "fixed", &marker.fixed.to_string());
     Ok(holder(4, "Marker", &marker.name, &content))
 }
 

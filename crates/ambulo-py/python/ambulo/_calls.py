@@ -49,9 +49,10 @@ def model(path: _Path | bytes, name: str | None = None) -> Model:
 
 
 def forces(
-    recording: Recording | _Path,
+    recording: Recording | _Path | None = None,
     model: Model | _Path | bytes | None = None,
     *,
+    setup: _Path | Sequence[_Path] | None = None,
     mass: float | None = None,
     height: float | None = None,
     static: Recording | _Path | None = None,
@@ -65,6 +66,7 @@ def forces(
     ground: bool = True,
     figure: str | None = None,
     markers: _Path | None = None,
+    marker_set: _Path | bytes | None = None,
     fit: str | None = None,
     max_gap: float | None = None,
     convention: str | None = None,
@@ -86,10 +88,12 @@ def forces(
 
     Parameters
     ----------
-    recording : Recording, str or path-like
-        Markers (``.c3d``, ``.trc``), coordinates of a model (``.mot``, ``.sto``, ``.csv``) or a skeleton (``.bvh``).
+    recording : Recording, str or path-like, optional
+        Markers (``.c3d``, ``.trc``), coordinates of a model (``.mot``, ``.sto``, ``.csv``) or a skeleton (``.bvh``); a `setup` may name it.
     model : Model, str, path-like or bytes, optional
         The body; required for coordinates.
+    setup : str or path-like, or a sequence of these, optional
+        Set-ups of OpenSim's scaling, inverse kinematics and inverse dynamics.
     mass : float, optional
         Body mass [kg].
     height : float, optional
@@ -114,6 +118,8 @@ def forces(
         Table of segment masses of the built-in body.
     markers : str or path-like, optional
         The marker set: a name, or a ``.toml``.
+    marker_set : str, path-like or bytes, optional
+        Markers for the model: an OpenSim MarkerSet.
     fit : {"frames", "trajectory"}, optional
         How markers are fitted.
     max_gap : float, optional
@@ -163,11 +169,14 @@ def forces(
     docs/THEORY.md.
     """
     words = Words()
-    words.input(recording, "recording")
+    if recording is not None:
+        words.input(recording, "recording")
+    words.option("setup", [os.fspath(path) for path in ([setup] if isinstance(setup, (str, os.PathLike)) else setup or [])])
     words.file("model", model, "model.osim")
     words.file("static", static, "static")
     words.file("grf", grf, "grf.mot")
     words.file("loads", loads, "loads.xml")
+    words.file("marker-set", marker_set, "markers.xml")
     words.file("device", device, "device.sto")
     words.option("plate", [f"{plate}={foot}" for plate, foot in (plates or {}).items()])
     words.option("no-ground", not ground)

@@ -15,7 +15,9 @@ use crate::kinematics::calibration::{
 use crate::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, fit_own_markers};
 use crate::kinematics::pose_fit::{PoseRecording, PosedBody, body_of_poses, fit_poses};
 use crate::kinematics::retarget::JointCentreError;
-use crate::kinematics::scaling::{ScalingError, SizeSettings, SizedModel, fit_size};
+use crate::kinematics::scaling::{
+    ProtocolTrials, ScalingError, ScalingProtocol, SizeSettings, SizedModel, fit_size, scale_by_protocol,
+};
 use crate::model::marker_set::{MarkerSet, RecognisedMarkers, RecognitionError};
 use crate::model::{Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
@@ -48,6 +50,28 @@ impl LaboratoryRecording {
     fn in_world_by(&self, set: Option<&MarkerSet>, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
         let landmarks = Landmarks::named(&self.markers, set);
         let axes = laboratory_of_landmarks(&self.markers, &landmarks, &self.plates, &self.unit, findings);
+        self.turned(axes)
+    }
+
+    /// As [`LaboratoryRecording::in_world`] for a recording in the axes of the ground of a model. If the person is upright along another axis
+    /// than y, the axes are those that were detected, with a warning.
+    fn in_ground(&self, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
+        let mut of_detection = Findings::default();
+        let landmarks = Landmarks::named(&self.markers, None);
+        let axes = laboratory_of_landmarks(&self.markers, &landmarks, &self.plates, &self.unit, &mut of_detection);
+        let is_upright = of_detection.has(Code::LaboratoryUpUnclear) || axes.has_up(Vec3::y());
+        if !is_upright {
+            let message = format!(
+                "{}: the person is not upright along y, as in the ground of the model; the axes were detected: {}",
+                self.markers.name, axes.statement
+            );
+            findings.report(Code::LaboratoryUpContradicted, message);
+            return self.turned(axes);
+        }
+        self.turned(axes.as_ground(&self.unit))
+    }
+
+    fn turned(&self, axes: Laboratory) -> (Laboratory, LaboratoryRecording) {
         let plates = self.plates.iter().map(|plate| axes.plate(plate)).collect();
         let (markers, poses) = (axes.markers(&self.markers), self.poses.as_ref().map(|poses| axes.poses(poses)));
         let turned = LaboratoryRecording { markers, poses, plates, unit: self.unit.clone() };
@@ -71,12 +95,31 @@ pub enum BodySource<'a> {
         model: &'a Model,
         /// Body mass [kg]; `None` keeps the model's.
         mass: Option<f64>,
+        /// The statements of a laboratory that works with OpenSim; `None` detects the axes of the recording, and sizes from the standing trial.
+        protocol: Option<&'a ModelProtocol>,
     },
     /// A body from an earlier calibration or scaling.
     Calibrated(&'a Subject),
 }
 
+/// How a laboratory that works with OpenSim uses a model: its recordings are in the axes of the model's ground, y upwards.
+#[derive(Debug, Clone, Default)]
+pub struct ModelProtocol {
+    /// How the model is scaled; `None` uses it as it is.
+    pub scaling: Option<ScalingProtocol>,
+    /// The trial in which the distances of the scaling are measured.
+    pub measured: Option<LaboratoryRecording>,
+}
+
 impl<'a> BodySource<'a> {
+    /// The protocol of a given model.
+    fn protocol(&self) -> Option<&'a ModelProtocol> {
+        match self {
+            BodySource::Model { protocol, .. } => *protocol,
+            BodySource::BuiltIn { .. } | BodySource::Calibrated(_) => None,
+        }
+    }
+
     /// The marker set that the caller names.
     fn marker_set(&self) -> Option<&'a MarkerSet> {
         match self {
@@ -187,23 +230,37 @@ pub(crate) fn fit_body_to_markers(
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let MarkerTrial { trial, standing, body, plate_feet } = trial;
     let set = body.marker_set();
-    let (axes, LaboratoryRecording { markers, poses, plates, .. }) = trial.in_world_by(set, findings);
+    let protocol = body.protocol();
+    let (axes, turned) = match protocol {
+        Some(_) => trial.in_ground(findings),
+        None => trial.in_world_by(set, findings),
+    };
+    let LaboratoryRecording { markers, poses, plates, .. } = turned;
     let markers = trimmed_to_visible(markers, findings);
     progress.end(Stage::Axes)?;
     if let Some(poses) = poses {
         let trial = PosedTrial { axes, plates, poses: during(&poses, &markers), points: markers };
         return trial.followed(body, plate_feet, settings, findings, progress);
     }
-    let standing = standing.map(|standing| standing.in_world_by(set, findings).1.markers);
+    let standing = standing.map(|standing| match protocol {
+        Some(_) => standing.in_ground(findings).1.markers,
+        None => standing.in_world_by(set, findings).1.markers,
+    });
     let subject = match body {
-        BodySource::Model { model, mass } => Subject::of_model(model, *mass, standing.as_ref(), findings)?,
+        BodySource::Model { model, mass, protocol: None } => {
+            Subject::of_model(model, *mass, standing.as_ref(), findings)?
+        }
+        BodySource::Model { model, mass, protocol: Some(protocol) } => {
+            Subject::by_protocol(model, *mass, protocol, standing.as_ref(), findings)?
+        }
         BodySource::Calibrated(subject) => (*subject).clone(),
         BodySource::BuiltIn { person, set } => Subject::built_in(&markers, standing.as_ref(), person, *set, findings)?,
     };
     progress.end(Stage::Body)?;
     // The author of a given model decides which coordinates are clamped; the built-in body needs its ranges to keep arm angles unique.
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
-    let settings = FitSettings { weights: subject.weights.clone(), limits, ..settings.clone() };
+    let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
+    let settings = FitSettings { weights: weights.clone(), limits, ..settings.clone() };
     let (mut fit, followed) = fit_own_markers(&subject.model, markers, &settings, findings)?;
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
@@ -370,27 +427,59 @@ impl Subject {
         standing: Option<&MarkerRecording>,
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
-        let (model, scaled, scaling_rms_m) = match standing {
+        match standing {
             Some(standing) => {
                 let sized = fit_size(model, standing, SizeSettings { mass }, findings)?;
                 findings.report(Code::ScalingFitted, scaling_message(&sized));
-                let names = sized.model.bodies().iter().map(|body| body.name.clone());
-                (sized.model.clone(), names.zip(sized.factors).collect(), Some(sized.rms_m))
+                Ok(Subject::of_sized(sized))
             }
-            None => {
-                let unscaled = vec![Vec3::repeat(1.0); model.bodies().len()];
-                (model.scaled(&unscaled, mass).map_err(ScalingError::from)?, Vec::new(), None)
-            }
-        };
+            None => Subject::unscaled(model, mass),
+        }
+    }
+
+    /// A model with another mass.
+    fn unscaled(model: &Model, mass: Option<f64>) -> Result<Subject, MarkerTrialError> {
+        let ones = vec![Vec3::repeat(1.0); model.bodies().len()];
+        let model = model.scaled(&ones, mass).map_err(ScalingError::from)?;
         Ok(Subject {
             person: Person::of_model(&model),
             model,
             weights: BTreeMap::new(),
             calibration: None,
-            scaled,
-            scaling_rms_m,
+            scaled: Vec::new(),
+            scaling_rms_m: None,
             sets: Vec::new(),
         })
+    }
+
+    fn of_sized(sized: SizedModel) -> Subject {
+        let names = sized.model.bodies().iter().map(|body| body.name.clone());
+        Subject {
+            person: Person::of_model(&sized.model),
+            weights: BTreeMap::new(),
+            calibration: None,
+            scaled: names.zip(sized.factors).collect(),
+            scaling_rms_m: sized.rms_m,
+            sets: Vec::new(),
+            model: sized.model,
+        }
+    }
+
+    /// A model that a protocol scales, or leaves as it is; a stated mass [kg] replaces that of the protocol.
+    fn by_protocol(
+        model: &Model,
+        mass: Option<f64>,
+        protocol: &ModelProtocol,
+        standing: Option<&MarkerRecording>,
+        findings: &mut Findings,
+    ) -> Result<Subject, MarkerTrialError> {
+        let Some(scaling) = &protocol.scaling else { return Subject::unscaled(model, mass) };
+        let scaling = ScalingProtocol { mass_kg: mass.or(scaling.mass_kg), ..scaling.clone() };
+        let measured = protocol.measured.as_ref().map(|measured| measured.in_ground(findings).1.markers);
+        let trials = ProtocolTrials { measured: measured.as_ref(), standing };
+        let sized = scale_by_protocol(model, &scaling, trials, findings)?;
+        findings.report(Code::ScalingFitted, scaling_message(&sized));
+        Ok(Subject::of_sized(sized))
     }
 
     /// The built-in body of a person whose segments have measured poses.
@@ -458,9 +547,13 @@ fn scaling_message(sized: &SizedModel) -> String {
     let size = |factor: &Vec3| factor.sum() / 3.0;
     let least = sized.factors.iter().map(size).fold(f64::INFINITY, f64::min);
     let most = sized.factors.iter().map(size).fold(0.0, f64::max);
-    format!(
-        "the model was scaled to the standing trial: factors {least:.3} to {most:.3}, marker error {:.1} mm before and {:.1} mm after; then the markers were moved to their measured positions",
-        1e3 * sized.rms_before_m,
-        1e3 * sized.rms_m
-    )
+    let fitted = match (sized.rms_before_m, sized.rms_m) {
+        (Some(before_m), Some(after_m)) => format!(
+            " to the standing trial: factors {least:.3} to {most:.3}, marker error {:.1} mm before and {:.1} mm after; then the markers were moved to their measured positions",
+            1e3 * before_m,
+            1e3 * after_m
+        ),
+        _ => format!(": factors {least:.3} to {most:.3}; its markers were not moved"),
+    };
+    format!("the model was scaled{fitted}")
 }

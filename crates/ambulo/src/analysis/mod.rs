@@ -32,7 +32,8 @@ pub use ground_agreement::{
 };
 pub(crate) use marker_trial::fit_body_to_markers;
 pub use marker_trial::{
-    BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, MarkerTrialError, Subject, body_in_motion,
+    BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, MarkerTrialError, ModelProtocol, Subject,
+    body_in_motion,
 };
 pub use peaks::{Peak, peak};
 pub(crate) use predicted::predict_and_analyse;

@@ -219,6 +219,9 @@ codes! {
     MarkersWindow "markers.window" Warning
         "Markers are missing for too long outside a part of the recording; only this part was analysed."
         "Allow longer gaps, or choose another part of the recording.";
+    MarkersTask "markers.task" Warning
+        "A coordinate that the fit of the markers should hold near a value is not on the model, or no marker moves with it."
+        "Correct the name of the coordinate, or leave the task out.";
     // The body.
     CalibrationAssumed "calibration.assumed" Note
         "An assumption by which the body was built from the markers."
@@ -236,8 +239,21 @@ codes! {
         "Markers move in the standing trial; their mean positions were used."
         "Use a trial in which the person stands still.";
     ScalingPair "scaling.pair" Warning
-        "A pair of markers of a scaling measurement is missing in the model or the trial."
+        "A scaling measurement was not used, because a marker of its pairs is missing in the model or the trial."
         "Correct the names of the pair, or leave the measurement out.";
+    ScalingBody "scaling.body" Warning
+        "Scaling names a body that the model does not have."
+        "Correct the name of the body, or leave it out.";
+    ScalingUnseen "scaling.unseen" Note
+        "Markers of the model that the standing trial does not have were removed from the scaled model."
+        "Nothing to do, unless the names of these markers differ in the trial.";
+    // Set-ups of OpenSim's tools.
+    SetupUnused "setup.unused" Note
+        "Something in a set-up of OpenSim was not used."
+        "Check that the results do not need it.";
+    SetupReplaced "setup.replaced" Note
+        "An option replaced what a set-up of OpenSim states."
+        "Leave the option out to use the set-up as it is.";
     SubjectNotWritten "subject.not_written" Note
         "The body could not be written as `subject.osim`."
         "The message states the reason; all other results are complete.";

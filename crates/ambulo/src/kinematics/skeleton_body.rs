@@ -235,7 +235,7 @@ impl Fitting<'_> {
 
     fn marker(&mut self, name: String, body: &str, location: Vec3) {
         let body = self.body(body);
-        self.markers.push(Marker { name, body, location });
+        self.markers.push(Marker { name, body, location, fixed: false });
     }
 
     fn trunk(&mut self, lengths: &Lengths) {

@@ -49,6 +49,7 @@ pub fn to_osim(model: &Model) -> Result<OsimModel, ExportError> {
         joints,
         constraints: model.coordinates().iter().filter_map(|c| coupler(model, c)).collect(),
         markers: model.markers().iter().map(|m| marker(model, m)).collect(),
+        frames: BTreeMap::new(),
         ignored: BTreeMap::new(),
         remarks: Vec::new(),
     })
@@ -253,5 +254,6 @@ fn marker(model: &Model, marker: &Marker) -> OsimMarker {
         name: component_name(&marker.name),
         body: name_of(model, marker.body),
         location_m: marker.location.into(),
+        fixed: marker.fixed,
     }
 }

@@ -70,7 +70,7 @@ pub fn full_body(build: &Build) -> Result<Human, BuildError> {
 /// A point of the pelvis lateral to the hip, named as in docs/CONVENTIONS.md.
 fn hip_side(human: &Human, side: Side) -> Marker {
     let location = Vec3::new(0.0, 0.0, mirrored(side) * human.dimensions.hip_width);
-    Marker { name: format!("hip_{}_side", side.letter()), body: Some(BodyId(0)), location }
+    Marker { name: format!("hip_{}_side", side.letter()), body: Some(BodyId(0)), location, fixed: false }
 }
 
 /// Sign of mirrored axes: +1 on the right, -1 on the left.

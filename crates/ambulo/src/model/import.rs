@@ -169,6 +169,7 @@ pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model,
         name: m.name.clone(),
         body: body_ids.get(m.body.as_str()).copied(),
         location: Vec3::from(m.location_m),
+        fixed: m.fixed,
     });
     let gravity = Vec3::from(document.gravity);
     Ok(Model::new(document.name.clone(), gravity, bodies, coordinates, markers.collect())?)

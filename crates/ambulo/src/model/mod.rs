@@ -25,7 +25,7 @@ pub use function::Function;
 pub use import::{ImportError, OsimError, from_osim};
 pub use joint::{Displacement, Joint, JointAxis, JointSpeeds};
 pub use knots::Knots;
-pub use scaled::ScaleError;
+pub use scaled::{MassDistribution, ScaleError};
 pub use side::Side;
 pub use simm_spline::SimmSpline;
 
@@ -129,6 +129,8 @@ pub struct Marker {
     pub body: Option<BodyId>,
     /// Position in the body frame [m].
     pub location: Vec3,
+    /// Whether a scaling protocol leaves the marker at its place on the body, instead of moving it to the recorded one.
+    pub fixed: bool,
 }
 
 /// A tree of bodies, its coordinates and markers.

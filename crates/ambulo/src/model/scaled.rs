@@ -6,7 +6,7 @@
 //!   coordinate (slope one, no intercept) is not, because its value is a length of the motion, not of the body;
 //! - the half axes of an ellipsoid are scaled by the factors of the parent;
 //! - a coupler whose follower is a translation is multiplied by the factor of the parent along it;
-//! - masses keep their shares; inertias scale with the square of the factor or, if the three factors differ, as those of a cylinder
+//! - masses keep their shares, or grow with the volumes of the bodies ([`MassDistribution`]); inertias scale with the square of the factor or, if the three factors differ, as those of a cylinder
 //!   with the smallest and another moment of inertia of the body.
 //!
 //! Source: OpenSim 4, Body.cpp (`scaleInertialProperties`), SpatialTransform.cpp, CoordinateCouplerConstraint.cpp (`scale`), read.
@@ -21,6 +21,16 @@ use crate::spatial::{Inertia, InertiaError, Mat3, Pose, Vec3};
 
 /// Factors that differ by less than this share are equal.
 const SAME_FACTOR: f64 = 1e-12;
+
+/// How the masses of the bodies follow from their sizes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum MassDistribution {
+    /// Every body keeps its share of the mass of the model.
+    #[default]
+    Kept,
+    /// The mass of a body grows with its volume, the product of its three factors; then all are scaled to the total.
+    ByVolume,
+}
 
 /// Why a model cannot be scaled.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -72,11 +82,24 @@ impl Model {
     /// # Errors
     /// Factors or masses that are not finite numbers above zero.
     pub fn scaled(&self, factors: &[Vec3], mass: Option<f64>) -> Result<Model, ScaleError> {
+        self.scaled_with(factors, mass, MassDistribution::Kept)
+    }
+
+    /// [`Model::scaled`] with a choice of the masses.
+    ///
+    /// # Errors
+    /// As [`Model::scaled`].
+    pub fn scaled_with(
+        &self,
+        factors: &[Vec3],
+        mass: Option<f64>,
+        distribution: MassDistribution,
+    ) -> Result<Model, ScaleError> {
         check(self, factors)?;
-        let share = mass_share(self, mass)?;
+        let shares = mass_shares(self, factors, mass, distribution)?;
         let of = |body: Option<BodyId>| body.map_or(Vec3::repeat(1.0), |id| factors[id.index()]);
         let mut bodies = Vec::with_capacity(self.bodies.len());
-        for (body, own) in self.bodies.iter().zip(factors) {
+        for ((body, own), share) in self.bodies.iter().zip(factors).zip(shares) {
             bodies.push(scaled_body(body, own, &of(body.joint.parent), share)?);
         }
         let mut coordinates = self.coordinates.clone();
@@ -110,10 +133,24 @@ fn check(model: &Model, factors: &[Vec3]) -> Result<(), ScaleError> {
     Ok(())
 }
 
-fn mass_share(model: &Model, mass: Option<f64>) -> Result<f64, ScaleError> {
-    let Some(found) = mass else { return Ok(1.0) };
-    let own = model.mass();
-    if found > 0.0 && found.is_finite() && own > 0.0 { Ok(found / own) } else { Err(ScaleError::Mass { found, own }) }
+/// The factor of the mass of each body.
+fn mass_shares(
+    model: &Model,
+    factors: &[Vec3],
+    mass: Option<f64>,
+    distribution: MassDistribution,
+) -> Result<Vec<f64>, ScaleError> {
+    let volume = |factors: &Vec3| match distribution {
+        MassDistribution::Kept => 1.0,
+        MassDistribution::ByVolume => factors.product(),
+    };
+    let volumes: Vec<f64> = factors.iter().map(volume).collect();
+    let Some(found) = mass else { return Ok(volumes) };
+    let own: f64 = model.bodies.iter().zip(&volumes).map(|(body, volume)| body.inertia.mass() * volume).sum();
+    if !(found > 0.0 && found.is_finite() && own > 0.0) {
+        return Err(ScaleError::Mass { found, own });
+    }
+    Ok(volumes.into_iter().map(|volume| volume * (found / own)).collect())
 }
 
 fn scaled_body(body: &Body, own: &Vec3, parent: &Vec3, share: f64) -> Result<Body, ScaleError> {

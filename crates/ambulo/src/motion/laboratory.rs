@@ -64,6 +64,19 @@ pub enum Heading {
 }
 
 impl Laboratory {
+    /// Whether this direction of the laboratory is upwards.
+    #[must_use]
+    pub fn has_up(&self, direction: Vec3) -> bool {
+        (self.world_from_lab * direction).dot(&Vec3::y()) > UPRIGHT_DEG.to_radians().cos()
+    }
+
+    /// The same laboratory with the axes of the ground of a model as those of the world; `unit` is for the statement.
+    #[must_use]
+    pub fn as_ground(self, unit: &str) -> Laboratory {
+        let statement = format!("ground of the model: x, y up, z, {unit} -> m");
+        Laboratory { world_from_lab: Mat3::identity(), statement, ..self }
+    }
+
     /// Transforms markers to the axes of the world, in metres.
     #[must_use]
     pub fn markers(&self, recording: &MarkerRecording) -> MarkerRecording {

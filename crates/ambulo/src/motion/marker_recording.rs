@@ -6,6 +6,7 @@ use crate::findings::{Code, Findings};
 use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Point};
 use ambulo_formats::trc::Trc;
+use std::ops::Range;
 
 /// Marker trajectories. From a file they are in the axes of the laboratory; [`MarkerRecording::rotated`] rotates them
 /// to those of the world.
@@ -103,14 +104,20 @@ impl MarkerRecording {
         let enough = |frame: &usize| 2 * ever_seen.iter().filter(|m| m.is_seen(*frame)).count() >= ever_seen.len();
         let first = (0..self.frames()).find(enough).unwrap_or(0);
         let last = (0..self.frames()).rev().find(enough).unwrap_or(self.frames().saturating_sub(1));
+        self.part(first..last.saturating_add(1))
+    }
+
+    /// The frames in a range; the whole recording if it does not have them all.
+    #[must_use]
+    pub fn part(&self, frames: Range<usize>) -> MarkerRecording {
         let cut = |path: &MarkerPath| MarkerPath {
             name: path.name.clone(),
-            positions: path.positions.get(first..=last).unwrap_or(&path.positions).to_vec(),
+            positions: path.positions.get(frames.clone()).unwrap_or(&path.positions).to_vec(),
         };
         MarkerRecording {
             name: self.name.clone(),
             rate_hz: self.rate_hz,
-            times: self.times.get(first..=last).unwrap_or(&self.times).to_vec(),
+            times: self.times.get(frames.clone()).unwrap_or(&self.times).to_vec(),
             markers: self.markers.iter().map(cut).collect(),
         }
     }

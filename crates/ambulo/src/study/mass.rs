@@ -168,7 +168,10 @@ impl KnownMass {
         let files = standing.as_ref().and_then(|standing| standing.subject.mass_kg).or(trial.subject.mass_kg);
         let stated = match body {
             MarkerBody::BuiltIn { mass_kg, .. } => mass_kg.or(files),
-            MarkerBody::Model { mass_kg, .. } => *mass_kg,
+            MarkerBody::Model { mass_kg, protocol, .. } => {
+                let of_protocol = || protocol.as_ref()?.scaling.as_ref()?.mass_kg;
+                mass_kg.or_else(of_protocol)
+            }
             MarkerBody::Calibrated(subject) => subject.calibration.as_ref().map(|_| subject.model.mass()),
         };
         let standing = standing.as_ref().and_then(|standing| standing_estimate(&standing.recording.plates));

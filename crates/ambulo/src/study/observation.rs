@@ -344,10 +344,14 @@ impl Statements {
         let trial = markers.without_plates_switched_off()?;
         let (person, model);
         let body = match &markers.body {
-            MarkerBody::Model { model: given, mass_kg } => {
-                let size = StatedSize { mass_kg: *mass_kg, height_m: self.stated.height_m };
+            MarkerBody::Model { model: given, mass_kg, protocol } => {
+                let is_scaled_later = protocol.as_ref().is_some_and(|protocol| protocol.scaling.is_some());
+                let size = match is_scaled_later {
+                    true => StatedSize::default(),
+                    false => StatedSize { mass_kg: *mass_kg, height_m: self.stated.height_m },
+                };
                 model = self.loaded(size.applied(given, findings)?)?;
-                BodySource::Model { model: &model, mass: *mass_kg }
+                BodySource::Model { model: &model, mass: *mass_kg, protocol: protocol.as_deref() }
             }
             MarkerBody::BuiltIn { set, .. } => {
                 person = markers.person()?;

@@ -3,8 +3,8 @@
 use super::error::StudyError;
 use super::laboratory_file::LaboratoryFile;
 use super::size::StatedSize;
-use crate::analysis::Subject;
 use crate::analysis::feasibility::Person;
+use crate::analysis::{ModelProtocol, Subject};
 use crate::kinematics::Trajectory;
 use crate::model::anthropometry::SegmentTable;
 use crate::model::marker_set::MarkerSet;
@@ -123,8 +123,10 @@ pub enum MarkerBody {
     Model {
         /// The model.
         model: Model,
-        /// Body mass [kg]; `None` keeps that of the model.
+        /// Body mass [kg]; `None` keeps that of the model, or takes that of the protocol.
         mass_kg: Option<f64>,
+        /// The statements of a laboratory that works with OpenSim; `None` detects the axes of the recordings, and sizes from the standing trial.
+        protocol: Option<Box<ModelProtocol>>,
     },
     /// A body that was calibrated before.
     Calibrated(Box<Subject>),

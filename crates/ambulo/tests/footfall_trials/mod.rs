@@ -187,7 +187,7 @@ fn opensim(data: &Path) -> Vec<Recorded> {
     let of_angles = events(&by_angles, [0.55, 3.95]);
     let of_walk = events(&by_walk, [0.1, 2.3]);
     let of_run = events(&by_run, [0.3, 5.25]);
-    let body = |model| BodySource::Model { model, mass: None };
+    let body = |model| BodySource::Model { model, mass: None, protocol: None };
     let table = Table::read_storage(&std::fs::read(data.join(gait).join("subject01_walk1_ik.mot")).unwrap()).unwrap().0;
     let angles = Recorded {
         name: "gait2392 angles",

@@ -169,7 +169,7 @@ impl Recording {
             Kind::ModelMarkers { markers, model } => {
                 let model = Model::from_osim(&file(model)?, findings).map_err(|e| e.to_string())?;
                 let trial = laboratory_file(markers, &file(markers)?, findings)?;
-                let body = MarkerBody::Model { model, mass_kg: None };
+                let body = MarkerBody::Model { model, mass_kg: None, protocol: None };
                 Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() })
             }
             Kind::Markers { markers, standing, mass, height } => {

@@ -13,14 +13,20 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     let Some(model_path) = &args.model else {
         bail!(
             "{}: coordinates need their model; expected --model FILE.osim. hint: markers (.c3d, .trc) need no model",
-            args.input.display()
+            args.recording().display()
         );
     };
+    if reading.setups.has_markers() {
+        bail!(
+            "{}: these are coordinates; expected markers, which the set-ups of ScaleTool and InverseKinematicsTool are for",
+            args.recording().display()
+        );
+    }
     reject_marker_options(args)?;
     size::check(&args.subject)?;
     let model = read_model(model_path, reading)?;
     reading.clock.lap("read_model");
-    let motion = read_motion(&model, &args.input, reading)?;
+    let motion = read_motion(&model, args.recording(), reading)?;
     reading.clock.lap("read_motion");
     let forces = ground_table::read(args, reading)?;
     reading.clock.lap("read_forces");
@@ -36,13 +42,17 @@ fn reject_marker_options(args: &ForcesArgs) -> Result<()> {
     let given = [
         ("--static", args.subject.still.is_some()),
         ("--markers", args.subject.markers.is_some()),
+        ("--marker-set", args.subject.marker_set.is_some()),
         ("--plate", !args.subject.plate.is_empty()),
         ("--figure", args.subject.figure != SubjectArgs::DEFAULT_FIGURE),
         ("--fit", args.subject.fit != MarkerFitting::Frames),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((option, _)) => {
-            bail!("{}: {option} is for markers (.c3d, .trc); recorded coordinates have a model", args.input.display())
+            bail!(
+                "{}: {option} is for markers (.c3d, .trc); recorded coordinates have a model",
+                args.recording().display()
+            )
         }
         None => Ok(()),
     }

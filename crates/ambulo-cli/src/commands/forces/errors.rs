@@ -8,7 +8,7 @@ use std::path::Path;
 /// An error with the file concerned in front; `ground` is the table of ground forces.
 pub(super) fn with_file(error: StudyError, args: &ForcesArgs, ground: Option<&Path>) -> Error {
     let shown = |path: &Path| path.display().to_string();
-    let motion = shown(&args.input);
+    let motion = shown(args.recording());
     let ground_file = ground.map_or_else(|| motion.clone(), shown);
     match (error.input(), &error) {
         (_, StudyError::MassUnknown) => anyhow!("{error}; expected --mass KG").context(motion),

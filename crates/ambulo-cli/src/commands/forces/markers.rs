@@ -1,6 +1,6 @@
 //! Reads markers (`.c3d`, `.trc`), with a standing trial or a model.
 
-use super::{Reading, added_mass, ground_table, read_model, size};
+use super::{Reading, added_mass, ground_table, read_model_with_markers, size};
 use crate::args::{ForcesArgs, PlateFoot, SubjectArgs};
 use crate::caller::Caller;
 use crate::files;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     check_options(args)?;
-    let trial = read_laboratory_file(&args.input, &reading.caller, &mut reading.findings)?;
+    let trial = read_laboratory_file(args.recording(), &reading.caller, &mut reading.findings)?;
     let standing = args.subject.still.as_deref().map(|path| read_standing_trial(path, reading)).transpose()?;
     reading.clock.lap("read_markers");
     let body = body(args, reading)?;
@@ -29,10 +29,14 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
 fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBody> {
     let SubjectArgs { mass, height, figure, markers, .. } = &args.subject;
     if let Some(path) = &args.model {
-        return Ok(MarkerBody::Model { model: read_model(path, reading)?, mass_kg: *mass });
+        let model = read_model_with_markers(path, args.subject.marker_set.as_deref(), reading)?;
+        let setups = reading.setups.clone();
+        reading.tracked = setups.tasks(&model, reading)?;
+        let protocol = setups.protocol(&model, reading)?;
+        return Ok(MarkerBody::Model { model, mass_kg: *mass, protocol });
     }
     Ok(MarkerBody::BuiltIn {
-        table: figure.parse().context("--figure").with_context(|| args.input.display().to_string())?,
+        table: figure.parse().context("--figure").with_context(|| args.recording().display().to_string())?,
         mass_kg: *mass,
         height_m: *height,
         set: markers.as_deref().map(|set| read_set(set, reading)).transpose()?,
@@ -69,6 +73,11 @@ fn check_options(args: &ForcesArgs) -> Result<()> {
         }
     }
     if args.model.is_none() {
+        if args.subject.marker_set.is_some() {
+            bail!(
+                "--marker-set places markers on the bodies of a model; expected --model FILE.osim. hint: for the built-in body, --markers names a set of docs/MARKERS.md"
+            );
+        }
         return Ok(());
     }
     size::check(&args.subject)?;
@@ -84,7 +93,7 @@ fn check_options(args: &ForcesArgs) -> Result<()> {
     }
 }
 
-fn read_standing_trial(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile> {
+pub(super) fn read_standing_trial(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile> {
     reading.read.push(path.to_owned());
     let Reading { caller, findings, .. } = reading;
     standing_trial(findings, |findings| read_laboratory_file(path, caller, findings))

@@ -4,6 +4,7 @@ mod coordinates;
 mod errors;
 mod ground_table;
 pub(crate) mod markers;
+mod setup;
 mod size;
 mod skeleton;
 
@@ -15,15 +16,18 @@ use crate::replacement::ResultTarget;
 use crate::{Completion, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
-use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
+use ambulo::kinematics::marker_fit::{FitSettings, OutlierDetection, SmoothnessPrior};
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, SubjectParameters, Window, is_marker_table};
-use ambulo::study::{self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, Outcome, Recording, Settings, Source};
-use ambulo_formats::osim::OsimModel;
+use ambulo::study::{
+    self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, Outcome, Recording, Settings, Source, TrackedTasks,
+};
+use ambulo_formats::osim::{OsimMarkerSet, OsimModel};
 use ambulo_formats::table::Table;
 use ambulo_results::{GroundSource, Input, Keep, OutputFile};
 use anyhow::{Context, Result, bail};
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -44,15 +48,19 @@ fn check_range(args: &ForcesArgs) -> Result<()> {
 
 /// Reads the recording and computes its forces.
 pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
-    check_range(args)?;
     let mut reading = Reading {
         caller: caller.clone(),
         findings: Findings::default(),
         clock: Stopwatch::new(),
-        read: vec![args.input.clone()],
+        read: Vec::new(),
         ground: None,
+        setups: setup::Setups::default(),
+        tracked: None,
     };
-    let source = match RecordingKind::of(&args.input, caller)? {
+    let args = &setup::resolved(args, &mut reading)?;
+    check_range(args)?;
+    reading.read.push(args.recording().to_owned());
+    let source = match RecordingKind::of(args.recording(), caller)? {
         RecordingKind::Coordinates => coordinates::read(args, &mut reading)?,
         RecordingKind::Markers => markers::read(args, &mut reading)?,
         RecordingKind::Skeleton => skeleton::read(args, &mut reading)?,
@@ -103,11 +111,15 @@ struct Reading {
     read: Vec<PathBuf>,
     /// The table of ground forces.
     ground: Option<PathBuf>,
+    /// Set-ups of OpenSim's tools.
+    setups: setup::Setups,
+    /// Weights of the fit of markers that a set-up states.
+    tracked: Option<TrackedTasks>,
 }
 
 fn studied(args: &ForcesArgs, source: Source, reading: Reading) -> Result<MotionRun> {
-    let settings = settings(args)?;
-    let Reading { caller, mut findings, mut clock, read, ground } = reading;
+    let Reading { caller, mut findings, mut clock, read, ground, tracked, setups: _ } = reading;
+    let settings = settings(args, tracked)?;
     let mut watch = |stage: study::Stage| {
         clock.lap(stage.word());
         if caller.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -160,9 +172,9 @@ fn input(args: &ForcesArgs, ground: Option<&Path>, stated: SubjectParameters, ou
     let shown = |path: &Path| path.display().to_string();
     let is_measured = outcome.force_origin == ForceOrigin::Measured
         || outcome.prediction.as_ref().is_some_and(|prediction| prediction.measured.is_some());
-    let in_recording = (outcome.tracking.is_some() && is_measured).then_some(args.input.as_path());
+    let in_recording = (outcome.tracking.is_some() && is_measured).then_some(args.recording());
     Input {
-        motion: shown(&args.input),
+        motion: shown(args.recording()),
         person: stated.name,
         recorded_on: stated.recorded_on,
         model: args.model.as_deref().map_or("built-in".into(), shown),
@@ -179,6 +191,24 @@ fn read_model(path: &Path, reading: &mut Reading) -> Result<Model> {
     let model = parse_model(&files::read_input(&reading.caller, path)?, path, &mut reading.findings)?;
     reading.read.push(path.to_owned());
     Ok(model)
+}
+
+/// The model with the markers of `--marker-set`.
+fn read_model_with_markers(path: &Path, set: Option<&Path>, reading: &mut Reading) -> Result<Model> {
+    let Some(set_path) = set else { return read_model(path, reading) };
+    let document = read_document(path, reading)?;
+    let shown = set_path.display().to_string();
+    let set = OsimMarkerSet::read(&files::read_input(&reading.caller, set_path)?).with_context(|| shown.clone())?;
+    reading.read.push(set_path.to_owned());
+    files::note_remarks(&shown, &set.remarks, &mut reading.findings);
+    let document = document.with_marker_set(&set).context(shown)?;
+    from_osim(&document, &mut reading.findings).with_context(|| path.display().to_string())
+}
+
+fn read_document(path: &Path, reading: &mut Reading) -> Result<OsimModel> {
+    let bytes = files::read_input(&reading.caller, path)?;
+    reading.read.push(path.to_owned());
+    OsimModel::read(&bytes).with_context(|| path.display().to_string())
 }
 
 /// The model in the content of an OpenSim file.
@@ -199,15 +229,15 @@ fn read_device(args: &ForcesArgs, reading: &mut Reading) -> Result<Option<Table>
     Ok(Some(table))
 }
 
-fn settings(args: &ForcesArgs) -> Result<Settings> {
+fn settings(args: &ForcesArgs, tracked: Option<TrackedTasks>) -> Result<Settings> {
     let low_pass = |cutoff_hz: Option<f64>| cutoff_hz.map(|cutoff_hz| LowPass { order: args.order, cutoff_hz });
-    let smoother = match (args.filter, low_pass(args.cutoff.0)) {
+    let smoother = match (args.filter, low_pass(args.cutoff().0)) {
         (Filter::Spline, _) => Smoother::Spline,
         (Filter::Butterworth, Some(filter)) => Smoother::Butterworth(filter),
         (Filter::Butterworth, None) => Smoother::Off,
     };
     let of_forces = args.force_cutoff.map(|cutoff| match cutoff {
-        ForceCutoff::Same => low_pass(args.cutoff.0),
+        ForceCutoff::Same => low_pass(args.cutoff().0),
         ForceCutoff::Hz(hz) => low_pass(Some(hz)),
         ForceCutoff::Off => None,
     });
@@ -226,6 +256,10 @@ fn settings(args: &ForcesArgs) -> Result<Settings> {
             (false, false, false) => GroundSettings::MeasuredOrPredicted,
         },
         marker_fit: FitSettings {
+            // Stated weights are kept.
+            outliers: if tracked.is_some() { OutlierDetection::Labels } else { defaults.marker_fit.outliers },
+            weights: tracked.as_ref().map_or_else(BTreeMap::new, |tracked| tracked.weights.clone()),
+            tasks: tracked.map_or_else(Vec::new, |tracked| tracked.tasks),
             longest_gap_s: args.subject.max_gap,
             smoothing: match args.subject.fit {
                 MarkerFitting::Frames => None,

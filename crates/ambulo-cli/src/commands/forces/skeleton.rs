@@ -9,12 +9,13 @@ use ambulo_formats::bvh::Bvh;
 use anyhow::{Context, Result, bail};
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
-    let shown = args.input.display().to_string();
+    let shown = args.recording().display().to_string();
     reject_unused_options(args)?;
     let Some(mass_kg) = args.subject.mass else {
         bail!("{shown}: a BVH contains no body mass; expected --mass KG");
     };
-    let (bvh, remarks) = Bvh::read(&files::read_input(&reading.caller, &args.input)?).with_context(|| shown.clone())?;
+    let (bvh, remarks) =
+        Bvh::read(&files::read_input(&reading.caller, args.recording())?).with_context(|| shown.clone())?;
     files::note_remarks(&shown, &remarks, &mut reading.findings);
     reading.clock.lap("read_skeleton");
     let skeleton = skeleton_from_bvh(&bvh, &shown, args.subject.height, &mut reading.findings).context(shown)?;
@@ -30,12 +31,13 @@ fn reject_unused_options(args: &ForcesArgs) -> Result<()> {
         ("--loads", args.loads.is_some()),
         ("--static", args.subject.still.is_some()),
         ("--markers", args.subject.markers.is_some()),
+        ("--marker-set", args.subject.marker_set.is_some()),
         ("--plate", !args.subject.plate.is_empty()),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((option, _)) => bail!(
             "{}: {option} has no effect for a .bvh, which is fitted with the built-in body and has no measured forces; expected --mass and --height",
-            args.input.display()
+            args.recording().display()
         ),
         None => Ok(()),
     }

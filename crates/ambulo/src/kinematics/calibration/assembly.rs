@@ -148,7 +148,7 @@ fn placed(
     }
     let body_name = generic.model.bodies()[body.index()].name.clone();
     let place = MarkerPlacement { name: named.name.clone(), body: body_name, rms_m, frames: points.len() };
-    Some((Marker { name: named.name.clone(), body: Some(body), location }, place))
+    Some((Marker { name: named.name.clone(), body: Some(body), location, fixed: false }, place))
 }
 
 /// Position of the ball of a foot relative to its ankle [m].

@@ -3,6 +3,8 @@
 //!
 //! q(t) = argmin Σ w |m(t) - p(q)|²    within the ranges of the coordinates
 //!
+//! Tasks can hold coordinates near values ([`CoordinateTask`]).
+//!
 //! | code | symbol | unit |
 //! |---|---|---|
 //! | `positions` | m, recorded marker | m |
@@ -29,6 +31,7 @@ mod budget;
 mod normal;
 mod problem;
 mod solve;
+mod tasks;
 mod tree;
 
 mod frames;
@@ -44,7 +47,7 @@ mod report;
 pub(crate) mod rows;
 
 pub use result::{FitError, MarkerFit, MarkerResidual};
-pub use settings::{FitSettings, JointLimits, OutlierDetection, SmoothnessPrior};
+pub use settings::{CoordinateTask, FitSettings, JointLimits, OutlierDetection, SmoothnessPrior, TaskTarget};
 
 use crate::findings::Findings;
 use crate::model::Model;
@@ -73,7 +76,7 @@ use problem::FitProblem;
 /// let mut document = to_osim(&build.human()?.model)?;
 /// for (i, location_m) in [[0.1, 0.0, 0.0], [0.0, -0.2, 0.1], [0.1, -0.1, -0.1]].into_iter().enumerate() {
 ///     for body in ["pelvis", "femur_r"] {
-///         document.markers.push(OsimMarker { name: format!("{body}_{i}"), body: body.to_owned(), location_m });
+///         document.markers.push(OsimMarker { name: format!("{body}_{i}"), body: body.to_owned(), location_m, fixed: false });
 ///     }
 /// }
 /// let model = from_osim(&document, &mut findings)?;
@@ -134,8 +137,10 @@ fn fitted(
     sequence::run(&mut problem, &mut frames, settings.outliers, &default);
     problem.solver.budget.grant_afterwards(frames.count());
     let mut elsewhere = Vec::new();
-    if settings.outliers == OutlierDetection::On {
+    if settings.outliers != OutlierDetection::Off {
         misplaced::exchange_back(&mut problem, &mut frames);
+    }
+    if settings.outliers == OutlierDetection::On {
         elsewhere = misplaced::reduce_weights(&mut problem, &mut frames);
     }
     let mut states = gaps::refit(&mut problem, &mut frames, settings.longest_gap_s);

@@ -2,8 +2,9 @@
 
 use super::normal::{Point, Targets, cost};
 use super::result::FitError;
-use super::settings::{FitSettings, JointLimits};
+use super::settings::{CoordinateTask, FitSettings, JointLimits, TaskTarget};
 use super::solve::{Bounds, Outcome, STEPS, Solver};
+use super::tasks::{HeldUnknown, held_unknowns};
 use super::tree::MarkerTree;
 use crate::findings::{Code, Findings};
 use crate::model::{Drive, Function, Model};
@@ -29,6 +30,7 @@ pub(super) struct FitProblem<'a> {
     pub(super) times: &'a [f64],
     /// Coordinates that are functions of time.
     prescribed: Vec<(usize, Function)>,
+    tasks: Vec<HeldUnknown>,
     /// Scratch: shifted markers, positions and weights of one frame.
     shifted: Vec<Point>,
     pub(super) positions: Vec<Vec3>,
@@ -65,6 +67,7 @@ impl<'a> FitProblem<'a> {
             weights: common.iter().map(|c| c.weight).collect(),
             times: &recording.times,
             prescribed: prescribed.collect(),
+            tasks: held_unknowns(model, &tree, &settings.tasks, findings),
             points,
             tree,
         })
@@ -99,6 +102,10 @@ impl<'a> FitProblem<'a> {
             self.tree.refer_to(sum / count as f64);
         }
         self.enter(frame);
+        let sum_of_weights: f64 = self.frame_weights.iter().sum();
+        for task in &self.tasks {
+            task.hold(self.times[frame], sum_of_weights, &mut self.bounds);
+        }
         count
     }
 
@@ -173,6 +180,9 @@ fn check_settings(settings: &FitSettings) -> Result<(), FitError> {
             "a finite number, zero or more",
         )?;
     }
+    for task in &settings.tasks {
+        check_task(task)?;
+    }
     let gap = settings.longest_gap_s;
     setting("longest_gap_s", gap, gap >= 0.0 && gap.is_finite(), "a finite number of seconds, zero or more")?;
     if let Some(smoothing) = settings.smoothing {
@@ -186,6 +196,26 @@ fn check_settings(settings: &FitSettings) -> Result<(), FitError> {
         }
     }
     Ok(())
+}
+
+fn check_task(task: &CoordinateTask) -> Result<(), FitError> {
+    let error = |setting: String, found: f64, expected| Err(FitError::Setting { setting, found, expected });
+    if !(task.weight >= 0.0 && task.weight.is_finite()) {
+        return error(format!("weight of {}", task.coordinate), task.weight, "a finite number, zero or more");
+    }
+    let values: &[f64] = match &task.target {
+        TaskTarget::Default => &[],
+        TaskTarget::Value(value) => std::slice::from_ref(value),
+        TaskTarget::Samples { times, values } if !values.is_empty() && times.len() == values.len() => values,
+        TaskTarget::Samples { values, .. } => {
+            let setting = format!("values of {}", task.coordinate);
+            return error(setting, values.len() as f64, "one value for each time, at least one");
+        }
+    };
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(value) => error(format!("value of {}", task.coordinate), *value, "finite numbers"),
+        None => Ok(()),
+    }
 }
 
 struct Common<'a> {

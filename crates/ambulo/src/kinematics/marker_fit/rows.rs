@@ -152,6 +152,7 @@ mod tests {
             name: format!("m{i}"),
             body: Some(crate::model::BodyId(i / 2)),
             location: Vec3::new(0.1, 0.05 * i as f64, -0.1),
+            fixed: false,
         };
         let coordinates = (0..11).map(coordinate).collect();
         Model::new("rows", Vec3::zeros(), bodies.collect(), coordinates, (0..8).map(marker).collect()).unwrap()

@@ -133,14 +133,14 @@ fn fit_frame(
             None => start::posture(problem, default),
         };
         if memory.last[0].is_none() {
-            if outliers == OutlierDetection::On {
+            if outliers != OutlierDetection::Off {
                 exchange_in_first(problem, frames, memory, frame);
             }
             problem.solver.budget.end_beginning();
         }
     }
     let knows_offsets = memory.last[0].is_some();
-    if outliers == OutlierDetection::On
+    if outliers != OutlierDetection::Off
         && knows_offsets
         && let Some(outcome) = guarded(problem, frames, memory, frame, t)
     {

@@ -11,6 +11,8 @@ const LONGEST_GAP_S: f64 = 0.35;
 pub struct FitSettings {
     /// Weights of squared distances, by marker name; 1 for markers that are not listed, 0 excludes a marker.
     pub weights: BTreeMap<String, f64>,
+    /// Coordinates that are held near values besides following the markers.
+    pub tasks: Vec<CoordinateTask>,
     /// Which ranges of coordinates are enforced.
     pub limits: JointLimits,
     /// Gaps of coordinates that no visible marker determines are bridged up to this length [s], 0.35 by default. Longer gaps, and
@@ -26,12 +28,44 @@ impl Default for FitSettings {
     fn default() -> Self {
         FitSettings {
             weights: BTreeMap::new(),
+            tasks: Vec::new(),
             limits: JointLimits::Clamped,
             longest_gap_s: LONGEST_GAP_S,
             outliers: OutlierDetection::On,
             smoothing: None,
         }
     }
+}
+
+/// A coordinate that is held near a value. With tasks, the fit of a frame minimises, as in OpenSim's inverse kinematics,
+///
+/// Σ w |m - p(q)|² / Σ w + Σ k (q - q_task)²
+///
+/// over the visible markers m with weights w, and the tasks with weights k.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoordinateTask {
+    /// Name of the coordinate.
+    pub coordinate: String,
+    /// k, the weight of the squared difference [m²/rad², or 1].
+    pub weight: f64,
+    /// The value.
+    pub target: TaskTarget,
+}
+
+/// The value of a coordinate that a task asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TaskTarget {
+    /// The default value of the model.
+    Default,
+    /// A value [rad or m].
+    Value(f64),
+    /// Values over time, linear between the samples and constant beyond them.
+    Samples {
+        /// Times [s], increasing.
+        times: Vec<f64>,
+        /// Values [rad or m], as many.
+        values: Vec<f64>,
+    },
 }
 
 /// Which ranges of coordinates are enforced.
@@ -50,6 +84,8 @@ pub enum JointLimits {
 pub enum OutlierDetection {
     /// Every recorded position is used.
     Off,
+    /// Swapped labels are swapped back and jumps are excluded; the weights are those of the settings.
+    Labels,
     /// Swapped labels are swapped back, jumps are excluded, misplaced markers get less weight; each is reported.
     On,
 }

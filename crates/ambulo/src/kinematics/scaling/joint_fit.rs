@@ -67,10 +67,10 @@ pub struct SizedModel {
     pub factors: Vec<Vec3>,
     /// The standing posture, one value per coordinate [rad or m].
     pub posture: Vec<f64>,
-    /// Root mean square distance of the markers from those of the unscaled model [m].
-    pub rms_before_m: f64,
+    /// Root mean square distance of the markers from those of the unscaled model [m]; `None` without a fit to a standing trial.
+    pub rms_before_m: Option<f64>,
     /// The same for the scaled model, before its markers were moved [m].
-    pub rms_m: f64,
+    pub rms_m: Option<f64>,
     /// Distances by which markers were moved on their bodies.
     pub moved: Vec<MovedMarker>,
 }
@@ -108,8 +108,9 @@ pub fn fit_size(
     let square: f64 = rows.residuals().iter().map(|r| r.norm_squared()).sum();
     let rms_m = (square / rows.residuals().len() as f64).sqrt();
     let posture = complete(&scaled, |i| rows.unknown_of(i).map(|u| z[u]));
-    let (model, moved) = with_markers_placed(&scaled, &standing, &posture)?;
-    Ok(SizedModel { model, factors, posture, rms_before_m: start.rms_m[0], rms_m, moved })
+    let (model, moved) = with_markers_placed(&scaled, &standing, &posture, |_| true)?;
+    let rms_before_m = start.rms_m.first().copied();
+    Ok(SizedModel { model, factors, posture, rms_before_m, rms_m: Some(rms_m), moved })
 }
 
 struct Problem<'a> {

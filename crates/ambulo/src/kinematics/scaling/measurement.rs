@@ -1,16 +1,15 @@
 //! Scale factors from distances between markers.
 //!
-//! A measurement is a list of pairs of markers and the axes of the bodies that its factor scales. The factor is the recorded distance
-//! divided by the distance on the model in its default posture, averaged over the pairs. Bodies without a measurement keep
-//! their size.
+//! A measurement is a list of pairs of markers and the axes of the bodies that its factor scales. The factor is the recorded distance, the mean
+//! over the frames, divided by the distance on the model in its default posture, averaged over the pairs. Bodies without a measurement keep
+//! their size. A measurement with a marker that the model or the recording lacks is not used.
 //!
-//! Source: OpenSim 4, ModelScaler.cpp (`computeMeasurementScaleFactor`) (unverified; pinned by its numbers).
+//! Source: OpenSim, ModelScaler.cpp (`computeMeasurementScaleFactor`, `takeExperimentalMarkerMeasurement`), read.
 //! Pinned by: tests/scaling.rs
 
-use super::standing::{at_rest, complete, poses, with_markers_placed};
-use super::{ScalingError, SizedModel};
+use super::ScalingError;
+use super::standing::{complete, poses};
 use crate::findings::{Code, Findings};
-use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
 use crate::model::Model;
 use crate::motion::MarkerRecording;
 use crate::spatial::Vec3;
@@ -38,96 +37,108 @@ pub struct MeasuredBody {
 /// Scale factors of all bodies, in the order of the model.
 ///
 /// # Errors
-/// Unknown bodies, measurements without a pair of common markers.
+/// Two markers of the model at one place.
 pub fn measured_factors(
     model: &Model,
-    standing: &MarkerRecording,
+    recording: &MarkerRecording,
     measurements: &[DistanceMeasurement],
     findings: &mut Findings,
 ) -> Result<Vec<Vec3>, ScalingError> {
-    let standing = at_rest(standing, findings);
-    let bodies = poses(model, &complete(model, |_| None));
-    let on_model = |name: &str| {
-        let marker = model.markers().iter().find(|m| m.name == name)?;
-        Some(marker.body.map_or(marker.location, |id| bodies[id.index()].place(marker.location)))
-    };
-    let recorded =
-        |name: &str| standing.marker(name).map(|path| path.positions[0]).filter(|p| p.iter().all(|x| x.is_finite()));
     let mut factors = vec![Vec3::repeat(1.0); model.bodies().len()];
+    apply_measurements(model, recording, measurements, &mut factors, findings)?;
+    Ok(factors)
+}
+
+/// Replaces the factors along the axes that the measurements scale.
+pub(super) fn apply_measurements(
+    model: &Model,
+    recording: &MarkerRecording,
+    measurements: &[DistanceMeasurement],
+    factors: &mut [Vec3],
+    findings: &mut Findings,
+) -> Result<(), ScalingError> {
+    let distances = Distances::new(model, recording);
     for measurement in measurements {
-        let factor = factor(measurement, on_model, recorded, model, findings)?;
+        let Some(factor) = distances.factor(measurement, findings)? else { continue };
         for MeasuredBody { body, axes } in &measurement.bodies {
-            let Some(id) = model.body(body) else {
-                let known: Vec<&str> = model.bodies().iter().map(|b| b.name.as_str()).collect();
-                let (measurement, body) = (measurement.name.clone(), body.clone());
-                return Err(ScalingError::UnknownBody { measurement, body, known: known.join(", ") });
-            };
+            let what = || format!("measurement `{}`", measurement.name);
+            let Some(id) = known_body(model, body, what, findings) else { continue };
             for k in (0..3).filter(|&k| axes[k]) {
-                factors[id.index()][k] = factor;
+                factors[id][k] = factor;
             }
         }
     }
-    Ok(factors)
+    Ok(())
+}
+
+/// Index of a body; a name that the model does not have is reported.
+pub(super) fn known_body(
+    model: &Model,
+    body: &str,
+    what: impl Fn() -> String,
+    findings: &mut Findings,
+) -> Option<usize> {
+    let id = model.body(body);
+    if id.is_none() {
+        let known: Vec<&str> = model.bodies().iter().map(|b| b.name.as_str()).collect();
+        let message =
+            format!("{} scales the body `{body}`, which the model does not have; it has {}", what(), known.join(", "));
+        findings.report(Code::ScalingBody, message);
+    }
+    id.map(|id| id.index())
 }
 
 /// Two markers closer than this are at one place [m].
 const ONE_PLACE: f64 = 1e-6;
 
-fn factor(
-    measurement: &DistanceMeasurement,
-    on_model: impl Fn(&str) -> Option<Vec3>,
-    recorded: impl Fn(&str) -> Option<Vec3>,
-    model: &Model,
-    findings: &mut Findings,
-) -> Result<f64, ScalingError> {
-    let mut ratios = Vec::new();
-    for [a, b] in &measurement.pairs {
-        let pair = format!("{a} - {b}");
-        let (Some(model_a), Some(model_b), Some(real_a), Some(real_b)) =
-            (on_model(a), on_model(b), recorded(a), recorded(b))
-        else {
-            let message = format!(
-                "measurement `{}`: the pair {pair} is not in both the model and the trial; it was left out",
-                measurement.name
-            );
-            findings.report(Code::ScalingPair, message);
-            continue;
-        };
-        let distance_m = (model_a - model_b).norm();
-        if distance_m < ONE_PLACE {
-            return Err(ScalingError::NoDistance { measurement: measurement.name.clone(), pair, distance_m });
-        }
-        ratios.push((real_a - real_b).norm() / distance_m);
-    }
-    if ratios.is_empty() {
-        let pairs: Vec<String> = measurement.pairs.iter().map(|[a, b]| format!("{a} - {b}")).collect();
-        let common: Vec<&str> =
-            model.markers().iter().map(|m| m.name.as_str()).filter(|m| recorded(m).is_some()).collect();
-        let measurement = measurement.name.clone();
-        return Err(ScalingError::NoPair { measurement, pairs: pairs.join(", "), common: common.join(", ") });
-    }
-    Ok(ratios.iter().sum::<f64>() / ratios.len() as f64)
+/// Distances between markers of a model in its default posture, and of a recording.
+struct Distances<'a> {
+    model: &'a Model,
+    recording: &'a MarkerRecording,
+    /// Places of the model's markers in the world [m].
+    places: Vec<Vec3>,
 }
 
-/// Scales a model by measurements, to the body mass [kg], with the markers at their positions on the person in the fitted
-/// standing posture.
-///
-/// # Errors
-/// As [`measured_factors`], and markers that cannot be fitted.
-pub fn size_by_measurements(
-    model: &Model,
-    standing: &MarkerRecording,
-    measurements: &[DistanceMeasurement],
-    mass: Option<f64>,
-    findings: &mut Findings,
-) -> Result<SizedModel, ScalingError> {
-    let factors = measured_factors(model, standing, measurements, findings)?;
-    let standing = at_rest(standing, &mut Findings::default());
-    let scaled = model.scaled(&factors, mass)?;
-    let settings = FitSettings { outliers: OutlierDetection::Off, ..FitSettings::default() };
-    let before = fit_markers(model, &standing, &settings, &mut Findings::default())?;
-    let fit = fit_markers(&scaled, &standing, &settings, findings)?;
-    let posture = complete(&scaled, |i| Some(fit.motion.columns[i].as_ref()?[0]));
-    let (sized, moved) = with_markers_placed(&scaled, &standing, &posture)?;
-    Ok(SizedModel { model: sized, factors, posture, rms_before_m: before.rms_m[0], rms_m: fit.rms_m[0], moved })
+impl Distances<'_> {
+    fn new<'a>(model: &'a Model, recording: &'a MarkerRecording) -> Distances<'a> {
+        let bodies = poses(model, &complete(model, |_| None));
+        let place = |m: &crate::model::Marker| m.body.map_or(m.location, |id| bodies[id.index()].place(m.location));
+        Distances { model, recording, places: model.markers().iter().map(place).collect() }
+    }
+
+    /// The factor of a measurement; `None`, with a finding, if a marker is missing.
+    fn factor(&self, measurement: &DistanceMeasurement, findings: &mut Findings) -> Result<Option<f64>, ScalingError> {
+        let mut sum = 0.0;
+        for [a, b] in &measurement.pairs {
+            let (Some(on_model), Some(recorded)) = (self.on_model(a, b), self.recorded(a, b)) else {
+                let message = format!(
+                    "measurement `{}` was not used, so its bodies keep the size of the model: the pair {a} - {b} is not in both the model and `{}`",
+                    measurement.name, self.recording.name
+                );
+                findings.report(Code::ScalingPair, message);
+                return Ok(None);
+            };
+            if on_model < ONE_PLACE {
+                let (measurement, pair) = (measurement.name.clone(), format!("{a} - {b}"));
+                return Err(ScalingError::NoDistance { measurement, pair, distance_m: on_model });
+            }
+            sum += recorded / on_model;
+        }
+        Ok((!measurement.pairs.is_empty()).then(|| sum / measurement.pairs.len() as f64))
+    }
+
+    fn on_model(&self, a: &str, b: &str) -> Option<f64> {
+        let place = |name: &str| Some(self.places[self.model.markers().iter().position(|m| m.name == name)?]);
+        Some((place(a)? - place(b)?).norm())
+    }
+
+    /// Mean distance over the frames in which both are visible.
+    fn recorded(&self, a: &str, b: &str) -> Option<f64> {
+        let (a, b) = (self.recording.marker(a)?, self.recording.marker(b)?);
+        let distances: Vec<f64> = (0..self.recording.frames())
+            .filter(|&frame| a.is_seen(frame) && b.is_seen(frame))
+            .map(|frame| (a.positions[frame] - b.positions[frame]).norm())
+            .collect();
+        (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
+    }
 }

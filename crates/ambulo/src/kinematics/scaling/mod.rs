@@ -1,18 +1,20 @@
 //! Scales a model to a person from a standing trial.
 //!
-//! Two methods determine the scale factors of the bodies: [`measured_factors`] uses distances between markers, recorded and on the
-//! model (the method and the lists of OpenSim), and [`fit_size`] fits sizes and posture together, without a
-//! list. Both keep the mass distribution of the model ([`Model::scaled`](crate::model::Model::scaled)), scale it to the
-//! body mass and move its markers to their positions on the person.
+//! [`fit_size`] fits sizes and posture together, without a list; it keeps the mass distribution of the model
+//! ([`Model::scaled`](crate::model::Model::scaled)), scales it to the body mass and moves its markers to their positions on the person.
+//! [`scale_by_protocol`] does what the protocol of a laboratory says, as OpenSim's scale tool: distances between markers, recorded and on the
+//! model ([`measured_factors`]), stated factors, masses, and the fit in which markers are placed.
 //!
 //! Pinned by: tests/scaling.rs
 
 mod joint_fit;
 mod measurement;
+mod protocol;
 mod standing;
 
 pub use joint_fit::{SizeSettings, SizedModel, fit_size};
-pub use measurement::{DistanceMeasurement, MeasuredBody, measured_factors, size_by_measurements};
+pub use measurement::{DistanceMeasurement, MeasuredBody, measured_factors};
+pub use protocol::{MarkerPlacement, ProtocolTrials, ScalingProtocol, ScalingStep, fit_weights, scale_by_protocol};
 
 pub use standing::MovedMarker;
 
@@ -23,29 +25,23 @@ use crate::model::{ModelError, ScaleError};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScalingError {
-    /// A measurement without a pair of markers that is in both the model and the recording.
-    #[error(
-        "measurement `{measurement}` has no pair of markers that is in both the model and the trial: its pairs are {pairs}; expected pairs of {common}"
-    )]
-    NoPair {
-        /// The measurement.
-        measurement: String,
-        /// Its pairs.
-        pairs: String,
-        /// Markers that model and recording share.
-        common: String,
+    /// A step of a protocol whose trial is missing.
+    #[error("{step} needs a trial; expected a recording of the markers")]
+    NoTrial {
+        /// The step.
+        step: &'static str,
     },
-    /// A measurement that names a body which the model does not have.
+    /// A time range without a frame of the trial.
     #[error(
-        "measurement `{measurement}` scales the body `{body}`, which the model does not have; expected one of {known}"
+        "`{trial}` has no frame between {} and {} s; expected a part of {} to {} s", range_s[0], range_s[1], recorded_s[0], recorded_s[1]
     )]
-    UnknownBody {
-        /// The measurement.
-        measurement: String,
-        /// The body.
-        body: String,
-        /// The model's bodies.
-        known: String,
+    NoFrame {
+        /// The trial.
+        trial: String,
+        /// Start and end of the range [s].
+        range_s: [f64; 2],
+        /// First and last time of the trial [s].
+        recorded_s: [f64; 2],
     },
     /// Two markers of the model at one place.
     #[error("measurement `{measurement}`: the markers {pair} are {distance_m} m apart; expected two different places")]

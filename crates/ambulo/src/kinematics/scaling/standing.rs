@@ -44,6 +44,22 @@ pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> M
     MarkerRecording { name: recording.name.clone(), rate_hz: recording.rate_hz, times, markers }
 }
 
+/// Mean position of every marker over the frames in which it is visible.
+pub(super) fn mean_positions(recording: &MarkerRecording) -> MarkerRecording {
+    let mean = |path: &MarkerPath| {
+        let seen: Vec<&Vec3> = path.positions.iter().filter(|p| p.iter().all(|x| x.is_finite())).collect();
+        // Without a frame this is not a number, which is a gap.
+        seen.iter().copied().sum::<Vec3>() / seen.len() as f64
+    };
+    let path = |path: &MarkerPath| MarkerPath { name: path.name.clone(), positions: vec![mean(path)] };
+    MarkerRecording {
+        name: recording.name.clone(),
+        rate_hz: recording.rate_hz,
+        times: vec![recording.times.first().copied().unwrap_or(0.0)],
+        markers: recording.markers.iter().map(path).collect(),
+    }
+}
+
 /// Values of all coordinates: given ones, otherwise defaults; coupled and prescribed ones from their functions.
 pub(super) fn complete(model: &Model, given: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
     let own =
@@ -74,18 +90,19 @@ pub struct MovedMarker {
     pub distance_m: f64,
 }
 
-/// Moves every visible marker to its recorded position on its body in this posture.
+/// Moves visible markers to their recorded positions on their bodies in this posture, if `moves` them.
 pub(super) fn with_markers_placed(
     model: &Model,
     standing: &MarkerRecording,
     q: &[f64],
+    moves: impl Fn(&Marker) -> bool,
 ) -> Result<(Model, Vec<MovedMarker>), ScalingError> {
     let poses = poses(model, q);
     let mut moved = Vec::new();
     let place = |marker: &Marker| {
         let seen =
             standing.marker(&marker.name).map(|path| path.positions[0]).filter(|p| p.iter().all(|x| x.is_finite()));
-        let (Some(body), Some(position)) = (marker.body, seen) else { return marker.clone() };
+        let (Some(body), Some(position), true) = (marker.body, seen, moves(marker)) else { return marker.clone() };
         let location = poses[body.index()].inverse().place(position);
         moved.push(MovedMarker { name: marker.name.clone(), distance_m: (location - marker.location).norm() });
         Marker { location, ..marker.clone() }

@@ -189,7 +189,7 @@ impl FigureBuilder<'_> {
     }
 
     fn marker(&mut self, name: &str, body: BodyId, location: Vec3) {
-        self.markers.push(Marker { name: name.to_owned(), body: Some(body), location });
+        self.markers.push(Marker { name: name.to_owned(), body: Some(body), location, fixed: false });
     }
 }
 

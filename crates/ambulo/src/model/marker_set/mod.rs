@@ -127,7 +127,7 @@ impl MarkerSet {
         let place = |definition: &MarkerDefinition| {
             let body = definition.segment.body(&human.model, definition.side)?;
             let location = definition.place? * definition.segment.length(&human.dimensions);
-            Some(Marker { name: definition.names.first()?.clone(), body: Some(body), location })
+            Some(Marker { name: definition.names.first()?.clone(), body: Some(body), location, fixed: false })
         };
         self.markers.iter().filter_map(place).collect()
     }

@@ -318,7 +318,12 @@ fn placed_model(human: &Human, entry: &FigureEntry, built: &BuiltFigure) -> Resu
         if let Some(forearm) = model.body(&format!("forearm_{}", side.letter())) {
             let down = human.dimensions.forearm + GRIP * human.dimensions.hand;
             let location = Vec3::new(0.0, -down, 0.0);
-            markers.push(Marker { name: format!("hand_{}", side.letter()), body: Some(forearm), location });
+            markers.push(Marker {
+                name: format!("hand_{}", side.letter()),
+                body: Some(forearm),
+                location,
+                fixed: false,
+            });
         }
     }
     Model::new(model.name(), model.gravity(), bodies, coordinates, markers)

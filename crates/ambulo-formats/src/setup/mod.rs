@@ -1,0 +1,73 @@
+//! Set-up documents of OpenSim's tools: scaling, inverse kinematics and inverse dynamics.
+//!
+//! Read: documents of all versions, also without the `<OpenSimDocument>` around the tool. Paths are as written, but with `/` between their
+//! parts; OpenSim resolves them from the folder of the document.
+//! Not handled, and rejected: other tools, and sets of tasks, measurements or scales in files of their own (`file="..."`).
+//! Not handled, with a remark: every other element that is not read, by name.
+//! Pinned by: tests/setups.rs
+
+mod elements;
+mod inverse_dynamics;
+mod inverse_kinematics;
+mod scale;
+mod tasks;
+
+pub use inverse_dynamics::InverseDynamicsSetup;
+pub use inverse_kinematics::InverseKinematicsSetup;
+pub use scale::{ManualScale, MeasuredSegment, Measurement, PlacerSetup, ScaleSetup, ScalerSetup, ScalingMethod};
+pub use tasks::{CoordinateTarget, CoordinateTask, FitTasks, MarkerTask};
+
+use crate::error::{Error, Remark};
+use crate::xml;
+use roxmltree::Node;
+
+/// The set-up of a tool.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Setup {
+    /// Scaling of a model to a person.
+    Scale(ScaleSetup),
+    /// Coordinates from markers.
+    InverseKinematics(InverseKinematicsSetup),
+    /// Joint moments from coordinates and external loads.
+    InverseDynamics(InverseDynamicsSetup),
+}
+
+const TOOLS: &str = "<ScaleTool>, <InverseKinematicsTool> or <InverseDynamicsTool>";
+
+impl Setup {
+    /// Reads a set-up document.
+    ///
+    /// # Errors
+    /// XML that is not well formed, another tool, values that are not what the tool needs. Each error names line and element.
+    pub fn read(bytes: &[u8]) -> Result<(Setup, Vec<Remark>), Error> {
+        if bytes.iter().all(u8::is_ascii_whitespace) {
+            return Err(Error::Empty { expected: "the set-up of a tool of OpenSim" });
+        }
+        let text = xml::decode(bytes);
+        let document = xml::parse(&text)?;
+        let mut remarks = Vec::new();
+        let setup = read_tool(document.root_element(), &mut remarks)?;
+        Ok((setup, remarks))
+    }
+
+    /// The name of the tool in the format.
+    #[must_use]
+    pub fn tool(&self) -> &'static str {
+        match self {
+            Setup::Scale(_) => scale::TOOL,
+            Setup::InverseKinematics(_) => inverse_kinematics::TOOL,
+            Setup::InverseDynamics(_) => inverse_dynamics::TOOL,
+        }
+    }
+}
+
+fn read_tool(root: Node<'_, '_>, remarks: &mut Vec<Remark>) -> Result<Setup, Error> {
+    let tool = if root.has_tag_name("OpenSimDocument") { xml::elements(root).next() } else { Some(root) };
+    let Some(tool) = tool else { return Err(xml::error_at(root, "nothing".into(), TOOLS)) };
+    match tool.tag_name().name() {
+        scale::TOOL => scale::read(tool, remarks).map(Setup::Scale),
+        inverse_kinematics::TOOL => inverse_kinematics::read(tool, remarks).map(Setup::InverseKinematics),
+        inverse_dynamics::TOOL => inverse_dynamics::read(tool, remarks).map(Setup::InverseDynamics),
+        other => Err(xml::error_at(root, format!("<{other}>"), TOOLS)),
+    }
+}
