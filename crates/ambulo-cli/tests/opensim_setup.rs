@@ -54,7 +54,7 @@ fn markers_of_a_file_of_their_own_give_the_moments_of_the_markers_in_the_model()
     assert_eq!(bench.text("own/moments.sto"), bench.text("set/moments.sto"));
     // A marker 50 mm away from its place changes the moments.
     let text = bench.text("markers.xml");
-    let line = text.lines().find(|line| line.contains("\"RKNE\"")).unwrap();
+    let line = text.lines().find(|line| line.contains("> femur_r <")).unwrap();
     let moved = line.replace("<location>", "<location> 0.05 <!-- ").replacen("</location>", "--> 0 0 </location>", 1);
     bench.edit("markers.xml", line, &moved);
     forces(&bench, &[&with_set[..], &["--loads", "walk_grf.xml", "-o", "moved"]].concat()).done();
@@ -75,6 +75,117 @@ fn a_marker_set_without_a_model_or_markers_is_refused() {
         "`hip`, which the model",
         "one of its bodies: pelvis",
     ]);
+}
+
+// ---- Small set-ups ----
+
+/// A set-up of inverse dynamics in a folder beside the files of the laboratory.
+fn dynamics(more: &str) -> String {
+    format!(
+        "<OpenSimDocument Version=\"30000\"><InverseDynamicsTool name=\"walk\"><model_file>../figure.osim</model_file>\
+         <time_range> 0.5 1.5 </time_range><coordinates_file>..\\walk.mot</coordinates_file>\
+         <lowpass_cutoff_frequency_for_coordinates>6</lowpass_cutoff_frequency_for_coordinates>{more}</InverseDynamicsTool></OpenSimDocument>"
+    )
+}
+
+fn kinematics(more: &str) -> String {
+    format!(
+        "<InverseKinematicsTool name=\"walk\"><model_file>../figure.osim</model_file><marker_file>../walk.trc</marker_file>{more}</InverseKinematicsTool>"
+    )
+}
+
+const LOADS: &str =
+    "<external_loads_file>../walk_grf.xml</external_loads_file><forces_to_exclude>ALL</forces_to_exclude>";
+const SCALE: &str = "<ScaleTool name=\"s\"><mass>70</mass><GenericModelMaker><model_file>../figure.osim</model_file></GenericModelMaker>\
+    <ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer><marker_file>../standing.c3d</marker_file></MarkerPlacer></ScaleTool>";
+
+fn laboratory_with_setups(name: &str) -> Workbench {
+    let bench = laboratory(name);
+    std::fs::create_dir(bench.folder.join("setups")).unwrap();
+    bench.write("setups/id.xml", dynamics(LOADS));
+    bench.write("setups/ik.xml", kinematics(""));
+    bench.write("setups/scale.xml", SCALE);
+    bench
+}
+
+/// The codes and messages of the findings of a run.
+fn findings(bench: &Workbench, folder: &str) -> Vec<(String, String)> {
+    let summary = bench.json(&format!("{folder}/summary.json"));
+    let text = |finding: &serde_json::Value, key: &str| finding[key].as_str().unwrap().to_owned();
+    summary["findings"].as_array().unwrap().iter().map(|f| (text(f, "code"), text(f, "message"))).collect()
+}
+
+#[track_caller]
+fn assert_found(bench: &Workbench, folder: &str, code: &str, words: &str) {
+    let found = findings(bench, folder);
+    assert!(found.iter().any(|(c, m)| c == code && m.contains(words)), "no {code} with `{words}`: {found:#?}");
+}
+
+#[test]
+fn a_set_up_of_inverse_dynamics_is_the_command_with_its_files_and_settings() {
+    let bench = laboratory_with_setups("setup_id");
+    let by_options = ["walk.mot", "--model", "figure.osim", "--loads", "walk_grf.xml", "--from", "0.5", "--to", "1.5"];
+    forces(&bench, &[&by_options[..], &["--cutoff", "6", "--force-cutoff", "off", "-o", "options"]].concat()).done();
+    forces(&bench, &["--setup", "setups/id.xml", "-o", "setup"]).done();
+    assert_eq!(bench.text("options/moments.sto"), bench.text("setup/moments.sto"));
+    // An option replaces what the set-up says.
+    forces(&bench, &["--setup", "setups/id.xml", "--cutoff", "10", "--to", "1.2", "-o", "other"]).done();
+    assert_ne!(bench.text("options/moments.sto"), bench.text("other/moments.sto"));
+    assert_found(&bench, "other", "setup.replaced", "--cutoff 10 replaces 6 of the set-up");
+    assert_found(&bench, "other", "setup.replaced", "--to 1.2 replaces 1.5 of the set-up");
+    // Without loads nothing acts but gravity: the whole weight is residual.
+    bench.write("setups/id.xml", dynamics("<colour>blue</colour>"));
+    forces(&bench, &["--setup", "setups/id.xml", "-o", "flight"]).done();
+    let weight = bench.table("flight/moments.sto").column("pelvis_ty_force").unwrap().to_vec();
+    assert!(weight.iter().sum::<f64>() / weight.len() as f64 > 500.0);
+    assert_found(&bench, "flight", "setup.unused", "names no external loads");
+    assert_found(&bench, "flight", "setup.unused", "the element <colour> is not known");
+    assert_found(&bench, "flight", "setup.unused", "forces of the model");
+}
+
+#[test]
+fn inverse_kinematics_and_dynamics_are_one_run() {
+    let bench = laboratory_with_setups("setup_ik_id");
+    let by_options = ["walk.trc", "--model", "figure.osim", "--loads", "walk_grf.xml", "--from", "0.5", "--to", "1.5"];
+    forces(&bench, &[&by_options[..], &["--cutoff", "6", "--force-cutoff", "off", "-o", "options"]].concat()).done();
+    forces(&bench, &["--setup", "setups/id.xml", "--setup", "setups/ik.xml", "-o", "setup"]).done();
+    let [options, setup] = ["options", "setup"].map(|folder| bench.table(&format!("{folder}/moments.sto")));
+    assert!(difference(&options, &setup, "knee_angle_r_moment") < 0.05);
+    assert_found(&bench, "setup", "setup.unused", "walk.mot was not read; the coordinates are those of the markers");
+    // A knee that is held straight by a task.
+    let task = "<IKTaskSet><objects><IKCoordinateTask name=\"knee_angle_r\"><weight>1000</weight><value_type>manual_value</value_type>\
+        <value>0</value></IKCoordinateTask></objects></IKTaskSet>";
+    bench.write("setups/ik.xml", kinematics(task));
+    forces(&bench, &["--setup", "setups/id.xml", "--setup", "setups/ik.xml", "-o", "straight"]).done();
+    let straight = bench.table("straight/kinematics.mot").column("knee_angle_r").unwrap().to_vec();
+    assert!(straight.iter().all(|angle| angle.abs() < 0.5), "{straight:?}");
+}
+
+#[test]
+fn set_ups_that_contradict_each_other_or_an_option_are_refused() {
+    let bench = laboratory_with_setups("setup_contradictions");
+    let setups = |files: &[&str], more: &[&str]| {
+        let words: Vec<String> =
+            files.iter().flat_map(|file| ["--setup".to_owned(), format!("setups/{file}.xml")]).collect();
+        forces(&bench, &[&words.iter().map(String::as_str).collect::<Vec<_>>()[..], more].concat())
+    };
+    setups(&["id", "id"], &[]).refused(&[
+        "setups/id.xml",
+        "a second set-up of InverseDynamicsTool",
+        "one of each tool",
+    ]);
+    setups(&["scale", "id"], &[]).refused(&["names coordinates", "expected a set-up of InverseKinematicsTool"]);
+    setups(&["scale", "ik"], &["--height", "1.8"]).refused(&["--height contradicts", "setups/scale.xml"]);
+    setups(&["ik"], &["--static", "standing.c3d"]).refused(&["--static would scale", "a set-up of ScaleTool"]);
+    setups(&["ik"], &["walk.mot"]).refused(&["walk.mot", "these are coordinates", "expected markers"]);
+    bench.write("setups/ik.xml", kinematics("").replace("figure", "other"));
+    setups(&["ik", "id"], &[]).refused(&["two models", "other.osim", "figure.osim", "hint: --model"]);
+    setups(&["ik"], &[]).refused(&["other.osim", "there is no such file"]);
+    bench.write("setups/ik.xml", kinematics("").replace("<marker_file>../walk.trc</marker_file>", ""));
+    setups(&["ik"], &[]).refused(&["names no recording", "<marker_file>"]);
+    bench.write("setups/ik.xml", "<RRATool/>");
+    setups(&["ik"], &[]).refused(&["setups/ik.xml", "<RRATool>", "<InverseKinematicsTool>"]);
+    forces(&bench, &[]).refused(&["INPUT"]);
 }
 
 // ---- Set-ups ----
@@ -146,19 +257,23 @@ fn assert_agrees(name: &str, recordings: &str) {
     }
     assert_eq!(body.markers.len(), markers.len());
     println!("{name}: masses {:.1e}, mass centres {:.1e} m, markers {:.1e} m", worst[0], worst[1], worst[2]);
-    let (angles, moments) = (bench.table("out/kinematics.mot"), bench.table("out/moments.sto"));
+    // OpenSim's angles are those of the markers, before the filter.
+    bench.run(&[&["forces"], &ALL[..], &["--cutoff", "off", "-o", "raw", "--keep", "kinematics"]].concat()).done();
+    let (angles, moments) = (bench.table("raw/kinematics.mot"), bench.table("out/moments.sto"));
     let (ik, id) = (recorded_table(&format!("{name}_ik.csv")), recorded_table(&format!("{name}_id.csv")));
-    let (mut of_angles, mut of_moments) = (Vec::new(), Vec::new());
+    let mut largest = [0.0f64; 2];
     for side in ["r", "l"] {
         for joint in ["hip_flexion", "hip_adduction", "hip_rotation", "knee_angle", "ankle_angle"] {
-            of_angles.push((difference(&angles, &ik, &format!("{joint}_{side}")), joint));
-            of_moments.push((difference(&moments, &id, &format!("{joint}_{side}_moment")), joint));
+            let of_angle = difference(&angles, &ik, &format!("{joint}_{side}"));
+            let of_moment = difference(&moments, &id, &format!("{joint}_{side}_moment"));
+            println!("  {joint}_{side}: {of_angle:.1e} deg, {of_moment:.2} N.m");
+            largest = [largest[0].max(of_angle), largest[1].max(of_moment)];
         }
     }
-    println!("  angles [deg] {of_angles:.3?}\n  moments [N.m] {of_moments:.2?}");
-    // Mass and place by the same formulas; places of markers follow from the fitted posture, whose iteration ends at 1e-7 rad here and
-    // at 1e-5 of the cost in OpenSim.
-    assert!(worst[0] < 1e-6 && worst[1] < 1e-6 && worst[2] < 1e-3, "{worst:?}");
+    // Masses and places follow from the same formulas, markers and angles from minima of the same cost. The times of the Gait2392 recording are
+    // rounded to milliseconds, and OpenSim's filter resamples them to another grid: some tenths of N.m.
+    assert!(worst[0] < 1e-8 && worst[1] < 1e-8 && worst[2] < 1e-5, "{worst:?}");
+    assert!(largest[0] < 0.02 && largest[1] < 0.5, "{largest:?}");
 }
 
 #[test]

@@ -48,6 +48,23 @@ pub enum OsimJointKind {
         /// Half axes along x, y, z [m].
         radii_m: [f64; 3],
     },
+    /// The shoulder blade on the thorax: an ellipsoid whose first two coordinates move the blade along x and y of the frame on the parent,
+    /// turned by 90 degrees; then a rotation about an axis in the plane of the blade (winging).
+    Scapulothoracic {
+        /// Half axes of the thorax along x, y, z of the frame on the parent [m].
+        radii_m: [f64; 3],
+        /// Origin of the winging axis in the x-y plane of the frame on the child [m].
+        winging_origin_m: [f64; 2],
+        /// Angle of the winging axis from y of that frame about z [rad].
+        winging_direction_rad: f64,
+    },
+    /// Body-fixed X-Z-Y rotations, the origin at the end of an arc that leaves the parent along y and ends along y of the child.
+    ConstantCurvature {
+        /// Angles about x, z and y where the coordinates are zero [rad].
+        neutral_angle_rad: [f64; 3],
+        /// Length of the arc [m].
+        length_m: f64,
+    },
     /// Three body-fixed rotations and three translations, each a function of a coordinate.
     Custom(Box<[OsimAxis; 6]>),
 }
@@ -83,7 +100,8 @@ pub struct OsimCoordinate {
 }
 
 const KNOWN: &str = "WeldJoint, PinJoint, SliderJoint, BallJoint, UniversalJoint, GimbalJoint, PlanarJoint, \
-                     EllipsoidJoint, FreeJoint or CustomJoint";
+                     EllipsoidJoint, ScapulothoracicJoint, ConstantCurvatureJoint, FreeJoint or \
+                     CustomJoint";
 
 /// A joint of the layout to 30500: inside its child body, frames by location and orientation.
 pub(super) fn read_nested(node: Node<'_, '_>, child: &str) -> Result<OsimJoint, Error> {
@@ -138,9 +156,25 @@ fn read_kind(node: Node<'_, '_>) -> Result<OsimJointKind, Error> {
                 radii.ok_or_else(|| xml::error_at(node, "no <radii_x_y_z>".into(), "three radii in metres"))?;
             OsimJointKind::Ellipsoid { radii_m }
         }
+        "ScapulothoracicJoint" => read_scapulothoracic(node)?,
+        "ConstantCurvatureJoint" => OsimJointKind::ConstantCurvature {
+            neutral_angle_rad: xml::triple(node, "neutral_angle_x_z_y")?.unwrap_or_default(),
+            length_m: xml::number(node, "length")?.unwrap_or(1.0),
+        },
         "CustomJoint" => OsimJointKind::Custom(Box::new(read_axes(node)?)),
         other => return Err(xml::error_at(node, format!("the joint type `{other}`"), KNOWN)),
     })
+}
+
+fn read_scapulothoracic(node: Node<'_, '_>) -> Result<OsimJointKind, Error> {
+    let radii = xml::triple(node, "thoracic_ellipsoid_radii_x_y_z")?;
+    let expected = "three radii of the thorax in metres";
+    let radii_m = radii.ok_or_else(|| xml::error_at(node, "no <thoracic_ellipsoid_radii_x_y_z>".into(), expected))?;
+    let origin = xml::numbers(node, "scapula_winging_axis_origin")?.unwrap_or_else(|| vec![0.0; 2]);
+    let found = format!("{} numbers in <scapula_winging_axis_origin>", origin.len());
+    let winging_origin_m = origin.try_into().map_err(|_| xml::error_at(node, found, "two numbers in metres"))?;
+    let winging_direction_rad = xml::number(node, "scapula_winging_axis_direction")?.unwrap_or(0.0);
+    Ok(OsimJointKind::Scapulothoracic { radii_m, winging_origin_m, winging_direction_rad })
 }
 
 fn read_axes(joint: Node<'_, '_>) -> Result<[OsimAxis; 6], Error> {
@@ -220,7 +254,12 @@ fn check_coordinates(node: Node<'_, '_>, joint: &OsimJoint) -> Result<(), Error>
         OsimJointKind::Weld => 0,
         OsimJointKind::Pin | OsimJointKind::Slider => 1,
         OsimJointKind::Universal => 2,
-        OsimJointKind::Ball | OsimJointKind::Gimbal | OsimJointKind::Planar | OsimJointKind::Ellipsoid { .. } => 3,
+        OsimJointKind::Ball
+        | OsimJointKind::Gimbal
+        | OsimJointKind::Planar
+        | OsimJointKind::Ellipsoid { .. }
+        | OsimJointKind::ConstantCurvature { .. } => 3,
+        OsimJointKind::Scapulothoracic { .. } => 4,
         OsimJointKind::Free => 6,
         OsimJointKind::Custom(axes) => {
             let known = |name: &String| joint.coordinates.iter().any(|c| c.name == *name);

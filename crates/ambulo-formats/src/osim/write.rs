@@ -90,6 +90,15 @@ fn joint(joint: &OsimJoint) -> Result<String, Error> {
             content += &group(5, "SpatialTransform", &axes);
         }
         OsimJointKind::Ellipsoid { radii_m } => content += &element(5, "radii_x_y_z", &numbers(radii_m)?),
+        OsimJointKind::ConstantCurvature { neutral_angle_rad, length_m } => {
+            content += &element(5, "neutral_angle_x_z_y", &numbers(neutral_angle_rad)?);
+            content += &element(5, "length", &numbers(&[*length_m])?);
+        }
+        OsimJointKind::Scapulothoracic { radii_m, winging_origin_m, winging_direction_rad } => {
+            content += &element(5, "thoracic_ellipsoid_radii_x_y_z", &numbers(radii_m)?);
+            content += &element(5, "scapula_winging_axis_origin", &numbers(winging_origin_m)?);
+            content += &element(5, "scapula_winging_axis_direction", &numbers(&[*winging_direction_rad])?);
+        }
         _ => {}
     }
     Ok(holder(4, tag(joint), &joint.name, &content))
@@ -107,6 +116,8 @@ fn tag(joint: &OsimJoint) -> &'static str {
         OsimJointKind::Free => "FreeJoint",
         OsimJointKind::Custom(_) => "CustomJoint",
         OsimJointKind::Ellipsoid { .. } => "EllipsoidJoint",
+        OsimJointKind::Scapulothoracic { .. } => "ScapulothoracicJoint",
+        OsimJointKind::ConstantCurvature { .. } => "ConstantCurvatureJoint",
     }
 }
 

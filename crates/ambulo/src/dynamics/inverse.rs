@@ -371,6 +371,10 @@ impl<const N: usize> Kernel<N> {
                 self.tau[*coordinate] = tau.0;
             }
         } else {
+            let moment = match segment.arc {
+                None => moment,
+                Some(length) => moment + sweep::arc_moment(length, index, &self.scratch, force),
+            };
             for k in segment.rotations.clone() {
                 self.add(plan, k, moment);
             }

@@ -429,7 +429,7 @@ impl MovingLink {
 fn links(model: &Model, plan: &Plan, coupled: bool) -> Result<(Vec<MovingLink>, Vec<Option<usize>>), CurvedJointError> {
     let (mut links, mut link_of_body): (Vec<MovingLink>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
     for (index, (segment, body)) in plan.segments.iter().zip(model.bodies()).enumerate() {
-        if segment.spherical.is_some() {
+        if segment.spherical.is_some() || segment.arc.is_some() {
             return Err(CurvedJointError { joint: body.joint.name.clone() });
         }
         let mut last = segment.parent.checked_sub(1).and_then(|parent| link_of_body[parent]);

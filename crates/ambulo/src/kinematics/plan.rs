@@ -36,6 +36,8 @@ pub(crate) struct Segment {
     pub(crate) translations: Range<usize>,
     /// For ball-like joints, whose generalised forces are moments about the axes of F.
     pub(crate) spherical: Option<Spherical>,
+    /// Length of the arc at whose end the origin of M is [m].
+    pub(crate) arc: Option<f64>,
     /// From M's origin to the mass centre, in M axes [m].
     pub(crate) to_center: Vec3,
     pub(crate) mass: f64,
@@ -115,6 +117,10 @@ impl Plan {
             rotations,
             translations,
             spherical: spherical(joint),
+            arc: match joint.speeds {
+                JointSpeeds::Arc(length) => Some(length),
+                _ => None,
+            },
             to_center: inertia.center(),
             mass: inertia.mass(),
             inertia: about_center,
@@ -144,7 +150,7 @@ impl Plan {
 
 fn spherical(joint: &Joint) -> Option<Spherical> {
     let radii = match joint.speeds {
-        JointSpeeds::Rates => return None,
+        JointSpeeds::Rates | JointSpeeds::Arc(_) => return None,
         JointSpeeds::AngularVelocity => None,
         JointSpeeds::Ellipsoid(radii) => Some(radii),
     };

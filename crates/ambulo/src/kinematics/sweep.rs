@@ -21,6 +21,7 @@
 use super::lanes::{Lanes, M3, V3};
 use super::plan::{Axis, Direction, Plan, Segment, Source, Spherical};
 use super::sin_cos::sin_cos;
+use crate::model::arc;
 use crate::spatial::{Mat3, Vec3};
 
 /// Motion of one body in N frames: axes of M and mass centre.
@@ -49,7 +50,7 @@ pub(crate) struct Scratch<const N: usize> {
     pub(crate) axes: AxisStates<N>,
     /// Ground, then one state per body.
     pub(crate) states: Vec<BodyState<N>>,
-    /// Axes of F, for ball-like joints only.
+    /// Axes of F, for ball-like joints and arcs only.
     pub(crate) joint_frames: Vec<M3<N>>,
 }
 
@@ -163,7 +164,7 @@ fn place<const N: usize>(
         slide[1] += axis * s.acceleration[k];
         s.direction[k] = axis;
     }
-    if segment.spherical.is_some() {
+    if segment.spherical.is_some() || segment.arc.is_some() {
         *joint_frame = rotation;
     }
 
@@ -175,17 +176,17 @@ fn place<const N: usize>(
         omega += spin;
         s.direction[k] = axis;
     }
-    if let Some(radii) = segment.spherical.as_ref().and_then(|spherical| spherical.radii) {
-        let on_ellipsoid = slide_on_ellipsoid(radii, joint_frame, &rotation, parent, omega, alpha);
-        to_joint += on_ellipsoid[0];
-        slide[0] += on_ellipsoid[1];
-        slide[1] += on_ellipsoid[2];
+    let sliding = slide_with_rotation(segment, joint_frame, &rotation, parent, omega, alpha);
+    if let Some(sliding) = &sliding {
+        to_joint += sliding[0];
+        slide[0] += sliding[1];
+        slide[1] += sliding[2];
     }
 
     let carry = parent.omega.cross(to_joint);
     let mut v = parent.v + carry;
     let mut a = parent.a + parent.alpha.cross(to_joint) + parent.omega.cross(carry);
-    if !segment.translations.is_empty() || segment.spherical.is_some() {
+    if !segment.translations.is_empty() || sliding.is_some() {
         v += slide[0];
         a += slide[1] + parent.omega.cross(slide[0]) * Lanes::splat(2.0);
     }
@@ -231,6 +232,24 @@ fn along<const N: usize>(frame: &M3<N>, axis: &Axis) -> V3<N> {
     }
 }
 
+/// Position, velocity and acceleration relative to F, in world axes, of an origin of M that slides as M turns; `None` if it does not.
+#[inline(always)]
+fn slide_with_rotation<const N: usize>(
+    segment: &Segment,
+    frame: &M3<N>,
+    rotation: &M3<N>,
+    parent: &BodyState<N>,
+    omega: V3<N>,
+    alpha: V3<N>,
+) -> Option<[V3<N>; 3]> {
+    let radii = segment.spherical.as_ref().and_then(|spherical| spherical.radii);
+    match (radii, segment.arc) {
+        (Some(radii), _) => Some(slide_on_ellipsoid(radii, frame, rotation, parent, omega, alpha)),
+        (None, Some(length)) => Some(slide_on_arc(length, frame, rotation, parent, omega, alpha)),
+        (None, None) => None,
+    }
+}
+
 /// Position, velocity and acceleration relative to F, in world axes, of the point p = radii * n on an ellipsoid, where n is the
 /// z axis of M: ṅ = w × n, n̈ = ẇ × n + w × (w × n), with w the angular velocity of M in F.
 #[inline(always)]
@@ -242,16 +261,65 @@ fn slide_on_ellipsoid<const N: usize>(
     omega: V3<N>,
     alpha: V3<N>,
 ) -> [V3<N>; 3] {
-    let relative = omega - parent.omega;
-    // The rate of the relative angular velocity, relative to F.
-    let relative_rate = alpha - parent.alpha - parent.omega.cross(relative);
-    let normal = rotation.col(2);
-    let normal_rate = relative.cross(normal);
-    let normal_acceleration = relative_rate.cross(normal) + relative.cross(normal_rate);
-    [normal, normal_rate, normal_acceleration].map(|n| {
+    axis_in_motion(2, rotation, parent, omega, alpha).map(|n| {
         let V3([x, y, z]) = frame.turn_back(n);
         frame.turn(V3([x * radii[0], y * radii[1], z * radii[2]]))
     })
+}
+
+/// An axis of M with its rate and acceleration relative to F, in world axes.
+#[inline(always)]
+fn axis_in_motion<const N: usize>(
+    axis: usize,
+    rotation: &M3<N>,
+    parent: &BodyState<N>,
+    omega: V3<N>,
+    alpha: V3<N>,
+) -> [V3<N>; 3] {
+    let relative = omega - parent.omega;
+    // The rate of the relative angular velocity, relative to F.
+    let relative_rate = alpha - parent.alpha - parent.omega.cross(relative);
+    let n = rotation.col(axis);
+    let rate = relative.cross(n);
+    [n, rate, relative_rate.cross(n) + relative.cross(rate)]
+}
+
+/// Position, velocity and acceleration relative to F, in world axes, of the end of an arc: p = d f (n + y) with f a function of c = n · y,
+/// so that ṗ = d (f' ċ (n + y) + f ṅ) and p̈ = d ((f'' ċ² + f' c̈) (n + y) + 2 f' ċ ṅ + f n̈).
+#[inline(always)]
+fn slide_on_arc<const N: usize>(
+    length: f64,
+    frame: &M3<N>,
+    rotation: &M3<N>,
+    parent: &BodyState<N>,
+    omega: V3<N>,
+    alpha: V3<N>,
+) -> [V3<N>; 3] {
+    let [n, rate, acceleration] = axis_in_motion(1, rotation, parent, omega, alpha);
+    let y = frame.col(1);
+    let ([f, df, ddf], sum) = (arc_factor(n.dot(y), length), n + y);
+    let (c1, c2) = (rate.dot(y), acceleration.dot(y));
+    [
+        sum * f,
+        sum * (df * c1) + rate * f,
+        sum * (ddf * c1 * c1 + df * c2) + rate * (df * c1 * Lanes::splat(2.0)) + acceleration * f,
+    ]
+}
+
+/// d f and its derivatives by the cosine.
+#[inline(always)]
+fn arc_factor<const N: usize>(cosine: Lanes<N>, length: f64) -> [Lanes<N>; 3] {
+    let found = cosine.0.map(|c| arc::factor(c).map(|f| length * f));
+    [0, 1, 2].map(|k| Lanes(found.map(|derivatives| derivatives[k])))
+}
+
+/// The moment about the origin of M that has the power of a force on the end of an arc: ṗ = d (f' (w × n)·y (n + y) + f w × n) with the
+/// angular velocity w, so that the moment is n × d (f F + f' (F·(n + y)) y).
+#[inline(always)]
+pub(crate) fn arc_moment<const N: usize>(length: f64, index: usize, s: &Scratch<N>, force: V3<N>) -> V3<N> {
+    let (n, y) = (s.states[index + 1].rotation.col(1), s.joint_frames[index].col(1));
+    let [f, df, _] = arc_factor(n.dot(y), length);
+    n.cross(force * f + y * (df * force.dot(n + y)))
 }
 
 /// Angular velocity of M in F, in axes of F [rad/s].

@@ -1,13 +1,13 @@
 //! Writes a [`Model`] as an OpenSim document.
 
+use super::osim_frame::frame;
 use super::{
     Body, BodyId, Coordinate, CoordinateId, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds, Knots,
     Marker, Model,
 };
 use crate::spatial::{Pose, Vec3};
 use ambulo_formats::osim::{
-    OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimMarker,
-    OsimModel,
+    OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFunction, OsimJoint, OsimJointKind, OsimMarker, OsimModel,
 };
 use nalgebra::Rotation3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -89,11 +89,6 @@ fn name_of(model: &Model, body: Option<BodyId>) -> String {
     body.map_or(GROUND, |id| model.bodies()[id.index()].name.as_str()).to_owned()
 }
 
-fn frame(body: String, pose: &Pose) -> OsimFrame {
-    let rotation = std::array::from_fn(|i| std::array::from_fn(|j| pose.rotation[(i, j)]));
-    OsimFrame { body, rotation, translation_m: pose.translation.into() }
-}
-
 fn joint(model: &Model, id: BodyId) -> Result<OsimJoint, ExportError> {
     let joint = &model.bodies()[id.index()].joint;
     // In the order of the model, which may differ from that of the axes.
@@ -131,6 +126,15 @@ fn ball_kind(joint: &Joint) -> Result<Option<OsimJointKind>, ExportError> {
         JointSpeeds::AngularVelocity if is_known && in_turn(&joint.translations) && leaders.len() == 6 => {
             Ok(Some(OsimJointKind::Free))
         }
+        JointSpeeds::Arc(length_m) => {
+            let neutral_angle_rad = arc_angles(joint).ok_or_else(|| ExportError::Unknown {
+                part: "joint",
+                name: joint.name.clone(),
+                found: "an arc with other axes",
+                expected: "rotations about x, z, y, each by a coordinate of its own",
+            })?;
+            Ok(Some(OsimJointKind::ConstantCurvature { neutral_angle_rad, length_m }))
+        }
         JointSpeeds::Ellipsoid(radii) if is_known && !slides => {
             Ok(Some(OsimJointKind::Ellipsoid { radii_m: radii.into() }))
         }
@@ -141,6 +145,19 @@ fn ball_kind(joint: &Joint) -> Result<Option<OsimJointKind>, ExportError> {
             expected: "rotations about x, y, z, and translations along x, y, z or none",
         }),
     }
+}
+
+/// The neutral angles of an arc about x, z, y; `None` if its axes are others.
+fn arc_angles(joint: &Joint) -> Option<[f64; 3]> {
+    let units = [Vec3::x(), Vec3::z(), Vec3::y()];
+    let [a, b, c] = &joint.rotations[..] else { return None };
+    let mut angles = [0.0; 3];
+    for ((axis, unit), angle) in [a, b, c].into_iter().zip(units).zip(&mut angles) {
+        let Displacement::Follows(_, function) = &axis.displacement else { return None };
+        let (slope, intercept) = function.as_linear().filter(|_| axis.direction == unit)?;
+        *angle = (slope == 1.0).then_some(intercept)?;
+    }
+    (joint.translations.is_empty() && joint.coordinates().is_sorted()).then_some(angles)
 }
 
 /// Pose of the joint frame of the child in that of the parent; `None` if a coordinate moves it.

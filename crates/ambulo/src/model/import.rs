@@ -1,14 +1,16 @@
 //! Reads a [`Model`] from an OpenSim document.
 
+use super::osim_frame::pose;
+use super::scapulothoracic;
 use super::{
     Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
     JointSpeeds, Knots, Marker, Model, ModelError, SimmSpline,
 };
 use crate::findings::{Code, Finding, Findings};
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
-use crate::spatial::{Inertia, InertiaError, Mat3, Pose, Vec3};
+use crate::spatial::{Inertia, InertiaError, Mat3, Vec3};
 use ambulo_formats::osim::{
-    OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimModel,
+    OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFunction, OsimJoint, OsimJointKind, OsimModel,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -151,6 +153,8 @@ pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model,
         findings.report(Code::ModelDocument, remark.to_string());
     }
     note_ignored(document, findings);
+    let (document, added) = scapulothoracic::divided(document);
+    let document = document.as_ref();
     check_joints(document)?;
     let order = tree_order(document)?;
     let body_ids: BTreeMap<&str, BodyId> =
@@ -160,7 +164,10 @@ pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model,
     let mut bodies = Vec::new();
     for (body, joint) in &order {
         let joint = import_joint(joint, &body_ids, &mut coordinates)?;
-        bodies.push(Body { name: body.name.clone(), inertia: import_inertia(body, findings)?, joint });
+        let is_added = added.contains(&body.name);
+        let unheard = &mut Findings::default();
+        let inertia = import_inertia(body, if is_added { unheard } else { findings })?;
+        bodies.push(Body { name: body.name.clone(), inertia, joint });
     }
     for constraint in &document.constraints {
         couple(constraint, &mut coordinates, findings)?;
@@ -259,12 +266,6 @@ fn import_inertia(body: &OsimBody, findings: &mut Findings) -> Result<Inertia, I
     Ok(inertia)
 }
 
-fn pose(frame: &OsimFrame) -> Pose {
-    let [a, b, c] = frame.rotation;
-    let rotation = Mat3::new(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
-    Pose { rotation, translation: Vec3::from(frame.translation_m) }
-}
-
 /// Reads a joint and appends its coordinates to `coordinates`.
 fn import_joint(
     joint: &OsimJoint,
@@ -309,6 +310,18 @@ fn import_axes(joint: &OsimJoint, first: usize) -> Result<Axes, ImportError> {
         OsimJointKind::Ball => (xyz(0), none(), JointSpeeds::AngularVelocity),
         OsimJointKind::Free => (xyz(0), xyz(3), JointSpeeds::AngularVelocity),
         OsimJointKind::Ellipsoid { radii_m } => (xyz(0), none(), JointSpeeds::Ellipsoid(Vec3::from(*radii_m))),
+        OsimJointKind::ConstantCurvature { neutral_angle_rad: [a, b, c], length_m } => {
+            let bent = |direction: Vec3, i: usize, intercept: f64| JointAxis {
+                direction,
+                displacement: Displacement::Follows(
+                    CoordinateId(first + i),
+                    Function::Linear { slope: 1.0, intercept },
+                ),
+            };
+            (vec![bent(x, 0, *a), bent(z, 1, *b), bent(y, 2, *c)], none(), JointSpeeds::Arc(*length_m))
+        }
+        // Divided before.
+        OsimJointKind::Scapulothoracic { .. } => (none(), none(), JointSpeeds::Rates),
         OsimJointKind::Custom(axes) => {
             let import = |a: &OsimAxis| import_axis(joint, a, first);
             let rotations = axes[..3].iter().map(import).collect::<Result<_, _>>()?;

@@ -7,7 +7,8 @@
 //!   p_FM = d₁ a₄ + d₂ a₅ + d₃ a₆               axes fixed in F
 //!
 //! where each θ [rad] and d [m] is a function of at most one coordinate. Pin, slider, universal, ball, gimbal, planar
-//! and free joints are special cases; the ellipsoid joint adds a translation that follows the rotation.
+//! and free joints are special cases; the ellipsoid joint and the arc of constant curvature add a translation that
+//! follows the rotation.
 
 use super::{BodyId, CoordinateId, Function};
 use crate::spatial::{Pose, Vec3};
@@ -59,6 +60,8 @@ pub enum JointSpeeds {
     AngularVelocity,
     /// As `AngularVelocity`, with the origin of M on an ellipsoid with these half axes [m]: p = radii * z_M.
     Ellipsoid(Vec3),
+    /// As `Rates`, with the origin of M at the end of an arc of this length [m] that leaves F along its y axis and ends along that of M.
+    Arc(f64),
 }
 
 impl Joint {

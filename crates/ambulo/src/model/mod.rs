@@ -5,6 +5,7 @@
 
 pub mod anatomy;
 pub mod anthropometry;
+pub(crate) mod arc;
 mod by_side;
 mod export;
 pub mod full_body;
@@ -13,8 +14,10 @@ mod import;
 mod joint;
 mod knots;
 pub mod marker_set;
+mod osim_frame;
 mod posture;
 mod scaled;
+mod scapulothoracic;
 mod side;
 mod simm_spline;
 
@@ -428,7 +431,7 @@ fn check_axes(joint: &Joint) -> Result<(), ModelError> {
     if joint.rotations.len() > 3 || joint.translations.len() > 3 {
         return error(format!("{} rotations and {} translations", joint.rotations.len(), joint.translations.len()));
     }
-    if joint.speeds != JointSpeeds::Rates && !is_ball_like(joint) {
+    if !matches!(joint.speeds, JointSpeeds::Rates | JointSpeeds::Arc(_)) && !is_ball_like(joint) {
         return error(
             "angular velocities as speeds without three rotations that each follow their own coordinate".into(),
         );

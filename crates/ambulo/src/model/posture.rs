@@ -3,6 +3,7 @@
 //! For the few postures that describe a model (its neutral one). Motions are computed by
 //! [`kinematics`](crate::kinematics), which processes many frames at once.
 
+use super::arc;
 use super::{BodyId, CoordinateId, Displacement, Drive, Joint, JointAxis, JointSpeeds, Model};
 use crate::spatial::{Mat3, Pose, Vec3};
 
@@ -30,6 +31,9 @@ impl Joint {
         if let JointSpeeds::Ellipsoid(radii) = self.speeds {
             translation += radii.component_mul(&rotation.column(2));
         }
+        if let JointSpeeds::Arc(length) = self.speeds {
+            translation += arc::end(length, rotation.column(1).into_owned());
+        }
         self.parent_from_joint * Pose { rotation, translation } * self.child_from_joint.inverse()
     }
 
@@ -41,7 +45,13 @@ impl Joint {
             angular += turned * axis.direction * slope;
             turned *= turn(axis.direction, angle);
         }
-        let linear: Vec3 = self.translations.iter().map(|axis| axis.direction * axis.at(q, Some(id)).1).sum();
+        let mut linear: Vec3 = self.translations.iter().map(|axis| axis.direction * axis.at(q, Some(id)).1).sum();
+        let sliding = |axis: usize| turned.column(axis).into_owned();
+        match self.speeds {
+            JointSpeeds::Ellipsoid(radii) => linear += radii.component_mul(&angular.cross(&sliding(2))),
+            JointSpeeds::Arc(length) => linear += arc::slide(length, sliding(1), angular.cross(&sliding(1))),
+            JointSpeeds::Rates | JointSpeeds::AngularVelocity => {}
+        }
         [angular, linear].map(|v| self.parent_from_joint.rotation * v)
     }
 }

@@ -4,14 +4,16 @@
 //! - mass centre, markers and joint frames on the body: position S p, orientation unchanged;
 //! - translations of a joint are scaled by the factors of the parent, aᵀ S a along their axis a; a translation that is itself a
 //!   coordinate (slope one, no intercept) is not, because its value is a length of the motion, not of the body;
-//! - the half axes of an ellipsoid are scaled by the factors of the parent;
+//! - the half axes of an ellipsoid are scaled by the factors of the parent along them;
+//! - the length of an arc is scaled by the factor of the child along y;
 //! - a coupler whose follower is a translation is multiplied by the factor of the parent along it;
 //! - masses keep their shares, or grow with the volumes of the bodies ([`MassDistribution`]); inertias scale with the square of the factor or, if the three factors differ, as those of a cylinder
 //!   with the smallest and another moment of inertia of the body.
 //!
 //! Source: OpenSim 4, Body.cpp (`scaleInertialProperties`), SpatialTransform.cpp, CoordinateCouplerConstraint.cpp (`scale`), read.
 //! Differences: an axis opposite to x, y or z is scaled as one along it (OpenSim multiplies by the negative factor); couplers of
-//! translations may have unequal factors.
+//! translations may have unequal factors; the half axes of an ellipsoid in a rotated joint frame are scaled along their own directions (OpenSim
+//! takes the factors in the order x, y, z).
 //! Pinned by: tests/scaling.rs, against OpenSim 4.6
 
 use super::{
@@ -161,7 +163,11 @@ fn scaled_body(body: &Body, own: &Vec3, parent: &Vec3, share: f64) -> Result<Bod
     joint.child_from_joint = scaled_pose(&joint.child_from_joint, own);
     joint.translations.iter_mut().for_each(|axis| scale_axis(axis, parent));
     if let JointSpeeds::Ellipsoid(radii) = &mut joint.speeds {
-        *radii = radii.component_mul(parent);
+        let axes = body.joint.parent_from_joint.rotation;
+        *radii = Vec3::from_fn(|i, _| radii[i] * along(&axes.column(i).into_owned(), parent));
+    }
+    if let JointSpeeds::Arc(length) = &mut joint.speeds {
+        *length *= own.y;
     }
     Ok(Body { name: body.name.clone(), inertia, joint })
 }

@@ -8,7 +8,7 @@ use super::state::rates;
 use super::{JointCoordinate, Owner, RigidBody, Surface, TreeJoint, World, WorldState};
 use crate::contact::{Shape, ShapeError};
 use crate::kinematics::{BodyMotion, Posture, angles_zxy, body_motion};
-use crate::model::{BodyId, CoordinateId, Displacement, JointAxis, Model};
+use crate::model::{BodyId, CoordinateId, Displacement, JointAxis, JointSpeeds, Model};
 use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
 /// Tolerance for rounding of slopes and directions.
@@ -245,6 +245,9 @@ impl JointOf<'_> {
         let joint = &self.model.bodies()[self.body.index()].joint;
         if !joint.translations.is_empty() || joint.rotations.is_empty() {
             return Err(self.wrong("slides, or nothing that moves"));
+        }
+        if matches!(joint.speeds, JointSpeeds::Ellipsoid(_) | JointSpeeds::Arc(_)) {
+            return Err(self.wrong("a centre that slides on an ellipsoid or along an arc"));
         }
         let mut parent_body = self.first_body + parent.index();
         let mut parent_from = center_from(self.model, parent) * joint.parent_from_joint;

@@ -33,14 +33,12 @@ pub(super) fn held_unknowns(
             continue;
         };
         let coordinate = &model.coordinates()[id.index()];
-        let target = match &task.target {
-            TaskTarget::Default => TaskTarget::Value(coordinate.default_value),
-            other => other.clone(),
-        };
+        let default = TaskTarget::Value(coordinate.default_value);
+        let target = if task.target == TaskTarget::Default { default.clone() } else { task.target.clone() };
         match (0..tree.unknowns()).find(|&u| tree.coordinate(u) == id.index()) {
             Some(unknown) => held.push(HeldUnknown { unknown, weight: task.weight, target }),
             // Without a marker a coordinate keeps its default.
-            None if matches!(coordinate.drive, Drive::Free) && task.target != TaskTarget::Default => {
+            None if matches!(coordinate.drive, Drive::Free) && target != default => {
                 let message = format!("no marker moves with `{}`; its task was left out", task.coordinate);
                 findings.report(Code::MarkersTask, message);
             }

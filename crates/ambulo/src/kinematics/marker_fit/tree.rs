@@ -16,6 +16,7 @@
 //! Pinned by: tests/marker_fit.rs (derivatives against finite differences, random models of all joint kinds)
 
 use crate::kinematics::plan::Source;
+use crate::model::arc;
 use crate::model::{BodyId, Drive, Function, Joint, JointAxis, JointSpeeds, Model};
 use crate::spatial::{Mat3, Pose, Vec3};
 
@@ -35,7 +36,7 @@ struct Node {
     joint_from_child: Pose,
     rotations: Vec<Axis>,
     translations: Vec<Axis>,
-    ellipsoid: Option<Vec3>,
+    speeds: JointSpeeds,
     /// Its columns, in [`MarkerTree::columns`].
     first_column: usize,
     end_column: usize,
@@ -170,10 +171,7 @@ impl MarkerTree {
             joint_from_child: joint.child_from_joint.inverse(),
             rotations,
             translations,
-            ellipsoid: match joint.speeds {
-                JointSpeeds::Ellipsoid(radii) => Some(radii),
-                _ => None,
-            },
+            speeds: joint.speeds,
             first_column,
             end_column: self.columns.len(),
         });
@@ -270,11 +268,11 @@ impl MarkerTree {
                 self.columns[column].linear += direction * slope;
             }
         }
-        if let Some(radii) = node.ellipsoid {
-            let z = world_from_f.rotation.tr_mul(&rotation.column(2));
-            origin += world_from_f.rotation * radii.component_mul(&z);
+        if let Some(law) = Slide::of(node.speeds) {
+            let n = world_from_f.rotation.tr_mul(&rotation.column(law.axis()));
+            origin += world_from_f.rotation * law.place(n);
             for (column, axis, slope) in turned {
-                let slide = radii.component_mul(&world_from_f.rotation.tr_mul(&axis).cross(&z));
+                let slide = law.velocity(n, world_from_f.rotation.tr_mul(&axis).cross(&n));
                 if let Some(column) = column {
                     self.columns[column].linear += world_from_f.rotation * slide * slope;
                 }
@@ -288,6 +286,44 @@ impl MarkerTree {
         }
         self.joint_frames[i] = Pose { rotation, translation: origin };
         self.poses[i] = self.joint_frames[i] * node.joint_from_child;
+    }
+}
+
+/// How the origin of M follows an axis of M.
+enum Slide {
+    Ellipsoid(Vec3),
+    Arc(f64),
+}
+
+impl Slide {
+    fn of(speeds: JointSpeeds) -> Option<Slide> {
+        match speeds {
+            JointSpeeds::Ellipsoid(radii) => Some(Slide::Ellipsoid(radii)),
+            JointSpeeds::Arc(length) => Some(Slide::Arc(length)),
+            JointSpeeds::Rates | JointSpeeds::AngularVelocity => None,
+        }
+    }
+
+    /// The axis of M that the origin follows.
+    fn axis(&self) -> usize {
+        match self {
+            Slide::Ellipsoid(_) => 2,
+            Slide::Arc(_) => 1,
+        }
+    }
+
+    fn place(&self, n: Vec3) -> Vec3 {
+        match self {
+            Slide::Ellipsoid(radii) => radii.component_mul(&n),
+            Slide::Arc(length) => arc::end(*length, n),
+        }
+    }
+
+    fn velocity(&self, n: Vec3, rate: Vec3) -> Vec3 {
+        match self {
+            Slide::Ellipsoid(radii) => radii.component_mul(&rate),
+            Slide::Arc(length) => arc::slide(*length, n, rate),
+        }
     }
 }
 
