@@ -25,7 +25,7 @@ CURVES = {
     "simm": f"<SimmSpline>{KNOTS}</SimmSpline>",
     "gcv": f"<GCVSpline><half_order>3</half_order><error_variance>0</error_variance>{KNOTS}</GCVSpline>",
     "polynomial": "<PolynomialFunction><coefficients>0.3 -0.2 0.1 0.05</coefficients></PolynomialFunction>",
-    "step": "<StepFunction><start_time>-1.5</start_time><end_time>1.5</end_time><start_value>-0.1</start_value><end_value>0.3</end_value></StepFunction>",
+    "step": "<StepFunction><transition_start_time>-1.5</transition_start_time><transition_end_time>1.5</transition_end_time><start_value>-0.1</start_value><end_value>0.3</end_value></StepFunction>",
     "sine": "<Sine><amplitude>0.2</amplitude><omega>1.7</omega><phase>0.3</phase><offset>0.05</offset></Sine>",
     "linear": "<LinearFunction><coefficients>0.7 0.2</coefficients></LinearFunction>",
     "piecewise": f"<PiecewiseLinearFunction>{KNOTS}</PiecewiseLinearFunction>",

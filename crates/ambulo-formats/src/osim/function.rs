@@ -142,11 +142,15 @@ fn read_linear(node: Node<'_, '_>) -> Result<OsimFunction, Error> {
 
 fn read_step(node: Node<'_, '_>) -> Result<OsimFunction, Error> {
     let number = |tag: &str, default: f64| Ok::<f64, Error>(xml::number(node, tag)?.unwrap_or(default));
-    let start = (number("start_time", 0.0)?, number("start_value", 0.0)?);
-    let end = (number("end_time", 1.0)?, number("end_value", 1.0)?);
+    // Documents of older versions have the second names; the defaults are those of OpenSim 4.6.
+    let time = |tag: &str, older: &str, default: f64| {
+        Ok::<f64, Error>(xml::number(node, tag)?.unwrap_or(number(older, default)?))
+    };
+    let start = (time("transition_start_time", "start_time", 0.99)?, number("start_value", 0.0)?);
+    let end = (time("transition_end_time", "end_time", 1.01)?, number("end_value", 1.0)?);
     if start.0 >= end.0 {
         let found = format!("a step from {} to {}", start.0, end.0);
-        return Err(xml::error_at(node, found, "an <end_time> after <start_time>"));
+        return Err(xml::error_at(node, found, "an end of the transition after its start"));
     }
     Ok(OsimFunction::Step { start, end })
 }

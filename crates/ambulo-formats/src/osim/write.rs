@@ -223,7 +223,7 @@ fn nested(depth: usize, name: &str, function: &OsimFunction, level: usize) -> Re
         OsimFunction::PiecewiseLinear(knots) => ("PiecewiseLinearFunction", points(inner, knots)?),
         OsimFunction::PiecewiseConstant(knots) => ("PiecewiseConstantFunction", points(inner, knots)?),
         OsimFunction::Step { start, end } => {
-            let from = number("start_time", start.0)? + &number("end_time", end.0)?;
+            let from = number("transition_start_time", start.0)? + &number("transition_end_time", end.0)?;
             ("StepFunction", from + &number("start_value", start.1)? + &number("end_value", end.1)?)
         }
         OsimFunction::Sine { amplitude, omega, phase, offset } => {

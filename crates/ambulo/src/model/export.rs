@@ -155,7 +155,7 @@ fn arc_angles(joint: &Joint) -> Option<[f64; 3]> {
     for ((axis, unit), angle) in [a, b, c].into_iter().zip(units).zip(&mut angles) {
         let Displacement::Follows(_, function) = &axis.displacement else { return None };
         let (slope, intercept) = function.as_linear().filter(|_| axis.direction == unit)?;
-        *angle = (slope == 1.0).then_some(intercept)?;
+        *angle = ((slope - 1.0).abs() <= f64::EPSILON).then_some(intercept)?;
     }
     (joint.translations.is_empty() && joint.coordinates().is_sorted()).then_some(angles)
 }
