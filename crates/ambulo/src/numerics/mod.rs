@@ -19,6 +19,7 @@ mod shown;
 mod spline_fitter;
 mod spline_grid;
 mod uniform_spline;
+mod whittaker;
 
 use serde::Deserialize;
 
@@ -35,6 +36,7 @@ pub use random::Random;
 pub(crate) use shown::Shown;
 pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};
 pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};
+pub use whittaker::Whittaker;
 
 /// Reads a number that files write as `null` where it is not one.
 pub(crate) fn or_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
