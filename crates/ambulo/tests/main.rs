@@ -63,6 +63,7 @@ mod ground_stream;
 mod identities;
 mod independent;
 mod inverse_derivatives;
+mod keypoints;
 mod laboratory;
 mod laboratory_files;
 mod laboratory_gaps;

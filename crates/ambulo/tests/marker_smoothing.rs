@@ -5,7 +5,7 @@ use crate::common::random::{self, Curves, Kind, Random, Waves};
 use crate::marker_data::{gait2392, rajagopal};
 use ambulo::findings::Findings;
 use ambulo::kinematics::body_motion;
-use ambulo::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, SmoothnessPrior, fit_markers};
+use ambulo::kinematics::marker_fit::{FitError, FitMethod, FitSettings, MarkerFit, SmoothnessPrior, fit_markers};
 use ambulo::model::{CoordinateKind, Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::Vec3;
@@ -36,7 +36,8 @@ fn recorded(model: &Model, step_s: f64, states: &[State]) -> MarkerRecording {
 }
 
 fn fitted(model: &Model, markers: &MarkerRecording, smoothing: Option<SmoothnessPrior>) -> MarkerFit {
-    let settings = FitSettings { smoothing, ..FitSettings::default() };
+    let method = smoothing.map_or(FitMethod::Frames, FitMethod::Together);
+    let settings = FitSettings { method, ..FitSettings::default() };
     let fit = fit_markers(model, markers, &settings, &mut Findings::default()).unwrap();
     assert!(fit.converged.iter().all(|c| *c), "{:?}", fit.iterations);
     fit
@@ -180,7 +181,7 @@ fn recordings_that_would_fill_the_memory_are_refused() {
         marked(&mut r, &[Kind::Free, Kind::Ball, Kind::Ball, Kind::Ball, Kind::Ball, Kind::Ball, Kind::Ball], 1);
     let states = vec![State::rest(&model); 80_000];
     let markers = recorded(&model, 0.01, &states);
-    let settings = FitSettings { smoothing: Some(SmoothnessPrior::default()), ..FitSettings::default() };
+    let settings = FitSettings { method: FitMethod::Together(SmoothnessPrior::default()), ..FitSettings::default() };
     let error = fit_markers(&model, &markers, &settings, &mut Findings::default()).unwrap_err();
     assert!(matches!(error, FitError::TooLong { frames: 80_000, unknowns: 24, .. }), "{error}");
 }

@@ -188,9 +188,10 @@ pub(crate) struct SubjectArgs {
     /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; may be repeated [default: detected].
     #[arg(long, value_name = "N=r|l|off")]
     pub(crate) plate: Vec<PlateFoot>,
-    /// Marker fit: frame by frame, or all frames together with a prior on acceleration.
-    #[arg(long, value_enum, default_value_t = MarkerFitting::Frames)]
-    pub(crate) fit: MarkerFitting,
+    /// Marker fit: frame by frame, or all frames together with a prior on the change of acceleration [default: frames for markers,
+    /// trajectory for keypoints of video].
+    #[arg(long, value_enum)]
+    pub(crate) fit: Option<MarkerFitting>,
     /// Longest marker gap that is interpolated [s].
     #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s, value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
     pub(crate) max_gap: f64,

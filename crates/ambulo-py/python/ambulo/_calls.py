@@ -121,7 +121,7 @@ def forces(
     marker_set : str, path-like or bytes, optional
         Markers for the model: an OpenSim MarkerSet.
     fit : {"frames", "trajectory"}, optional
-        How markers are fitted.
+        How markers are fitted: frame by frame, or all frames together, which is the default for keypoints of video.
     max_gap : float, optional
         Longest marker gap that is interpolated [s].
     convention : {"clinical", "opensim"}, optional

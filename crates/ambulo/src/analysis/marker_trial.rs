@@ -12,7 +12,10 @@ use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates
 use crate::kinematics::calibration::{
     self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
 };
-use crate::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, fit_own_markers};
+use crate::kinematics::keypoints::{KeypointReport, Keypoints};
+use crate::kinematics::marker_fit::{
+    FitError, FitSettings, FollowedKeypoints, JointLimits, MarkerFit, fit_keypoints, fit_own_markers,
+};
 use crate::kinematics::pose_fit::{PoseRecording, PosedBody, body_of_poses, fit_poses};
 use crate::kinematics::retarget::JointCentreError;
 use crate::kinematics::scaling::{
@@ -144,6 +147,8 @@ pub struct BodyInMotion {
     pub feet: FootMotion,
     /// Which foot was on which plate.
     pub on_plates: FeetOnPlates,
+    /// What keypoints of video show about themselves; `None` for markers.
+    pub keypoints: Option<KeypointReport>,
 }
 
 /// A body with the markers of the recorded person.
@@ -246,6 +251,9 @@ pub(crate) fn fit_body_to_markers(
         Some(_) => standing.in_ground(findings).1.markers,
         None => standing.in_world_by(set, findings).1.markers,
     });
+    let keypoints = Keypoints::recognised(&markers, set);
+    let standing = standing.map(|found| Keypoints::recognised(&found, set).map_or(found, |points| points.smooth));
+    let moving = keypoints.as_ref().map_or(&markers, |keypoints| &keypoints.smooth);
     let subject = match body {
         BodySource::Model { model, mass, protocol: None } => {
             Subject::of_model(model, *mass, standing.as_ref(), findings)?
@@ -254,21 +262,31 @@ pub(crate) fn fit_body_to_markers(
             Subject::by_protocol(model, *mass, protocol, standing.as_ref(), findings)?
         }
         BodySource::Calibrated(subject) => (*subject).clone(),
-        BodySource::BuiltIn { person, set } => Subject::built_in(&markers, standing.as_ref(), person, *set, findings)?,
+        BodySource::BuiltIn { person, set } => Subject::built_in(moving, standing.as_ref(), person, *set, findings)?,
     };
     progress.end(Stage::Body)?;
     // The author of a given model decides which coordinates are clamped; the built-in body needs its ranges to keep arm angles unique.
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
     let settings = FitSettings { weights: weights.clone(), limits, ..settings.clone() };
-    let (mut fit, followed) = fit_own_markers(&subject.model, markers, &settings, findings)?;
+    let (mut fit, followed, keypoints) = match keypoints {
+        Some(keypoints) => {
+            let FollowedKeypoints { fit, smooth, report } =
+                fit_keypoints(&subject.model, keypoints, &settings, findings)?;
+            (fit, smooth, Some(report))
+        }
+        None => {
+            let (fit, followed) = fit_own_markers(&subject.model, markers, &settings, findings)?;
+            (fit, followed, None)
+        }
+    };
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
     let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet };
-    on_floor.body_in_motion(subject, fit, findings, progress)
+    Ok(BodyInMotion { keypoints, ..on_floor.body_in_motion(subject, fit, findings, progress)? })
 }
 
 /// The laboratory around a body whose motion is known.
@@ -297,7 +315,7 @@ impl OnFloor<'_> {
         let moving = FeetInMotion { markers: points, landmarks, motion: &feet };
         let on_plates = feet_in_motion_on_plates(&moving, &plates, plate_feet, findings);
         progress.end(Stage::Feet)?;
-        Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
+        Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates, keypoints: None })
     }
 }
 

@@ -232,6 +232,9 @@ codes! {
     CalibrationTrunkUpright "calibration.trunk_upright" Note
         "No marker shows the trunk; it is assumed upright above the pelvis."
         "Add markers on the trunk.";
+    KeypointsNoise "keypoints.noise" Note
+        "The recording has keypoints of video instead of markers; their noise was estimated from the recording, and positions far from their paths were left out."
+        "Nothing to do; more cameras, or a better calibration of them, make the noise smaller.";
     ScalingFitted "scaling.fitted" Note
         "States how the model was scaled to the person and how well its markers fit."
         "Nothing to do.";

@@ -15,6 +15,7 @@ pub(crate) mod skeleton_body;
 pub(crate) mod sweep;
 
 pub mod calibration;
+pub mod keypoints;
 pub mod marker_fit;
 pub mod marker_proposal;
 pub mod pose_fit;

@@ -12,6 +12,7 @@ use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::outcome::{ForceOrigin, Tracking};
 use crate::analysis::feasibility::{Check, LARGE_RESIDUAL_BW, Reason, Verdict};
+use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
 use crate::motion::{Jumps, Motion, Smoother, jumps};
@@ -76,6 +77,10 @@ pub enum Measure {
     CenterOfPressure,
     /// Number of jumps of coordinates.
     Jumps,
+    /// Share of the time in which keypoints of the legs move as one rigid piece.
+    FrozenPoints,
+    /// Uncertainty of axial rotations from keypoints.
+    AxialRotation,
     /// Cut-off frequency that may be too low.
     LowCutoff,
     /// Cut-off frequency, relative to the frame rate, that may be too high.
@@ -93,7 +98,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 16] = [
+    pub const ALL: [Measure; 18] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -108,6 +113,8 @@ impl Measure {
         Measure::Sliding,
         Measure::CenterOfPressure,
         Measure::Jumps,
+        Measure::FrozenPoints,
+        Measure::AxialRotation,
         Measure::LowCutoff,
         Measure::HighCutoff,
     ];
@@ -131,6 +138,8 @@ impl Measure {
             Measure::Sliding => AtMost(0.05, 0.15),
             Measure::CenterOfPressure => AtMost(0.03, 0.1),
             Measure::Jumps => AtMost(0.0, 10.0),
+            Measure::FrozenPoints => AtMost(0.05, 0.25),
+            Measure::AxialRotation => AtMost(3.0, 180.0),
             Measure::LowCutoff => AtLeast(3.0, 1.0),
             Measure::HighCutoff => AtMost(0.2, 0.4),
         }
@@ -154,6 +163,8 @@ impl Measure {
             Measure::Sliding => "sliding",
             Measure::CenterOfPressure => "center_of_pressure",
             Measure::Jumps => "jumps",
+            Measure::FrozenPoints => "frozen_points",
+            Measure::AxialRotation => "axial_rotation",
             Measure::LowCutoff => "low_cutoff",
             Measure::HighCutoff => "high_cutoff",
         }
@@ -185,6 +196,12 @@ impl Measure {
                 "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief one"
             }
             Measure::Jumps => "number of jumps of recorded coordinates",
+            Measure::FrozenPoints => {
+                "share of the time in which keypoints of a moving leg keep their distances, as if it were one rigid piece"
+            }
+            Measure::AxialRotation => {
+                "standard deviation of the axial rotation of the thighs, from the errors of keypoints"
+            }
             Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
             Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
         }
@@ -198,6 +215,7 @@ impl Measure {
             Measure::ResidualMoment => "N.m/kg",
             Measure::MarkerFit | Measure::Scaling | Measure::CenterOfPressure => "m",
             Measure::Sliding => "m/s",
+            Measure::AxialRotation => "deg",
             Measure::LowCutoff => "Hz",
             Measure::GroundForces
             | Measure::MeasuredForces
@@ -207,6 +225,7 @@ impl Measure {
             | Measure::Mass
             | Measure::Gaps
             | Measure::Jumps
+            | Measure::FrozenPoints
             | Measure::HighCutoff => "1",
         }
     }
@@ -342,7 +361,10 @@ impl QualityEvidence<'_> {
         let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
         let of_motion = [self.gaps(), self.sliding(), self.center_of_pressure(), self.jumps(), self.cutoff()];
         let of_plates = [self.unassigned_forces(), self.silent_plates()];
-        Quality::of(of_forces.into_iter().chain(of_plates).chain(of_body).chain(of_motion).flatten())
+        let of_keypoints = [self.frozen_points(), self.axial_rotation()];
+        Quality::of(
+            of_forces.into_iter().chain(of_plates).chain(of_keypoints).chain(of_body).chain(of_motion).flatten(),
+        )
     }
 
     fn residual_force(&self) -> Option<QualityReason> {
@@ -512,6 +534,34 @@ impl QualityEvidence<'_> {
             format!(
                 "coordinates jump in {jumps} place{}, first `{name}` at frame {frame} ({time_s:.3} s): forces are wrong there",
                 if *jumps == 1 { "" } else { "s" },
+            )
+        })
+    }
+
+    fn keypoints(&self) -> Option<&KeypointReport> {
+        let Some(Tracking::Markers(tracked)) = self.tracking else { return None };
+        tracked.body.keypoints.as_ref()
+    }
+
+    fn frozen_points(&self) -> Option<QualityReason> {
+        let FrozenLegs { share, thigh_from_vertical } = self.keypoints()?.frozen;
+        Measure::FrozenPoints.reason(share, |limit| {
+            format!(
+                "the points of the legs move as one rigid piece in {} of the time in which the hips move (at most {}), with the thighs {:.0} degrees from the vertical: a program filled them in, because the person was partly out of view",
+                percent(share),
+                percent(limit),
+                thigh_from_vertical.to_degrees()
+            )
+        })
+    }
+
+    /// Axial rotations follow from feet and bent knees only, and the lever of the ankle from the toe.
+    fn axial_rotation(&self) -> Option<QualityReason> {
+        let deviation = Some(self.keypoints()?.thigh_rotation).filter(|deviation| !deviation.is_nan())?;
+        let deviation_deg = deviation.to_degrees().min(180.0);
+        Measure::AxialRotation.reason(deviation_deg, |limit| {
+            format!(
+                "keypoints hardly show axial rotations: that of the thighs is known to {deviation_deg:.0} degrees (at most {limit}), so moments about the long axes, and how the others are divided between flexion and adduction, are uncertain; the ankle moment changes by 0.1 N.m/kg with every 10 mm by which toe or heel are misplaced"
             )
         })
     }

@@ -1,7 +1,7 @@
 //! Reads recorded coordinates (`.mot`, `.sto`, `.csv`) of an OpenSim model.
 
 use super::{Reading, added_mass, ground_table, read_model, size};
-use crate::args::{ForcesArgs, MarkerFitting, SubjectArgs};
+use crate::args::{ForcesArgs, SubjectArgs};
 use crate::files;
 use ambulo::model::Model;
 use ambulo::motion::{Motion, coordinates_from_table};
@@ -45,7 +45,7 @@ fn reject_marker_options(args: &ForcesArgs) -> Result<()> {
         ("--marker-set", args.subject.marker_set.is_some()),
         ("--plate", !args.subject.plate.is_empty()),
         ("--figure", args.subject.figure != SubjectArgs::DEFAULT_FIGURE),
-        ("--fit", args.subject.fit != MarkerFitting::Frames),
+        ("--fit", args.subject.fit.is_some()),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((option, _)) => {

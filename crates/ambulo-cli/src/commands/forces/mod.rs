@@ -16,7 +16,7 @@ use crate::replacement::ResultTarget;
 use crate::{Completion, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
-use ambulo::kinematics::marker_fit::{FitSettings, OutlierDetection, SmoothnessPrior};
+use ambulo::kinematics::marker_fit::{FitMethod, FitSettings, OutlierDetection, SmoothnessPrior};
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, SubjectParameters, Window, is_marker_table};
@@ -261,9 +261,10 @@ fn settings(args: &ForcesArgs, tracked: Option<TrackedTasks>) -> Result<Settings
             weights: tracked.as_ref().map_or_else(BTreeMap::new, |tracked| tracked.weights.clone()),
             tasks: tracked.map_or_else(Vec::new, |tracked| tracked.tasks),
             longest_gap_s: args.subject.max_gap,
-            smoothing: match args.subject.fit {
-                MarkerFitting::Frames => None,
-                MarkerFitting::Trajectory => Some(SmoothnessPrior::default()),
+            method: match args.subject.fit {
+                None => defaults.marker_fit.method,
+                Some(MarkerFitting::Frames) => FitMethod::Frames,
+                Some(MarkerFitting::Trajectory) => FitMethod::Together(SmoothnessPrior::default()),
             },
             ..defaults.marker_fit
         },

@@ -198,10 +198,10 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
     let mut locked = Vec::new();
     if parts.pelvis.is_line {
         assumptions.push(
-            "only the hip centres of the pelvis are known, which do not determine its tilt; trunk and pelvis move as one"
+            "only the hip centres of the pelvis are known, which do not determine its tilt; it is that of the line from hips to shoulders, or upright"
                 .to_owned(),
         );
-        locked = ["lumbar_extension", "lumbar_bending", "lumbar_rotation"].map(str::to_owned).to_vec();
+        locked = vec!["lumbar_extension".to_owned()];
     }
     let feet = Side::BOTH.map(|side| parts.feet[side].placement);
     SubjectShape { segments, markers, feet, dimensions: dimensions(d, parts), locked }

@@ -26,6 +26,14 @@ const TORSIONS_DEG: [f64; 2] = [-10.0, 40.0];
 /// Plausible scale factors of feet.
 const FACTORS: [f64; 2] = [0.6, 1.6];
 
+/// Standard deviation of the length of a foot that its stature tells, as a share (unverified).
+const LENGTH_ERROR: f64 = 0.05;
+/// The same for the length between keypoints: each is 20 mm off on a foot of 0.25 m.
+const KEYPOINT_LENGTH_ERROR: f64 = 0.12;
+/// Share of the distance between ankle and foot, by keypoints, that exceeds the usual one and is believed: both ends together are 14 mm off, people
+/// differ by 10 mm.
+const KEYPOINT_SHIFT: f64 = 0.33;
+
 /// Both feet, right first.
 pub(super) type Feet = BySide<Foot>;
 
@@ -44,6 +52,14 @@ pub(super) struct Foot {
     pub(super) joint_from_foot: Mat3,
 }
 
+/// What the feet are known from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Observed {
+    pub(super) trial: Trial,
+    /// Whether heel and toe are keypoints of video.
+    pub(super) keypoints: bool,
+}
+
 /// Rear and front point that define the direction of a foot, in the world and on the foot of the segment table [m].
 struct Ends {
     rear: Vec3,
@@ -55,12 +71,12 @@ struct Ends {
 pub(super) fn find(
     trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
-    trial: Trial,
+    observed: Observed,
     legs: &Legs,
     dimensions: &Dimensions,
     assumptions: &mut Vec<String>,
 ) -> Feet {
-    let finder = Finder { trajectories, frames, trial, dimensions };
+    let finder = Finder { trajectories, frames, observed, dimensions };
     let floor = finder.floor(assumptions);
     BySide::from_fn(|side| match &legs[side] {
         Some(leg) => finder.foot(leg, side, floor, assumptions),
@@ -81,7 +97,7 @@ fn table_foot(dimensions: &Dimensions, count: usize) -> Foot {
 struct Finder<'a> {
     trajectories: &'a LandmarkTrajectories<'a>,
     frames: &'a [usize],
-    trial: Trial,
+    observed: Observed,
     dimensions: &'a Dimensions,
 }
 
@@ -92,7 +108,8 @@ impl Finder<'_> {
             self.frames.iter().filter_map(move |&f| self.trajectories.of(Landmark::Heel, side, f)).map(|p| p.y)
         };
         let lowest = Side::BOTH.into_iter().flat_map(heights).fold(f64::INFINITY, f64::min);
-        if !lowest.is_finite() || (MARKER_HEIGHTS[0]..=MARKER_HEIGHTS[1]).contains(&lowest) {
+        let is_usual = (MARKER_HEIGHTS[0]..=MARKER_HEIGHTS[1]).contains(&lowest) && !self.observed.keypoints;
+        if !lowest.is_finite() || is_usual {
             return 0.0;
         }
         let floor = lowest - (self.dimensions.ankle_height + self.place(Landmark::Heel, Side::Right).y);
@@ -158,6 +175,7 @@ impl Finder<'_> {
         let size =
             ends.iter().flatten().map(|e| flat_length(e.front - e.rear) / flat_length(e.table_front - e.table_rear));
         let factor = median(size).unwrap_or(1.0).clamp(FACTORS[0], FACTORS[1]);
+        let factor = if self.observed.keypoints { self.by_stature(factor, side, assumptions) } else { factor };
         let Some(ankle_height) = median(poses.iter().flatten().map(|pose| pose.translation.y - floor)) else {
             assumptions.push(format!("the {side} foot is never flat; its shape is from the segment table"));
             return Foot { factor, ..self.unmeasured(leg, count) };
@@ -173,11 +191,31 @@ impl Finder<'_> {
         let rear = |(pose, ends): (&Option<Pose>, &Option<Ends>)| Some(in_frame(pose.as_ref()?, ends.as_ref()?.rear));
         let rear = median_point(&poses.iter().zip(&ends).filter_map(rear).collect::<Vec<_>>()).unwrap_or_default();
         let table_rear = ends.iter().flatten().map(|e| e.table_rear).next().unwrap_or_default();
-        let placement = SolePlacement { ankle_height, forward: rear.x - table_rear.x * factor, right: rear.z };
+        let forward = rear.x - table_rear.x * factor;
+        let placement = if self.observed.keypoints {
+            let front = |(pose, ends): (&Option<Pose>, &Option<Ends>)| {
+                Some(in_frame(pose.as_ref()?, ends.as_ref()?.front).x - ends.as_ref()?.table_front.x * factor)
+            };
+            let of_front = median(poses.iter().zip(&ends).filter_map(front)).unwrap_or(forward);
+            SolePlacement { ankle_height, forward: 0.5 * (forward + of_front) * KEYPOINT_SHIFT, right: 0.0 }
+        } else {
+            SolePlacement { ankle_height, forward, right: rear.z }
+        };
         let tibia_from_joint = ankle_axes(leg, &poses);
         report_unusual_torsion(&tibia_from_joint, side, assumptions);
         let joint_from_foot = standing_offset(leg, &poses, &tibia_from_joint);
         Foot { poses, factor, placement, tibia_from_joint, joint_from_foot }
+    }
+
+    /// Scale factor of a foot whose length between keypoints is `measured` times the usual one: the mean of both, weighted by their errors.
+    fn by_stature(&self, measured: f64, side: Side, assumptions: &mut Vec<String>) -> f64 {
+        let [seen, usual] = [KEYPOINT_LENGTH_ERROR, LENGTH_ERROR].map(|error: f64| error.powi(-2));
+        if (measured - 1.0).abs() > 2.0 * KEYPOINT_LENGTH_ERROR {
+            assumptions.push(format!(
+                "the {side} foot is {measured:.2} times as long between the points of heel and toe as is usual at this stature; the sole follows the stature"
+            ));
+        }
+        (seen * measured + usual) / (seen + usual)
     }
 
     fn unmeasured(&self, leg: &Leg, count: usize) -> Foot {
@@ -186,7 +224,7 @@ impl Finder<'_> {
 
     /// Whether the foot is flat, for each selected frame.
     fn flat(&self, ends: &[Option<Ends>], side: Side, assumptions: &mut Vec<String>) -> Vec<bool> {
-        if self.trial == Trial::Standing {
+        if self.observed.trial == Trial::Standing {
             return ends.iter().map(Option::is_some).collect();
         }
         let lowest = |height: fn(&Ends) -> f64| fifth_percentile(ends.iter().flatten().map(height).collect());

@@ -126,11 +126,13 @@ pub fn calibrate(
     };
     let build = Build { table: person.table, mass: person.mass, height, toe_joint: true };
     let generic = full_body(&build)?;
-    let feet = feet::find(&trajectories, &frames, trial, &legs, &generic.dimensions, &mut assumptions);
+    let observed = feet::Observed { trial, keypoints: pelvis.is_line };
+    let feet = feet::find(&trajectories, &frames, observed, &legs, &generic.dimensions, &mut assumptions);
     let trunk = trunk::find(&trajectories, &frames, &pelvis, &generic.dimensions, person, &mut assumptions);
     let parts = assembly::Parts { pelvis: &pelvis, legs: &legs, feet: &feet, trunk: &trunk };
     let mut calibrated = assembly::assemble(&trajectories, &frames, &generic, &parts, assumptions)?;
-    if trial == Trial::Moving {
+    // Points of video are joint centres, which have their places.
+    if trial == Trial::Moving && !pelvis.is_line {
         refinement::refine(&mut calibrated, recording)?;
     }
     for assumption in &calibrated.report.assumptions {

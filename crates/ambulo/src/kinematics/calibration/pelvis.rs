@@ -103,20 +103,21 @@ fn from_spines(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Pel
     Pelvis { poses, hip_width: 2.0 * hip.z, is_line: false }
 }
 
-/// From hip centres of video: only the line between the hips is known, the pelvis is assumed upright.
+/// From hip centres of video: the line between the hips, and the line from hips to shoulders for the tilt. Where no shoulder is seen, the
+/// pelvis is upright.
 fn from_hips(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Pelvis {
-    let hips = |frame: usize| {
-        Some((
-            trajectories.of(Landmark::HipCentre, Side::Right, frame)?,
-            trajectories.of(Landmark::HipCentre, Side::Left, frame)?,
-        ))
+    let both = |landmark: Landmark, frame: usize| {
+        Some((trajectories.of(landmark, Side::Right, frame)?, trajectories.of(landmark, Side::Left, frame)?))
     };
-    let seen: Vec<_> = frames.iter().map(|&frame| hips(frame)).collect();
+    let seen: Vec<_> = frames.iter().map(|&frame| both(Landmark::HipCentre, frame)).collect();
     let hip_width = median(seen.iter().flatten().map(|(right, left)| (right - left).norm())).unwrap_or(f64::NAN);
-    let pose = |(right, left): &(Vec3, Vec3)| {
-        let rotation = from_z_y(direction(right - left)?, Vec3::y())?;
-        Some(Pose { rotation, translation: (right + left) * 0.5 })
+    let pose = |(hips, &frame): (&Option<(Vec3, Vec3)>, &usize)| {
+        let (right, left) = (*hips)?;
+        let middle = (right + left) * 0.5;
+        let shoulders = both(Landmark::ShoulderCentre, frame).map(|(right, left)| (right + left) * 0.5);
+        let up = shoulders.and_then(|shoulders| direction(shoulders - middle)).unwrap_or_else(Vec3::y);
+        Some(Pose { rotation: from_z_y(direction(right - left)?, up)?, translation: middle })
     };
-    let poses = seen.iter().map(|hips| hips.as_ref().and_then(pose)).collect();
+    let poses = seen.iter().zip(frames).map(pose).collect();
     Pelvis { poses, hip_width, is_line: true }
 }

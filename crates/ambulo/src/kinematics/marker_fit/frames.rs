@@ -2,6 +2,7 @@
 
 use super::problem::FitProblem;
 use super::solve::Outcome;
+use crate::motion::MarkerPath;
 use crate::spatial::Vec3;
 
 /// Minimum number of markers per frame: fewer do not even determine one rigid body.
@@ -66,6 +67,16 @@ impl Frames {
         };
         all.choose_core();
         all
+    }
+
+    /// Uses the positions of these paths, one per marker, wherever they are recorded.
+    pub(super) fn observe(&mut self, paths: &[&MarkerPath]) {
+        for frame in 0..self.count() {
+            for (i, path) in paths.iter().enumerate() {
+                self.seen[frame * self.markers + i] = path.is_seen(frame);
+            }
+        }
+        self.used.clone_from(&self.seen);
     }
 
     /// Number of frames.

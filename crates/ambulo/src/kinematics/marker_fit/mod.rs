@@ -43,17 +43,23 @@ mod misplaced;
 mod skin_motion;
 mod smoothing;
 
+mod keypoint_fit;
+mod recorded_noise;
 mod report;
 pub(crate) mod rows;
 
+pub(crate) use keypoint_fit::{FollowedKeypoints, fit_keypoints};
 pub use result::{FitError, MarkerFit, MarkerResidual};
-pub use settings::{CoordinateTask, FitSettings, JointLimits, OutlierDetection, SmoothnessPrior, TaskTarget};
+pub use settings::{
+    CoordinateTask, FitMethod, FitSettings, JointLimits, OutlierDetection, SmoothnessPrior, TaskTarget,
+};
 
 use crate::findings::Findings;
 use crate::model::Model;
 use crate::motion::MarkerRecording;
 use frames::{FEWEST, Frames};
 use problem::FitProblem;
+use smoothing::Ending;
 
 /// Fits a model to recorded markers, both in world axes. Markers that only one of them has are reported as a note.
 ///
@@ -123,7 +129,7 @@ fn fitted(
     findings: &mut Findings,
 ) -> Result<report::Fitted, FitError> {
     let mut problem = FitProblem::new(model, markers, settings, findings)?;
-    if settings.smoothing.is_some() {
+    if let FitMethod::Together(_) = settings.method {
         smoothing::check(problem.frames(), problem.tree.unknowns())?;
     }
     let mut frames = Frames::new(&problem);
@@ -144,8 +150,8 @@ fn fitted(
         elsewhere = misplaced::reduce_weights(&mut problem, &mut frames);
     }
     let mut states = gaps::refit(&mut problem, &mut frames, settings.longest_gap_s);
-    if let Some(smoothing) = settings.smoothing {
-        smoothing::smooth(model, &mut problem, &mut frames, &states, smoothing);
+    if let FitMethod::Together(prior) = settings.method {
+        smoothing::smooth(model, &mut problem, &mut frames, &states, prior, Ending::EXACT);
     }
     gaps::open_unfitted(&mut problem, &mut frames, &mut states);
     report::markers(&problem, &frames, findings);

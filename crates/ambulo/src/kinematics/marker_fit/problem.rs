@@ -2,7 +2,7 @@
 
 use super::normal::{Point, Targets, cost};
 use super::result::FitError;
-use super::settings::{CoordinateTask, FitSettings, JointLimits, TaskTarget};
+use super::settings::{CoordinateTask, FitMethod, FitSettings, JointLimits, TaskTarget};
 use super::solve::{Bounds, Outcome, STEPS, Solver};
 use super::tasks::{HeldUnknown, held_unknowns};
 use super::tree::MarkerTree;
@@ -185,7 +185,7 @@ fn check_settings(settings: &FitSettings) -> Result<(), FitError> {
     }
     let gap = settings.longest_gap_s;
     setting("longest_gap_s", gap, gap >= 0.0 && gap.is_finite(), "a finite number of seconds, zero or more")?;
-    if let Some(smoothing) = settings.smoothing {
+    if let FitMethod::Together(smoothing) = settings.method {
         let numbers = [
             ("marker_noise_m", smoothing.marker_noise_m),
             ("rotation_jerk", smoothing.rotation_jerk),

@@ -34,10 +34,15 @@ struct Correction {
 impl Fitted {
     /// Returns the result and the corrected recording.
     pub(super) fn following(self, mut recording: MarkerRecording) -> (MarkerFit, MarkerRecording) {
-        for Correction { marker, frame, position } in self.corrections {
-            recording.markers[marker].positions[frame] = position;
+        for Correction { marker, frame, position } in &self.corrections {
+            recording.markers[*marker].positions[*frame] = *position;
         }
-        let fit = MarkerFit {
+        (self.alone(), recording)
+    }
+
+    /// The result without corrections.
+    pub(super) fn alone(self) -> MarkerFit {
+        MarkerFit {
             motion: self.motion,
             errors: self.errors,
             rms_m: self.rms_m,
@@ -45,8 +50,7 @@ impl Fitted {
             iterations: self.iterations,
             converged: self.converged,
             solves: self.solves,
-        };
-        (fit, recording)
+        }
     }
 }
 

@@ -20,8 +20,8 @@ pub struct FitSettings {
     pub longest_gap_s: f64,
     /// Whether swapped labels, jumps and misplaced markers are detected.
     pub outliers: OutlierDetection,
-    /// Prior for a fit of all frames together; `None` fits each frame by itself.
-    pub smoothing: Option<SmoothnessPrior>,
+    /// Whether frames are fitted one by one or all together.
+    pub method: FitMethod,
 }
 
 impl Default for FitSettings {
@@ -32,7 +32,7 @@ impl Default for FitSettings {
             limits: JointLimits::Clamped,
             longest_gap_s: LONGEST_GAP_S,
             outliers: OutlierDetection::On,
-            smoothing: None,
+            method: FitMethod::ByRecording,
         }
     }
 }
@@ -66,6 +66,18 @@ pub enum TaskTarget {
         /// Values [rad or m], as many.
         values: Vec<f64>,
     },
+}
+
+/// Whether frames are fitted one by one or all together.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum FitMethod {
+    /// Markers frame by frame; keypoints of video, of which each frame has its own errors, all frames together.
+    #[default]
+    ByRecording,
+    /// Frame by frame.
+    Frames,
+    /// All frames together, with this prior.
+    Together(SmoothnessPrior),
 }
 
 /// Which ranges of coordinates are enforced.

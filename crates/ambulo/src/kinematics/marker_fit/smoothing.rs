@@ -28,15 +28,36 @@ use crate::spatial::Vec3;
 
 /// Maximum number of entries in the band matrix: 1 GB.
 const MOST_NUMBERS: usize = 1 << 27;
-const STEPS: usize = 30;
-/// The iteration ends when no coordinate moves by more [rad or m].
-const SMALL_STEP: f64 = 1e-7;
 const HALVINGS: usize = 12;
 /// Weight that keeps a coordinate at the end of its range.
 const HELD: f64 = 1e15;
 /// Weight of the value of each coordinate, so that the matrix stays positive definite if neither markers nor prior determine it.
 const FLOOR: f64 = 1e-9;
 const THIRD: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
+
+/// When the iteration ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ending {
+    /// Largest number of steps.
+    steps: usize,
+    /// No coordinate moves by more in the last step [rad or m].
+    small_step: f64,
+    /// The last step lowers the cost by less than this share of it.
+    small_gain: f64,
+    /// Whether second derivatives of the positions are used, which end the iteration sooner and may lead astray far from the solution.
+    newton: bool,
+    /// Damping [weights times m²].
+    damping: f64,
+}
+
+impl Ending {
+    /// Up to rounding.
+    pub(super) const EXACT: Ending =
+        Ending { steps: 30, small_step: 1e-7, small_gain: 0.0, newton: true, damping: FLOOR };
+    /// Far below the noise of video.
+    pub(super) const NEAR: Ending =
+        Ending { steps: 12, small_step: 1e-3, small_gain: 1e-4, newton: false, damping: 1e-4 };
+}
 
 /// The least-squares problem of all frames: positions, weights and the prior.
 struct SmoothFit {
@@ -64,24 +85,25 @@ pub(super) fn smooth(
     frames: &mut Frames,
     states: &[Determination],
     smoothing: SmoothnessPrior,
+    ending: Ending,
 ) {
     let unknowns = problem.tree.unknowns();
     let count = frames.count();
-    let mut whole = SmoothFit::new(model, problem, frames, states, smoothing);
+    let whole = SmoothFit::new(model, problem, frames, states, smoothing);
     let mut x = whole.start(frames);
     let mut normal = Normal::new(&problem.tree);
     let mut total = whole.cost(problem, &x);
     let (mut steps, mut converged) = (0, false);
-    while steps < STEPS && !converged {
-        let Some(step) = whole.step(problem, &mut normal, &x) else { break };
+    while steps < ending.steps && !converged {
+        let Some(step) = whole.step(problem, &mut normal, &x, ending) else { break };
         let Some((next, after)) = whole.walk(problem, &x, &step, total) else {
             converged = true;
             break;
         };
         let longest = next.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        converged = longest < ending.small_step || total - after < ending.small_gain * total;
         (x, total) = (next, after);
         steps += 1;
-        converged = longest < SMALL_STEP;
     }
     for frame in 0..count {
         let own = &x[frame * unknowns..(frame + 1) * unknowns];
@@ -152,6 +174,7 @@ impl SmoothFit {
         for frame in 0..self.frames {
             self.pose(problem, frame, x);
             sum += self.precision * cost(&problem.tree, &self.targets(problem, frame));
+            sum += self.precision * problem.bounds.spring_cost(&x[frame * self.unknowns..(frame + 1) * self.unknowns]);
         }
         sum + self.each_third(x).map(|(u, _, third)| self.stiffness[u] * third * third).sum::<f64>()
     }
@@ -168,11 +191,19 @@ impl SmoothFit {
     }
 
     /// The Newton step, or the Gauss-Newton step if the matrix is not positive definite.
-    fn step(&mut self, problem: &mut FitProblem<'_>, normal: &mut Normal, x: &[f64]) -> Option<Vec<f64>> {
-        self.solve(problem, normal, x, 1.0).or_else(|| self.solve(problem, normal, x, 0.0))
+    fn step(&self, problem: &mut FitProblem<'_>, normal: &mut Normal, x: &[f64], ending: Ending) -> Option<Vec<f64>> {
+        let newton = ending.newton.then(|| self.solve(problem, normal, x, 1.0, ending.damping)).flatten();
+        newton.or_else(|| self.solve(problem, normal, x, 0.0, ending.damping))
     }
 
-    fn solve(&self, problem: &mut FitProblem<'_>, normal: &mut Normal, x: &[f64], curvature: f64) -> Option<Vec<f64>> {
+    fn solve(
+        &self,
+        problem: &mut FitProblem<'_>,
+        normal: &mut Normal,
+        x: &[f64],
+        curvature: f64,
+        damping: f64,
+    ) -> Option<Vec<f64>> {
         let n = self.unknowns;
         let mut matrix = BandMatrix::zeros(self.frames * n, 3 * n);
         let mut right = vec![0.0; self.frames * n];
@@ -181,8 +212,9 @@ impl SmoothFit {
             normal.gather(&problem.tree, &self.targets(problem, frame));
             let first = frame * n;
             for i in 0..n {
-                right[first + i] = self.precision * normal.right[i];
-                matrix.add(first + i, first + i, FLOOR * self.precision);
+                let (stiffness, anchor) = (problem.bounds.stiffness[i], problem.bounds.anchor[i]);
+                right[first + i] = self.precision * (normal.right[i] + stiffness * (anchor - x[first + i]));
+                matrix.add(first + i, first + i, (damping + stiffness) * self.precision);
             }
             for (i, j, entry) in normal.branches.each_entry() {
                 let entry = normal.matrix[entry] - curvature * normal.curvature[entry];

@@ -54,7 +54,7 @@ impl Bounds {
         }
     }
 
-    fn spring_cost(&self, x: &[f64]) -> f64 {
+    pub(super) fn spring_cost(&self, x: &[f64]) -> f64 {
         self.stiffness.iter().zip(&self.anchor).zip(x).map(|((k, a), x)| k * (x - a) * (x - a)).sum()
     }
 

@@ -125,6 +125,14 @@ impl RecognisedMarkers {
         let is_it = |m: &&NamedMarker| m.definition.landmark == Some(landmark) && m.definition.side == side;
         self.markers.iter().find(is_it).map(|m| m.name.as_str())
     }
+
+    /// Whether the pelvis is known by the centres of the hips alone, as networks locate them in video: no markers on its spines.
+    #[must_use]
+    pub fn has_hips_only(&self) -> bool {
+        let both = |landmark: Landmark| Side::BOTH.into_iter().all(|side| self.on(landmark, Some(side)).is_some());
+        let back = both(Landmark::Psis) || self.on(Landmark::Sacrum, None).is_some();
+        both(Landmark::HipCentre) && !(both(Landmark::Asis) && back)
+    }
 }
 
 /// A search for the sets that explain some names.
