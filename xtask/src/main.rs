@@ -42,6 +42,7 @@ usage: cargo xtask <command>
   fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors
   fit-ground        fit the parameters of the ground-force estimator, leave one subject out  [--write: docs/measured/GROUND_FIT.md]
                     [--evaluations N] [--seed N] [--pull X]
+  keypoints         forces from keypoints of video, and from keypoints made from recordings with markers  [--only NAME] [--seed S]
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
   twins             judge recordings of people, and twins of them that no person could make  [--only NAME]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
@@ -65,7 +66,7 @@ environment:
 const OWN: [&str; 7] = ["check", "house", "build-time", "measured", "mutants", "python", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 20] = [
+const MEASUREMENTS: [&str; 21] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -77,6 +78,7 @@ const MEASUREMENTS: [&str; 20] = [
     "figures",
     "fit-gait",
     "fit-ground",
+    "keypoints",
     "normative-bands",
     "twins",
     "validate",

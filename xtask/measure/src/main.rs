@@ -6,6 +6,7 @@ mod figures;
 mod fit_gait;
 mod fit_ground;
 mod harmonics;
+mod keypoints;
 mod normative;
 mod normative_bands;
 mod npz;
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         ("reproduction", _) => reproduction::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
+        ("keypoints", _) => keypoints::run(rest),
         ("normative-bands", []) => normative_bands::run(),
         ("fit-ground", _) => fit_ground::run(rest),
         ("twins", _) => twins::run(rest),
