@@ -195,3 +195,31 @@ fn a_person_out_of_view_is_bad_data_with_this_reason() {
     let Some(Tracking::Markers(tracked)) = &outcome.tracking else { panic!("no tracking") };
     assert!(tracked.body.keypoints.as_ref().unwrap().frozen.thigh_from_vertical > 1.4);
 }
+
+/// Largest flexion moment of a joint of either side [N.m/kg].
+fn peak(outcome: &Outcome, joint: &str) -> f64 {
+    let moments = ["r", "l"].map(|side| {
+        let id = outcome.body.coordinate(&format!("{joint}_{side}")).unwrap();
+        outcome.analysis.forces.generalized[id.index()].iter().fold(0.0, |most: f64, moment| most.max(moment.abs()))
+    });
+    moments[0].max(moments[1]) / outcome.body.mass()
+}
+
+/// Raw keypoints jitter by 10 mm, filtered ones are smooth and as far from the truth: both must give the same forces.
+#[test]
+fn raw_and_filtered_keypoints_of_a_person_who_balances_agree() {
+    let Some(folder) = shared_data::data() else { return };
+    let [raw, filtered] = ["", "_filt_butterworth"]
+        .map(|ending| outcome(&folder, &format!("S00_P00_T01_BalancingTrial_0-100{ending}.trc")));
+    let residual = |outcome: &Outcome| outcome.verdict.fit.residual_force_bw.unwrap();
+    println!("residual {:.3} and {:.3} body weights", residual(&raw), residual(&filtered));
+    assert!(residual(&raw) < 0.15 && residual(&filtered) < 0.12);
+    for joint in ["hip_flexion", "knee_angle", "ankle_angle"] {
+        let peaks = [peak(&raw, joint), peak(&filtered, joint)];
+        println!("{joint}: {peaks:.2?} N.m/kg");
+        assert!((peaks[0] / peaks[1] - 1.0).abs() < 0.2, "{joint}: {peaks:?}");
+    }
+    let told =
+        |outcome: &Outcome| outcome.quality.reasons.iter().any(|reason| reason.measure == Measure::AxialRotation);
+    assert!(told(&raw) && told(&filtered), "what keypoints cannot tell is said");
+}
