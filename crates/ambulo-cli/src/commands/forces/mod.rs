@@ -242,6 +242,8 @@ fn settings(args: &ForcesArgs, tracked: Option<TrackedTasks>) -> Result<Settings
         ForceCutoff::Off => None,
     });
     let defaults = Settings::default();
+    // A set-up asks for the fit of OpenSim.
+    let has_setup = tracked.is_some();
     Ok(Settings {
         smoother,
         force_filter: of_forces
@@ -257,11 +259,12 @@ fn settings(args: &ForcesArgs, tracked: Option<TrackedTasks>) -> Result<Settings
         },
         marker_fit: FitSettings {
             // Stated weights are kept.
-            outliers: if tracked.is_some() { OutlierDetection::Labels } else { defaults.marker_fit.outliers },
+            outliers: if has_setup { OutlierDetection::Labels } else { defaults.marker_fit.outliers },
             weights: tracked.as_ref().map_or_else(BTreeMap::new, |tracked| tracked.weights.clone()),
             tasks: tracked.map_or_else(Vec::new, |tracked| tracked.tasks),
             longest_gap_s: args.subject.max_gap,
             method: match args.subject.fit {
+                None if has_setup => FitMethod::Frames,
                 None => defaults.marker_fit.method,
                 Some(MarkerFitting::Frames) => FitMethod::Frames,
                 Some(MarkerFitting::Trajectory) => FitMethod::Together(SmoothnessPrior::default()),
