@@ -9,11 +9,13 @@
 //! | [`table`] | OpenSim `.mot` / `.sto` (versions 1-3), numeric CSV | yes | yes |
 //! | [`trc`] | marker trajectories `.trc` | yes | yes |
 //! | [`c3d`] | recordings `.c3d`: points, analog channels, force plates, events, all parameters | yes | yes |
+//! | [`b3d`] | subjects of AddBiomechanics `.b3d`: markers, coordinates, ground forces | yes | yes |
 //! | [`bvh`] | skeletons in motion `.bvh` | yes | yes |
 //! | [`external_loads`] | OpenSim `ExternalLoads` XML | yes | yes |
 //! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600; `MarkerSet` XML | yes | yes; no |
 //! | [`setup`] | OpenSim set-ups of scaling, inverse kinematics and inverse dynamics | yes | no |
 
+pub mod b3d;
 pub mod bvh;
 pub mod c3d;
 pub mod error;

@@ -22,4 +22,5 @@ mod osim_write;
 mod real_files;
 mod setups;
 mod skeletons;
+mod subjects_b3d;
 mod tables;
