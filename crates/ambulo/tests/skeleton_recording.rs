@@ -168,6 +168,109 @@ fn with_a_resting_pose_that_is_not_upright_the_mean_posture_is_used() {
     }
 }
 
+/// Straight legs along +z at rest, which hang down when the thighs turn by 90 degrees, and both arms along x.
+const LYING: &str = "HIERARCHY
+ROOT Hips
+{
+OFFSET 0 0 0
+CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+JOINT RightUpLeg
+{
+OFFSET -9 0 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+JOINT RightLeg
+{
+OFFSET 0 0 43
+CHANNELS 3 Zrotation Xrotation Yrotation
+JOINT RightFoot
+{
+OFFSET 0 0 42
+CHANNELS 3 Zrotation Xrotation Yrotation
+End Site
+{
+OFFSET 0 14 6
+}
+}
+}
+}
+JOINT LeftUpLeg
+{
+OFFSET 9 0 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+JOINT LeftLeg
+{
+OFFSET 0 0 43
+CHANNELS 3 Zrotation Xrotation Yrotation
+JOINT LeftFoot
+{
+OFFSET 0 0 42
+CHANNELS 3 Zrotation Xrotation Yrotation
+End Site
+{
+OFFSET 0 14 6
+}
+}
+}
+}
+JOINT RightArm
+{
+OFFSET -17 50 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+JOINT RightForeArm
+{
+OFFSET -28 0 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+JOINT RightHand
+{
+OFFSET -25 0 0
+CHANNELS 0
+}
+}
+}
+JOINT LeftArm
+{
+OFFSET 17 50 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+JOINT LeftForeArm
+{
+OFFSET 28 0 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+JOINT LeftHand
+{
+OFFSET 25 0 0
+CHANNELS 0
+}
+}
+}
+}
+MOTION
+";
+
+#[test]
+fn a_t_or_a_pose_is_found_and_taken_for_upright_standing() {
+    // One frame of a calibration pose with the arms lowered by an angle, then five with a bent knee.
+    let text = |lowered: f64| {
+        let frame = |thigh: f64, knee: f64, lowered: f64| {
+            format!(
+                "0 93 0 0 0 0  0 {thigh} 0 0 {knee} 0 0 0 0  0 {thigh} 0 0 {knee} 0 0 0 0  {lowered} 0 0 0 0 0  -{lowered} 0 0 0 0 0\n"
+            )
+        };
+        let bent = frame(60.0, 60.0, 70.0).repeat(5);
+        format!("{LYING}Frames: 6\nFrame Time: 0.5\n{}{bent}", frame(90.0, 0.0, lowered))
+    };
+    for (lowered, pose) in [(0.0, "the T-pose in frame 1"), (45.0, "the A-pose in frame 1")] {
+        let (recording, findings) = read(&text(lowered), None);
+        let said = findings.as_slice().iter().find(|finding| finding.code == Code::BvhRestPose).unwrap();
+        assert!(said.message.contains(pose), "{said:?}");
+        // The foot points forward along the floor in that pose; a mean posture would tilt it with the bent legs.
+        assert_at(&recording, "foot_front_r", 0, [POINT_DISTANCE_M, 0.08, 0.09]);
+        assert_at(&recording, "pelvis_up", 0, [0.0, 0.93 + POINT_DISTANCE_M, 0.0]);
+    }
+    // Hanging arms are no calibration pose.
+    let said = read(&text(80.0), None).1;
+    assert!(said.as_slice().iter().any(|finding| finding.message.contains("the mean posture")), "{said:?}");
+}
+
 #[test]
 fn rotations_are_applied_in_the_order_of_the_channels() {
     let turned = FIGURE.replace("0 93 0 0 0 0  0 0 0 0 90", "0 93 0 0 0 0  0 90 90 0 0");
@@ -267,9 +370,15 @@ fn positions_of_a_joint_replace_its_offset_or_are_added_depending_on_their_value
 fn joint_names_of_many_programs_are_recognised() {
     let rename = |names: [&str; 8]| {
         let old = ["Hips", "RightUpLeg", "RightLeg", "RightFoot", "RightToeBase", "LeftUpLeg", "LeftLeg", "LeftFoot"];
-        old.iter()
-            .zip(names)
-            .fold(FIGURE.to_owned(), |text, (old, new)| text.replace(&format!(" {old}\n"), &format!(" {new}\n")))
+        // By way of marks, because a new name may be the old one of another joint.
+        let marked = old
+            .iter()
+            .enumerate()
+            .fold(FIGURE.to_owned(), |text, (k, old)| text.replace(&format!(" {old}\n"), &format!(" joint {k}\n")));
+        names
+            .iter()
+            .enumerate()
+            .fold(marked, |text, (k, new)| text.replace(&format!(" joint {k}\n"), &format!(" {new}\n")))
     };
     let expected = ["hip_r", "knee_r", "ankle_r", "toe_r", "hip_l", "knee_l", "ankle_l"];
     for names in [
@@ -289,6 +398,35 @@ fn joint_names_of_many_programs_are_recognised() {
         ["hips", "thigh.R", "shin.R", "foot.R", "toe.R", "thigh.L", "shin.L", "foot.L"],
         ["Pelvis", "R_Hip", "R_Knee", "R_Ankle", "R_Foot", "L_Hip", "L_Knee", "L_Ankle"],
         ["Hips", "RHip", "RKnee", "RAnkle", "RToes", "LHip", "LKnee", "LAnkle"],
+        // SOMA: where a shin exists, the leg is the thigh.
+        ["Hips", "RightLeg", "RightShin", "RightFoot", "RightToeBase", "LeftLeg", "LeftShin", "LeftFoot"],
+        // Rokoko.
+        ["Hips", "RightThigh", "RightShin", "RightFoot", "RightToe", "LeftThigh", "LeftShin", "LeftFoot"],
+        // Rigify: bones that deform, and control bones, below a root with another name.
+        ["root", "DEF-thigh.R", "DEF-shin.R", "DEF-foot.R", "DEF-toe.R", "DEF-thigh.L", "DEF-shin.L", "DEF-foot.L"],
+        ["root", "thigh_fk.R", "shin_fk.R", "foot_fk.R", "toe_fk.R", "thigh_fk.L", "shin_fk.L", "foot_fk.L"],
+        // Mixamo without its colon, MotionBuilder with a namespace, the first names of CMU.
+        [
+            "mixamorigHips",
+            "mixamorigRightUpLeg",
+            "mixamorigRightLeg",
+            "mixamorigRightFoot",
+            "mixamorigRightToeBase",
+            "mixamorigLeftUpLeg",
+            "mixamorigLeftLeg",
+            "mixamorigLeftFoot",
+        ],
+        [
+            "Character1:Hips",
+            "Character1:RightUpLeg",
+            "Character1:RightLeg",
+            "Character1:RightFoot",
+            "Character1:RightToeBase",
+            "Character1:LeftUpLeg",
+            "Character1:LeftLeg",
+            "Character1:LeftFoot",
+        ],
+        ["root", "rfemur", "rtibia", "rfoot", "rtoes", "lfemur", "ltibia", "lfoot"],
     ] {
         let (recording, _) = read(&rename(names), None);
         for name in expected {

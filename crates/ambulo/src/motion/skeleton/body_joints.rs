@@ -69,7 +69,9 @@ impl BodyJoints {
             let known = aliases.iter().filter(|(name, _)| name == body_joint.name()).flat_map(|(_, aliases)| aliases);
             for side in Side::BOTH {
                 let is_free = |joint: &usize| body_joints.found.iter().all(|(.., taken)| taken != joint);
-                let joint = known.clone().find_map(|alias| {
+                let is_sure =
+                    |alias: &&String| !(body_joint == BodyJoint::Hip && *alias == LEG) || has_shin(&names, side);
+                let joint = known.clone().filter(is_sure).find_map(|alias| {
                     let is = |(s, stem): &(Side, String)| *s == side && stem == alias;
                     (0..names.len()).find(|joint| names[*joint].iter().any(is) && is_free(joint))
                 });
@@ -105,6 +107,16 @@ impl BodyJoints {
         }
         Ok(())
     }
+}
+
+/// The name of a thigh or of a shank.
+const LEG: &str = "leg";
+/// Names that only a shank has.
+const SHINS: [&str; 5] = ["shin", "calf", "lowleg", "lowerleg", "tibia"];
+
+/// Whether a joint of this side can only be a knee, so that its `leg` is the thigh.
+fn has_shin(names: &[Vec<(Side, String)>], side: Side) -> bool {
+    names.iter().flatten().any(|(own, stem)| *own == side && SHINS.contains(&stem.as_str()))
 }
 
 /// The joint names of a file for a message.
@@ -148,11 +160,16 @@ fn shared_beginning(joints: &[Joint]) -> usize {
     ends.filter(|(end, c)| *end <= length && !c.is_alphabetic()).map(|(end, _)| end).next_back().unwrap_or(0)
 }
 
-/// Letters and digits after the last colon, in lower case.
+/// Letters and digits after the last colon, in lower case, without what a rig puts around the name of a bone.
 fn plain(name: &str) -> String {
     let last = name.rsplit(':').next().unwrap_or(name);
+    let last = RIG_BEGINNINGS.iter().find_map(|beginning| last.strip_prefix(beginning)).unwrap_or(last);
+    let last = last.replace("_fk", "");
     last.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
+
+/// What rigs put in front of the name of a bone: Rigify's kinds of bones, and Mixamo's namespace without its colon.
+const RIG_BEGINNINGS: [&str; 5] = ["DEF-", "ORG-", "MCH-", "mixamorig_", "mixamorig"];
 
 fn sides_of(plain: &str) -> Vec<(Side, String)> {
     let words = [("left", Side::Left), ("right", Side::Right), ("l", Side::Left), ("r", Side::Right)];

@@ -16,7 +16,7 @@
 //! | `foot_front_s` `toe_front_s` | [`POINT_DISTANCE_M`] in front of ankle and ball along a flat foot, fixed to foot and toes |
 //!
 //! Above, in front and to the right refer to upright standing: the resting pose of the file if it is upright, otherwise
-//! the mean posture of the recording.
+//! a T- or A-pose among its frames, otherwise the mean posture of the recording.
 //!
 //! Pinned by: tests/skeleton_recording.rs
 
@@ -125,11 +125,11 @@ fn drop_initial_pose(markers: &mut MarkerRecording, findings: &mut Findings) {
 }
 
 fn warn_of_low_trust(unit: &Unit, upright_posture: &UprightPosture, findings: &mut Findings) {
-    let upright_posture = if upright_posture.is_resting_pose { "its resting pose" } else { "its mean posture" };
+    let upright_posture = upright_posture.shown_by;
     findings.report(
         Code::BvhLowTrust,
         format!(
-            "a BVH file has no mass, unit or upward direction, and its motion was fitted to a skeleton and usually filtered: {}, \
+            "a skeleton has no mass, mostly no unit and no upward direction, and its motion was fitted and usually filtered: {}, \
              upright standing is {upright_posture}; joint centres are those of an animated figure, so forces are an estimate for comparison only",
             unit.statement
         ),

@@ -62,7 +62,12 @@ impl<'b> Skeleton<'b> {
 
     /// The poses of at most `most` frames, spread over the recording.
     pub(super) fn some_poses(&self, most: usize) -> impl Iterator<Item = Vec<Pose>> + '_ {
-        (0..self.frames()).step_by(self.frames().div_ceil(most)).map(|frame| self.poses(Some(frame)))
+        self.some_frames(most).map(|frame| self.poses(Some(frame)))
+    }
+
+    /// At most `most` frames, spread over the recording; the first is one of them.
+    pub(super) fn some_frames(&self, most: usize) -> impl Iterator<Item = usize> + use<> {
+        (0..self.frames()).step_by(self.frames().div_ceil(most))
     }
 
     fn own_pose(&self, joint: usize, values: &[f64]) -> Pose {
