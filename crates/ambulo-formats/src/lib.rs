@@ -10,16 +10,20 @@
 //! | [`trc`] | marker trajectories `.trc` | yes | yes |
 //! | [`c3d`] | recordings `.c3d`: points, analog channels, force plates, events, all parameters | yes | yes |
 //! | [`b3d`] | subjects of AddBiomechanics `.b3d`: markers, coordinates, ground forces | yes | yes |
+//! | [`bids_motion`] | motions of BIDS data sets: `_motion.tsv` with `_channels.tsv` | yes | no |
 //! | [`bvh`] | skeletons in motion `.bvh` | yes | yes |
 //! | [`external_loads`] | OpenSim `ExternalLoads` XML | yes | yes |
+//! | [`npz`] | archives of NumPy arrays `.npz` | yes | yes |
 //! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600; `MarkerSet` XML | yes | yes; no |
 //! | [`setup`] | OpenSim set-ups of scaling, inverse kinematics and inverse dynamics | yes | no |
 
 pub mod b3d;
+pub mod bids_motion;
 pub mod bvh;
 pub mod c3d;
 pub mod error;
 pub mod external_loads;
+pub mod npz;
 pub mod osim;
 pub mod setup;
 pub mod table;

@@ -8,6 +8,8 @@
 mod c3d_bytes;
 mod shared_data;
 
+mod arrays_npz;
+mod bids_motions;
 mod c3d_damage;
 mod c3d_recordings;
 mod c3d_rotations;

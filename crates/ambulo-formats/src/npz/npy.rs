@@ -1,0 +1,185 @@
+//! One array: a magic word, a header in the syntax of Python, and the elements.
+
+use super::zip::Entry;
+use super::{Array, Data};
+use crate::error::{Error, quoted};
+
+const MAGIC: &[u8] = b"\x93NUMPY";
+/// The header ends so that the elements begin at a multiple of this.
+const ALIGNED: usize = 64;
+
+/// How the elements are written.
+#[derive(Debug, Clone, Copy)]
+struct Kind {
+    letter: char,
+    bytes: usize,
+    is_big: bool,
+}
+
+pub(super) fn read(bytes: &[u8], entry: &Entry) -> Result<Array, Error> {
+    let wrong = |found: String, expected: &str| Error::Byte {
+        offset: entry.offset,
+        found: format!("{found} in {}", quoted(&entry.name)),
+        expected: expected.to_owned(),
+    };
+    let no_array = || wrong("no header of an array".to_owned(), "a NumPy array of version 1, 2 or 3");
+    let version = *bytes.strip_prefix(MAGIC).and_then(|rest| rest.first()).ok_or_else(no_array)?;
+    let (start, length): (usize, usize) = match (version, bytes.get(8..12)) {
+        (1, Some([a, b, ..])) => (10, usize::from(u16::from_le_bytes([*a, *b]))),
+        (2 | 3, Some([a, b, c, d])) => {
+            (12, usize::try_from(u32::from_le_bytes([*a, *b, *c, *d])).unwrap_or(usize::MAX))
+        }
+        _ => return Err(no_array()),
+    };
+    let end = start.checked_add(length).filter(|end| *end <= bytes.len()).ok_or_else(no_array)?;
+    let header = String::from_utf8_lossy(&bytes[start..end]);
+    let description = value(&header, "descr").unwrap_or_default();
+    let unreadable = || wrong(format!("the header {}", quoted(&header)), "descr, fortran_order and shape");
+    let shape = shape(value(&header, "shape").ok_or_else(unreadable)?).ok_or_else(unreadable)?;
+    let is_columns = value(&header, "fortran_order").ok_or_else(unreadable)?.starts_with("True");
+    let count = shape.iter().try_fold(1_usize, |count, length| count.checked_mul(*length));
+    let Some(kind) = kind(description) else {
+        return Ok(Array { shape, data: Data::Other(description.trim_matches(['\'', '"']).to_owned()) });
+    };
+    let elements = &bytes[end..];
+    if count.and_then(|count| count.checked_mul(kind.bytes)) != Some(elements.len()) {
+        return Err(wrong(
+            format!("{} bytes of elements of the shape {shape:?}", elements.len()),
+            "as many as the shape",
+        ));
+    }
+    let data = match kind.letter {
+        'S' | 'U' if count == Some(1) => Data::Text(text(kind, elements)),
+        'S' | 'U' => Data::Other(description.trim_matches(['\'', '"']).to_owned()),
+        _ => Data::Numbers(elements.chunks_exact(kind.bytes).map(|element| number(kind, element)).collect()),
+    };
+    Ok(if is_columns { by_rows(Array { shape, data }) } else { Array { shape, data } })
+}
+
+/// The text after `'key':` up to the comma that ends it.
+fn value<'h>(header: &'h str, key: &str) -> Option<&'h str> {
+    let at = header.find(&format!("'{key}'"))? + key.len() + 2;
+    let rest = header[at..].trim_start().strip_prefix(':')?.trim_start();
+    let end = match rest.starts_with(['(', '[']) {
+        true => rest.find([')', ']'])? + 1,
+        false => rest.find([',', '}'])?,
+    };
+    Some(rest[..end].trim())
+}
+
+fn shape(text: &str) -> Option<Vec<usize>> {
+    let inner = text.strip_prefix('(')?.strip_suffix(')')?;
+    inner.split(',').map(str::trim).filter(|part| !part.is_empty()).map(|part| part.parse().ok()).collect()
+}
+
+/// The kind of numbers or text; `None` for objects, structures and others.
+fn kind(description: &str) -> Option<Kind> {
+    let plain = description.strip_prefix(['\'', '"'])?.strip_suffix(['\'', '"'])?;
+    let order = plain.chars().next().filter(|c| "<>|=".contains(*c));
+    let rest = plain.trim_start_matches(['<', '>', '|', '=']);
+    let letter = rest.chars().next()?;
+    let size: usize = rest.get(1..)?.parse().ok()?;
+    let bytes = if letter == 'U' { size.checked_mul(4)? } else { size };
+    let is_known = match letter {
+        'f' => matches!(size, 2 | 4 | 8),
+        'i' | 'u' => matches!(size, 1 | 2 | 4 | 8),
+        'b' => size == 1,
+        'S' | 'U' => (1..=4096).contains(&size),
+        _ => false,
+    };
+    is_known.then_some(Kind { letter, bytes, is_big: order == Some('>') })
+}
+
+fn number(kind: Kind, element: &[u8]) -> f64 {
+    let mut eight = [0; 8];
+    let bytes = &mut eight[..kind.bytes];
+    bytes.copy_from_slice(element);
+    if kind.is_big {
+        bytes.reverse();
+    }
+    let unsigned = u64::from_le_bytes(eight);
+    let unused = 64 - 8 * kind.bytes as u32;
+    match (kind.letter, kind.bytes) {
+        ('f', 8) => f64::from_bits(unsigned),
+        ('f', 4) => f64::from(f32::from_bits(unsigned as u32)),
+        ('f', _) => half(unsigned as u16),
+        ('i', _) => ((unsigned << unused) as i64 >> unused) as f64,
+        _ => unsigned as f64,
+    }
+}
+
+/// A number of IEEE 754 in sixteen bits.
+fn half(bits: u16) -> f64 {
+    let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
+    let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023) / 1024.0);
+    sign * match exponent {
+        0 => fraction * 2.0_f64.powi(-14),
+        31 if fraction == 0.0 => f64::INFINITY,
+        31 => f64::NAN,
+        _ => (1.0 + fraction) * 2.0_f64.powi(exponent - 15),
+    }
+}
+
+/// A text without the zeros that fill it up.
+fn text(kind: Kind, element: &[u8]) -> String {
+    if kind.letter == 'S' {
+        return String::from_utf8_lossy(element).trim_end_matches('\0').to_owned();
+    }
+    let letter = |four: &[u8]| {
+        let mut four = [four[0], four[1], four[2], four[3]];
+        if kind.is_big {
+            four.reverse();
+        }
+        char::from_u32(u32::from_le_bytes(four)).unwrap_or(char::REPLACEMENT_CHARACTER)
+    };
+    element.chunks_exact(4).map(letter).collect::<String>().trim_end_matches('\0').to_owned()
+}
+
+/// An array whose first axis runs first, with its last axis first.
+fn by_rows(array: Array) -> Array {
+    let Data::Numbers(columns) = &array.data else { return array };
+    let shape = &array.shape;
+    let mut index = vec![0; shape.len()];
+    let mut rows = Vec::with_capacity(columns.len());
+    for _ in 0..columns.len() {
+        let place = index.iter().zip(shape).rev().fold(0, |place, (i, length)| place * length + i);
+        rows.push(columns[place]);
+        for axis in (0..shape.len()).rev() {
+            index[axis] += 1;
+            if index[axis] < shape[axis] {
+                break;
+            }
+            index[axis] = 0;
+        }
+    }
+    Array { shape: array.shape, data: Data::Numbers(rows) }
+}
+
+pub(super) fn write(name: &str, array: &Array) -> Result<Vec<u8>, Error> {
+    let refused = |found: String, expected: &str| Err(Error::Record { found, expected: expected.to_owned() });
+    let (description, elements): (String, Vec<u8>) = match &array.data {
+        Data::Numbers(numbers) => ("<f8".to_owned(), numbers.iter().flat_map(|number| number.to_le_bytes()).collect()),
+        Data::Text(text) => {
+            let letters: Vec<u8> = text.chars().flat_map(|letter| (letter as u32).to_le_bytes()).collect();
+            (format!("<U{}", letters.len() / 4), letters)
+        }
+        Data::Other(kind) => return refused(format!("`{name}` of the type `{kind}`"), "numbers or a text"),
+    };
+    let count = array.shape.iter().try_fold(1_usize, |count, length| count.checked_mul(*length));
+    let is_whole = match &array.data {
+        Data::Numbers(numbers) => count == Some(numbers.len()),
+        _ => count == Some(1) && !elements.is_empty(),
+    };
+    if !is_whole {
+        return refused(format!("`{name}` of the shape {:?} with other elements", array.shape), "as many as the shape");
+    }
+    let lengths: String = array.shape.iter().map(|length| format!("{length},")).collect();
+    let mut header = format!("{{'descr': '{description}', 'fortran_order': False, 'shape': ({lengths}), }}");
+    let used = MAGIC.len() + 4 + header.len() + 1;
+    header += &" ".repeat(used.next_multiple_of(ALIGNED) - used);
+    header.push('\n');
+    let Ok(length) = u16::try_from(header.len()) else {
+        return refused(format!("`{name}` with {} axes", array.shape.len()), "fewer axes");
+    };
+    Ok([MAGIC, &[1, 0], &length.to_le_bytes(), header.as_bytes(), &elements].concat())
+}
