@@ -10,8 +10,20 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Numbers that readers find hard.
-const NUMBERS: [&str; 12] =
-    ["0", "-1", "1e308", "-1e308", "1e-308", "NaN", "inf", "4294967296", "-0.0", "0.1e-9", "99999999999999999999", "1e9"];
+const NUMBERS: [&str; 12] = [
+    "0",
+    "-1",
+    "1e308",
+    "-1e308",
+    "1e-308",
+    "NaN",
+    "inf",
+    "4294967296",
+    "-0.0",
+    "0.1e-9",
+    "99999999999999999999",
+    "1e9",
+];
 
 /// Slower than this is reported.
 const SLOW: Duration = Duration::from_secs(10);

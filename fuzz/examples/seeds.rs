@@ -4,9 +4,13 @@
 
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{Scene, SceneFile, SceneSettings};
+use ambulo_formats::b3d::{
+    B3d, ContactFrames, Header, MissingForce, Pass, PassFrames, TrialFrames, TrialHeader, TrialPass,
+};
 use ambulo_formats::bvh::{Bvh, Channel as BvhChannel, Joint};
 use ambulo_formats::c3d::{C3d, Channel, Encoding, Event, EventPlace, Platform, Point, Processor, Rotation, Storage};
 use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_formats::npz::{Array, Data, Npz};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::{Marker, Trc};
@@ -34,6 +38,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     save("setup", "scale.xml", SCALE_SETUP.as_bytes())?;
     save("osim", "two.osim", &OsimModel::read(OSIM.as_bytes())?.write()?)?;
     save("bvh", "leg.bvh", &bvh()?.write())?;
+    save("b3d", "two.b3d", &subject().write()?)?;
+    save("npz", "stand.npz", &smpl().write()?)?;
+    save("bids_motion", "points.txt", points().as_bytes())?;
     save("gait", "slow.toml", b"speed = 0.9\nheight = 1.7\nstyle = \"1997\"\n[pelvis]\nrotation = 1.5\n")?;
     for name in ["pendulum", "four-bar", "carry", "top"] {
         copy("scene", &format!("examples/{name}.toml"))?;
@@ -45,7 +52,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     save("saved_state", "top.json", &saved()?)?;
     save("thresholds", "weak.toml", THRESHOLDS.as_bytes())?;
     save("result_folder", "events.csv", b"time,side,event\n0.5,right,foot strike\n1.1,right,foot off\n")?;
-    save("result_folder", "summary.json", b"{\"format\":1,\"version\":\"0\",\"mass_kg\":70.5,\"files\":[{\"name\":\"grf.mot\"}]}")?;
+    save(
+        "result_folder",
+        "summary.json",
+        b"{\"format\":1,\"version\":\"0\",\"mass_kg\":70.5,\"files\":[{\"name\":\"grf.mot\"}]}",
+    )?;
     save("study_coordinates", "sway.mot", &sway()?.write_storage())?;
     save("study_markers", "legs.c3d", &legs().write()?)?;
     save("study_markers", "poses.c3d", &posed_legs().write()?)?;
@@ -77,6 +88,49 @@ const SCALE_SETUP: &str = "<ScaleTool name=\"s\"><mass>70</mass><GenericModelMak
 
 const THRESHOLDS: &str = "shortest_s = 0.05\nskip = [\"power\"]\n[person]\nmass_kg = 60.0\n[strength]\nshare = 0.8\n\
     [friction]\navailable = 0.5\n[support]\nacceleration_ratio = 1.5\n";
+
+/// A subject with two frames, the model of the target of models, a marker and a foot on the ground.
+fn subject() -> B3d {
+    let two = |x: f64| vec![[x, 0.5, 0.25]; 2];
+    let contact = ContactFrames { force: two(700.0), centre_of_pressure: two(0.1), moment: two(0.0) };
+    let positions = vec![vec![0.1, 0.2]; 2];
+    let pass = PassFrames { positions, mass_centre: Vec::new(), contacts: vec![contact] };
+    let trial = TrialHeader {
+        name: "walk".into(),
+        frames: 2,
+        step_s: 0.01,
+        missing_force: vec![MissingForce(0), MissingForce(5)],
+        passes: vec![TrialPass::default()],
+        ..TrialHeader::default()
+    };
+    let header = Header {
+        coordinates: 2,
+        passes: vec![Pass { model: OSIM.into(), ..Pass::default() }],
+        contact_bodies: vec!["foot".into()],
+        markers: vec!["HEEL".into()],
+        trials: vec![trial],
+        ..Header::default()
+    };
+    B3d { header, trials: vec![TrialFrames { markers: vec![two(1.0)], passes: vec![pass] }] }
+}
+
+/// Two frames of a person who stands, in arrays of the SMPL family.
+fn smpl() -> Npz {
+    let zeros =
+        |shape: &[usize]| Array { shape: shape.to_vec(), data: Data::Numbers(vec![0.0; shape.iter().product()]) };
+    let rate = Array { shape: Vec::new(), data: Data::Numbers(vec![60.0]) };
+    let gender = Array { shape: Vec::new(), data: Data::Text("neutral".into()) };
+    let arrays = [("poses", zeros(&[2, 72])), ("trans", zeros(&[2, 3])), ("mocap_framerate", rate), ("gender", gender)];
+    Npz { arrays: arrays.map(|(name, array)| (name.to_owned(), array)).into() }
+}
+
+/// Channels of four tracked points, an empty line, and two frames.
+fn points() -> String {
+    let channel = |k: usize| format!("c{k}\t{}\tPOS\tP{}\tmm\tgood\n", ["x", "y", "z"][k % 3], k / 3);
+    let channels: String = (0..12).map(channel).collect();
+    let row = (0..12).map(|k| k.to_string()).collect::<Vec<_>>().join("\t");
+    format!("name\tcomponent\ttype\ttracked_point\tunits\tstatus\n{channels}\n{row}\n{row}\n")
+}
 
 /// Someone of 1.65 m who sways and bends the knees.
 fn sway() -> Result<Table, ambulo_formats::Error> {
@@ -183,7 +237,9 @@ fn posed_legs() -> C3d {
     push("pelvis_4X4", &|t| [0.0, 1000.0 * t, 900.0, 0.0]);
     for (side, sense) in [("r", 1.0), ("l", -1.0)] {
         let lean = move |t: f64| sense * 0.3 * (6.0 * t).sin();
-        let along = move |t: f64, way: f64| [90.0 * sense, 1000.0 * t + way * lean(t).sin(), 900.0 - way * lean(t).cos(), lean(t)];
+        let along = move |t: f64, way: f64| {
+            [90.0 * sense, 1000.0 * t + way * lean(t).sin(), 900.0 - way * lean(t).cos(), lean(t)]
+        };
         push(&format!("{side}_thigh_4X4"), &|t| along(t, 0.0));
         push(&format!("{side}_shank_4X4"), &|t| along(t, 420.0));
         push(&format!("{side}_foot_4X4"), &|t| along(t, 830.0));

@@ -9,12 +9,15 @@ use ambulo::gait::Gait;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::from_osim;
 use ambulo::model::marker_set::MarkerSet;
-use ambulo::motion::coordinates_from_table;
+use ambulo::motion::{B3dTrial, SmplMotion, Window, coordinates_from_table, is_bids_markers, markers_from_bids};
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
 use ambulo::study::{self, LaboratoryFile, MarkerBody, MarkerSource, Settings, Source};
+use ambulo_formats::b3d::B3d;
+use ambulo_formats::bids_motion::BidsMotion;
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_formats::npz::Npz;
 use ambulo_formats::osim::{OsimMarkerSet, OsimModel};
 use ambulo_formats::setup::Setup;
 use ambulo_formats::table::Table;
@@ -25,7 +28,7 @@ use ambulo_results::Folder;
 pub type Check = fn(&[u8]);
 
 /// All checks, by the name of target and corpus folder.
-pub const CHECKS: [(&str, Check); 17] = [
+pub const CHECKS: [(&str, Check); 20] = [
     ("c3d", c3d),
     ("trc", trc),
     ("storage", storage),
@@ -34,6 +37,9 @@ pub const CHECKS: [(&str, Check); 17] = [
     ("external_loads", external_loads),
     ("setup", setup),
     ("bvh", bvh),
+    ("b3d", b3d),
+    ("npz", npz),
+    ("bids_motion", bids_motion),
     ("scene", scene),
     ("gait", gait),
     ("marker_set", marker_set),
@@ -111,6 +117,41 @@ pub fn bvh(bytes: &[u8]) {
     let (again, _) = Bvh::read(&record.write()).expect("what was written reads back");
     assert_eq!(again.joints().len(), record.joints().len());
     assert_eq!(again.frames(), record.frames());
+}
+
+/// Subjects of AddBiomechanics: every trial becomes a source or is refused; what is written reads back with the same counts.
+pub fn b3d(bytes: &[u8]) {
+    let Ok(record) = B3d::read(bytes) else { return };
+    for (trial, frames) in record.trials.iter().enumerate() {
+        let of_file = B3dTrial { header: &record.header, trial, frames, name: "trial" };
+        let _ = Source::of_b3d(&of_file, Window::default(), &mut Findings::default());
+        let _ = of_file.markers(&mut Findings::default());
+    }
+    if let Ok(written) = record.write() {
+        let again = B3d::read(&written).expect("what was written reads back");
+        assert_eq!(again.header.trials, record.header.trials);
+        assert_eq!(again.header.markers, record.header.markers);
+    }
+}
+
+/// Archives of arrays: a motion of the SMPL family or a refusal; what is written reads back with the same names.
+pub fn npz(bytes: &[u8]) {
+    let Ok(record) = Npz::read(bytes) else { return };
+    let _ = SmplMotion::from_npz(&record);
+    if let Ok(written) = record.write() {
+        let again = Npz::read(&written).expect("what was written reads back");
+        assert_eq!(again.arrays.len(), record.arrays.len());
+    }
+}
+
+/// Motions of BIDS data sets: channels and motion in one input, divided by the first empty line.
+pub fn bids_motion(bytes: &[u8]) {
+    let divided = bytes.windows(2).position(|pair| pair == b"\n\n").unwrap_or(bytes.len());
+    let (channels, motion) = bytes.split_at(divided);
+    let Ok(bids) = BidsMotion::read(motion, channels) else { return };
+    if is_bids_markers(&bids).is_ok_and(|has_markers| has_markers) {
+        let _ = markers_from_bids(&bids, Some(100.0), "motion", &mut Findings::default());
+    }
 }
 
 /// Scene files: parsed, not built.
@@ -213,7 +254,8 @@ pub fn study_markers(bytes: &[u8]) {
         return;
     }
     let Ok(trial) = LaboratoryFile::from_c3d(bytes, "recording", &mut findings) else { return };
-    let body = MarkerBody::BuiltIn { table: SegmentTable::DeLevaFemale, mass_kg: Some(60.0), height_m: None, set: None };
+    let body =
+        MarkerBody::BuiltIn { table: SegmentTable::DeLevaFemale, mass_kg: Some(60.0), height_m: None, set: None };
     let source = Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() });
     let _ = study::run(source, &Settings::default(), &mut findings);
 }

@@ -10,7 +10,8 @@ use anyhow::{Context, Result, bail};
 use std::error::Error;
 use std::fmt;
 use std::fs;
-use std::io::{ErrorKind, Read};
+use std::io::{ErrorKind, Read, Seek, SeekFrom};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Larger files are rejected before they are read, which bounds the memory; no recording of walking needs more.
@@ -61,6 +62,38 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     let file = fs::File::open(path).with_context(|| format!("{shown}: cannot be opened"))?;
     // The size in the metadata may be wrong (a growing file).
     file.take(LARGEST_FILE_BYTES).read_to_end(&mut bytes).with_context(|| format!("{shown}: cannot be read"))?;
+    Ok(bytes)
+}
+
+/// The beginning of a file, at most this many bytes, from the caller's memory or the disk.
+pub(crate) fn read_start(caller: &Caller, path: &Path, count: usize) -> Result<Vec<u8>> {
+    read_part(caller, path, 0..count)
+}
+
+/// A part of a file, which may be larger than what is read as a whole; shorter where the file ends.
+pub(crate) fn read_part(caller: &Caller, path: &Path, part: Range<usize>) -> Result<Vec<u8>> {
+    let shown = path.display();
+    if let Some(content) = caller.content(path) {
+        let end = part.end.min(content.len());
+        return Ok(content[part.start.min(end)..end].to_vec());
+    }
+    let allowed = usize::try_from(LARGEST_FILE_BYTES).unwrap_or(usize::MAX);
+    if part.len() > allowed {
+        bail!("{shown}: {} MB of one trial; expected at most {} MB", part.len() >> 20, allowed >> 20);
+    }
+    let mut file = match fs::File::open(path) {
+        Ok(file) => file,
+        Err(e) if e.kind() == ErrorKind::NotFound => return Err(NoSuchFile(shown.to_string()).into()),
+        Err(e) => return Err(e).with_context(|| format!("{shown}: cannot be opened")),
+    };
+    if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
+        bail!("{shown}: this is no file; expected a file that can be read at any place");
+    }
+    let mut bytes = Vec::new();
+    let read = file
+        .seek(SeekFrom::Start(part.start as u64))
+        .and_then(|_| file.take(part.len() as u64).read_to_end(&mut bytes));
+    read.with_context(|| format!("{shown}: cannot be read"))?;
     Ok(bytes)
 }
 

@@ -6,8 +6,8 @@ use ambulo::analysis::{AnalysisError, ComparisonError};
 use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::kinematics::TrajectoryError;
-use ambulo::motion::MotionError;
 use ambulo::motion::skeleton::SkeletonError;
+use ambulo::motion::{MotionError, SmplError};
 use ambulo::optimal::OptimalWalkError;
 use ambulo::simulation::synthetic::SyntheticError;
 use ambulo::study::StudyError;
@@ -30,7 +30,13 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
-        Code::MassStandingMismatch | Code::MassContradicted => "`--mass KG` sets the mass",
+        Code::B3dForceMissing => {
+            "`--from` and `--to` choose another time range, `--predict` predicts the forces of the whole trial"
+        }
+        Code::B3dFiltered => "`--cutoff off` leaves the motion as it is",
+        Code::MassStandingMismatch | Code::MassContradicted | Code::B3dStatedMass | Code::B3dFormDefaults => {
+            "`--mass KG` sets the mass"
+        }
         Code::MassUnverified => "give `--mass KG` or, with markers, a standing trial on force plates (`--static`)",
         Code::GroundPredicted => "`--grf` reads measured forces, `--no-ground` computes a motion without contact",
         Code::WalkNotConsistent => "`--mode paper` computes the unchanged gait",
@@ -55,6 +61,7 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
         cause.downcast_ref().and_then(of_comparison),
         cause.downcast_ref().and_then(of_results),
         cause.downcast_ref().and_then(of_walk),
+        cause.downcast_ref().and_then(of_smpl),
     ];
     others.into_iter().flatten().next()
 }
@@ -105,6 +112,11 @@ fn of_prediction(error: &PredictError) -> Option<&'static str> {
         PredictError::TooLarge { .. } => Some(RANGE),
         _ => None,
     }
+}
+
+fn of_smpl(error: &SmplError) -> Option<&'static str> {
+    matches!(error, SmplError::NoLengths)
+        .then_some("`--height M` states the stature, `--smpl MODEL.npz` gives the model")
 }
 
 fn of_skeleton(error: &SkeletonError) -> Option<&'static str> {

@@ -23,6 +23,7 @@ mod figures;
 mod folders;
 mod keep;
 mod marker_input;
+mod motion_sets;
 mod one_road;
 mod opensim_setup;
 mod option_sweep;

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
   ambulo forces --setup Setup_Scale.xml --setup Setup_IK.xml --setup Setup_InverseDynamics.xml -o out
 
 Markers (.c3d, .trc) are fitted with the built-in body, which is calibrated from --static or else from the trial itself, or with an OpenSim
-model, which --static scales. Poses of segments in a .c3d (Theia3D) drive the built-in body directly. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
+model, which --static scales. Poses of segments in a .c3d (Theia3D) drive the built-in body directly. A .b3d has its own model and coordinates; with --model its markers are fitted instead. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
 were not measured, they are predicted from the motion; with --predict, the prediction is compared with the measurement. With --track, motion
 and forces agree to rounding, without force plates.
 
@@ -33,15 +33,21 @@ The verdict says whether a person could make this motion (strength, joint ranges
 residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the data
 are bad or the motion is infeasible.")]
 pub(crate) struct ForcesArgs {
-    /// The recording: markers (.c3d, .trc, .csv with three columns per marker), poses of segments (.c3d), coordinates (.mot, .sto) or a skeleton (.bvh).
+    /// The recording: markers (.c3d, .trc, .csv with three columns per marker, _motion.tsv of BIDS), poses of segments (.c3d), coordinates (.mot, .sto, _motion.tsv), a skeleton (.bvh), a motion of the SMPL family (.npz) or a subject of AddBiomechanics (.b3d).
     #[arg(required_unless_present = "setup")]
     pub(crate) input: Option<PathBuf>,
     /// Set-up of OpenSim's ScaleTool, InverseKinematicsTool or InverseDynamicsTool (.xml), which names files and settings; may be repeated, once for each tool, for one run of all (docs/OPENSIM.md).
     #[arg(long, value_name = "FILE")]
     pub(crate) setup: Vec<PathBuf>,
-    /// The body as an OpenSim model (.osim); required for coordinates [default for markers and skeletons: the built-in body].
-    #[arg(long, value_name = "FILE")]
+    /// The body as an OpenSim model (.osim), or `built-in`; required for coordinates [default for markers and skeletons: the built-in body; for a .b3d: its own model].
+    #[arg(long, value_name = "FILE|built-in")]
     pub(crate) model: Option<PathBuf>,
+    /// The trial of a .b3d: its number or name as `ambulo info` lists them, or `all` for a result folder in DIR for each [default: the only one].
+    #[arg(long, value_name = "N|NAME|all")]
+    pub(crate) trial: Option<String>,
+    /// The SMPL, SMPL-H or SMPL-X model (.npz) that a motion was made with; it gives the lengths of the body [default: the built-in body of --height].
+    #[arg(long, value_name = "FILE")]
+    pub(crate) smpl: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) subject: SubjectArgs,
     /// Measured ground forces: .mot, .sto or .csv [default: the file named in --loads]. Columns are recognised by their names, and loads without a side are assigned by the centre of pressure, unless --loads or --right and --left are given.
@@ -124,6 +130,21 @@ impl ForcesArgs {
     /// The low-pass filter of the motion.
     pub(crate) fn cutoff(&self) -> Cutoff {
         self.cutoff.unwrap_or(Cutoff(Some(Settings::LOW_PASS.cutoff_hz)))
+    }
+
+    /// The word for the built-in body in place of a model file.
+    pub(crate) const BUILT_IN: &'static str = "built-in";
+    /// The word for every trial.
+    pub(crate) const ALL_TRIALS: &'static str = "all";
+
+    /// The model file, if there is one.
+    pub(crate) fn model_file(&self) -> Option<&Path> {
+        self.model.as_deref().filter(|model| model.as_os_str() != ForcesArgs::BUILT_IN)
+    }
+
+    /// Whether a model or the built-in body was chosen.
+    pub(crate) fn has_chosen_body(&self) -> bool {
+        self.model.is_some()
     }
 }
 

@@ -1,5 +1,6 @@
 //! The subcommands, one module each.
 
+mod bids;
 pub(crate) mod compare;
 pub(crate) mod convert;
 pub(crate) mod demo;

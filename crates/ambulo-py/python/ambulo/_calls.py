@@ -61,6 +61,8 @@ def forces(
     right: str | None = None,
     left: str | None = None,
     plates: Mapping[int, str] | None = None,
+    trial: int | str | None = None,
+    smpl: _Path | bytes | None = None,
     predict: bool = False,
     track: bool = False,
     ground: bool = True,
@@ -89,9 +91,10 @@ def forces(
     Parameters
     ----------
     recording : Recording, str or path-like, optional
-        Markers (``.c3d``, ``.trc``), coordinates of a model (``.mot``, ``.sto``, ``.csv``) or a skeleton (``.bvh``); a `setup` may name it.
+        Markers (``.c3d``, ``.trc``), coordinates of a model (``.mot``, ``.sto``, ``.csv``), a skeleton (``.bvh``), a motion of the SMPL
+        family (``.npz``) or a subject of AddBiomechanics (``.b3d``); a `setup` may name it.
     model : Model, str, path-like or bytes, optional
-        The body; required for coordinates.
+        The body; required for coordinates. ``"built-in"`` fits the built-in body to the markers of a ``.b3d``.
     setup : str or path-like, or a sequence of these, optional
         Set-ups of OpenSim's scaling, inverse kinematics and inverse dynamics.
     mass : float, optional
@@ -108,6 +111,10 @@ def forces(
         Body and column prefix of a foot, such as ``"calcn_r:ground_force_"``.
     plates : mapping of int to str, optional
         Foot of each force plate, counted from 1: ``{1: "r", 2: "off"}``.
+    trial : int or str, optional
+        The trial of a ``.b3d``: its number, counted from 1, or its name.
+    smpl : str, path-like or bytes, optional
+        The SMPL model (``.npz``) that gives a motion its lengths.
     predict : bool, optional
         Predict the ground forces even if they were measured, and compare both.
     track : bool, optional
@@ -173,6 +180,7 @@ def forces(
         words.input(recording, "recording")
     words.option("setup", [os.fspath(path) for path in ([setup] if isinstance(setup, (str, os.PathLike)) else setup or [])])
     words.file("model", model, "model.osim")
+    words.file("smpl", smpl, "smpl.npz")
     words.file("static", static, "static")
     words.file("grf", grf, "grf.mot")
     words.file("loads", loads, "loads.xml")
@@ -184,6 +192,7 @@ def forces(
         {
             "mass": mass,
             "height": height,
+            "trial": trial,
             "right": right,
             "left": left,
             "predict": predict,

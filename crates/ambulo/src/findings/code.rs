@@ -101,6 +101,9 @@ codes! {
     MotionShorterThanScene "motion.shorter_than_scene" Warning
         "A motion that drives a scene ends before the scene does; its last values are held from then on."
         "Shorten the scene or lengthen the motion.";
+    MotionClock "motion.clock" Warning
+        "The person falls too slowly or too fast in flight phases, so the stated frame rate is wrong."
+        "Correct the frame rate in the file; the message states the one that gravity needs.";
     // Skeletons.
     BvhAxes "bvh.axes" Note
         "States which axes of the skeleton file are up and forward."
@@ -115,8 +118,8 @@ codes! {
         "Useful joints were not recognised by their names."
         "Rename the joints of the skeleton to usual names.";
     BvhRestPose "bvh.rest_pose" Note
-        "The resting pose of the file is not upright standing, so the mean posture of the recording is used for it."
-        "Nothing to do if the person is upright on average.";
+        "The resting pose of the file is not upright standing, so a T- or A-pose of the recording, or else its mean posture, is used for it."
+        "Nothing to do if the message names a pose; otherwise check that the person is upright on average.";
     BvhPose "bvh.pose" Note
         "The first frame is a calibration pose and was left out."
         "Nothing to do.";
@@ -129,6 +132,26 @@ codes! {
     BvhLowTrust "bvh.low_trust" Warning
         "A skeleton file has no mass, no unit and mostly filtered motion: forces are estimates for comparison only."
         "Use markers or joint coordinates where forces matter.";
+    // Motions of the SMPL family.
+    SmplBody "smpl.body" Note
+        "States where the lengths of a motion of the SMPL family come from."
+        "Give the SMPL model that the motion was made with, or the person's stature.";
+    // Subjects of AddBiomechanics.
+    B3dForceMissing "b3d.force_missing" Warning
+        "The file marks the ground force of some frames as missing; only the longest time with measured forces was used, or forces were predicted."
+        "Choose another time range, or predict the forces of the whole trial.";
+    B3dUnobserved "b3d.unobserved" Note
+        "Coordinates of the model were not observed in this trial, and have assumed values."
+        "Do not use the moments of these joints.";
+    B3dFiltered "b3d.filtered" Note
+        "The motion in the file was filtered before."
+        "Nothing to do, or switch the filter of the motion off.";
+    B3dStatedMass "b3d.stated_mass" Warning
+        "The mass that the file states is not that of its model; forces are computed with the model."
+        "State the mass of the person: the model is then scaled to it.";
+    B3dFormDefaults "b3d.form_defaults" Warning
+        "Stated mass, stature and age are those with which the form of AddBiomechanics begins."
+        "State the mass of the person if it is known.";
     // Poses of segments.
     PosesUsed "poses.used" Note
         "The file holds poses of body segments, as markerless motion capture computes them; they drive the body, and markers of the file are not used."

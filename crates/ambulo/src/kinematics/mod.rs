@@ -9,6 +9,7 @@ mod trajectory;
 
 mod body_motion;
 mod clinical_angles;
+mod flight_gravity;
 pub(crate) mod lanes;
 mod sin_cos;
 pub(crate) mod skeleton_body;
@@ -25,4 +26,5 @@ pub mod scaling;
 pub use body_motion::{BodyMotion, body_motion, each_body_motion};
 pub(crate) use calibration::angles_zxy;
 pub use clinical_angles::{ClinicalAngles, HipAngles, clinical_angles};
+pub use flight_gravity::FlightGravity;
 pub use trajectory::{Posture, Trajectory, TrajectoryError};

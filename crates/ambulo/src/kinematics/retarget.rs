@@ -6,15 +6,16 @@
 //! Not handled: uneven floors, shoulders that move relative to the trunk, hands.
 //! Pinned by: tests/retarget.rs
 
+use super::flight_gravity::FlightGravity;
 use super::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
 pub use super::skeleton_body::{JointCentreError, STANDING};
 use super::skeleton_body::{body_of_joint_centres, standing_ankle_height};
 use crate::findings::{Code, Findings};
-use crate::model::Side;
 use crate::model::anthropometry::{Build, Human};
 use crate::model::full_body::{SolePlacement, full_body};
-use crate::motion::MarkerRecording;
+use crate::model::{Model, Side};
 use crate::motion::skeleton::SkeletonRecording;
+use crate::motion::{MarkerRecording, Motion};
 
 /// Result of [`retarget`].
 #[derive(Debug, Clone)]
@@ -65,7 +66,21 @@ pub fn retarget(
     let settings =
         FitSettings { outliers: OutlierDetection::Off, limits: JointLimits::Ranges, ..FitSettings::default() };
     let fit = fit_markers(&human.model, &markers, &settings, findings)?;
+    report_clock(&human.model, &fit.motion, &markers, findings);
     Ok(Retargeted { human, markers, fit })
+}
+
+/// Reports a frame rate that the fall of the person in flight contradicts.
+fn report_clock(model: &Model, motion: &Motion, markers: &MarkerRecording, findings: &mut Findings) {
+    let Some(found) = FlightGravity::of(model, motion, markers) else { return };
+    let stated_hz = markers.rate_hz;
+    if let Some(true_hz) = found.contradicted_rate(stated_hz) {
+        let FlightGravity { gravity, flights } = found;
+        let message = format!(
+            "in {flights} flight phases the person falls with {gravity:.1} m/s² at the stated {stated_hz:.0} frames per second; gravity means about {true_hz:.0} frames per second. hint: every force depends on it; correct the frame rate in the file"
+        );
+        findings.report(Code::MotionClock, message);
+    }
 }
 
 fn raised(markers: &MarkerRecording, by: f64) -> MarkerRecording {

@@ -60,6 +60,16 @@ fn turn(axis: Vec3, angle: f64) -> Mat3 {
     *nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_unchecked(axis), angle).matrix()
 }
 
+impl Model {
+    /// Mass centre at these coordinates, one value for each [rad or m]; coupled ones follow their leaders [m].
+    #[must_use]
+    pub fn mass_center(&self, coordinates: &[f64]) -> Vec3 {
+        let posture = ModelPosture::new(self, coordinates.to_vec());
+        let moment = |body: BodyId| self.bodies()[body.index()].inertia.mass() * posture.mass_center(body);
+        self.body_ids().map(moment).sum::<Vec3>() / self.mass()
+    }
+}
+
 /// The poses of all bodies of a model in one posture.
 #[derive(Debug, Clone)]
 pub(crate) struct ModelPosture<'a> {

@@ -3,6 +3,8 @@
 //! A [`Motion`] has recorded coordinates as in the file, in SI units. [`smooth`] resamples them to a uniform
 //! [`TimeGrid`], filters and differentiates them. A [`ForceRecording`] has the forces of force plates or other sensors.
 
+mod b3d_trial;
+mod bids;
 mod curves;
 mod device_recording;
 pub mod filter;
@@ -23,10 +25,13 @@ mod recording;
 mod segment_poses;
 pub mod skeleton;
 mod smooth;
+mod smpl;
 mod straightened;
 mod subject_parameters;
 mod time_grid;
 
+pub use b3d_trial::{B3dError, B3dTrial, reasons as missing_force_reasons};
+pub use bids::{BidsError, coordinates_from_bids, is_bids_markers, markers_from_bids};
 pub use curves::{CoordinateCurves, CurveError, RecordedTable};
 pub use device_recording::{DeviceRecording, device_from_table};
 pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
@@ -43,6 +48,7 @@ pub use recording::{Motion, MotionError};
 pub use segment_poses::{PosedSegment, SegmentPoseError, SegmentPoses, segment_poses_from_c3d};
 pub(crate) use smooth::check_range;
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
+pub use smpl::{SmplBody, SmplError, SmplMotion};
 pub use straightened::straightened;
 pub use subject_parameters::{SubjectParameters, subject_from_c3d};
 pub use time_grid::{TimeGrid, Window, interpolate};

@@ -4,8 +4,8 @@ use crate::analysis::LaboratoryRecording;
 use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
-    Event, MarkerError, RecordedMotion, RecordedMotionError, SubjectParameters, events_from_c3d, markers_from_table,
-    markers_from_trc, motion_from_c3d, subject_from_c3d,
+    Event, MarkerError, MarkerRecording, RecordedMotion, RecordedMotionError, SubjectParameters, events_from_c3d,
+    markers_from_table, markers_from_trc, motion_from_c3d, subject_from_c3d,
 };
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::table::Table;
@@ -91,12 +91,17 @@ impl LaboratoryFile {
         label: &str,
         findings: &mut Findings,
     ) -> Result<LaboratoryFile, LaboratoryFileError> {
-        let markers = markers_from_table(table, label, findings)?;
-        Ok(LaboratoryFile {
+        Ok(LaboratoryFile::of_markers(markers_from_table(table, label, findings)?))
+    }
+
+    /// Markers alone, in metres.
+    #[must_use]
+    pub fn of_markers(markers: MarkerRecording) -> LaboratoryFile {
+        LaboratoryFile {
             recording: LaboratoryRecording { markers, poses: None, plates: Vec::new(), unit: "m".to_owned() },
             events: Vec::new(),
             subject: SubjectParameters::default(),
-        })
+        }
     }
 
     /// From the bytes of a TRC; `label` names the file in findings.

@@ -14,6 +14,7 @@
 //! [`run`] reads no file, prints nothing and has no clock. [`run_observed`] reports the end of each [`Stage`] to its caller, who can
 //! measure time, show progress or stop the computation.
 
+mod b3d_source;
 mod error;
 mod events;
 mod force_columns;
@@ -35,6 +36,7 @@ mod tracked;
 mod weighing;
 
 pub use crate::analysis::{ModelProtocol, Stage, Stopped};
+pub use b3d_source::B3dSourceError;
 pub use error::{Input, StudyError};
 pub use force_filter::ForceFilter;
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};

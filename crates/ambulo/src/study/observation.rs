@@ -220,7 +220,7 @@ impl Statements {
         let body = retarget(build, skeleton, findings)?;
         progress.end(Stage::Markers)?;
         if settings.ground != GroundSettings::NoContact {
-            let message = "a BVH has no ground forces; they are predicted from the motion";
+            let message = "a skeleton has no ground forces; they are predicted from the motion";
             findings.report(Code::GroundPredicted, message);
         }
         let motion = body.fit.motion.clone();

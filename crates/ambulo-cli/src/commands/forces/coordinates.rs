@@ -2,15 +2,16 @@
 
 use super::{Reading, added_mass, ground_table, read_model, size};
 use crate::args::{ForcesArgs, SubjectArgs};
+use crate::commands::bids;
 use crate::files;
 use ambulo::model::Model;
-use ambulo::motion::{Motion, coordinates_from_table};
+use ambulo::motion::{Motion, coordinates_from_bids, coordinates_from_table};
 use ambulo::study::Source;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
-    let Some(model_path) = &args.model else {
+    let Some(model_path) = args.model_file() else {
         bail!(
             "{}: coordinates need their model; expected --model FILE.osim. hint: markers (.c3d, .trc) need no model",
             args.recording().display()
@@ -60,6 +61,11 @@ fn reject_marker_options(args: &ForcesArgs) -> Result<()> {
 
 fn read_motion(model: &Model, path: &Path, reading: &mut Reading) -> Result<Motion> {
     let shown = path.display().to_string();
+    if files::ending(path) == "tsv" {
+        let bids = bids::read(&reading.caller, path)?;
+        reading.read.extend(bids.beside);
+        return coordinates_from_bids(model, &bids.motion, bids.rate_hz, &shown, &mut reading.findings).context(shown);
+    }
     let (table, remarks) = files::read_table(&reading.caller, path)?;
     files::note_remarks(&shown, &remarks, &mut reading.findings);
     coordinates_from_table(model, &table, &shown, &mut reading.findings).context(shown)

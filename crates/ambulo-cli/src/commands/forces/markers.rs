@@ -3,9 +3,11 @@
 use super::{Reading, added_mass, ground_table, read_model_with_markers, size};
 use crate::args::{ForcesArgs, PlateFoot, SubjectArgs};
 use crate::caller::Caller;
+use crate::commands::bids;
 use crate::files;
 use ambulo::findings::Findings;
 use ambulo::model::marker_set::MarkerSet;
+use ambulo::motion::markers_from_bids;
 use ambulo::study::{LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, standing_trial};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
@@ -26,9 +28,9 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
 }
 
 /// The given model, or the size and mass of the person for the built-in body.
-fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBody> {
+pub(super) fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBody> {
     let SubjectArgs { mass, height, figure, markers, .. } = &args.subject;
-    if let Some(path) = &args.model {
+    if let Some(path) = args.model_file() {
         let model = read_model_with_markers(path, args.subject.marker_set.as_deref(), reading)?;
         let setups = reading.setups.clone();
         reading.tracked = setups.tasks(&model, reading)?;
@@ -43,9 +45,20 @@ fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBody> {
     })
 }
 
-/// Reads a `.c3d`, a `.trc` or a `.csv`.
+/// Reads a `.c3d`, a `.trc`, a `.csv` or a BIDS motion.
 fn read_laboratory_file(path: &Path, caller: &Caller, findings: &mut Findings) -> Result<LaboratoryFile> {
+    if files::ending(path) == "tsv" {
+        return read_bids(path, caller, findings);
+    }
     parse_laboratory_file(files::read_input(caller, path)?, path, findings)
+}
+
+/// Reads the tracked points of a BIDS motion.
+fn read_bids(path: &Path, caller: &Caller, findings: &mut Findings) -> Result<LaboratoryFile> {
+    let shown = path.display().to_string();
+    let bids = bids::read(caller, path)?;
+    let markers = markers_from_bids(&bids.motion, bids.rate_hz, &shown, findings).context(shown)?;
+    Ok(LaboratoryFile::of_markers(markers))
 }
 
 /// The recording in the content of a `.c3d`, a `.trc` or a `.csv`.
@@ -65,14 +78,14 @@ pub(crate) fn parse_laboratory_file(bytes: Vec<u8>, path: &Path, findings: &mut 
 }
 
 /// Rejects options that contradict each other or have no effect with --model.
-fn check_options(args: &ForcesArgs) -> Result<()> {
+pub(super) fn check_options(args: &ForcesArgs) -> Result<()> {
     let SubjectArgs { plate, height, markers, figure, .. } = &args.subject;
     for (i, given) in plate.iter().enumerate() {
         if plate[..i].iter().any(|before| before.plate == given.plate) {
             bail!("--plate {} is given twice; expected one foot per plate", given.plate);
         }
     }
-    if args.model.is_none() {
+    if args.model_file().is_none() {
         if args.subject.marker_set.is_some() {
             bail!(
                 "--marker-set places markers on the bodies of a model; expected --model FILE.osim. hint: for the built-in body, --markers names a set of docs/MARKERS.md"

@@ -7,7 +7,9 @@ pub(crate) mod markers;
 mod setup;
 mod size;
 mod skeleton;
+pub(crate) mod subject;
 
+use super::bids;
 use super::run_files::{MotionRun, read_thresholds};
 use super::stopwatch::Stopwatch;
 use crate::args::{Adjusted, Filter, ForceCutoff, ForcesArgs, MarkerFitting};
@@ -19,7 +21,7 @@ use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitMethod, FitSettings, OutlierDetection, SmoothnessPrior};
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
-use ambulo::motion::{Smoother, SubjectParameters, Window, is_marker_table};
+use ambulo::motion::{Smoother, SubjectParameters, Window, is_bids_markers, is_marker_table};
 use ambulo::study::{
     self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, Outcome, Recording, Settings, Source, TrackedTasks,
 };
@@ -33,6 +35,14 @@ use std::path::{Path, PathBuf};
 
 pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
     check_range(args)?;
+    if args.trial.as_deref() == Some(ForcesArgs::ALL_TRIALS) {
+        return subject::run_all(args);
+    }
+    run_one(args)
+}
+
+/// Computes one recording into one folder.
+fn run_one(args: &ForcesArgs) -> Result<Completion> {
     let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
     compute(args, &Caller::default())?.write(&target, args.print, args.check)
 }
@@ -60,10 +70,22 @@ pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
     let args = &setup::resolved(args, &mut reading)?;
     check_range(args)?;
     reading.read.push(args.recording().to_owned());
-    let source = match RecordingKind::of(args.recording(), caller)? {
+    let kind = RecordingKind::of(args.recording(), caller)?;
+    if args.trial.is_some() && kind != RecordingKind::Subject {
+        bail!("{}: --trial chooses a trial of a .b3d; this file has one recording", args.recording().display());
+    }
+    if args.smpl.is_some() && kind != RecordingKind::Smpl {
+        bail!(
+            "{}: --smpl gives a motion of the SMPL family (.npz) its lengths; this file has its own",
+            args.recording().display()
+        );
+    }
+    let source = match kind {
         RecordingKind::Coordinates => coordinates::read(args, &mut reading)?,
         RecordingKind::Markers => markers::read(args, &mut reading)?,
         RecordingKind::Skeleton => skeleton::read(args, &mut reading)?,
+        RecordingKind::Smpl => skeleton::read_smpl(args, &mut reading)?,
+        RecordingKind::Subject => subject::read(args, &mut reading)?,
     };
     let source = Source { device: read_device(args, &mut reading)?, ..source };
     reading.read.extend(args.device.iter().chain(&args.thresholds).cloned());
@@ -76,6 +98,8 @@ enum RecordingKind {
     Coordinates,
     Markers,
     Skeleton,
+    Smpl,
+    Subject,
 }
 
 impl RecordingKind {
@@ -93,9 +117,16 @@ impl RecordingKind {
             }
             "mot" | "sto" | "csv" => Ok(RecordingKind::Coordinates),
             "c3d" | "trc" => Ok(RecordingKind::Markers),
+            "tsv" => {
+                let bids = bids::read(caller, input)?;
+                let has_markers = is_bids_markers(&bids.motion).with_context(|| input.display().to_string())?;
+                Ok(if has_markers { RecordingKind::Markers } else { RecordingKind::Coordinates })
+            }
             "bvh" => Ok(RecordingKind::Skeleton),
+            "npz" => Ok(RecordingKind::Smpl),
+            "b3d" => Ok(RecordingKind::Subject),
             _ => bail!(
-                "{}: {found}; expected .c3d, .trc or .csv (markers), .mot, .sto or .csv (coordinates) or .bvh (a skeleton)",
+                "{}: {found}; expected .c3d, .trc or .csv (markers), .mot, .sto or .csv (coordinates), _motion.tsv (BIDS), .bvh (a skeleton), .npz (a motion of the SMPL family) or .b3d (a subject of AddBiomechanics)",
                 input.display()
             ),
         }
@@ -172,12 +203,15 @@ fn input(args: &ForcesArgs, ground: Option<&Path>, stated: SubjectParameters, ou
     let shown = |path: &Path| path.display().to_string();
     let is_measured = outcome.force_origin == ForceOrigin::Measured
         || outcome.prediction.as_ref().is_some_and(|prediction| prediction.measured.is_some());
-    let in_recording = (outcome.tracking.is_some() && is_measured).then_some(args.recording());
+    let is_subject = files::ending(args.recording()) == "b3d";
+    let in_recording = ((outcome.tracking.is_some() || is_subject) && is_measured).then_some(args.recording());
+    let of_trial = args.trial.as_ref().map_or_else(String::new, |trial| format!(", trial {trial}"));
+    let own = if is_subject && !args.has_chosen_body() { subject::OWN_MODEL } else { ForcesArgs::BUILT_IN };
     Input {
-        motion: shown(args.recording()),
+        motion: format!("{}{of_trial}", shown(args.recording())),
         person: stated.name,
         recorded_on: stated.recorded_on,
-        model: args.model.as_deref().map_or("built-in".into(), shown),
+        model: args.model_file().map_or(own.into(), shown),
         standing: args.subject.still.as_deref().map(shown),
         ground: ground.or(in_recording).map(shown),
         loads: args.loads.as_deref().map(shown),

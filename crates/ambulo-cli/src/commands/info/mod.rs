@@ -1,10 +1,12 @@
 //! `ambulo info`: describes the content of a file.
 
+mod arrays;
 mod bvh;
 mod c3d;
 mod markers;
 mod model;
 mod sheet;
+mod subject;
 mod table;
 mod template;
 
@@ -17,6 +19,16 @@ use anyhow::{Context, Result, bail};
 use std::path::Path;
 
 pub(crate) fn run(args: &InfoArgs) -> Result<Completion> {
+    if files::ending(&args.file) == "b3d" {
+        if args.markers.is_some() {
+            bail!(
+                "{}: --markers writes the marker set of a .c3d or .trc; a .b3d lists its markers",
+                args.file.display()
+            );
+        }
+        printer::info(&subject::describe(&args.file)?, args.print)?;
+        return Ok(Completion::Passed);
+    }
     let bytes = files::read(&args.file)?;
     let mut sheet = describe(&args.file, &bytes).with_context(|| args.file.display().to_string())?;
     if let Some(target) = &args.markers {
@@ -31,12 +43,13 @@ fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
         "c3d" => c3d::describe(path, bytes),
         "trc" => markers::describe_trc(path, bytes),
         "bvh" => bvh::describe(path, bytes),
+        "npz" => arrays::describe(path, bytes),
         "osim" => model::describe(path, bytes),
         "mot" | "sto" => table::describe_storage(path, bytes),
         "csv" => table::describe_csv(path, bytes),
         "xml" => loads(bytes),
         ending => bail!(
-            "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .osim, .mot, .sto, .csv or .xml (external loads)"
+            "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .npz, .b3d, .osim, .mot, .sto, .csv or .xml (external loads)"
         ),
     }
 }

@@ -1,0 +1,45 @@
+//! Reads the three files of a BIDS motion: `*_motion.tsv`, and beside it `*_channels.tsv` and `*_motion.json`.
+
+use crate::caller::Caller;
+use crate::files;
+use ambulo_formats::bids_motion::BidsMotion;
+use anyhow::{Context, Result, bail};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// End of the name of the motion.
+const MOTION: &str = "_motion.tsv";
+
+/// A motion with the frame rate that its description states.
+pub(crate) struct BidsFiles {
+    pub(crate) motion: BidsMotion,
+    /// `SamplingFrequency` [Hz].
+    pub(crate) rate_hz: Option<f64>,
+    /// The files beside the motion.
+    pub(crate) beside: Vec<PathBuf>,
+}
+
+/// Reads the files of the motion at a path.
+pub(crate) fn read(caller: &Caller, path: &Path) -> Result<BidsFiles> {
+    let shown = path.display().to_string();
+    let name = files::last(path);
+    let Some(stem) = name.strip_suffix(MOTION) else {
+        bail!("{shown}: a .tsv is read as motion of a BIDS data set; expected a name that ends with {MOTION}");
+    };
+    let channels = path.with_file_name(format!("{stem}_channels.tsv"));
+    let description = path.with_file_name(format!("{stem}_motion.json"));
+    let motion = files::read_input(caller, path)?;
+    let of_channels =
+        files::read_input(caller, &channels).context("the columns of a BIDS motion are described beside it")?;
+    let motion =
+        BidsMotion::read(&motion, &of_channels).with_context(|| format!("{shown} with {}", channels.display()))?;
+    let mut beside = vec![channels];
+    let mut rate_hz = None;
+    if caller.has_file(&description) {
+        let text = files::read_input(caller, &description)?;
+        let value: Value = serde_json::from_slice(&text).with_context(|| description.display().to_string())?;
+        rate_hz = value.get("SamplingFrequency").and_then(Value::as_f64);
+        beside.push(description);
+    }
+    Ok(BidsFiles { motion, rate_hz, beside })
+}
