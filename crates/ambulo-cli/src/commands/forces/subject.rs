@@ -1,7 +1,7 @@
 //! Reads a trial of an AddBiomechanics subject (`.b3d`). Header and trial are read alone, so that files of any size can be used.
 
 use super::{Reading, added_mass, markers, run_one, size};
-use crate::args::{ForcesArgs, MarkerFitting, SubjectArgs};
+use crate::args::{ForcesArgs, SubjectArgs};
 use crate::caller::Caller;
 use crate::commands::forces::check_range;
 use crate::{Completion, files};
@@ -79,11 +79,8 @@ fn check_options(args: &ForcesArgs) -> Result<()> {
         ("--static", still.is_some()),
         ("--plate", !plate.is_empty()),
     ];
-    let of_markers = [
-        ("--markers", set.is_some()),
-        ("--figure", figure != SubjectArgs::DEFAULT_FIGURE),
-        ("--fit", *fit != MarkerFitting::Frames),
-    ];
+    let of_markers =
+        [("--markers", set.is_some()), ("--figure", figure != SubjectArgs::DEFAULT_FIGURE), ("--fit", fit.is_some())];
     let shown = args.recording().display();
     if let Some((option, _)) = never.iter().find(|(_, given)| *given) {
         bail!("{shown}: {option} has no effect for a .b3d, which has its own ground forces");

@@ -125,7 +125,7 @@ impl Gain {
     /// Its value in settings, in its unit.
     #[must_use]
     pub fn value(&self, settings: &ControlSettings) -> f64 {
-        let mut settings = *settings;
+        let mut settings = settings.clone();
         *(self.place)(&mut settings) / self.scale
     }
 

@@ -7,7 +7,7 @@ use crate::model::anthropometry::Human;
 use crate::optimal::Solution;
 use crate::simulation::StepSettings;
 use crate::simulation::control::riccati::StepMap;
-use crate::simulation::control::{ControlError, ControlSettings, PhysicalWalk, WalkController};
+use crate::simulation::control::{Balance, ControlError, ControlSettings, PhysicalWalk, WalkController};
 use crate::spatial::Wrench;
 
 /// Cycles before the pushes, and cycles that must follow a push: ten steps.
@@ -47,7 +47,7 @@ impl TuningProblem {
         gains: &[Gain],
     ) -> Result<TuningProblem, TuningProblemError> {
         gains.iter().try_for_each(|gain| gain.check(start))?;
-        let bare = ControlSettings { feedback: false, ..*start };
+        let bare = ControlSettings { balance: Balance::Nothing, ..start.clone() };
         let bare = WalkController::new(human, plan, step, &bare)?;
         let maps = bare.maps(human, plan, step)?;
         let index = |name: &str| human.model.coordinate(name).map_or(0, |id| id.index());
@@ -58,7 +58,7 @@ impl TuningProblem {
             human: human.clone(),
             plan: plan.clone(),
             step,
-            start: *start,
+            start: start.clone(),
             gains: gains.to_vec(),
             maps,
         })
@@ -80,7 +80,7 @@ impl TuningProblem {
     /// point lies outside the bounds. At zero they are exactly those at the start.
     #[must_use]
     pub fn settings_at(&self, point: &[f64]) -> (ControlSettings, f64) {
-        let (mut settings, mut outside) = (self.start, 0.0);
+        let (mut settings, mut outside) = (self.start.clone(), 0.0);
         for (gain, &wanted) in self.gains.iter().zip(point) {
             let start = gain.value(&self.start);
             let [least, most] = gain.bounds.map(|bound| (bound / start).ln());
