@@ -48,7 +48,7 @@ pub(crate) fn run(args: &TuneArgs) -> Result<Completion> {
     };
     let saved = if args.resume { saved.resumed(&state)? } else { saved };
     let run = TuneRun { args, problem: &problem, state, saved };
-    run.to_the_end()?;
+    run.finish()?;
     Ok(Completion::Passed)
 }
 
@@ -119,7 +119,7 @@ struct TuneRun<'a> {
 }
 
 impl TuneRun<'_> {
-    fn to_the_end(mut self) -> Result<()> {
+    fn finish(mut self) -> Result<()> {
         let (clock, before) = (Instant::now(), self.saved.tuning.evaluations());
         let most = self.args.evaluations as usize;
         let of_generation = Tuning::tasks(self.problem.gains().len());
