@@ -1,7 +1,7 @@
 //! Keypoints of video: joint centres, heels and toes that a network located, each in every frame by itself.
 //!
 //! They jitter by 3 to 30 mm, some are far away, and their errors differ between joints, networks and views. So nothing is assumed about
-//! them: the noise of each point is estimated from its own recording ([`RobustPath`]), the path is smoothed, and only then
+//! them: the noise of each point is estimated from its own recording, the path is smoothed, and only then
 //! are positions far from their path left out, never most of a frame.
 //!
 //! Pinned by: tests/keypoints.rs
@@ -21,6 +21,8 @@ use robust_path::RobustPath;
 const MOST_OUTLIERS: f64 = 0.5;
 /// Smooth positions are continued across gaps of at most this length [s], as coordinates are.
 const LONGEST_GAP_S: f64 = 0.35;
+/// And beyond the first and the last position that is used by at most this length [s].
+const LONGEST_END_S: f64 = 0.1;
 
 /// What a recording of keypoints shows about itself.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,7 +74,7 @@ impl Keypoints {
         let paths: Vec<Option<RobustPath>> =
             recording.markers.iter().map(|marker| RobustPath::through(&marker.positions)).collect();
         let far: Vec<Vec<bool>> = (0..recording.frames()).map(|frame| outliers_in(recording, &paths, frame)).collect();
-        let longest = (LONGEST_GAP_S * recording.rate_hz) as usize;
+        let [longest, ends] = [LONGEST_GAP_S, LONGEST_END_S].map(|gap_s| (gap_s * recording.rate_hz) as usize);
         let mut points = Vec::new();
         let (mut observed, mut smooth) = (recording.clone(), recording.clone());
         for (i, path) in paths.iter().enumerate() {
@@ -87,7 +89,7 @@ impl Keypoints {
             hide(&mut observed.markers[i], &kept);
             if let Some(path) = path {
                 smooth.markers[i].positions.clone_from(&path.smooth);
-                hide(&mut smooth.markers[i], &bridged(&kept, longest));
+                hide(&mut smooth.markers[i], &bridged(&kept, longest, ends));
             }
         }
         let frozen = FrozenLegs::of(recording, recognised);
@@ -130,12 +132,17 @@ fn hide(marker: &mut MarkerPath, kept: &[bool]) {
     hidden.for_each(|(position, _)| *position = Vec3::repeat(f64::NAN));
 }
 
-/// Frames that are kept, and those in gaps between them of at most this length.
-fn bridged(kept: &[bool], longest: usize) -> Vec<bool> {
+/// Frames that are kept, those in gaps between them of at most `longest` frames, and at most `ends` at both ends.
+fn bridged(kept: &[bool], longest: usize, ends: usize) -> Vec<bool> {
     let mut all = kept.to_vec();
     let frames: Vec<usize> = (0..kept.len()).filter(|frame| kept[*frame]).collect();
-    for pair in frames.windows(2).filter(|pair| pair[1] - pair[0] <= longest + 1) {
+    for pair in frames.windows(2).filter(|pair| pair[1] - pair[0] - 1 <= longest) {
         all[pair[0]..pair[1]].fill(true);
+    }
+    if let [first, .., last] = frames[..] {
+        all[first.saturating_sub(ends)..first].fill(true);
+        let end = last.saturating_add(ends).saturating_add(1).min(kept.len());
+        all[last..end].fill(true);
     }
     all
 }
