@@ -115,11 +115,11 @@ pub struct ModelProtocol {
 }
 
 impl<'a> BodySource<'a> {
-    /// The protocol of a given model.
-    fn protocol(&self) -> Option<&'a ModelProtocol> {
+    /// A recording in world axes: those of the ground of the model if a protocol says how its markers are used, otherwise those that are detected.
+    fn turned(&self, recording: &LaboratoryRecording, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
         match self {
-            BodySource::Model { protocol, .. } => *protocol,
-            BodySource::BuiltIn { .. } | BodySource::Calibrated(_) => None,
+            BodySource::Model { protocol: Some(_), .. } => recording.in_ground(findings),
+            _ => recording.in_world_by(self.marker_set(), findings),
         }
     }
 
@@ -235,22 +235,14 @@ pub(crate) fn fit_body_to_markers(
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let MarkerTrial { trial, standing, body, plate_feet } = trial;
     let set = body.marker_set();
-    let protocol = body.protocol();
-    let (axes, turned) = match protocol {
-        Some(_) => trial.in_ground(findings),
-        None => trial.in_world_by(set, findings),
-    };
-    let LaboratoryRecording { markers, poses, plates, .. } = turned;
+    let (axes, LaboratoryRecording { markers, poses, plates, .. }) = body.turned(trial, findings);
     let markers = trimmed_to_visible(markers, findings);
     progress.end(Stage::Axes)?;
     if let Some(poses) = poses {
         let trial = PosedTrial { axes, plates, poses: during(&poses, &markers), points: markers };
         return trial.followed(body, plate_feet, settings, findings, progress);
     }
-    let standing = standing.map(|standing| match protocol {
-        Some(_) => standing.in_ground(findings).1.markers,
-        None => standing.in_world_by(set, findings).1.markers,
-    });
+    let standing = standing.map(|standing| body.turned(standing, findings).1.markers);
     let keypoints = Keypoints::recognised(&markers, set);
     let standing = standing.map(|found| Keypoints::recognised(&found, set).map_or(found, |points| points.smooth));
     let moving = keypoints.as_ref().map_or(&markers, |keypoints| &keypoints.smooth);

@@ -193,6 +193,11 @@ mod tests {
     use crate::simulation::StepSettings;
     use crate::simulation::control::plan::Root;
 
+    /// The strength of a giant.
+    fn strong() -> StrengthCurve {
+        StrengthCurve { angles: vec![0.0], positive: vec![1e3], negative: vec![1e3], hill: None }
+    }
+
     #[test]
     fn maps_of_the_second_half_of_a_cycle_are_mirror_images_of_those_of_the_first() {
         let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
@@ -213,8 +218,7 @@ mod tests {
         };
         let steps = vec![step(&first), step(&second)];
         let plan = CyclePlan { steps, strikes: [0; 2], root: root.clone(), mirror: Some(mirror) };
-        let strength = StrengthCurve { angles: vec![0.0], positive: vec![1e3], negative: vec![1e3], hill: None };
-        let impedance = |stiffness: f64| Impedance { stiffness, damping: 5.0, strength: strength.clone() };
+        let impedance = |stiffness: f64| Impedance { stiffness, damping: 5.0, strength: strong() };
         let joints = plan.joints();
         let impedances: Vec<Impedance> =
             (0..count).map(|c| impedance(if joints.contains(&c) { 50.0 } else { 0.0 })).collect();
@@ -241,8 +245,7 @@ mod tests {
         let step =
             PlannedStep { state: [q.clone(), qd.clone()], target: [q.clone(), qd.clone()], torques: vec![0.0; count] };
         let plan = CyclePlan { steps: vec![step], strikes: [0; 2], root, mirror: None };
-        let strength = StrengthCurve { angles: vec![0.0], positive: vec![1e3], negative: vec![1e3], hill: None };
-        let impedance = |stiffness: f64| Impedance { stiffness, damping: 0.1 * stiffness, strength: strength.clone() };
+        let impedance = |stiffness: f64| Impedance { stiffness, damping: 0.1 * stiffness, strength: strong() };
         let impedances: Vec<Impedance> =
             (0..count).map(|c| impedance(if plan.joints().contains(&c) { 50.0 + c as f64 } else { 0.0 })).collect();
         let settings = StepSettings::default();
@@ -279,11 +282,16 @@ mod tests {
         let mut figure = FigureWorld::new(&human, HuntCrossley::SOFT_SHOES, StepSettings::default()).unwrap();
         let state = [q, vec![0.0; count]];
         let step = PlannedStep { state: state.clone(), target: state, torques: vec![0.0; count] };
-        let plan = CyclePlan { steps: vec![step], strikes: [0; 2], root };
+        let plan = CyclePlan { steps: vec![step], strikes: [0; 2], root, mirror: None };
         let with = |stiffness: f64, damping: f64| -> Vec<Impedance> {
-            let of = |c: usize| Impedance { stiffness: stiffness + c as f64, damping, strength: [1e3; 2] };
-            let none = Impedance { stiffness: 0.0, damping: 0.0, strength: [0.0; 2] };
-            (0..count).map(|c| if plan.joints().contains(&c) { of(c) } else { none }).collect()
+            let joints = plan.joints();
+            let driven = |c: usize| if joints.contains(&c) { 1.0 } else { 0.0 };
+            let of = |c: usize| Impedance {
+                stiffness: driven(c) * (stiffness + c as f64),
+                damping: driven(c) * damping,
+                strength: strong(),
+            };
+            (0..count).map(of).collect()
         };
         let [soft, stiff] = [with(20.0, 1.0), with(250.0, 30.0)];
         let own = figure.maps(&plan, &soft).unwrap();

@@ -55,7 +55,7 @@ mod tests {
         let problem = of(&figure);
 
         // A controller from the maps of another impedance is the one that is made anew.
-        let mut other = ControlSettings { stiffness: 250.0, ..figure.settings };
+        let mut other = ControlSettings { stiffness: 250.0, ..figure.settings.clone() };
         other.costs.height = 0.02;
         let own = problem.controller(&other).unwrap();
         let anew = WalkController::new(&figure.human, &figure.plan, figure.step, &other).unwrap();
