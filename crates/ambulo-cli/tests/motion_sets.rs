@@ -183,7 +183,7 @@ fn a_motion_of_the_smpl_family_needs_a_mass_and_lengths() {
 /// Writes a BIDS motion: channels with type and unit, and their columns.
 fn write_bids(bench: &Workbench, stem: &str, channels: &[(String, &str, &str, String)], columns: &[Vec<f64>]) {
     let lines = channels.iter().map(|(name, component, kind, point)| {
-        let unit = if *kind == "POS" { "mm" } else { "rad" };
+        let unit = if *kind == "POS" { "m" } else { "rad" };
         format!("{name}\t{component}\t{kind}\t{point}\t{unit}\n")
     });
     let heading = "name\tcomponent\ttype\ttracked_point\tunits\n".to_owned();
@@ -205,7 +205,7 @@ fn bids_motions_give_the_forces_of_the_same_markers_and_coordinates() {
             let metres: Vec<f64> = marker.positions_m[..FRAMES].iter().map(|p| p[axis]).collect();
             let name = format!("{}_{component}", marker.name);
             channels.push((name.clone(), component, "POS", marker.name.clone()));
-            columns.push(metres.iter().map(|x| 1000.0 * x).collect());
+            columns.push(metres.clone());
             table.push((name, metres));
         }
     }
@@ -225,10 +225,10 @@ fn bids_motions_give_the_forces_of_the_same_markers_and_coordinates() {
     let (mut channels, mut columns) = (Vec::new(), Vec::new());
     for (coordinate, column) in model.coordinates().iter().zip(&motion.columns) {
         let is_length = coordinate.name.starts_with("pelvis_t") && coordinate.name.len() == "pelvis_tx".len();
-        let (kind, scale) = if is_length { ("POS", 1000.0) } else { ("JNTANG", 1.0) };
+        let kind = if is_length { "POS" } else { "JNTANG" };
         let Some(column) = column else { continue };
         channels.push((coordinate.name.clone(), "n/a", kind, "n/a".to_owned()));
-        columns.push(column.iter().map(|x| x * scale).collect());
+        columns.push(column.clone());
     }
     write_bids(&bench, "sub-2", &channels, &columns);
     let of_model = ["--model", "demo/input/figure.osim", "--keep", "tables"];
