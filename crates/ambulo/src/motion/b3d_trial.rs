@@ -31,7 +31,7 @@ use std::ops::Range;
 const SHORTEST_MEASURED_S: f64 = 0.5;
 /// Largest distance of the model's mass centre from the stated one [m]: the patellae that are left out move it by about a millimetre, a
 /// confused coordinate by more.
-const SAME_MASS_CENTRE_M: f64 = 0.02;
+const SAME_MASS_CENTRE_M: f64 = 0.01;
 /// Frames of a trial in which the mass centre is compared.
 const COMPARED_FRAMES: usize = 20;
 /// Mass [kg], stature [m] and age [years] of the form that a contributor fills in.
