@@ -109,7 +109,7 @@ fn a_partly_empty_position_is_a_gap_and_remarked() {
 fn positions_exactly_zero_are_kept_and_remarked() {
     let (trc, remarks) = read(&WALK.replace("12.5\t30\t-4.5", "0\t0.0\t-0").replace("191.25\t22.5\t-4", "0\t0\t0"));
     assert!(trc.markers()[1].positions_m[1].iter().all(|value| value.abs() <= 0.0));
-    let message = "line 7: 2 positions exactly 0 0 0, which some programs write for a gap; kept as positions";
+    let message = "line 7: 2 positions exactly 0 0 0, which some programs write for a gap";
     assert_eq!(remarks, [format!("{message} (first: marker `R.Heel`)")]);
 }
 

@@ -214,7 +214,7 @@ impl Count {
 impl Oddities {
     fn remarks(&self) -> impl Iterator<Item = Remark> {
         let partial = self.partial.remark("with one or two empty cells; read as a gap");
-        let zero = self.zero.remark("exactly 0 0 0, which some programs write for a gap; kept as positions");
+        let zero = self.zero.remark("exactly 0 0 0, which some programs write for a gap");
         partial.into_iter().chain(zero)
     }
 }

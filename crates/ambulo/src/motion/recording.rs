@@ -159,7 +159,7 @@ pub enum MotionError {
     },
     /// Too few frames in the range.
     #[error(
-        "the range from {from_s} s to {to_s} s has {found} frames; expected at least {expected}. hint: motion and forces were both recorded from {first_s} s to {last_s} s"
+        "the range from {from_s} s to {to_s} s has {found} frames; expected at least {expected}. hint: motion and forces are both known from {first_s:.3} s to {last_s:.3} s"
     )]
     TooShort {
         /// Number of frames in the range.

@@ -57,7 +57,9 @@ impl TrackedTasks {
     ) -> Result<TrackedTasks, SetupError> {
         let motion =
             coordinates.map(|table| coordinates_from_table(model, table, "coordinate_file", findings)).transpose()?;
-        let listed = tasks.markers.iter().map(|task| (task.marker.clone(), task.weight)).collect();
+        let listed: BTreeMap<String, f64> =
+            tasks.markers.iter().map(|task| (task.marker.clone(), task.weight)).collect();
+        report_unknown_markers(model, listed.keys(), findings);
         let tasks = tasks.coordinates.iter().map(|task| {
             let target = match task.target {
                 CoordinateTarget::Default => TaskTarget::Default,
@@ -67,6 +69,14 @@ impl TrackedTasks {
             Ok(CoordinateTask { coordinate: task.coordinate.clone(), weight: task.weight, target })
         });
         Ok(TrackedTasks { weights: fit_weights(model, &listed), tasks: tasks.collect::<Result<_, SetupError>>()? })
+    }
+}
+
+/// Names the tasks of markers that the model does not have.
+fn report_unknown_markers<'a>(model: &Model, names: impl Iterator<Item = &'a String>, findings: &mut Findings) {
+    let is_unknown = |name: &&String| !model.markers().iter().any(|marker| marker.name == **name);
+    for name in names.filter(is_unknown) {
+        findings.report(Code::MarkersTask, format!("the model has no marker `{name}`; its task was left out"));
     }
 }
 
@@ -141,11 +151,11 @@ pub fn report_forces_of_model(setup: &InverseDynamicsSetup, findings: &mut Findi
     let excludes_all = setup.forces_to_exclude.iter().any(|word| word.eq_ignore_ascii_case("all"));
     if !excludes_all {
         let excluded = match &setup.forces_to_exclude[..] {
-            [] => "none".to_owned(),
-            names => names.join(", "),
+            [] => "none, and OpenSim applies all of them".to_owned(),
+            names => format!("{}, and OpenSim applies the others", names.join(", ")),
         };
         let message = format!(
-            "forces of the model (muscles, ligaments, springs, bushings) are never applied here; the set-up excludes {excluded}, and OpenSim applies the others, if the model has any"
+            "forces of the model (muscles, ligaments, springs, bushings) are never applied here; the set-up excludes {excluded}, if the model has any"
         );
         findings.report(Code::SetupUnused, message);
     }

@@ -382,7 +382,7 @@ impl QualityEvidence<'_> {
         let moment_nm_kg = self.verdict.fit.residual_moment_nm_kg?;
         Measure::ResidualMoment.reason(moment_nm_kg, |limit| {
             format!(
-                "the residual moment is {moment_nm_kg:.2} N.m/kg (at most {limit}): posture and centre of pressure do not fit together"
+                "the residual moment is {moment_nm_kg:.3} N.m/kg (at most {limit}): posture and centre of pressure do not fit together"
             )
         })
     }
@@ -495,7 +495,7 @@ impl QualityEvidence<'_> {
         let RecordedFaults { unknown_share: share, first_unknown_s, .. } = *self.recorded?;
         Measure::Gaps.reason(share, |limit| {
             format!(
-                "markers are missing, so that the posture is unknown in {} of the frames, the first at {:.3} s (at most {})",
+                "markers are missing or were left out as outliers, so that the posture is unknown in {} of the frames, the first at {:.3} s (at most {})",
                 percent(share),
                 first_unknown_s.unwrap_or(f64::NAN),
                 percent(limit)
@@ -507,7 +507,7 @@ impl QualityEvidence<'_> {
         let speed_m_s = self.verdict.fit.sliding_m_s?;
         Measure::Sliding.reason(speed_m_s, |limit| {
             format!(
-                "soles that carry the body move along the ground at {speed_m_s:.2} m/s or more for three quarters of the time (at most {limit} m/s): the motion of the legs is wrong"
+                "soles that carry the body move along the ground at {speed_m_s:.3} m/s or more for three quarters of the time (at most {limit} m/s): the motion of the legs is wrong"
             )
         })
     }

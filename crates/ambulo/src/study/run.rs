@@ -374,8 +374,9 @@ fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
     let Some([from, to]) = origin.followed().and_then(|followed| followed.body.longest_without_gap_s()) else {
         return Window::default();
     };
-    let message =
-        format!("markers are missing for too long outside of {from:.3} to {to:.3} s; only this time was analysed");
+    let message = format!(
+        "markers are missing, or were left out as outliers, for too long outside of {from:.3} to {to:.3} s; only this time was analysed"
+    );
     findings.report(Code::MarkersWindow, message);
     Window { from_s: Some(from), to_s: Some(to) }
 }

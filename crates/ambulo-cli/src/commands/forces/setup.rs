@@ -198,6 +198,14 @@ impl Setups {
     fn fill_dynamics(&self, args: &mut ForcesArgs, findings: &mut Findings) {
         let of_kinematics = self.kinematics.as_ref().and_then(|s| s.setup.time_range);
         let of_dynamics = self.dynamics.as_ref().and_then(|s| s.setup.time_range);
+        if let (Some(used), Some([from, to])) = (of_dynamics, of_kinematics.filter(|range| of_dynamics != Some(*range)))
+        {
+            let message = format!(
+                "the time range {from} to {to} s of InverseKinematicsTool was not used: all is computed in that of InverseDynamicsTool, {} to {} s",
+                used[0], used[1]
+            );
+            findings.report(Code::SetupUnused, message);
+        }
         if let Some([from, to]) = of_dynamics.or(of_kinematics) {
             let end = |s: f64| s.is_finite().then_some(s);
             fill(&mut args.from, end(from), "--from", findings);
@@ -208,13 +216,15 @@ impl Setups {
         fill(&mut args.cutoff, Some(Cutoff(dynamics.setup.cutoff_hz)), "--cutoff", findings);
         args.force_cutoff.get_or_insert(ForceCutoff::Off);
         let loads = dynamics.file(dynamics.setup.external_loads_file.as_ref());
-        let chooses_other_forces = args.grf.is_some() || args.predict || args.track || args.no_ground;
+        // Predicted forces are compared with the measured ones.
+        let chooses_other_forces = args.grf.is_some() || args.no_ground;
+        let needs_no_forces = chooses_other_forces || args.predict || args.track;
         match loads {
             Some(loads) if chooses_other_forces && args.loads.is_none() => {
                 let message = format!("{} was not read: an option chooses other ground forces", loads.display());
                 findings.report(Code::SetupReplaced, message);
             }
-            None if args.loads.is_none() && !chooses_other_forces => {
+            None if args.loads.is_none() && !needs_no_forces => {
                 args.no_ground = true;
                 let message = format!(
                     "{} names no external loads: nothing but gravity acts on the model",

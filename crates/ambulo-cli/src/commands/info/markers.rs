@@ -71,6 +71,10 @@ pub(super) fn next(path: &Path, recording: &MarkerRecording, is_known: bool, sub
             "ambulo forces {shown} --markers SET.toml{subject} -o out (docs/MARKERS.md explains marker sets), or --model MODEL.osim if the model has these markers"
         );
     }
+    let names = recording.markers.iter().map(|marker| marker.name.as_str());
+    if MarkerSet::recognise(names).is_ok_and(|recognised| recognised.has_hips_only()) {
+        return format!("ambulo forces {shown}{subject} -o out (keypoints need no standing trial)");
+    }
     if stands_still(recording) {
         return format!("a standing trial: ambulo forces WALK --static {shown}{subject} -o out");
     }

@@ -4,7 +4,7 @@
 //!
 //! The weights v are Tukey's bisquare of r over its robust scale; they begin with the distance from the median of the neighbouring
 //! positions, so that points far off do not bend the first path. λ is the least generalised cross-validation
-//! n Σ v r² / (n - tr H)², with tr H that of equal weights ([`Whittaker::freedom`]). Weights and path are
+//! n Σ v r² / (n - tr H)², with n recorded positions and tr H that of equal weights ([`Whittaker::freedom`]). Weights and path are
 //! computed in turn.
 //!
 //! | code | symbol | unit |
@@ -63,6 +63,7 @@ impl RobustPath {
             return None;
         }
         let whittaker = Whittaker::new(observed.len());
+        let free = |seen: usize, lambda: f64| 1.0 - freedom(&whittaker, observed.len(), seen, lambda) / seen as f64;
         let middles: Vec<Vec3> = (0..observed.len()).map(|frame| middle(observed, frame)).collect();
         let mut weights = bisquare(&distances(observed, &middles), scale(&distances(observed, &middles)));
         let mut lambda = LEAST_LAMBDA;
@@ -74,13 +75,11 @@ impl RobustPath {
             }
             smooth = solved(observed, &weights, lambda, &whittaker)?;
             let r = distances(observed, &smooth);
-            let freedom = 1.0 - whittaker.freedom(lambda) / observed.len() as f64;
-            let noise = scale(&r) / freedom.max(1.0 / kept.max(1) as f64).sqrt();
+            let noise = scale(&r) / free(seen, lambda).max(1.0 / kept.max(1) as f64).sqrt();
             weights = bisquare(&r, noise);
         }
         let r = distances(observed, &smooth);
-        let freedom = 1.0 - whittaker.freedom(lambda) / observed.len() as f64;
-        let noise_m = scale(&r) / freedom.max(1e-3).sqrt();
+        let noise_m = scale(&r) / free(seen, lambda).max(1e-3).sqrt();
         let limit = FAR * noise_m.max(LEAST_NOISE_M);
         Some(RobustPath { outlier: r.iter().map(|r| *r > limit).collect(), smooth, noise_m })
     }
@@ -109,9 +108,15 @@ fn bisquare(distances: &[f64], scale: f64) -> Vec<f64> {
     distances.iter().map(weight).collect()
 }
 
+/// tr H of a path through `seen` of `frames` positions: each stands for frames / seen of them, as if λ were so much larger.
+fn freedom(whittaker: &Whittaker, frames: usize, seen: usize, lambda: f64) -> f64 {
+    let share = frames as f64 / seen as f64;
+    whittaker.freedom(lambda * share).min(seen as f64)
+}
+
 /// The λ of least generalised cross-validation.
 fn best_lambda(observed: &[Vec3], weights: &[f64], whittaker: &Whittaker) -> Option<f64> {
-    let n = observed.len() as f64;
+    let seen = observed.iter().filter(|p| p.iter().all(|x| x.is_finite())).count();
     let mut best = (f64::INFINITY, None);
     let mut lambda = LEAST_LAMBDA;
     while lambda <= MOST_LAMBDA {
@@ -119,7 +124,7 @@ fn best_lambda(observed: &[Vec3], weights: &[f64], whittaker: &Whittaker) -> Opt
             let r = distances(observed, &path);
             let squares = r.iter().zip(weights).filter(|(_, w)| **w > 0.0);
             let sum: f64 = squares.map(|(r, w)| w * r * r).sum();
-            let score = sum / (n - whittaker.freedom(lambda)).powi(2);
+            let score = sum / (seen as f64 - freedom(whittaker, observed.len(), seen, lambda)).max(1.0).powi(2);
             if score < best.0 {
                 best = (score, Some(lambda));
             }

@@ -232,7 +232,7 @@ fn common_markers<'a>(
     settings: &FitSettings,
     findings: &mut Findings,
 ) -> Result<Vec<Common<'a>>, FitError> {
-    let mut common = Vec::new();
+    let (mut common, mut without_weight) = (Vec::new(), 0);
     let mut only_recorded = Vec::new();
     for path in &recording.markers {
         let (found, expected) = (path.positions.len(), recording.frames());
@@ -243,14 +243,19 @@ fn common_markers<'a>(
         match known.and_then(|m| Some((m.body?, m.location))) {
             Some((body, place)) => {
                 let weight = settings.weights.get(&path.name).copied().unwrap_or(1.0);
-                if weight > 0.0 {
-                    common.push(Common { path, body, place, weight });
+                match weight > 0.0 {
+                    true => common.push(Common { path, body, place, weight }),
+                    false => without_weight += 1,
                 }
             }
             None => only_recorded.push(path.name.as_str()),
         }
     }
     let recorded = |name: &str| recording.markers.iter().any(|m| m.name == name);
+    if common.is_empty() && without_weight > 0 {
+        let (model, recording) = (model.name().to_owned(), recording.name.clone());
+        return Err(FitError::NoTrackedMarker { model, recording, common: without_weight });
+    }
     if common.is_empty() {
         return Err(FitError::NoCommonMarker {
             model: model.name().to_owned(),

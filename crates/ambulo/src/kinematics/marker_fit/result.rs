@@ -55,6 +55,18 @@ pub enum FitError {
         /// The recorded markers.
         recorded: String,
     },
+    /// Every common marker has the weight 0.
+    #[error(
+        "none of the {common} markers that the model `{model}` and the recording `{recording}` have in common is tracked: all have the weight 0; expected at least one above 0"
+    )]
+    NoTrackedMarker {
+        /// Name of the model.
+        model: String,
+        /// Name of the recording.
+        recording: String,
+        /// Number of common markers.
+        common: usize,
+    },
     /// The markers determine no coordinate.
     #[error("no free coordinate of the model `{model}` moves any of the markers {markers}; expected at least one")]
     NothingToFit {
