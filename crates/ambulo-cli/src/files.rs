@@ -26,7 +26,7 @@ impl fmt::Display for NoSuchFile {
         let NoSuchFile(shown) = self;
         write!(
             f,
-            "{shown}: there is no such file. hint: check the path; it is relative to the folder in which you typed the command"
+            "{shown}: there is no such file. hint: check the path; it is relative to the folder in which you typed the command, or to the file that names it"
         )
     }
 }
@@ -79,7 +79,7 @@ pub(crate) fn read_part(caller: &Caller, path: &Path, part: Range<usize>) -> Res
     }
     let allowed = usize::try_from(LARGEST_FILE_BYTES).unwrap_or(usize::MAX);
     if part.len() > allowed {
-        bail!("{shown}: {} MB of one trial; expected at most {} MB", part.len() >> 20, allowed >> 20);
+        bail!("{shown}: found a part of {} MB; expected at most {} MB", part.len() >> 20, allowed >> 20);
     }
     let mut file = match fs::File::open(path) {
         Ok(file) => file,

@@ -24,7 +24,7 @@ fn a_verdict_on_part_of_the_motion_says_so() {
         summary["residual"]["force_rms_bw"] = json!(residual_bw);
     };
     let feasible = "A person of 75.0 kg and 1.75 m could do this: all checks that could be made passed.";
-    let part = "44 % of the time was not judged, because a foot may have been on the ground outside the force plates";
+    let part = "44 % of the time was not judged, because a foot may have been on ground whose force is not known";
     let trust = "the residual force is 63 % of body weight: motion, forces and body are not consistent, so do not rely on the moments.";
     with_summary(&mut files, |summary| judge(summary, "feasible", 0, 0.05));
     assert_eq!(sentence(&Shown::of(&files)), feasible);

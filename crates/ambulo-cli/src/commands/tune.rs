@@ -30,6 +30,9 @@ pub(crate) fn run(args: &TuneArgs) -> Result<Completion> {
     }
     let shown = || format!("{}: {}", args.scene.display(), figure.place.error("").to_string().trim_end_matches(": "));
     let is_spatial = figure.human.model.coordinate("pelvis_tz").is_some();
+    if !is_spatial && gains.iter().flatten().any(|gain| gain.name == "sideways") {
+        bail!("--gains: `sideways` has no effect on a figure in the plane; expected other gains");
+    }
     let gains = gains.unwrap_or_else(|| Gain::usual(is_spatial));
     let problem = TuningProblem::new(&figure.human, &figure.plan, figure.step, &figure.settings, &gains);
     let problem = problem.with_context(shown)?;
@@ -47,7 +50,7 @@ pub(crate) fn run(args: &TuneArgs) -> Result<Completion> {
         tuning: Tuning::new(&gains, pushes),
     };
     let saved = if args.resume { saved.resumed(&state)? } else { saved };
-    let run = TuneRun { args, problem: &problem, state, saved };
+    let run = TuneRun { args, problem: &problem, torques: figure.torques, state, saved };
     run.finish()?;
     Ok(Completion::Passed)
 }
@@ -114,6 +117,8 @@ impl SavedTuning {
 struct TuneRun<'a> {
     args: &'a TuneArgs,
     problem: &'a TuningProblem,
+    /// The file of torque curves that the scene names.
+    torques: Option<String>,
     state: PathBuf,
     saved: SavedTuning,
 }
@@ -176,7 +181,7 @@ impl TuneRun<'_> {
             scene: self.args.scene.display().to_string(),
             evaluations: tuning.evaluations(),
             pushes: tuning.pushes(),
-            control: Gain::table(&settings, self.problem.gains()),
+            control: Gain::table(&settings, self.torques.as_deref(), self.problem.gains()),
             is_better: best != start,
             choice: [start.outcome, best.outcome],
             report,

@@ -39,13 +39,18 @@ impl TunedGains<'_> {
         ];
         lines.extend(self.rows().into_iter().map(|row| format!("#   {row}")));
         if !self.is_better {
-            lines.push("# No gains were found that are better than those of the scene.".to_owned());
+            lines.push(format!("# The gains are those of the scene: {}.", self.kept()));
         }
         lines.push("# This line replaces the key `control` of the figure.".to_owned());
         lines.push(self.control.clone());
         // A name or a path may contain line ends.
         let lines = lines.iter().map(|line| line.replace(|c: char| c.is_control(), " "));
         lines.map(|line| line + "\n").collect()
+    }
+
+    /// Why the gains are those of the scene.
+    fn kept(&self) -> &'static str {
+        if self.evaluations == 0 { "no others were tried" } else { "no better ones were found" }
     }
 
     fn rows(&self) -> Vec<String> {
@@ -109,7 +114,7 @@ pub(crate) fn tune(tuned: &TunedGains<'_>, output: &Path, state: &Path, print: P
         print_line(&format!("  {row}"))?;
     }
     if !tuned.is_better {
-        print_line("  result    no gains were found that are better than those of the scene")?;
+        print_line(&format!("  result    {}", tuned.kept()))?;
     }
     print_line(&format!("  gains     {}", tuned.control))?;
     print_line(&format!("  written   {}, {}", quoted(output), quoted(state)))

@@ -77,7 +77,8 @@ fn report_clock(model: &Model, motion: &Motion, markers: &MarkerRecording, findi
     if let Some(true_hz) = found.contradicted_rate(stated_hz) {
         let FlightGravity { gravity, flights } = found;
         let message = format!(
-            "in {flights} flight phases the person falls with {gravity:.1} m/s² at the stated {stated_hz:.0} frames per second; gravity means about {true_hz:.0} frames per second. hint: every force depends on it; correct the frame rate in the file"
+            "in {flights} flight {} the person falls with {gravity:.1} m/s² at the stated {stated_hz:.0} frames per second; gravity means about {true_hz:.0} frames per second. hint: every force depends on it; correct the frame rate in the file",
+            if flights == 1 { "phase" } else { "phases" }
         );
         findings.report(Code::MotionClock, message);
     }

@@ -42,7 +42,7 @@ pub enum BidsError {
     },
     /// Neither markers nor joint angles.
     #[error(
-        "no tracked points with positions (POS in x, y and z) and no joint angles (JNTANG); found channels of the types {found}"
+        "fewer than four tracked points with positions (POS in x, y and z), and no joint angles (JNTANG); found channels of the types {found}"
     )]
     Nothing {
         /// The types.

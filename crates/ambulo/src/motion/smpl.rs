@@ -105,7 +105,7 @@ pub enum SmplError {
     },
     /// An array of another type.
     #[error(
-        "the array `{array}` holds `{found}`; expected numbers. hint: pickled objects are not opened; save the array as numbers"
+        "the array `{array}` holds `{found}`; expected numbers (pickled objects, `|O`, are not opened). hint: save the array as numbers"
     )]
     NoNumbers {
         /// The array.
@@ -122,6 +122,14 @@ pub enum SmplError {
         found: Vec<usize>,
         /// What is allowed.
         expected: &'static str,
+    },
+    /// Rotations and places of different numbers of frames.
+    #[error("found rotations of {poses} frames and `trans` of {trans} frames; expected the same number")]
+    Frames {
+        /// Frames of the rotations.
+        poses: usize,
+        /// Frames of the places.
+        trans: usize,
     },
     /// A frame rate that no recording has.
     #[error("the frame rate is {found} Hz; expected a number above 0")]
@@ -159,7 +167,7 @@ fn numbers<'n>(npz: &'n Npz, name: &str) -> Option<Result<Shaped<'n>, SmplError>
 fn rows<'n>(npz: &'n Npz, name: &str, width: usize, expected: &'static str) -> Result<Vec<&'n [f64]>, SmplError> {
     let (values, shape) = numbers(npz, name).unwrap_or_else(|| Err(no_motion(npz, name)))?;
     let found = shape.get(1..).map_or(0, |lengths| lengths.iter().product());
-    if shape.len() < 2 || found < width {
+    if shape.len() < 2 || found < width || (width == 3 && found != 3) {
         return Err(SmplError::Shape { array: name.to_owned(), found: shape.to_vec(), expected });
     }
     Ok(values.chunks_exact(found).collect())
@@ -194,14 +202,16 @@ impl SmplMotion {
                 poses.iter().map(|row| row[..3 * JOINTS].to_vec()).collect()
             }
             None => {
+                if npz.array("pose_body").is_none() {
+                    return Err(no_motion(npz, "poses"));
+                }
                 let body = rows(npz, "pose_body", 3 * JOINTS - 3, "frames x 63")?;
                 let root = rows(npz, "root_orient", 3, "frames x 3")?;
                 root.iter().zip(body).map(|(root, body)| [&root[..3], &body[..3 * JOINTS - 3]].concat()).collect()
             }
         };
         if poses.len() != frames {
-            let found = vec![poses.len()];
-            return Err(SmplError::Shape { array: "poses".to_owned(), found, expected: "as many frames as `trans`" });
+            return Err(SmplError::Frames { poses: poses.len(), trans: frames });
         }
         let rate = RATES.iter().find_map(|name| numbers(npz, name)).unwrap_or_else(|| Err(no_motion(npz, RATES[0])))?;
         let rate_hz = rate.0.first().copied().unwrap_or(f64::NAN);

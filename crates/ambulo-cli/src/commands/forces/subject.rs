@@ -58,10 +58,12 @@ fn chosen(header: &Header, wanted: Option<&str>) -> Result<usize> {
         let more = if trials.len() > LISTED { ", ..." } else { "" };
         format!("{}{more}", names.collect::<Vec<_>>().join(", "))
     };
+    if trials.is_empty() {
+        bail!("the file has no trials");
+    }
     let Some(wanted) = wanted else {
         return match trials.len() {
             1 => Ok(0),
-            0 => bail!("the file has no trials"),
             count => bail!("the file has {count} trials; expected --trial with one of {}, or `all`", listed()),
         };
     };

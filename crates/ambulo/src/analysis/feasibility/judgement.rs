@@ -232,7 +232,7 @@ impl Coverage {
             false => "moments, powers, flight, support and balance were not checked",
         };
         let message = format!(
-            "{judged} in {} of {} frames (the first at {:.3} s), because a foot may be on the ground outside the force plates",
+            "{judged} in {} of {} frames (the first at {:.3} s), because a foot may be on ground whose force is not known",
             self.unmeasured(),
             grid.frames,
             grid.time(first)

@@ -13,7 +13,7 @@ const STEPS: [usize; 2] = [100, 5000];
 const MIRRORED: [f64; 2] = [1e-6, 1e-3];
 
 /// Cycles whose durations differ by a smaller share are the same.
-const SAME_CYCLE: f64 = 0.05;
+const SAME_CYCLE: f64 = 0.005;
 
 /// Share of the body weight at which a foot strikes.
 pub(super) const STRIKE: f64 = 0.05;

@@ -130,13 +130,17 @@ pub enum ControlError {
     #[error("balance by foot placement is for planar figures; expected feedback of the whole state")]
     NotPlanar,
     /// A torque curve of no joint of the figure.
-    #[error("found a torque curve of `{coordinate}`; expected coordinates of joints of the figure")]
+    #[error(
+        "found a torque curve of `{coordinate}`; expected coordinates of joints of the figure. hint: curves of a walk in three dimensions need a figure in three dimensions, and those of a planar walk a planar figure"
+    )]
     TorqueOf {
         /// The coordinate.
         coordinate: String,
     },
     /// Torque curves of another walk.
-    #[error("found torque curves of a cycle of {found_s:.3} s; expected that of the plan, {cycle_s:.3} s")]
+    #[error(
+        "found torque curves of a cycle of {found_s:.3} s; expected that of the plan, {cycle_s:.3} s, of the same speed and figure"
+    )]
     TorqueCycle {
         /// That of the curves [s].
         found_s: f64,

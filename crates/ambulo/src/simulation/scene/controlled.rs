@@ -28,6 +28,8 @@ pub struct ControlledFigure {
     pub step: StepSettings,
     /// Settings of its controller.
     pub settings: ControlSettings,
+    /// The file of its torque curves, as the scene names it.
+    pub torques: Option<String>,
 }
 
 impl ControlledFigure {
@@ -50,7 +52,16 @@ impl ControlledFigure {
         let settings = planner.settings(control, &mut sources)?;
         let plan = planner.plan(walk.speed, &mut sources)?;
         let (human, plan) = (plan.human.clone(), plan.solution.clone());
-        Ok(ControlledFigure { name: name.to_owned(), place: control.place.clone(), human, plan, step, settings })
+        let torques = control.torques.as_ref().map(|(_, file)| file.clone());
+        Ok(ControlledFigure {
+            name: name.to_owned(),
+            place: control.place.clone(),
+            human,
+            plan,
+            step,
+            settings,
+            torques,
+        })
     }
 }
 

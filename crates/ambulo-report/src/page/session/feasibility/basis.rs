@@ -38,7 +38,7 @@ impl Basis {
 
     /// The limits of a verdict, as the end of a sentence; `None` if there are none.
     pub(super) fn limits(&self) -> Option<String> {
-        let reason = "because a foot may have been on the ground outside the force plates";
+        let reason = "because a foot may have been on ground whose force is not known";
         let unmeasured =
             self.unmeasured.map(|share| format!("{} of the time was not judged, {reason}", percent(share)));
         let predicted = self

@@ -150,9 +150,10 @@ impl Gain {
         digits.find(|short| (short * self.scale).to_bits() == wanted).unwrap_or(value)
     }
 
-    /// The key `control` of a scene with these settings. Settings that have their usual values and are not listed are left out.
+    /// The key `control` of a scene with these settings and the file of torque curves that the scene names. Settings that have their usual values and are
+    /// not listed are left out.
     #[must_use]
-    pub fn table(settings: &ControlSettings, listed: &[Gain]) -> String {
+    pub fn table(settings: &ControlSettings, torques: Option<&str>, listed: &[Gain]) -> String {
         let default = ControlSettings::default();
         let is_written = |gain: &Gain| {
             let is_listed = listed.iter().any(|own| own.name == gain.name);
@@ -163,6 +164,10 @@ impl Gain {
             own.map(|gain| format!("{} = {}", gain.name, gain.written(settings))).collect::<Vec<_>>()
         };
         let (mut keys, costs) = (keys(false), keys(true));
+        if settings.delay_s > 0.0 {
+            keys.push(format!("delay = {}", settings.delay_s));
+        }
+        keys.extend(torques.map(|file| format!("torques = {file:?}")));
         if !costs.is_empty() {
             keys.push(format!("costs = {{ {} }}", costs.join(", ")));
         }
@@ -213,11 +218,15 @@ mod tests {
     #[test]
     fn the_table_of_the_usual_settings_is_empty_and_numbers_are_short() {
         let mut settings = ControlSettings::default();
-        assert_eq!(Gain::table(&settings, &[]), "control = {}");
-        assert_eq!(Gain::table(&settings, &Gain::named(&["damping"]).unwrap()), "control = { damping = 0.1 }");
+        assert_eq!(Gain::table(&settings, None, &[]), "control = {}");
+        assert_eq!(Gain::table(&settings, None, &Gain::named(&["damping"]).unwrap()), "control = { damping = 0.1 }");
         settings.costs.angle = 5.25 * 1_f64.to_radians();
         settings.stiffness = 123.4;
-        assert_eq!(Gain::table(&settings, &[]), "control = { stiffness = 123.4, costs = { angle_deg = 5.25 } }");
+        assert_eq!(Gain::table(&settings, None, &[]), "control = { stiffness = 123.4, costs = { angle_deg = 5.25 } }");
+        settings.costs = ControlSettings::default().costs;
+        settings.delay_s = 0.04;
+        let expected = "control = { stiffness = 123.4, delay = 0.04, torques = \"mine.toml\" }";
+        assert_eq!(Gain::table(&settings, Some("mine.toml"), &[]), expected);
         assert_eq!(rounded(0.123_456).to_bits(), 0.1235_f64.to_bits());
     }
 }

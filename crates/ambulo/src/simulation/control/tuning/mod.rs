@@ -75,7 +75,7 @@ mod tests {
 
         // What the tuner writes is what a scene reads.
         let (tuned, _) = problem.settings_at(&[0.1, -0.2, 0.3, -0.4, 0.5, -0.6, 0.7, -0.8]);
-        assert_eq!(controlled(&Gain::table(&tuned, &gains)).settings, tuned);
+        assert_eq!(controlled(&Gain::table(&tuned, None, &gains)).settings, tuned);
 
         // Large pushes end in falls, small ones do not; the search keeps what is best.
         let pushes = PushSettings { seed: 1, force_n: 60.0, count: 1, all_around: false };
