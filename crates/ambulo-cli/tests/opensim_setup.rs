@@ -55,7 +55,9 @@ fn markers_of_a_file_of_their_own_give_the_moments_of_the_markers_in_the_model()
     // A marker 50 mm away from its place changes the moments.
     let text = bench.text("markers.xml");
     let line = text.lines().find(|line| line.contains("> femur_r <")).unwrap();
-    let moved = line.replace("<location>", "<location> 0.05 <!-- ").replacen("</location>", "--> 0 0 </location>", 1);
+    let (head, rest) = line.split_once("<location>").unwrap();
+    let (_, tail) = rest.split_once("</location>").unwrap();
+    let moved = format!("{head}<location>0.05 0 0</location>{tail}");
     bench.edit("markers.xml", line, &moved);
     forces(&bench, &[&with_set[..], &["--loads", "walk_grf.xml", "-o", "moved"]].concat()).done();
     assert_ne!(bench.text("own/moments.sto"), bench.text("moved/moments.sto"));
@@ -146,8 +148,10 @@ fn a_set_up_of_inverse_dynamics_is_the_command_with_its_files_and_settings() {
 #[test]
 fn inverse_kinematics_and_dynamics_are_one_run() {
     let bench = laboratory_with_setups("setup_ik_id");
-    let by_options = ["walk.trc", "--model", "figure.osim", "--loads", "walk_grf.xml", "--from", "0.5", "--to", "1.5"];
-    forces(&bench, &[&by_options[..], &["--cutoff", "6", "--force-cutoff", "off", "-o", "options"]].concat()).done();
+    // The points of the demo are joint centres like keypoints, which are fitted together unless a set-up asks for OpenSim's fit.
+    let by_options = ["walk.trc", "--model", "figure.osim", "--fit", "frames", "--loads", "walk_grf.xml"];
+    let range = ["--from", "0.5", "--to", "1.5", "--cutoff", "6", "--force-cutoff", "off", "-o", "options"];
+    forces(&bench, &[&by_options[..], &range].concat()).done();
     forces(&bench, &["--setup", "setups/id.xml", "--setup", "setups/ik.xml", "-o", "setup"]).done();
     let [options, setup] = ["options", "setup"].map(|folder| bench.table(&format!("{folder}/moments.sto")));
     assert!(difference(&options, &setup, "knee_angle_r_moment") < 0.05);
@@ -238,7 +242,7 @@ fn difference(ours: &Table, recorded: &Table, column: &str) -> f64 {
 }
 
 /// Runs all three set-ups and compares body, angles and moments with what OpenSim's tools give.
-fn assert_agrees(name: &str, recordings: &str) {
+fn assert_agrees(name: &str, recordings: &str, allowed_deg: f64) {
     let Some(bench) = tutorial(name, recordings) else { return };
     bench.run(&[&["forces"], &ALL[..], &["-o", "out", "--keep", "moments,kinematics,model"]].concat()).done();
     let body = OsimModel::read(&bench.read("out/subject.osim")).unwrap();
@@ -273,15 +277,16 @@ fn assert_agrees(name: &str, recordings: &str) {
     // Masses and places follow from the same formulas, markers and angles from minima of the same cost. The times of the Gait2392 recording are
     // rounded to milliseconds, and OpenSim's filter resamples them to another grid: some tenths of N.m.
     assert!(worst[0] < 1e-8 && worst[1] < 1e-8 && worst[2] < 1e-5, "{worst:?}");
-    assert!(largest[0] < 0.02 && largest[1] < 0.5, "{largest:?}");
+    assert!(largest[0] < allowed_deg && largest[1] < 0.5, "{largest:?}");
 }
 
 #[test]
 fn the_tutorial_with_gait2392_agrees_with_the_tools_of_opensim() {
-    assert_agrees("gait2392", "opensim-gait2392-subject01");
+    // Times rounded to milliseconds are up to 0.3 ms off, in which a knee turns by 0.1 degrees.
+    assert_agrees("gait2392", "opensim-gait2392-subject01", 0.1);
 }
 
 #[test]
 fn the_tutorial_with_the_model_of_rajagopal_agrees_with_the_tools_of_opensim() {
-    assert_agrees("rajagopal", "opensim-rajagopal-walk");
+    assert_agrees("rajagopal", "opensim-rajagopal-walk", 0.02);
 }

@@ -270,7 +270,7 @@ fn from_and_to_cut_the_range_without_changing_a_number() {
     }
     bench.forces(&["--from", "5", "--to", "6"]).refused(&[
         "the range from 5 s to 6 s has 0 frames",
-        "hint: motion and forces were both recorded from 0 s to 2.9 s",
+        "hint: motion and forces are both known from 0.000 s to 2.900 s",
     ]);
     bench.forces(&["--from", "2", "--to", "1"]).refused(&["--from 2 is after --to 1"]);
     bench.forces(&["--cutoff", "80"]).refused(&["cut-off is 80 Hz", "hint: "]);
