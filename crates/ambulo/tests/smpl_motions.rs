@@ -80,13 +80,13 @@ fn both_layouts_of_the_arrays_and_both_names_of_the_rate_are_read() {
         SmplMotion::from_npz(&changed).unwrap_err().to_string()
     };
     let text = refused(&|npz| npz.arrays.retain(|(name, _)| name != "poses"));
-    assert!(text.contains("no array `pose_body`; found trans, betas, mocap_framerate"), "{text}");
+    assert!(text.contains("no array `poses`; found trans, betas, mocap_framerate"), "{text}");
     let text = refused(&|npz| npz.arrays.retain(|(name, _)| name != "mocap_framerate"));
     assert!(text.contains("no array `mocap_framerate`"), "{text}");
     let text = refused(&|npz| npz.arrays[3].1 = numbers(&[], vec![0.0]));
     assert!(text.contains("frame rate is 0 Hz"), "{text}");
     let text = refused(&|npz| npz.arrays[1].1 = numbers(&[2, 3], vec![0.0; 6]));
-    assert!(text.contains("as many frames as `trans`"), "{text}");
+    assert!(text.contains("rotations of 3 frames and `trans` of 2 frames"), "{text}");
     let text = refused(&|npz| npz.arrays[0].1 = Array { shape: vec![3], data: Data::Other("|O".into()) });
     assert!(text.contains("`poses` holds `|O`; expected numbers"), "{text}");
     let text = refused(&|npz| npz.arrays[0].1 = numbers(&[3, 24], vec![0.0; 72]));
