@@ -144,19 +144,6 @@ fn measure() -> Result<Results, String> {
         let walked = walked(with_controller(&other, &own)?, &other, 100)?;
         others.push((crate::walk_bands::build_name(&build), walked, survived));
     }
-    let mut harmonics = Vec::new();
-    for count in [1, 2, 3, 4, 5, 6, 8, 12] {
-        let own =
-            self::controller(&man, &ControlSettings { torques: TorqueCurves::Harmonics(count), ..settings.clone() })?;
-        let survived = pushed_both_ways(&man, &own)?;
-        harmonics.push((count, kept(&man, count)?, walked(with_controller(&man, &own)?, &man, 100)?, survived));
-    }
-    let mut delays = Vec::new();
-    for delay_s in DELAYS_S {
-        let own = self::controller(&man, &ControlSettings { delay_s, ..settings.clone() })?;
-        let survived = pushed_both_ways(&man, &own)?;
-        delays.push((delay_s, walked(with_controller(&man, &own)?, &man, 100)?, survived));
-    }
     Ok(Results {
         machine: crate::bench::machine(),
         made_s,
@@ -176,11 +163,32 @@ fn measure() -> Result<Results, String> {
         changing: changing_speed(&paces, [SPEEDS[0], SPEEDS[SPEEDS.len() - 1]])?,
         speeds,
         others,
-        harmonics,
-        delays,
+        harmonics: with_harmonics(&man, &settings)?,
+        delays: with_delays(&man, &settings)?,
         placement: placement::measure(&man, &settings)?,
         spatial: spatial::measure(&settings)?,
     })
+}
+
+/// Walks and pushes whose torques are the first harmonics of those of the plan.
+fn with_harmonics(man: &Figure, settings: &ControlSettings) -> Result<Vec<(usize, [f64; 3], Walked, usize)>, String> {
+    let of = |count: usize| {
+        let torques = TorqueCurves::Harmonics(count);
+        let own = controller(man, &ControlSettings { torques, ..settings.clone() })?;
+        let survived = pushed_both_ways(man, &own)?;
+        Ok((count, kept(man, count)?, walked(with_controller(man, &own)?, man, 100)?, survived))
+    };
+    [1, 2, 3, 4, 5, 6, 8, 12].into_iter().map(of).collect()
+}
+
+/// Walks and pushes with feedback that acts late.
+fn with_delays(man: &Figure, settings: &ControlSettings) -> Result<Vec<(f64, Walked, usize)>, String> {
+    let of = |delay_s: f64| {
+        let own = controller(man, &ControlSettings { delay_s, ..settings.clone() })?;
+        let survived = pushed_both_ways(man, &own)?;
+        Ok((delay_s, walked(with_controller(man, &own)?, man, 100)?, survived))
+    };
+    DELAYS_S.into_iter().map(of).collect()
 }
 
 /// A figure with a plan that lifts its soles further than people do [m].

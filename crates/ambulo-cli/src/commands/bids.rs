@@ -15,7 +15,7 @@ pub(crate) struct BidsFiles {
     pub(crate) motion: BidsMotion,
     /// `SamplingFrequency` [Hz].
     pub(crate) rate_hz: Option<f64>,
-    /// The files beside the motion.
+    /// Paths of the `_channels.tsv` and `_motion.json` that were read.
     pub(crate) beside: Vec<PathBuf>,
 }
 

@@ -74,7 +74,7 @@ pub struct Layout {
     frames_start: usize,
 }
 
-/// What the file states about the person. A form fills in defaults where nothing is known.
+/// Sex, mass, stature and age of the person, as the file states them. Where nothing was entered, the form of AddBiomechanics has written its defaults.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Person {
     /// Biological sex; empty if not stated.
@@ -148,7 +148,7 @@ pub struct TrialHeader {
     pub marker_names_guessed: bool,
 }
 
-/// What a pass did to a trial.
+/// The results of one processing pass for a trial.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TrialPass {
     /// What the pass does.

@@ -147,7 +147,7 @@ pub struct BodyInMotion {
     pub feet: FootMotion,
     /// Which foot was on which plate.
     pub on_plates: FeetOnPlates,
-    /// What keypoints of video show about themselves; `None` for markers.
+    /// Noise and faults of keypoints of video; `None` for markers.
     pub keypoints: Option<KeypointReport>,
 }
 

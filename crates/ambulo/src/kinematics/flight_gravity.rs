@@ -29,7 +29,7 @@ const FLOOR: f64 = 0.05;
 /// Apparent gravity outside of these shares contradicts the clock: a frame rate that is wrong by a quarter.
 const TRUE_CLOCK: [f64; 2] = [0.64, 1.5625];
 
-/// What flight phases tell about the clock.
+/// The acceleration with which a person falls in flight, from which a wrong frame rate shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightGravity {
     /// Median apparent gravity [m/s²].

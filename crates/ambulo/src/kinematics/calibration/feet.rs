@@ -52,7 +52,7 @@ pub(super) struct Foot {
     pub(super) joint_from_foot: Mat3,
 }
 
-/// What the feet are known from.
+/// The trial and the kind of points that show the feet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Observed {
     pub(super) trial: Trial,

@@ -1,7 +1,7 @@
 //! Legs whose points move as one rigid piece: a program filled them in while the person was out of view.
 //!
 //! The angles of knee and ankle of a person always change a little, and a network never finds the same place twice. Where the distances from
-//! hip to ankle and from knee to foot stay the same while the hip moves, nobody saw the leg.
+//! hip to ankle and from knee to foot stay the same while the hip moves, no camera saw the leg.
 
 use crate::model::Side;
 use crate::model::marker_set::{Landmark, RecognisedMarkers};

@@ -24,7 +24,7 @@ const LONGEST_GAP_S: f64 = 0.35;
 /// And beyond the first and the last position that is used by at most this length [s].
 const LONGEST_END_S: f64 = 0.1;
 
-/// What a recording of keypoints shows about itself.
+/// Noise and faults of a recording of keypoints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeypointReport {
     /// Noise of each point, in the order of the recording.
