@@ -170,8 +170,11 @@ fn measure() -> Result<Results, String> {
     })
 }
 
+/// Number of harmonics, what is kept of the torques, the walk, and the pushes that are survived.
+type OfHarmonics = (usize, [f64; 3], Walked, usize);
+
 /// Walks and pushes whose torques are the first harmonics of those of the plan.
-fn with_harmonics(man: &Figure, settings: &ControlSettings) -> Result<Vec<(usize, [f64; 3], Walked, usize)>, String> {
+fn with_harmonics(man: &Figure, settings: &ControlSettings) -> Result<Vec<OfHarmonics>, String> {
     let of = |count: usize| {
         let torques = TorqueCurves::Harmonics(count);
         let own = controller(man, &ControlSettings { torques, ..settings.clone() })?;

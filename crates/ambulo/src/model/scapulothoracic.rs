@@ -59,7 +59,7 @@ pub(super) fn divided(document: &OsimModel) -> (Cow<'_, OsimModel>, Vec<String>)
 /// The frame of the winging pin in the joint frame: z along the winging axis.
 fn winging([x, y]: [f64; 2], direction_rad: f64) -> Pose {
     let axis = Vec3::new(-direction_rad.sin(), direction_rad.cos(), 0.0);
-    let across = Vec3::z().cross(&axis);
+    let across = axis.cross(&Vec3::z());
     Pose { rotation: Mat3::from_columns(&[Vec3::z(), across, axis]), translation: Vec3::new(x, y, 0.0) }
 }
 
