@@ -88,6 +88,7 @@ mod opensim_parity;
 mod optimal;
 mod optimal_movements;
 mod optimal_prediction;
+mod optimal_standing;
 mod optimal_track;
 mod osim_export;
 mod osim_import;

@@ -390,6 +390,33 @@ fn a_figure_of_a_scene_changes_its_speed() {
 }
 
 #[test]
+fn a_figure_of_a_scene_stands_walks_off_and_stops() {
+    let text = example("stop-and-go.toml");
+    let of_walk = text.find("walk = {").unwrap();
+    let walk = "walk = { speed = 0, changes = [{ at = 0.5, within = 0.5, speed = 0.75 }, { at = 3, speed = 0 }] }\ncontrol = {}\n";
+    let text = text[..of_walk].replace("duration = 16.0", "duration = 9.0") + walk;
+    let mut places = Vec::new();
+    let mut scene = scene(&text);
+    let pelvis = scene.world().bodies.iter().position(|body| body.name == "max/pelvis").unwrap();
+    let mut findings = Findings::default();
+    scene.run(&mut findings, |frame| places.push(frame.scene.state().poses[pelvis].translation.x)).unwrap();
+    assert!(!findings.has(Code::FigureFell), "{findings:?}");
+    let at = |time_s: f64| places[(time_s / 9.0 * (places.len() - 1) as f64).round() as usize];
+    let [first, off, last] = [at(0.5) - at(0.0), at(4.0) - at(2.0), at(9.0) - at(8.0)];
+    println!("{first:.3} m in standing, {off:.3} m in 2 s of walking, {last:.3} m in standing");
+    assert!(first.abs() < 0.01 && last.abs() < 0.02 && (1.2..1.8).contains(&off), "{first} {off} {last}");
+    assert_eq!(verdict(&scene).state, VerdictState::Feasible);
+}
+
+#[test]
+fn a_controller_without_standing_cannot_stop() {
+    let case = &*LEVEL;
+    let error = case.walk().set_speed(0.0).unwrap_err();
+    assert!(error.to_string().contains("found the speed 0 m/s"), "{error}");
+    assert!(!case.walk().controller().is_standing());
+}
+
+#[test]
 fn a_figure_of_a_scene_is_hit_from_four_sides_in_three_dimensions() {
     let scene = walks_on("pushed-from-four-sides.toml", &example("pushed-from-four-sides.toml"), 15.0);
     for (body, direction, speed) in [
@@ -458,7 +485,7 @@ fn a_controller_that_cannot_be_is_refused_with_its_line() {
         assert!(error.contains("line ") && error.contains(expected), "{to}: {error}");
     }
     for (from, to, expected) in [
-        ("lift = 0.03", "changes = [{ at = 3, speed = 0 }]", "changes of `speed` above zero"),
+        ("lift = 0.03", "changes = [{ at = 3, step_length = 0.5 }]", "expected changes of `speed`"),
         ("gait = \"free\"", "mode = \"optimal\", gait = \"standard\"", "curves of people"),
     ] {
         let file = SceneFile::parse(&text.replace(from, to)).unwrap();

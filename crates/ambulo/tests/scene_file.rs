@@ -186,6 +186,7 @@ fn the_examples_are_scenes() {
         ("pusher", [3, 2, 2, 0, 0]),
         ("rising-ground", [0, 1, 0, 0, 0]),
         ("slope", [2, 2, 0, 0, 0]),
+        ("stop-and-go", [0, 1, 0, 0, 0]),
         ("stumble", [0, 2, 0, 0, 0]),
         ("top", [1, 0, 1, 0, 0]),
         ("walker-without-a-hand", [0, 1, 0, 0, 0]),

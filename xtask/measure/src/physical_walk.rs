@@ -6,6 +6,7 @@
 mod page;
 mod placement;
 mod spatial;
+mod standing;
 
 use crate::random::Random;
 use crate::workspace;
@@ -100,10 +101,11 @@ struct Results {
     speeds: Vec<(f64, Walked, usize)>,
     others: Vec<(String, Walked, usize)>,
     /// Number of harmonics, share of the variance of hip, knee and ankle torques that they keep, the walk, and pushes as above.
-    harmonics: Vec<(usize, [f64; 3], Walked, usize)>,
+    harmonics: Vec<OfHarmonics>,
     /// Delay of feedback [s], the walk, and pushes as above.
     delays: Vec<(f64, Walked, usize)>,
     placement: placement::Results,
+    stands: Vec<standing::Stands>,
     /// The same man in three dimensions.
     spatial: spatial::Results,
 }
@@ -166,6 +168,7 @@ fn measure() -> Result<Results, String> {
         harmonics: with_harmonics(&man, &settings)?,
         delays: with_delays(&man, &settings)?,
         placement: placement::measure(&man, &settings)?,
+        stands: standing::measure(&settings)?,
         spatial: spatial::measure(&settings)?,
     })
 }

@@ -23,6 +23,8 @@ use std::fmt;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Deviations that cost 1 in the first and the last instant: joint angles [rad]; rates [rad/s, m/s]; accelerations [rad/s², m/s²].
 const REST: [f64; 3] = [3.0 * DEGREE, 0.005, 0.02];
+/// Deviations that cost 1 where a movement begins or ends in another motion: coordinates [rad, m] and rates [rad/s, m/s].
+const JOINED: [f64; 2] = [0.0005, 0.004];
 /// Deviations from the first guess that cost 1 while the solver is still guided by it: angles [rad], positions of the pelvis [m].
 const GUIDE: [f64; 2] = [10.0 * DEGREE, 0.1];
 /// Weight of the first guess in the second round of stages; it is 1 in the first and 0 in the last.
@@ -97,7 +99,7 @@ impl MovementProblem {
         let MovementSettings { costs, surfaces, flights_s, knots_per_s } = settings;
         let is_spatial = human.model.anatomy().coordinate(Movement::PelvisRight, None).is_some();
         let soles = if is_spatial { soles_with_width(human) } else { human.soles.clone() };
-        let mut problem = Problem {
+        let problem = Problem {
             model: human.model.clone(),
             soles: soles.iter().chain(surfaces.iter().map(|(sphere, _)| sphere)).cloned().collect(),
             levels_m: soles.iter().map(|_| 0.0).chain(surfaces.iter().map(|(_, level)| *level)).collect(),
@@ -111,19 +113,35 @@ impl MovementProblem {
             terms: Vec::new(),
         };
         let guess = first_guess(&problem, soles.len(), keys, flights_s)?;
-        let mut unknowns = problem.fitted(&guess);
+        let last = guess.len() - 1;
+        let still = vec![0.0; human.model.coordinates().len()];
+        let ends = [0, last].map(|instant| End { instant, place: &guess[instant], rates: &still, is_exact: false });
+        let mut movement = MovementProblem::of_guess(human, costs, problem, &guess, &ends, |muscles| muscles.joints())?;
         if let Some((height, _)) = human.model.anatomy().coordinate(Movement::PelvisUp, None) {
-            problem.settle(&mut unknowns, height)?;
+            movement.problem.settle(&mut movement.guess, height)?;
         }
+        Ok(movement)
+    }
+
+    /// The movement with coordinates of a first guess at all instants, and with the costs of muscles that `add` adds. `problem` has no terms.
+    pub(super) fn of_guess(
+        human: &Human,
+        costs: &EffortCosts,
+        mut problem: Problem,
+        guess: &[Vec<f64>],
+        ends: &[End<'_>],
+        add: impl FnOnce(&mut MuscleTerms<'_>),
+    ) -> Result<MovementProblem, CurvedJointError> {
+        let guess = problem.fitted(guess);
         let conditions = WalkConditions::default();
-        let mut muscles = MuscleTerms::new(human, costs, &conditions, &problem, duration_s);
-        muscles.joints();
+        let mut muscles = MuscleTerms::new(human, costs, &conditions, &problem, problem.duration_s);
+        add(&mut muscles);
         let mut terms = muscles.terms;
-        terms.extend(rests(&problem, &guess));
+        terms.extend(ends.iter().flat_map(|end| end.terms(&problem)));
         terms.extend(ranges(&problem));
         terms.extend(slips(&problem));
         problem.terms = terms;
-        Ok(MovementProblem { problem, guess: unknowns })
+        Ok(MovementProblem { problem, guess })
     }
 
     /// Requires a quantity to have a value, or a bound, from one time to another [s]; `deviation` costs 1 for an instant. Times between two instants
@@ -308,7 +326,7 @@ fn between(knots: &[f64], values: &[f64], times: &[f64]) -> Vec<f64> {
 }
 
 /// Coordinates of a key.
-fn posture(model: &Model, key: &Key) -> Vec<f64> {
+pub(super) fn posture(model: &Model, key: &Key) -> Vec<f64> {
     let angle = |wanted: Movement| key.angles_deg.iter().find(|(movement, _)| *movement == wanted).map(|(_, deg)| *deg);
     let level = [(Movement::HipFlexion, 1.0), (Movement::KneeFlexion, -1.0), (Movement::AnkleDorsiflexion, 1.0)];
     let tilt: f64 = level.iter().map(|(movement, sign)| sign * angle(*movement).unwrap_or(0.0)).sum();
@@ -324,29 +342,48 @@ fn posture(model: &Model, key: &Key) -> Vec<f64> {
     model.coordinate_ids().map(value).collect()
 }
 
-/// The figure rests in the postures of the first and the last instant.
-fn rests(problem: &Problem, guess: &[Vec<f64>]) -> Vec<Term> {
-    let last = guess.len() - 1;
-    let ends = |value: &dyn Fn(usize) -> f64| -> Vec<Option<f64>> {
-        (0..=last).map(|k| (k == 0 || k == last).then(|| value(k))).collect()
-    };
-    let root: Vec<CoordinateId> = problem.root().into_iter().map(|(id, _)| id).collect();
-    let forward = problem.model.anatomy().coordinate(Movement::PelvisForward, None).map(|(id, _)| id);
-    let mut terms = Vec::new();
-    for id in problem.model.coordinate_ids() {
-        let mut add = |quantity, targets, deviation| {
-            terms.push(Term { name: "rest".to_owned(), quantity, targets, deviation, bound: Bound::Near });
+/// The state at the first or the last instant.
+pub(super) struct End<'a> {
+    pub(super) instant: usize,
+    /// Coordinates [rad, m] and rates [rad/s, m/s].
+    pub(super) place: &'a [f64],
+    pub(super) rates: &'a [f64],
+    /// Whether all coordinates but the place forward are required nearly exactly; otherwise only those of joints, roughly.
+    pub(super) is_exact: bool,
+}
+
+impl End<'_> {
+    fn terms(&self, problem: &Problem) -> Vec<Term> {
+        let root: Vec<CoordinateId> = problem.root().into_iter().map(|(id, _)| id).collect();
+        let forward = problem.model.anatomy().coordinate(Movement::PelvisForward, None).map(|(id, _)| id);
+        let at = |value: f64| -> Vec<Option<f64>> {
+            (0..problem.instants()).map(|k| (k == self.instant).then_some(value)).collect()
         };
-        let posture = ends(&|k| guess[k][id.index()]);
-        if !root.contains(&id) {
-            add(Quantity::Position(vec![(id, 1.0)]), posture, REST[0]);
-        } else if Some(id) == forward {
-            add(Quantity::Position(vec![(id, 1.0)]), posture, 0.05 * problem.length_m);
+        let is_rest = self.rates.iter().all(|rate| rate.abs() <= 0.0);
+        let mut terms = Vec::new();
+        for id in problem.model.coordinate_ids() {
+            let mut add = |quantity, value, deviation| {
+                let (name, targets) = ("end".to_owned(), at(value));
+                terms.push(Term { name, quantity, targets, deviation, bound: Bound::Near });
+            };
+            let place = self.place[id.index()];
+            let deviation = match id {
+                id if Some(id) == forward => Some(0.05 * problem.length_m),
+                _ if self.is_exact => Some(JOINED[0]),
+                id if root.contains(&id) => None,
+                _ => Some(REST[0]),
+            };
+            if let Some(deviation) = deviation {
+                add(Quantity::Position(vec![(id, 1.0)]), place, deviation);
+            }
+            let deviation = if is_rest { REST[1] } else { JOINED[1] };
+            add(Quantity::Rate(vec![(id, 1.0)]), self.rates[id.index()], deviation);
+            if is_rest {
+                add(Quantity::Acceleration(vec![(id, 1.0)]), 0.0, REST[2]);
+            }
         }
-        add(Quantity::Rate(vec![(id, 1.0)]), ends(&|_| 0.0), REST[1]);
-        add(Quantity::Acceleration(vec![(id, 1.0)]), ends(&|_| 0.0), REST[2]);
+        terms
     }
-    terms
 }
 
 /// Joints stay in their ranges.

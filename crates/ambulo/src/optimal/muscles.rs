@@ -209,6 +209,15 @@ impl<'a> MuscleTerms<'a> {
         if sign > 0.0 { [a, b] } else { [b, a] }
     }
 
+    /// Moments of joints change slowly.
+    pub(super) fn moment_rates(&mut self) {
+        let root: Vec<CoordinateId> = self.problem.root().into_iter().map(|(id, _)| id).collect();
+        let rate = self.moment_rate();
+        for id in self.human.model.coordinate_ids().filter(|id| !root.contains(id)) {
+            self.add("moment rate", Quantity::ForceRate(id), 0.0, rate, Bound::Near);
+        }
+    }
+
     /// The trunk stays upright in the world, not on the slope.
     pub(super) fn trunk(&mut self) {
         let anatomy = self.human.model.anatomy();

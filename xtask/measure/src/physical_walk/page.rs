@@ -1,7 +1,7 @@
 //! The page of walks by own torques.
 
-use super::spatial;
 use super::{AFTER_PUSH, HOLD_S, LIFT, PHASES, PUSH_S, RAMP_S, Results, SEEDS, SPEED, TILE, Walked};
+use super::{spatial, standing};
 use crate::table::Table;
 use std::fmt::Write;
 
@@ -20,6 +20,7 @@ pub(super) fn text(results: &Results) -> String {
     page += &main_table(results);
     page += &pushes(results);
     page += &others(results);
+    page += &standing::section(&results.stands);
     page += &delays(results);
     page += &results.placement.section();
     page += &in_three_dimensions(&results.spatial);

@@ -85,7 +85,7 @@ pub(super) fn measure(settings: &ControlSettings) -> Result<Results, String> {
 }
 
 /// The man at a speed [m/s], with a plan that lifts the soles further [m].
-fn figure(speed: f64, lift_m: f64) -> Result<Figure, String> {
+pub(super) fn figure(speed: f64, lift_m: f64) -> Result<Figure, String> {
     let mut gait = Gait::named("free").map_err(|e| e.to_string())?;
     gait.pace.speed = Some(Speed::MetersPerSecond(speed));
     let planar = MAN.human().map_err(|e| e.to_string())?;

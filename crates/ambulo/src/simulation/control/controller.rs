@@ -3,13 +3,15 @@
 use super::figure::FigureWorld;
 use super::foot_placement::{Followed, PlacedFeet};
 use super::linear::{Impedance, with_impedances};
+use super::pace::{Between, Pace};
 use super::plan::{CyclePlan, PlannedStep, Root, STRIKE};
-use super::riccati::{StepMap, foreseen, periodic_gains};
+use super::riccati::{Costs, StepMap, foreseen};
 use super::settings::{Balance, ControlError, ControlSettings, TrackingCosts};
+use super::standing::{Maker, Stage, Standing};
 use crate::kinematics::{Posture, body_motion};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, Model, Movement, Side};
-use crate::optimal::{Solution, StrengthCurve};
+use crate::optimal::{Solution, StandingMovements, StrengthCurve};
 use crate::simulation::walking::TorqueSeries;
 use crate::simulation::{Motor, StepSettings};
 use nalgebra::{DMatrix, DVector};
@@ -86,49 +88,6 @@ impl Fall {
     }
 }
 
-/// A plan at one speed, and its gains.
-#[derive(Debug, Clone)]
-struct Pace {
-    /// [m/s].
-    speed: f64,
-    plan: CyclePlan,
-    /// Gains of each time step: one row per joint, one column per entry of the state. Empty without feedback.
-    gains: Vec<DMatrix<f64>>,
-    /// Height of the sole of the right and the left foot when it strikes [m].
-    soles_m: [f64; 2],
-}
-
-/// Two paces and the share of the second one, between which the present speed lies.
-struct Between<'a> {
-    paces: [&'a Pace; 2],
-    share: f64,
-}
-
-impl Between<'_> {
-    fn mix(&self, of: impl Fn(&Pace) -> f64) -> f64 {
-        (1.0 - self.share) * of(self.paces[0]) + self.share * of(self.paces[1])
-    }
-
-    /// Share of the cycle at which a foot strikes; those of both paces may lie on either side of the end of the cycle.
-    fn strike(&self, foot: usize) -> f64 {
-        let [first, second] = self.paces.map(|pace| pace.plan.strike(foot));
-        let apart = second - first;
-        (first + self.share * (apart - apart.round())).rem_euclid(1.0)
-    }
-
-    fn planned(&self, phase: f64) -> PlannedStep {
-        let [first, second] = self.paces.map(|pace| &pace.plan.steps[pace.plan.step_at(phase)]);
-        if self.share > 0.0 { first.blended(second, self.share) } else { first.clone() }
-    }
-
-    /// K times a deviation of the state.
-    fn feedback(&self, phase: f64, apart: &DVector<f64>) -> Option<DVector<f64>> {
-        let of = |pace: &Pace| pace.gains.get(pace.plan.step_at(phase)).map(|gain| gain * apart);
-        let first = of(self.paces[0])?;
-        if self.share > 0.0 { Some(first * (1.0 - self.share) + of(self.paces[1])? * self.share) } else { Some(first) }
-    }
-}
-
 /// Walks a figure along a plan by torques of its joints.
 #[derive(Debug, Clone)]
 pub struct WalkController {
@@ -136,6 +95,11 @@ pub struct WalkController {
     paces: Vec<Arc<Pace>>,
     /// The present speed [m/s].
     speed: f64,
+    /// Standing, and the ways there and back.
+    standing: Option<Arc<Standing>>,
+    stage: Stage,
+    /// Whether it stands or is about to.
+    stands: bool,
     impedances: Vec<Impedance>,
     joints: Vec<usize>,
     places: Vec<usize>,
@@ -187,11 +151,12 @@ impl WalkController {
         plan.set_torques(&human.model, solution.cycle_s(), &settings.torques)?;
         let (joints, places) = (plan.joints(), plan.places());
         let impedances = impedances(human, &joints, settings);
-        let gains = if settings.balance == Balance::WholeState {
+        let (gains, value) = if settings.balance == Balance::WholeState {
             let maps = FigureWorld::new(human, solution.problem().shoes, step)?.maps(&plan, &impedances)?;
-            gains(human, &plan, &maps, settings, step.step_s)?
+            let (gains, value) = gains(human, &plan, &maps, settings, step.step_s)?;
+            (gains, Some(value))
         } else {
-            Vec::new()
+            (Vec::new(), None)
         };
         let placed_feet = match settings.balance {
             Balance::FootPlacement(law) => Some(PlacedFeet::new(&human.model, law, size_of(human))?),
@@ -207,7 +172,10 @@ impl WalkController {
             level_m: 0.0,
             taller: 1.0,
             speed: solution.speed(),
-            paces: vec![Arc::new(Pace { speed: solution.speed(), plan, gains, soles_m })],
+            paces: vec![Arc::new(Pace { speed: solution.speed(), plan, gains, soles_m, value })],
+            standing: None,
+            stage: Stage::Walking,
+            stands: false,
             impedances,
             carrying: joints.iter().copied().filter(|&c| share_of(human, c).0 >= 1.0).collect(),
             feet: feet(human),
@@ -246,16 +214,16 @@ impl WalkController {
         let plan = &self.paces[0].plan;
         let impedances = impedances(human, &self.joints, settings);
         let maps = with_impedances(maps, plan, [&self.impedances, &impedances], self.step_s);
-        let gains = gains(human, plan, &maps.ok_or(ControlError::Riccati)?, settings, self.step_s)?;
-        let pace = Pace { gains, ..Pace::clone(&self.paces[0]) };
+        let (gains, value) = gains(human, plan, &maps.ok_or(ControlError::Riccati)?, settings, self.step_s)?;
+        let pace = Pace { gains, value: Some(value), ..Pace::clone(&self.paces[0]) };
         let late = late(human, settings, self.step_s);
-        Ok(WalkController { paces: vec![Arc::new(pace)], impedances, late, ..self.clone() })
+        Ok(WalkController { paces: vec![Arc::new(pace)], standing: None, impedances, late, ..self.clone() })
     }
 
     /// Mean square, over hips, knees, ankles and the lumbar joint, of the difference of their angles from the plan [rad²] and of their torques over
     /// the isometric strength of their muscles.
     pub(super) fn deviation_and_effort(&self, now: &[[f64; 2]], torques: &[f64]) -> [f64; 2] {
-        let planned = self.between().planned(self.phase);
+        let planned = self.planned_step();
         let count = self.carrying.len().max(1) as f64;
         let apart = |&c: &usize| now[c][0] - planned.state[0][c];
         let used = |&c: &usize| torques[c] / self.impedances[c].isometric(now[c][0], torques[c]);
@@ -285,6 +253,45 @@ impl WalkController {
         Ok(WalkController { paces, ..first.clone() })
     }
 
+    /// The same controller, which can stop, stand and walk off: speed 0 in [`WalkController::set_speed`]. `walk` and `settings` are those of its
+    /// slowest speed, `movements` those of this walk.
+    ///
+    /// # Errors
+    /// A walk that is not the slowest one, balance without feedback of the whole state, gains that cannot be computed.
+    pub fn with_standing(
+        mut self,
+        human: &Human,
+        walk: &Solution,
+        movements: &StandingMovements,
+        step: StepSettings,
+        settings: &ControlSettings,
+    ) -> Result<WalkController, ControlError> {
+        let pace = &self.paces[0];
+        let value = pace.value.as_ref().filter(|_| (pace.speed - walk.speed()).abs() <= SPEED_ROUNDING);
+        let value = value.ok_or(ControlError::Standing { found: walk.speed(), slowest: pace.speed })?;
+        let [state, input] = costs(human, &pace.plan, &settings.costs, step.step_s);
+        let mut maker = Maker {
+            human,
+            figure: FigureWorld::new(human, walk.problem().shoes, step)?,
+            impedances: &self.impedances,
+            costs: Costs { state, input },
+            delay: delay_steps(settings, step.step_s),
+        };
+        let standing = maker.standing(movements, &pace.plan, value, |q| self.body.lowest(q))?;
+        self.standing = Some(Arc::new(standing));
+        Ok(self)
+    }
+
+    /// Starts in standing, if it can stand.
+    #[must_use]
+    pub fn starting_at_rest(mut self) -> WalkController {
+        if self.standing.is_some() {
+            (self.stage, self.stands) = (Stage::Standing, true);
+            self.speed = self.paces[0].speed;
+        }
+        self
+    }
+
     /// Starts at a phase of the cycle (0 to 1), in which the feet are as planned.
     #[must_use]
     pub fn starting_at(mut self, phase: f64) -> WalkController {
@@ -298,12 +305,15 @@ impl WalkController {
         [&self.paces[0], &self.paces[self.paces.len() - 1]].map(|pace| pace.speed)
     }
 
-    /// Sets the speed [m/s]. It may change in every step.
+    /// Sets the speed [m/s]. It may change in every step. With speed 0, a controller that can stand walks at its slowest speed until the left foot has
+    /// left the ground, and then stops; with another speed it walks off as soon as it stands.
     ///
     /// # Errors
     /// A speed outside [`WalkController::speeds`] by more than rounding.
     pub fn set_speed(&mut self, speed: f64) -> Result<(), ControlError> {
         let [slowest, fastest] = self.speeds();
+        self.stands = self.standing.is_some() && speed.abs() <= SPEED_ROUNDING;
+        let speed = if self.stands { slowest } else { speed };
         if !(slowest - SPEED_ROUNDING..=fastest + SPEED_ROUNDING).contains(&speed) {
             return Err(ControlError::Speed { found: speed, slowest, fastest });
         }
@@ -347,7 +357,11 @@ impl WalkController {
         let up = self.root().up;
         q[up] *= self.taller;
         let lowest = self.body.lowest(&q).into_iter().fold(f64::INFINITY, f64::min);
-        q[up] += self.between().mix(|pace| pace.soles_m[0].min(pace.soles_m[1])) - lowest;
+        let planned = match &self.standing {
+            Some(standing) if self.stage != Stage::Walking => standing.soles_m[0].min(standing.soles_m[1]),
+            _ => self.between().mix(|pace| pace.soles_m[0].min(pace.soles_m[1])),
+        };
+        q[up] += planned - lowest;
         [q, qd]
     }
 
@@ -366,7 +380,18 @@ impl WalkController {
     /// Coordinates and rates of the plan at the present phase.
     #[must_use]
     pub fn planned(&self) -> [Vec<f64>; 2] {
-        self.between().planned(self.phase).state
+        self.planned_step().state
+    }
+
+    fn planned_step(&self) -> PlannedStep {
+        let standing = self.standing.as_ref().and_then(|standing| standing.planned(self.stage));
+        standing.cloned().unwrap_or_else(|| self.between().planned(self.phase))
+    }
+
+    /// Whether it stands: neither walks, nor stops or walks off.
+    #[must_use]
+    pub fn is_standing(&self) -> bool {
+        self.stage == Stage::Standing
     }
 
     /// The torques of the joints along the plan of the slowest speed, as harmonics of the cycle, without impedance and feedback.
@@ -390,7 +415,8 @@ impl WalkController {
         let row = self.joints.iter().position(|joint| *joint == c);
         let column = self.places.iter().position(|place| *place == c);
         let (Some(row), Some(column)) = (row, column) else { return own };
-        let gains = self.paces.iter().flat_map(|pace| &pace.gains);
+        let of_walks = self.paces.iter().flat_map(|pace| &pace.gains);
+        let gains = of_walks.chain(self.standing.iter().flat_map(|standing| standing.gains()));
         gains.map(|gain| gain[(row, column)] + own).fold(own, f64::max)
     }
 
@@ -406,7 +432,7 @@ impl WalkController {
                 |(impedance, now): (&Impedance, &[f64; 2])| (impedance.stiffness > 0.0).then(|| impedance.limp(*now));
             return self.impedances.iter().zip(now).map(limp).collect();
         }
-        let planned = self.between().planned(self.phase);
+        let planned = self.planned_step();
         let feedback = self.delayed(self.feedback(&planned, now, loads_n));
         let motor = |(c, impedance): (usize, &Impedance)| {
             let target = [planned.target[0][c], planned.target[1][c]];
@@ -441,7 +467,8 @@ impl WalkController {
         let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
         let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
         let apart = DVector::from_iterator(self.places.len() + now.len(), places.chain(rates));
-        if let Some(torques) = self.between().feedback(self.phase, &apart) {
+        let of_standing = self.standing.as_ref().and_then(|standing| standing.feedback(self.stage, &apart));
+        if let Some(torques) = of_standing.or_else(|| self.between().feedback(self.phase, &apart)) {
             for (joint, torque) in self.joints.iter().zip(torques.iter()) {
                 let most = self.feet[*joint].map_or(f64::INFINITY, |(foot, lever_m)| lever_m * loads_n[foot].max(0.0));
                 feedback[*joint] = (-torque).clamp(-most, most);
@@ -479,6 +506,11 @@ impl WalkController {
     /// The phase advances with time, but waits for a foot that has not struck when it should.
     fn advance(&mut self) {
         self.time_s += self.step_s;
+        if let Some(standing) = self.standing.as_ref().filter(|_| self.stage != Stage::Walking) {
+            self.stage = standing.next(self.stage, self.stands);
+            self.phase = StandingMovements::JOINS[usize::from(self.stage == Stage::Walking)];
+            return;
+        }
         let between = self.between();
         let step = 1.0 / between.mix(|pace| pace.plan.steps.len() as f64);
         let is_late = |foot: usize| {
@@ -488,7 +520,11 @@ impl WalkController {
         let late = is_late(0) || is_late(1);
         self.waited_s = if late { self.waited_s + self.step_s } else { 0.0 };
         if !late || self.waited_s > LONGEST_WAIT_S {
+            let until = (StandingMovements::JOINS[0] - self.phase).rem_euclid(1.0);
             self.phase = (self.phase + step).rem_euclid(1.0);
+            if self.stands && until > 0.0 && until <= step {
+                self.stage = Stage::Stopping(0);
+            }
         }
     }
 
@@ -498,10 +534,12 @@ impl WalkController {
             if load > STRIKE * self.weight_n {
                 if self.swing_s[foot] > SHORTEST_SWING_S {
                     self.strikes += 1;
-                    self.strike(foot);
-                    let q: Vec<f64> = now.iter().map(|now| now[0]).collect();
-                    let planned = self.between().mix(|pace| pace.soles_m[foot]);
-                    self.level_m = self.body.lowest(&q)[foot] - planned;
+                    if self.stage == Stage::Walking {
+                        self.strike(foot);
+                        let q: Vec<f64> = now.iter().map(|now| now[0]).collect();
+                        let planned = self.between().mix(|pace| pace.soles_m[foot]);
+                        self.level_m = self.body.lowest(&q)[foot] - planned;
+                    }
                 }
                 self.swing_s[foot] = 0.0;
             } else if load < SWING * self.weight_n {
@@ -574,17 +612,20 @@ fn late(human: &Human, settings: &ControlSettings, step_s: f64) -> VecDeque<Vec<
     VecDeque::from(vec![vec![0.0; human.model.coordinates().len()]; delay_steps(settings, step_s)])
 }
 
-/// Gains of all steps of a plan with these maps.
+/// Gains of all steps of a plan with these maps, and the matrix P of [`Pace::value`].
 fn gains(
     human: &Human,
     plan: &CyclePlan,
     maps: &[StepMap],
     settings: &ControlSettings,
     step_s: f64,
-) -> Result<Vec<DMatrix<f64>>, ControlError> {
-    let [of_state, of_input] = costs(human, plan, &settings.costs, step_s);
-    let gains = periodic_gains(maps, &of_state, &of_input).ok_or(ControlError::Riccati)?;
-    Ok(foreseen(maps, &gains, delay_steps(settings, step_s)))
+) -> Result<(Vec<DMatrix<f64>>, DMatrix<f64>), ControlError> {
+    let [state, input] = costs(human, plan, &settings.costs, step_s);
+    let (costs, delay) = (Costs { state, input }, delay_steps(settings, step_s));
+    let (gains, mut value) = costs.periodic(maps).ok_or(ControlError::Riccati)?;
+    let joined = (plan.step_at(StandingMovements::JOINS[1]) + delay) % maps.len();
+    costs.gains(&maps[joined..], &mut value).ok_or(ControlError::Riccati)?;
+    Ok((foreseen(maps, &gains, delay), value))
 }
 
 /// The diagonal matrices Q and R of a time step.

@@ -16,21 +16,24 @@
 //! falls when it is pushed backwards.
 //!
 //! The figure is planar, or has three dimensions ([`crate::optimal::OptimalWalk`]). Its legs pass through each other. Several plans make one
-//! controller whose speed can be changed on the way ([`WalkController::joined`]).
+//! controller whose speed can be changed on the way ([`WalkController::joined`]); it can stop, stand and walk off
+//! ([`WalkController::with_standing`]).
 //!
 //! Sources: the discrete periodic Riccati equation as in Bittanti, Colaneri, De Nicolao 1991 (unverified; derived here); phase reset at foot strike
 //! as in Aoi, Tsuchiya 2005 (unverified). docs/PHYSICAL_WALK.md has results and limits.
-//! Not handled: starting, stopping and turning; delays of muscles.
+//! Not handled: turning; activation of muscles.
 
 mod controller;
 mod figure;
 mod foot_placement;
 mod linear;
+mod pace;
 mod physical;
 mod plan;
 mod riccati;
 mod schedule;
 mod settings;
+mod standing;
 pub mod tuning;
 
 pub use controller::{Fall, WalkController};

@@ -108,6 +108,11 @@ impl CyclePlan {
         Ok(plan)
     }
 
+    /// A plan of other steps of the same figure, which need not be a cycle.
+    pub(super) fn with_steps(&self, steps: Vec<PlannedStep>) -> CyclePlan {
+        CyclePlan { steps, strikes: [0; 2], root: self.root.clone(), mirror: None }
+    }
+
     /// Looks whether the second half of the cycle is the mirror image of the first.
     fn find_mirror(&mut self, model: &Model) {
         let mirror = mirror(model);

@@ -20,30 +20,54 @@ const MOST_PERIODS: usize = 100;
 /// Relative change of P over a period at which it is periodic.
 const PERIODIC: f64 = 1e-7;
 
-/// Gains K_k of all steps; `None` if the recursion does not converge.
-pub(super) fn periodic_gains(
-    steps: &[StepMap],
-    state_cost: &DMatrix<f64>,
-    input_cost: &DMatrix<f64>,
-) -> Option<Vec<DMatrix<f64>>> {
-    let mut value = state_cost.clone();
-    for _ in 0..MOST_PERIODS {
-        let before = value.clone();
+/// Costs of deviations of the state and of inputs.
+#[derive(Debug, Clone)]
+pub(super) struct Costs {
+    /// Q.
+    pub(super) state: DMatrix<f64>,
+    /// R.
+    pub(super) input: DMatrix<f64>,
+}
+
+impl Costs {
+    /// Gains K_k of some steps; `value` is P after the last step and becomes P before the first. `None` if R + Bᵀ P B has no inverse.
+    pub(super) fn gains(&self, steps: &[StepMap], value: &mut DMatrix<f64>) -> Option<Vec<DMatrix<f64>>> {
         let mut gains = Vec::with_capacity(steps.len());
         for StepMap { by_state, by_input } in steps.iter().rev() {
-            let [of_state, of_input] = [by_state, by_input].map(|map| &value * map);
+            let [of_state, of_input] = [by_state, by_input].map(|map| &*value * map);
             let coupling = by_input.transpose() * &of_state;
-            let gain = (input_cost + by_input.transpose() * of_input).cholesky()?.solve(&coupling);
-            let next = state_cost + by_state.transpose() * &of_state - coupling.transpose() * &gain;
-            value = (&next + next.transpose()) * 0.5;
+            let gain = (&self.input + by_input.transpose() * of_input).cholesky()?.solve(&coupling);
+            let next = &self.state + by_state.transpose() * &of_state - coupling.transpose() * &gain;
+            *value = (&next + next.transpose()) * 0.5;
             gains.push(gain);
         }
-        if (&value - before).norm() <= PERIODIC * value.norm() {
-            gains.reverse();
-            return Some(gains);
-        }
+        gains.reverse();
+        Some(gains)
     }
-    None
+
+    /// Gains K_k of steps that repeat, and P at the start of a period; `None` if the recursion does not converge.
+    pub(super) fn periodic(&self, steps: &[StepMap]) -> Option<(Vec<DMatrix<f64>>, DMatrix<f64>)> {
+        let mut value = self.state.clone();
+        for _ in 0..MOST_PERIODS {
+            let before = value.clone();
+            let gains = self.gains(steps, &mut value)?;
+            if (&value - before).norm() <= PERIODIC * value.norm() {
+                return Some((gains, value));
+            }
+        }
+        None
+    }
+
+    /// Gain K of a step that is repeated some times, and P before all of them. Unlike [`Costs::periodic`] it does not need to converge: deviations that
+    /// cost, but that no input can change, cost more with each repetition.
+    pub(super) fn repeated(&self, step: &StepMap, times: usize) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+        let mut value = self.state.clone();
+        let mut last = None;
+        for _ in 0..times {
+            last = self.gains(std::slice::from_ref(step), &mut value)?.pop();
+        }
+        Some((last?, value))
+    }
 }
 
 /// Gains for inputs that act `delay` steps later: the state then is foreseen by the closed system, u_{k+d} = -K_{k+d} (Π (A_j - B_j K_j)) x_k.
@@ -75,7 +99,9 @@ mod tests {
         let p = (-half + (half * half + b * b * q * r).sqrt()) / (b * b);
         let expected = a * b * p / (r + b * b * p);
         let steps = vec![StepMap { by_state: scalar(a), by_input: scalar(b) }; 3];
-        for gain in periodic_gains(&steps, &scalar(q), &scalar(r)).unwrap() {
+        let (repeated, _) = (Costs { state: scalar(q), input: scalar(r) }).repeated(&steps[0], 100).unwrap();
+        assert!((repeated[(0, 0)] - expected).abs() < 1e-9, "{repeated} instead of {expected}");
+        for gain in (Costs { state: scalar(q), input: scalar(r) }).periodic(&steps).unwrap().0 {
             assert!((gain[(0, 0)] - expected).abs() < 1e-9, "{gain} instead of {expected}");
         }
     }
@@ -85,7 +111,7 @@ mod tests {
     fn foreseen_gains_give_the_inputs_of_the_closed_system_ahead_of_time() {
         let steps: Vec<StepMap> =
             [0.9, 1.2, 1.4].map(|a| StepMap { by_state: scalar(a), by_input: scalar(0.5) }).to_vec();
-        let gains = periodic_gains(&steps, &scalar(1.0), &scalar(1.0)).unwrap();
+        let gains = Costs { state: scalar(1.0), input: scalar(1.0) }.periodic(&steps).unwrap().0;
         let ahead = foreseen(&steps, &gains, 2);
         let mut x = 1.0;
         for k in 0..6 {
@@ -108,7 +134,7 @@ mod tests {
             })
             .collect();
         let (q, r) = (DMatrix::identity(2, 2), scalar(0.3));
-        let gains = periodic_gains(&steps, &q, &r).unwrap();
+        let (gains, value) = Costs { state: q.clone(), input: r.clone() }.periodic(&steps).unwrap();
         let cost = |extra: f64, at: usize| {
             let (mut x, mut sum) = (DMatrix::from_row_slice(2, 1, &[1.0, -0.5]), 0.0);
             for k in 0..400 {
@@ -120,7 +146,8 @@ mod tests {
             sum
         };
         let least = cost(0.0, 0);
-        assert!(least.is_finite() && least < 100.0, "{least}");
+        let start = DMatrix::from_row_slice(2, 1, &[1.0, -0.5]);
+        assert!((least / (start.transpose() * value * start)[(0, 0)] - 1.0).abs() < 1e-6, "{least}");
         for at in 0..6 {
             assert!(cost(0.01, at) > least && cost(-0.01, at) > least, "at {at}");
         }
@@ -129,6 +156,9 @@ mod tests {
     #[test]
     fn a_system_that_no_input_reaches_has_no_gains() {
         let steps = [StepMap { by_state: scalar(1.2), by_input: scalar(0.0) }];
-        assert!(periodic_gains(&steps, &scalar(1.0), &scalar(1.0)).is_none());
+        let costs = Costs { state: scalar(1.0), input: scalar(1.0) };
+        assert!(costs.periodic(&steps).is_none());
+        // What no input reaches needs none.
+        assert!(costs.repeated(&steps[0], 10).unwrap().0[(0, 0)].abs() < 1e-12);
     }
 }

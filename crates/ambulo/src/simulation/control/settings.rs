@@ -1,6 +1,7 @@
 //! Settings of a controller, and why there is none.
 
 use crate::dynamics::CurvedJointError;
+use crate::optimal::StandingError;
 use crate::simulation::figure_tree::FigureJointError;
 use crate::simulation::walking::{TorqueSeries, WalkingError};
 
@@ -166,6 +167,19 @@ pub enum ControlError {
         slowest: f64,
         /// That of the fastest plan [m/s].
         fastest: f64,
+    },
+    /// A figure that cannot stop, or walk off.
+    #[error(transparent)]
+    NoStanding(#[from] StandingError),
+    /// Standing of another walk, or without gains.
+    #[error(
+        "found movements of standing of a walk at {found:.2} m/s; expected those of the slowest walk of the controller, at {slowest:.2} m/s, with feedback of the whole state"
+    )]
+    Standing {
+        /// Speed of the walk [m/s].
+        found: f64,
+        /// Slowest speed of the controller [m/s].
+        slowest: f64,
     },
     /// The Riccati equation has no solution.
     #[error("the feedback of the walk could not be computed: its Riccati equation did not converge")]

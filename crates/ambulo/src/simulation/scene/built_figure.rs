@@ -123,8 +123,16 @@ fn walking(
     if let Some(control) = &built.control {
         let planner = Planner { entry, build: &built.build, gait: &gait };
         let controller = planner.controller(control, sources)?;
-        let plan = planner.plan(entry.speed, sources)?;
-        return Ok((plan.human.clone(), along_plan(plan, entry.phase), Some(controller)));
+        // Who stands at the start has the figure of the slowest plan.
+        let stands = controller.controller.is_standing();
+        let speed = if stands { Some(controller.controller.speed()) } else { entry.speed };
+        let plan = planner.plan(speed, sources)?;
+        let mut motion = along_plan(plan, entry.phase);
+        if stands {
+            motion.start = controller.controller.start();
+            motion.accelerations = None;
+        }
+        return Ok((plan.human.clone(), motion, Some(controller)));
     }
     gait.pace_changes.extend(&entry.changes);
     if !gait.pace_changes.is_empty() || !gait.machines.is_empty() {

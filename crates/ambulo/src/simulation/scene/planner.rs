@@ -5,9 +5,9 @@ use super::built_entry::{ControlEntry, FigureWalkMode, WalkEntry};
 use super::sources::{InputFiles, PlannedWalk, chain};
 use crate::gait::{Gait, PaceChange, Speed, Walk};
 use crate::model::anthropometry::Build;
-use crate::optimal::OptimalWalk;
+use crate::optimal::{OptimalWalk, StandingMovements};
 use crate::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
-use crate::simulation::control::{ControlSettings, SpeedSchedule, TorqueCurves, WalkController};
+use crate::simulation::control::{ControlError, ControlSettings, SpeedSchedule, TorqueCurves, WalkController};
 use crate::simulation::walking::TorqueSeries;
 
 /// Duration of a change of speed without one of its own [s].
@@ -77,15 +77,15 @@ impl Planner<'_> {
             let found = format!("found the gait `{}` with machines or changes of pace of its own", self.gait.name);
             return Err(place.error(found + "; expected one pace. hint: changes of speed can be given by the scene"));
         }
-        let first = self.plan(self.entry.speed, sources)?.solution.speed();
-        let changes = self.schedule(first)?;
+        let schedule = self.schedule(sources)?;
         let settings = &self.settings(control, sources)?;
         let steps = sources.steps;
         let mut all = Vec::new();
+        let walks_steadily = schedule.is_empty() && !schedule.begins_standing();
         let speeds =
-            if changes.is_empty() { vec![self.entry.speed] } else { changes.plans().into_iter().map(Some).collect() };
-        for speed in speeds {
-            let plan = self.plan(speed, sources)?;
+            if walks_steadily { vec![self.entry.speed] } else { schedule.plans().into_iter().map(Some).collect() };
+        for speed in &speeds {
+            let plan = self.plan(*speed, sources)?;
             let one = match &plan.controller {
                 Some((known, own)) if known == settings => own.clone(),
                 _ => {
@@ -97,8 +97,21 @@ impl Planner<'_> {
             all.push(one);
         }
         let mut controller = WalkController::joined(&all).map_err(|e| place.error(chain(&e)))?;
-        controller.set_speed(first).map_err(|e| place.error(chain(&e)))?;
-        Ok(ScheduledController { controller: controller.starting_at(self.entry.phase), schedule: changes })
+        if schedule.has_standing() {
+            let slowest = self.plan(speeds[0], sources)?;
+            let (human, walk) = (&slowest.human, &slowest.solution);
+            let with = StandingMovements::find(human, walk)
+                .map_err(ControlError::from)
+                .and_then(|movements| controller.with_standing(human, walk, &movements, steps, settings));
+            controller = with.map_err(|e| place.error(chain(&e)))?;
+        }
+        if schedule.begins_standing() {
+            controller = controller.starting_at_rest();
+        } else {
+            controller = controller.starting_at(self.entry.phase);
+            controller.set_speed(schedule.at(0.0)).map_err(|e| place.error(chain(&e)))?;
+        }
+        Ok(ScheduledController { controller, schedule })
     }
 
     /// The settings of a controller with the torque curves of its file.
@@ -123,14 +136,19 @@ impl Planner<'_> {
         Ok(settings)
     }
 
-    fn schedule(&self, first: f64) -> Result<SpeedSchedule, SceneError> {
-        let mut schedule = SpeedSchedule::from(first);
+    /// Speeds over time. A figure that stands at the start has no plan of its own speed.
+    fn schedule(&self, sources: &mut InputFiles<'_, '_>) -> Result<SpeedSchedule, SceneError> {
+        let place = &self.entry.place;
+        let human = self.build.human().map_err(|e| place.error(chain(&e)))?;
+        let stands = self.entry.speed.is_some_and(|speed| speed <= 0.0);
+        let first = if stands { 0.0 } else { self.plan(self.entry.speed, sources)?.solution.speed() };
+        let mut schedule = SpeedSchedule::from(first, StandingMovements::speed(&human));
         for PaceChange { start_s, duration_s, speed, step_length, step_frequency } in &self.entry.changes {
-            let (Some(to), None, None) = (speed.filter(|speed| *speed > 0.0), step_length, step_frequency) else {
-                let found = "found a change of step length or frequency, or to standing; expected changes of `speed` above zero";
-                return Err(self.entry.place.error(format!("{found}, which is what a controller can follow")));
+            let (Some(to), None, None) = (speed, step_length, step_frequency) else {
+                let found = "found a change of step length or frequency; expected changes of `speed`";
+                return Err(place.error(format!("{found}, which is what a controller can follow")));
             };
-            schedule.change(*start_s, duration_s.unwrap_or(CHANGE_S), to);
+            schedule.change(*start_s, duration_s.unwrap_or(CHANGE_S), *to);
         }
         Ok(schedule)
     }

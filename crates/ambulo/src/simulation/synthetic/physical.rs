@@ -5,10 +5,10 @@ use super::walk::{CORRECTED_SKIPPED, KeptPart, Made, SyntheticWalk, steady, time
 use crate::findings::{Code, Findings};
 use crate::gait::{Gait, Speed, Walk};
 use crate::model::anthropometry::Human;
-use crate::optimal::OptimalWalk;
+use crate::optimal::{OptimalWalk, StandingMovements};
 use crate::simulation::StepSettings;
 use crate::simulation::consistent_walk::CorrectionReport;
-use crate::simulation::control::{ControlSettings, PhysicalWalk, SpeedSchedule, WalkController};
+use crate::simulation::control::{ControlError, ControlSettings, PhysicalWalk, SpeedSchedule, WalkController};
 use crate::simulation::walking::WalkRecording;
 
 /// Duration of the recording after a fall [s].
@@ -20,12 +20,17 @@ pub(super) fn physical(
 ) -> Result<SyntheticWalk, SyntheticError> {
     let planar = settings.build.human()?;
     let (walk, mut kept) = timed(settings, settings.gait, &planar, CORRECTED_SKIPPED, findings)?;
-    let schedule = schedule(settings, &walk)?;
+    let schedule = schedule(settings, &planar, &walk)?;
     let plans = plans(settings, &walk, &schedule)?;
     let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
-    let controllers =
-        plans.iter().map(|plan| WalkController::new(&plan.figure(), &plan.solution, step, &ControlSettings::default()));
-    let controller = WalkController::joined(&controllers.collect::<Result<Vec<_>, _>>()?)?;
+    let control = ControlSettings::default();
+    let controllers = plans.iter().map(|plan| WalkController::new(&plan.figure(), &plan.solution, step, &control));
+    let mut controller = WalkController::joined(&controllers.collect::<Result<Vec<_>, _>>()?)?;
+    if let Some(slowest) = plans.first().filter(|_| schedule.has_standing()) {
+        let (human, walk) = (slowest.figure(), &slowest.solution);
+        let movements = StandingMovements::find(&human, walk).map_err(ControlError::from)?;
+        controller = controller.with_standing(&human, walk, &movements, step, &control)?;
+    }
     let first = plans.into_iter().min_by(|a, b| apart(a, &schedule).total_cmp(&apart(b, &schedule)));
     let Some(first) = first else { return Err(SyntheticError::Changing { gait: settings.gait.name.clone() }) };
     let human = first.figure();
@@ -52,12 +57,12 @@ fn apart(plan: &OptimalWalk, schedule: &SpeedSchedule) -> f64 {
 }
 
 /// Speeds of a walk of people whose sides do the same.
-fn schedule(settings: &SyntheticWalkSettings<'_>, walk: &Walk) -> Result<SpeedSchedule, SyntheticError> {
+fn schedule(settings: &SyntheticWalkSettings<'_>, human: &Human, walk: &Walk) -> Result<SpeedSchedule, SyntheticError> {
     let gait = || settings.gait.name.clone();
     let changes = &settings.gait.pace_changes;
     let keeps_steps = changes.iter().all(|change| change.step_length.is_none() && change.step_frequency.is_none());
-    let walks_on = changes.iter().all(|change| !change.is_halt());
-    if !(walk.is_symmetric() && settings.gait.machines.is_empty() && keeps_steps && walks_on) {
+    let walks = walk.speed() > 0.0;
+    if !(walks && walk.is_symmetric() && settings.gait.machines.is_empty() && keeps_steps) {
         return Err(SyntheticError::NotControlled { gait: gait() });
     }
     if !walk.gait().follows_people() {
@@ -66,7 +71,7 @@ fn schedule(settings: &SyntheticWalkSettings<'_>, walk: &Walk) -> Result<SpeedSc
     if !settings.build.toe_joint {
         return Err(SyntheticError::NoToeJoint);
     }
-    let mut schedule = SpeedSchedule::from(walk.speed());
+    let mut schedule = SpeedSchedule::from(walk.speed(), StandingMovements::speed(human));
     for ramp in walk.pace_ramps() {
         schedule.change(ramp.start_s, ramp.duration_s, walk.speed_at(ramp.start_s + ramp.duration_s));
     }

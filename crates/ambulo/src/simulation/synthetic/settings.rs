@@ -160,7 +160,7 @@ pub enum SyntheticError {
     },
     /// A controller follows one gait and changes its speed.
     #[error(
-        "the gait `{gait}`: found machines, sides that differ, or changes of step length, of step frequency or to standing; expected equal cycles and changes of speed alone, because a controller follows optimal walks. hint: use the mode `corrected` or `paper`"
+        "the gait `{gait}`: found machines, sides that differ, standing at the start, or changes of step length or step frequency; expected equal cycles and changes of speed alone, because a controller follows optimal walks. hint: use the mode `corrected` or `paper`"
     )]
     NotControlled {
         /// Name of the gait.

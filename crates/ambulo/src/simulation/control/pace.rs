@@ -1,0 +1,49 @@
+//! Plans at several speeds, and what lies between two of them.
+
+use super::plan::{CyclePlan, PlannedStep};
+use nalgebra::{DMatrix, DVector};
+
+/// A plan at one speed, and its gains.
+#[derive(Debug, Clone)]
+pub(super) struct Pace {
+    /// [m/s].
+    pub(super) speed: f64,
+    pub(super) plan: CyclePlan,
+    /// Gains of each time step: one row per joint, one column per entry of the state. Empty without feedback.
+    pub(super) gains: Vec<DMatrix<f64>>,
+    /// Height of the sole of the right and the left foot when it strikes [m].
+    pub(super) soles_m: [f64; 2],
+    /// Matrix P of the Riccati equation where a start from standing joins the walk, later by the delay of feedback; none without gains.
+    pub(super) value: Option<DMatrix<f64>>,
+}
+
+/// Two paces and the share of the second one, between which the present speed lies.
+pub(super) struct Between<'a> {
+    pub(super) paces: [&'a Pace; 2],
+    pub(super) share: f64,
+}
+
+impl Between<'_> {
+    pub(super) fn mix(&self, of: impl Fn(&Pace) -> f64) -> f64 {
+        (1.0 - self.share) * of(self.paces[0]) + self.share * of(self.paces[1])
+    }
+
+    /// Share of the cycle at which a foot strikes; those of both paces may lie on either side of the end of the cycle.
+    pub(super) fn strike(&self, foot: usize) -> f64 {
+        let [first, second] = self.paces.map(|pace| pace.plan.strike(foot));
+        let apart = second - first;
+        (first + self.share * (apart - apart.round())).rem_euclid(1.0)
+    }
+
+    pub(super) fn planned(&self, phase: f64) -> PlannedStep {
+        let [first, second] = self.paces.map(|pace| &pace.plan.steps[pace.plan.step_at(phase)]);
+        if self.share > 0.0 { first.blended(second, self.share) } else { first.clone() }
+    }
+
+    /// K times a deviation of the state.
+    pub(super) fn feedback(&self, phase: f64, apart: &DVector<f64>) -> Option<DVector<f64>> {
+        let of = |pace: &Pace| pace.gains.get(pace.plan.step_at(phase)).map(|gain| gain * apart);
+        let first = of(self.paces[0])?;
+        if self.share > 0.0 { Some(first * (1.0 - self.share) + of(self.paces[1])? * self.share) } else { Some(first) }
+    }
+}
