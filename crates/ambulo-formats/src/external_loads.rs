@@ -70,7 +70,7 @@ impl ExternalLoads {
         if bytes.iter().all(u8::is_ascii_whitespace) {
             return Err(Error::Empty { expected: "an XML document with an <ExternalLoads> element" });
         }
-        let text = xml::decode(bytes);
+        let text = xml::document_text(bytes);
         let document = xml::parse(&text)?;
         let node = find_loads(document.root_element())?;
         let mut remarks = Vec::new();

@@ -13,6 +13,7 @@
 //! | [`bids_motion`] | motions of BIDS data sets: `_motion.tsv` with `_channels.tsv` | yes | no |
 //! | [`bvh`] | skeletons in motion `.bvh` | yes | yes |
 //! | [`external_loads`] | OpenSim `ExternalLoads` XML | yes | yes |
+//! | [`mvnx`] | motions of Xsens MVN `.mvnx`, versions 3 and 4 | yes | no |
 //! | [`npz`] | archives of NumPy arrays `.npz` | yes | yes |
 //! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600; `MarkerSet` XML | yes | yes; no |
 //! | [`setup`] | OpenSim set-ups of scaling, inverse kinematics and inverse dynamics | yes | no |
@@ -23,6 +24,7 @@ pub mod bvh;
 pub mod c3d;
 pub mod error;
 pub mod external_loads;
+pub mod mvnx;
 pub mod npz;
 pub mod osim;
 pub mod setup;

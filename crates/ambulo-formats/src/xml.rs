@@ -9,20 +9,38 @@ const NODE_LIMIT: u32 = 1_000_000;
 
 /// Parses a document. Document type definitions are rejected, and with them entity bombs.
 pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
+    parse_up_to(text, NODE_LIMIT)
+}
+
+/// Parses a document of at most `nodes` nodes.
+pub(crate) fn parse_up_to(text: &str, nodes: u32) -> Result<Document<'_>, Error> {
     if !text.trim_start().starts_with('<') {
         let found = quoted(text.trim_start().lines().next().unwrap_or_default());
         return Err(Error::Line { line: 1, found, expected: "an XML document, which begins with `<`".into() });
     }
     // The parser allocates memory by these counts before it checks its limit.
-    for (mark, most) in [(b'<', 2 * NODE_LIMIT as usize), (b'=', NODE_LIMIT as usize)] {
+    for (mark, most) in [(b'<', 2 * nodes as usize), (b'=', nodes as usize)] {
         let found = text.bytes().filter(|b| *b == mark).count();
         if found > most {
             let reason = format!("{found} times `{}`; expected at most {most}", char::from(mark));
             return Err(Error::Xml { reason });
         }
     }
-    let options = ParsingOptions { allow_dtd: false, nodes_limit: NODE_LIMIT, ..ParsingOptions::default() };
+    let options = ParsingOptions { allow_dtd: false, nodes_limit: nodes, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|e| Error::Xml { reason: e.to_string() })
+}
+
+/// The text of a document: UTF-16 if it begins with its byte-order mark, otherwise as [`decode`].
+pub(crate) fn document_text(bytes: &[u8]) -> String {
+    let utf16 = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
+        String::from_utf16_lossy(&units)
+    };
+    match bytes {
+        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
+        _ => decode(bytes),
+    }
 }
 
 /// Bytes as UTF-8 text, with a byte-order mark removed; anything else is read as Latin-1, as old programs wrote it.

@@ -20,6 +20,7 @@ mod malformed;
 mod malformed_skeletons;
 mod marker_sets;
 mod markers;
+mod motions_mvnx;
 mod osim_write;
 mod real_files;
 mod setups;

@@ -44,7 +44,7 @@ impl OsimMarkerSet {
     /// # Errors
     /// XML that is not well formed, a document without a marker, markers without a name, a frame or a place.
     pub fn read(bytes: &[u8]) -> Result<OsimMarkerSet, Error> {
-        let text = xml::decode(bytes);
+        let text = xml::document_text(bytes);
         if text.trim().is_empty() {
             return Err(Error::Empty { expected: "an <OpenSimDocument> with a <MarkerSet>" });
         }

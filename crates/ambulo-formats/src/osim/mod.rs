@@ -102,7 +102,7 @@ impl OsimModel {
     /// XML that is not well formed, a document without a model, invalid numbers, joints whose frames lead
     /// nowhere, unknown functions and joint types. Each error names line and element.
     pub fn read(bytes: &[u8]) -> Result<OsimModel, Error> {
-        let text = xml::decode(bytes);
+        let text = xml::document_text(bytes);
         if text.trim().is_empty() {
             return Err(Error::Empty { expected: "an <OpenSimDocument>" });
         }

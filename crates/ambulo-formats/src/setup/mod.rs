@@ -43,7 +43,7 @@ impl Setup {
         if bytes.iter().all(u8::is_ascii_whitespace) {
             return Err(Error::Empty { expected: "the set-up of a tool of OpenSim" });
         }
-        let text = xml::decode(bytes);
+        let text = xml::document_text(bytes);
         let document = xml::parse(&text)?;
         let mut remarks = Vec::new();
         let setup = read_tool(document.root_element(), &mut remarks)?;
