@@ -1,4 +1,4 @@
-//! Poses of segments in a C3D: results with and without force plates in the same file, agreement with the motion that they were made
+//! Poses of segments in a C3D or a `.mvnx`: results with and without force plates in the same file, agreement with the motion that they were made
 //! from, and what `info` says.
 
 use crate::workbench::Workbench;
@@ -132,4 +132,97 @@ fn info_lists_the_segments_and_the_next_command() {
     let trc = bench.run(&["convert", "poses.c3d", "centres.trc"]);
     trc.done();
     assert!(bench.text("centres.trc").contains("knee_r"));
+}
+
+/// Names of Xsens MVN for the segments of Theia3D, without the arms.
+const XSENS: [(&str, &str); 10] = [
+    ("pelvis_4X4", "Pelvis"),
+    ("torso_4X4", "T8"),
+    ("r_thigh_4X4", "RightUpperLeg"),
+    ("l_thigh_4X4", "LeftUpperLeg"),
+    ("r_shank_4X4", "RightLowerLeg"),
+    ("l_shank_4X4", "LeftLowerLeg"),
+    ("r_foot_4X4", "RightFoot"),
+    ("l_foot_4X4", "LeftFoot"),
+    ("r_toes_4X4", "RightToe"),
+    ("l_toes_4X4", "LeftToe"),
+];
+
+/// The quaternion w, x, y, z of a rotation by less than half a turn.
+fn quaternion(r: &Mat3) -> [f64; 4] {
+    let w = (1.0 + r.trace()).sqrt() / 2.0;
+    let part = |a: f64, b: f64| (a - b) / (4.0 * w);
+    [w, part(r.m32, r.m23), part(r.m13, r.m31), part(r.m21, r.m12)]
+}
+
+/// The poses of a C3D as a `.mvnx`: earth and segments have x forward, y left, z up.
+fn mvnx(c3d: &C3d, kept: &[(&str, &str)]) -> String {
+    let theirs = Mat3::from_columns(&[Vec3::y(), -Vec3::x(), Vec3::z()]);
+    let of = |label: &str| c3d.rotations.iter().find(|rotation| rotation.name == label).unwrap();
+    let joined = |numbers: Vec<f64>| numbers.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(" ");
+    let segments: String = kept.iter().map(|(_, name)| format!("<segment label=\"{name}\"/>")).collect();
+    let mut text = format!(
+        "<mvnx version=\"4\"><subject label=\"made\" frameRate=\"{}\"><segments>{segments}</segments><frames>\n",
+        c3d.rotation_rate_hz
+    );
+    for frame in 0..c3d.frames() {
+        let (mut turns, mut places) = (Vec::new(), Vec::new());
+        for (label, _) in kept {
+            let m = of(label).matrices[frame];
+            let turn = theirs.transpose() * Mat3::from_fn(|i, j| m[i][j]) * theirs;
+            turns.extend(quaternion(&turn));
+            places.extend((theirs.transpose() * Vec3::from_fn(|i, _| m[i][3]) / 1000.0).iter());
+        }
+        text += &format!(
+            "<frame index=\"{frame}\" type=\"normal\"><orientation>{}</orientation><position>{}</position></frame>\n",
+            joined(turns),
+            joined(places)
+        );
+    }
+    text + "</frames></subject></mvnx>\n"
+}
+
+#[test]
+fn a_motion_of_xsens_mvn_gives_the_moments_of_the_walk_that_it_was_made_from() {
+    let bench = demo("xsens_motion");
+    let (c3d, _) = C3d::read(&bench.read("poses.c3d")).unwrap();
+    bench.write("take.mvnx", mvnx(&c3d, &XSENS));
+    let run = bench.run(&["forces", "take.mvnx", "--mass", "75", "--height", "1.75", "-o", "xsens", "--verbose"]);
+    assert!(run.stdout.contains("ground    predicted"), "{} {}", run.stdout, run.stderr);
+    for words in
+        ["poses of 10 segments of Xsens MVN drive the body", "positions of a suit of inertial sensors are not measured"]
+    {
+        assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
+    }
+    for column in ["hip_flexion_r_moment", "knee_angle_l_moment", "ankle_angle_r_moment"] {
+        let predicted = difference(&bench, "xsens", column);
+        println!("{column}: {predicted:.2} N.m");
+        // As from the poses of a C3D.
+        assert!(predicted < 25.0, "{column}: {predicted}");
+    }
+    let info = bench.run(&["info", "take.mvnx"]).done();
+    for words in [
+        "motion of Xsens MVN",
+        "RightUpperLeg",
+        "segments +x forward, +z up, -y right",
+        "next: ambulo forces take.mvnx --mass KG",
+    ] {
+        assert!(info.stdout.contains(words), "{words}: {}", info.stdout);
+    }
+
+    let lower: Vec<(&str, &str)> =
+        XSENS.into_iter().filter(|(_, name)| *name != "T8" && !name.contains("Toe")).collect();
+    bench.write("lower.mvnx", mvnx(&c3d, &lower));
+    let run = bench.run(&["forces", "lower.mvnx", "--mass", "75", "--height", "1.75", "-o", "lower", "--verbose"]);
+    assert!(run.stderr.contains("the trunk was not recorded: it is assumed upright"), "{}", run.stderr);
+    let knee = difference(&bench, "lower", "knee_angle_l_moment");
+    assert!(knee < 30.0, "{knee}");
+    bench.run(&["forces", "take.mvnx", "-o", "out"]).refused(&["mass"]);
+    bench.write("short.mvnx", mvnx(&c3d, &XSENS[..5]));
+    bench.run(&["forces", "short.mvnx", "--mass", "75", "-o", "out"]).refused(&[
+        "short.mvnx",
+        "but none of",
+        "right foot",
+    ]);
+    bench.run(&["info", "short.mvnx"]).done();
 }

@@ -123,3 +123,4 @@ mod walk_changes;
 mod walking;
 mod weighing;
 mod world_check;
+mod xsens_motions;

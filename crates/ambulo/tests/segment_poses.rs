@@ -32,17 +32,17 @@ const LABELS: [(&str, &str); 14] = [
     ("l_larm_4X4", "forearm_l"),
 ];
 
-const FRAMES: usize = 120;
-const RATE_HZ: f64 = 100.0;
+pub(crate) const FRAMES: usize = 120;
+pub(crate) const RATE_HZ: f64 = 100.0;
 
-fn person() -> (Human, PersonMeasurements) {
+pub(crate) fn person() -> (Human, PersonMeasurements) {
     let (table, mass, height) = (SegmentTable::DeLevaMale, 70.0, 1.75);
     let human = full_body(&Build { table, mass, height, toe_joint: true }).unwrap();
     (human, PersonMeasurements { table, mass, height: Some(height), measurements: BodyMeasurements::default() })
 }
 
 /// A movement of all joints that keeps the pelvis above the floor [rad, m].
-fn posture(model: &Model, frame: usize) -> Vec<f64> {
+pub(crate) fn posture(model: &Model, frame: usize) -> Vec<f64> {
     let phase = 0.1 * frame as f64;
     let value = |(i, name): (usize, &str)| {
         let wave = (phase + i as f64).sin();
@@ -108,14 +108,17 @@ fn in_world(c3d: &C3d) -> SegmentPoses {
     segment_poses_from_c3d(c3d, &mut Findings::default()).unwrap().transformed(&theia_axes(), 1.0)
 }
 
-/// Largest differences of coordinates from those of the made movement: pelvis and legs, trunk and arms [rad, m].
 fn largest_errors(c3d: &C3d) -> [f64; 2] {
+    largest_errors_of_poses(&in_world(c3d))
+}
+
+/// Largest differences of coordinates from those of the made movement: pelvis and legs, trunk and arms [rad, m].
+pub(crate) fn largest_errors_of_poses(poses: &SegmentPoses) -> [f64; 2] {
     let (_, person) = person();
     let mut findings = Findings::default();
-    let poses = in_world(c3d);
     let points = poses.points("made");
-    let body = body_of_poses(&poses, &points, &person, &mut findings).unwrap().human;
-    let recording = PoseRecording { poses: &poses, points: &points, longest_gap_s: 0.3 };
+    let body = body_of_poses(poses, &points, &person, &mut findings).unwrap().human;
+    let recording = PoseRecording { poses, points: &points, longest_gap_s: 0.3 };
     let fit = fit_poses(&body.model, &recording, &mut findings);
     let mut largest = [0.0; 2];
     for frame in 0..FRAMES {

@@ -340,6 +340,7 @@ impl PosedTrial {
         progress.end(Stage::Body)?;
         let recording = PoseRecording { poses: &poses, points: &points, longest_gap_s: settings.longest_gap_s };
         let mut fit = fit_poses(&subject.model, &recording, findings);
+        assume_upright_trunk(&subject.model, &mut fit.motion, findings);
         use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
         progress.end(Stage::Markers)?;
         let on_floor = OnFloor { axes, plates, points: &points, set: None, plate_feet };

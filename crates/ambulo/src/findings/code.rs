@@ -154,10 +154,10 @@ codes! {
         "State the mass of the person if it is known.";
     // Poses of segments.
     PosesUsed "poses.used" Note
-        "The file holds poses of body segments, as markerless motion capture computes them; they drive the body, and markers of the file are not used."
+        "The file holds poses of body segments, as markerless motion capture or a suit of inertial sensors computes them; they drive the body, and markers of the file are not used."
         "Nothing to do.";
     PosesOdd "poses.odd" Warning
-        "Poses of segments are no rotations, or belong to no segment of a person; they were not used."
+        "Poses of segments are no rotations, are missing, or show no level floor."
         "Check the export of the file.";
     PosesAssumed "poses.assumed" Note
         "What the poses of the segments do not tell about the body was assumed."

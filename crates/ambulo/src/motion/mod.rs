@@ -45,7 +45,9 @@ pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_fro
 pub use marker_table::{is_marker_table, markers_from_table};
 pub use recorded_motion::{RecordedMotion, RecordedMotionError, motion_from_c3d};
 pub use recording::{Motion, MotionError};
-pub use segment_poses::{PosedSegment, SegmentPoseError, SegmentPoses, segment_poses_from_c3d};
+pub use segment_poses::{
+    PosedSegment, SegmentPoseError, SegmentPoses, events_from_mvnx, segment_poses_from_c3d, segment_poses_from_mvnx,
+};
 pub(crate) use smooth::check_range;
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
 pub use smpl::{SmplBody, SmplError, SmplMotion};

@@ -4,10 +4,12 @@ use crate::analysis::LaboratoryRecording;
 use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
-    Event, MarkerError, MarkerRecording, RecordedMotion, RecordedMotionError, SubjectParameters, events_from_c3d,
-    markers_from_table, markers_from_trc, motion_from_c3d, subject_from_c3d,
+    Event, MarkerError, MarkerRecording, RecordedMotion, RecordedMotionError, SegmentPoseError, SubjectParameters,
+    events_from_c3d, events_from_mvnx, markers_from_table, markers_from_trc, motion_from_c3d, segment_poses_from_mvnx,
+    subject_from_c3d,
 };
 use ambulo_formats::c3d::C3d;
+use ambulo_formats::mvnx::Mvnx;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
 use ambulo_formats::{Error, Remark};
@@ -36,6 +38,9 @@ pub enum LaboratoryFileError {
     /// The markers or poses of a C3D.
     #[error(transparent)]
     Motion(#[from] RecordedMotionError),
+    /// The poses of a motion of Xsens MVN.
+    #[error(transparent)]
+    Poses(#[from] SegmentPoseError),
     /// The force plates.
     #[error(transparent)]
     Plates(#[from] PlateError),
@@ -102,6 +107,28 @@ impl LaboratoryFile {
             events: Vec::new(),
             subject: SubjectParameters::default(),
         }
+    }
+
+    /// From the bytes of a motion of Xsens MVN; `label` names the file in findings. Its frames have the poses of segments, and its contact
+    /// flags are listed as foot strikes and foot offs.
+    ///
+    /// # Errors
+    /// A file that is no `.mvnx`, or has poses that cannot be used.
+    pub fn from_mvnx(
+        bytes: impl AsRef<[u8]>,
+        label: &str,
+        findings: &mut Findings,
+    ) -> Result<LaboratoryFile, LaboratoryFileError> {
+        let (mvnx, remarks) = Mvnx::read(bytes.as_ref())?;
+        drop(bytes);
+        report_remarks(label, &remarks, findings);
+        let poses = segment_poses_from_mvnx(&mvnx, findings)?;
+        let message =
+            format!("poses of {} segments of Xsens MVN drive the body ({})", poses.segments.len(), poses.statement);
+        findings.report(Code::PosesUsed, message);
+        let markers = poses.points(label);
+        let recording = LaboratoryRecording { markers, poses: Some(poses), plates: Vec::new(), unit: "m".to_owned() };
+        Ok(LaboratoryFile { recording, events: events_from_mvnx(&mvnx), subject: SubjectParameters::default() })
     }
 
     /// From the bytes of a TRC; `label` names the file in findings.

@@ -1,4 +1,4 @@
-//! Reads markers (`.c3d`, `.trc`), with a standing trial or a model.
+//! Reads markers (`.c3d`, `.trc`) or poses of segments (`.c3d`, `.mvnx`), with a standing trial or a model.
 
 use super::{Reading, added_mass, ground_table, read_model_with_markers, size};
 use crate::args::{ForcesArgs, PlateFoot, SubjectArgs};
@@ -45,7 +45,7 @@ pub(super) fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBod
     })
 }
 
-/// Reads a `.c3d`, a `.trc`, a `.csv` or a BIDS motion.
+/// Reads a `.c3d`, a `.trc`, a `.mvnx`, a `.csv` or a BIDS motion.
 fn read_laboratory_file(path: &Path, caller: &Caller, findings: &mut Findings) -> Result<LaboratoryFile> {
     if files::ending(path) == "tsv" {
         return read_bids(path, caller, findings);
@@ -61,7 +61,7 @@ fn read_bids(path: &Path, caller: &Caller, findings: &mut Findings) -> Result<La
     Ok(LaboratoryFile::of_markers(markers))
 }
 
-/// The recording in the content of a `.c3d`, a `.trc` or a `.csv`.
+/// The recording in the content of a `.c3d`, a `.trc`, a `.mvnx` or a `.csv`.
 pub(crate) fn parse_laboratory_file(bytes: Vec<u8>, path: &Path, findings: &mut Findings) -> Result<LaboratoryFile> {
     let shown = path.display().to_string();
     if files::ending(path) == "csv" {
@@ -72,7 +72,8 @@ pub(crate) fn parse_laboratory_file(bytes: Vec<u8>, path: &Path, findings: &mut 
     let read = match files::ending(path).as_str() {
         "c3d" => LaboratoryFile::from_c3d(bytes, &shown, findings),
         "trc" => LaboratoryFile::from_trc(bytes, &shown, findings),
-        _ => bail!("{shown}: expected markers (.c3d, .trc or .csv)"),
+        "mvnx" => LaboratoryFile::from_mvnx(bytes, &shown, findings),
+        _ => bail!("{shown}: expected markers (.c3d, .trc or .csv) or segments (.c3d, .mvnx)"),
     };
     read.context(shown)
 }

@@ -116,7 +116,7 @@ impl RecordingKind {
                 Ok(RecordingKind::Markers)
             }
             "mot" | "sto" | "csv" => Ok(RecordingKind::Coordinates),
-            "c3d" | "trc" => Ok(RecordingKind::Markers),
+            "c3d" | "trc" | "mvnx" => Ok(RecordingKind::Markers),
             "tsv" => {
                 let bids = bids::read(caller, input)?;
                 let has_markers = is_bids_markers(&bids.motion).with_context(|| input.display().to_string())?;
@@ -126,7 +126,7 @@ impl RecordingKind {
             "npz" => Ok(RecordingKind::Smpl),
             "b3d" => Ok(RecordingKind::Subject),
             _ => bail!(
-                "{}: {found}; expected .c3d, .trc or .csv (markers), .mot, .sto or .csv (coordinates), _motion.tsv (BIDS), .bvh (a skeleton), .npz (a motion of the SMPL family) or .b3d (a subject of AddBiomechanics)",
+                "{}: {found}; expected .c3d, .trc or .csv (markers), .mvnx (Xsens), .mot, .sto or .csv (coordinates), _motion.tsv (BIDS), .bvh (a skeleton), .npz (a motion of the SMPL family) or .b3d (a subject of AddBiomechanics)",
                 input.display()
             ),
         }

@@ -5,6 +5,7 @@ mod bvh;
 mod c3d;
 mod markers;
 mod model;
+mod mvnx;
 mod sheet;
 mod subject;
 mod table;
@@ -43,13 +44,14 @@ fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
         "c3d" => c3d::describe(path, bytes),
         "trc" => markers::describe_trc(path, bytes),
         "bvh" => bvh::describe(path, bytes),
+        "mvnx" => mvnx::describe(path, bytes),
         "npz" => arrays::describe(path, bytes),
         "osim" => model::describe(path, bytes),
         "mot" | "sto" => table::describe_storage(path, bytes),
         "csv" => table::describe_csv(path, bytes),
         "xml" => loads(bytes),
         ending => bail!(
-            "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .npz, .b3d, .osim, .mot, .sto, .csv or .xml (external loads)"
+            "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .mvnx, .npz, .b3d, .osim, .mot, .sto, .csv or .xml (external loads)"
         ),
     }
 }

@@ -32,7 +32,7 @@ pub fn assume_upright_trunk(model: &Model, motion: &mut Motion, findings: &mut F
     }
     findings.report(
         Code::CalibrationTrunkUpright,
-        "the trunk has no markers: it is assumed upright above the pelvis, its mass moving with the pelvis",
+        "the trunk was not recorded: it is assumed upright above the pelvis, its mass moving with the pelvis",
     );
 }
 

@@ -6,11 +6,10 @@ use super::{PosedSegment, SegmentPoseError};
 use crate::model::Side;
 use crate::motion::landmarks::PlainName;
 use crate::spatial::Pose;
-use ambulo_formats::c3d::C3d;
 
 /// Names of segments without a side.
 const MIDDLE: [(PosedSegment, &[&str]); 2] =
-    [(PosedSegment::Pelvis, &["pelvis", "hips"]), (PosedSegment::Torso, &["torso", "thorax", "trunk"])];
+    [(PosedSegment::Pelvis, &["pelvis", "hips"]), (PosedSegment::Torso, &["torso", "thorax", "trunk", "t8"])];
 
 /// Names of segments with a side.
 type OfSide = fn(Side) -> PosedSegment;
@@ -36,10 +35,10 @@ pub(super) fn segment_of(label: &str) -> Option<PosedSegment> {
     name.without_side().find_map(of)
 }
 
-/// Rejects poses without those of the legs.
+/// Rejects poses without those of the legs; `labels` are all that the file has.
 pub(super) fn check_complete(
     segments: &[(PosedSegment, Vec<Option<Pose>>)],
-    c3d: &C3d,
+    labels: &[&str],
 ) -> Result<(), SegmentPoseError> {
     let legs = |side: Side| [PosedSegment::Thigh(side), PosedSegment::Shank(side), PosedSegment::Foot(side)];
     let needed: Vec<PosedSegment> =
@@ -48,7 +47,6 @@ pub(super) fn check_complete(
     let missing: Vec<String> =
         needed.iter().filter(|segment| path(segment).is_none()).map(|segment| in_words(*segment)).collect();
     if !missing.is_empty() {
-        let labels: Vec<&str> = c3d.rotations.iter().map(|rotation| rotation.name.as_str()).collect();
         return Err(SegmentPoseError::Incomplete { found: labels.join(", "), missing: missing.join(", ") });
     }
     let frames = segments.first().map_or(0, |(_, path)| path.len());

@@ -1,8 +1,9 @@
-//! Poses of body segments, as markerless motion capture computes them and C3D files store them (group ROTATION).
+//! Poses of body segments, as markerless motion capture computes them and C3D files store them (group ROTATION), or as a suit of
+//! inertial sensors does (`xsens.rs`).
 //!
 //! Each segment has its origin in the joint to its parent: the thigh in the hip, the shank in the knee, the foot in the ankle, the
 //! toes in the ball of the foot, the upper arm in the shoulder. The axes of a [`SegmentPoses`] are x forward, y up and z right of a person
-//! who stands upright; those of a file are found from the geometry (`axes.rs`): the knee is below the hip in the thigh, and the right hip
+//! who stands upright with hanging arms and palms forward; those of a file are found from the geometry (`axes.rs`): the knee is below the hip in the thigh, and the right hip
 //! is to the right in the pelvis. Theia3D writes x right, y forward, z up.
 //!
 //! [`SegmentPoses::points`] are the joint centres, and points next to them that show the orientation of the segments, with the names of
@@ -17,8 +18,10 @@
 mod axes;
 mod error;
 mod labels;
+mod xsens;
 
 pub use error::SegmentPoseError;
+pub use xsens::{events_from_mvnx, segment_poses_from_mvnx};
 
 use super::guessed_unit::unit_of_frames;
 use super::marker_recording::{MarkerPath, MarkerRecording};
@@ -98,7 +101,8 @@ pub fn segment_poses_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<Segm
         );
         findings.report(Code::PosesOdd, message);
     }
-    labels::check_complete(&segments, c3d)?;
+    let labels: Vec<&str> = c3d.rotations.iter().map(|rotation| rotation.name.as_str()).collect();
+    labels::check_complete(&segments, &labels)?;
     let start_s = (c3d.first_frame - 1) as f64 / c3d.point_rate_hz;
     let poses = SegmentPoses {
         rate_hz: c3d.rotation_rate_hz,
