@@ -12,7 +12,7 @@ use ambulo_formats::c3d::{C3d, Channel, Encoding, Event, EventPlace, Platform, P
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::npz::{Array, Data, Npz};
 use ambulo_formats::osim::OsimModel;
-use ambulo_formats::table::Table;
+use ambulo_formats::table::{OrientationTable, Table};
 use ambulo_formats::trc::{Marker, Trc};
 use std::error::Error;
 use std::fs;
@@ -41,6 +41,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     save("b3d", "two.b3d", &subject().write()?)?;
     save("npz", "stand.npz", &smpl().write()?)?;
     save("bids_motion", "points.txt", points().as_bytes())?;
+    save("mvnx", "legs.mvnx", mvnx().as_bytes())?;
+    save("orientations", "legs.sto", orientations().write()?.as_slice())?;
     save("gait", "slow.toml", b"speed = 0.9\nheight = 1.7\nstyle = \"1997\"\n[pelvis]\nrotation = 1.5\n")?;
     for name in ["pendulum", "four-bar", "carry", "top"] {
         copy("scene", &format!("examples/{name}.toml"))?;
@@ -64,6 +66,42 @@ fn main() -> Result<(), Box<dyn Error>> {
         copy("marker_set", &format!("crates/ambulo/data/markers/{name}.toml"))?;
     }
     Ok(())
+}
+
+/// Two frames of the lower body, standing, with contacts of the feet.
+fn mvnx() -> String {
+    let names = ["Pelvis", "RightUpperLeg", "RightLowerLeg", "RightFoot", "LeftUpperLeg", "LeftLowerLeg", "LeftFoot"];
+    let heel = |side: &str| format!("<points><point label=\"p{side}HeelFoot\"><pos_b>-0.036 0 -0.085</pos_b></point></points>");
+    let points = |name: &str| name.strip_suffix("Foot").map_or_else(String::new, heel);
+    let segments: String =
+        names.iter().map(|name| format!("<segment label=\"{name}\">{}</segment>", points(name))).collect();
+    let frame = |index: usize| {
+        let q = format!("0.9998 0 {} 0 ", 0.02 * index as f64);
+        let turns = format!("1 0 0 0 {}", q.repeat(names.len() - 1));
+        let legs = [-0.1, 0.1].map(|y| format!("0 {y} 0.9 0 {y} 0.5 0 {y} 0.08 ")).concat();
+        format!(
+            "<frame time=\"{}\" index=\"{index}\" type=\"normal\"><orientation>{turns}</orientation><position>0 0 0.9 {legs}</position><footContacts>1 {index}</footContacts></frame>",
+            10 * index
+        )
+    };
+    format!(
+        "<mvnx version=\"4\"><subject frameRate=\"100\"><segments>{segments}</segments><footContactDefinition><contactDefinition label=\"LeftFoot_Heel\" index=\"0\"/><contactDefinition label=\"RightFoot_Heel\" index=\"1\"/></footContactDefinition><frames>{}{}</frames></subject></mvnx>",
+        frame(0),
+        frame(1)
+    )
+}
+
+/// Sensors on the legs in three rows; the knees bend.
+fn orientations() -> OrientationTable {
+    let turned = |angle: f64| Some([(angle / 2.0).cos(), 0.0, (angle / 2.0).sin(), 0.0]);
+    let path = |bend: f64| [0.0, 0.5, 1.0].map(|share| turned(bend * share)).to_vec();
+    let sensors = [("pelvis", 0.0), ("femur_r", -0.2), ("tibia_r", 0.8), ("calcn_r", 0.8), ("femur_l", 0.0), ("tibia_l", 0.5), ("calcn_l", 0.5)];
+    OrientationTable {
+        rate_hz: Some(100.0),
+        times: vec![0.0, 0.01, 0.02],
+        sensors: sensors.map(|(body, bend)| (format!("{body}_imu"), path(bend))).to_vec(),
+        lines: Vec::new(),
+    }
 }
 
 /// The state of the scene of the target after some steps.

@@ -7,9 +7,15 @@ use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::model::from_osim;
+use ambulo::kinematics::marker_fit::FitSettings;
+use ambulo::kinematics::sensor_fit::{SensorAxes, SensorTrial, fit_sensors};
+use ambulo::model::full_body::full_body;
+use ambulo::model::{BySide, from_osim};
 use ambulo::model::marker_set::MarkerSet;
-use ambulo::motion::{B3dTrial, SmplMotion, Window, coordinates_from_table, is_bids_markers, markers_from_bids};
+use ambulo::motion::{
+    B3dTrial, SmplMotion, Window, coordinates_from_table, events_from_mvnx, is_bids_markers, markers_from_bids,
+    segment_poses_from_mvnx, sensors_from_table,
+};
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
 use ambulo::study::{self, LaboratoryFile, MarkerBody, MarkerSource, Settings, Source};
 use ambulo_formats::b3d::B3d;
@@ -17,10 +23,11 @@ use ambulo_formats::bids_motion::BidsMotion;
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_formats::mvnx::Mvnx;
 use ambulo_formats::npz::Npz;
 use ambulo_formats::osim::{OsimMarkerSet, OsimModel};
 use ambulo_formats::setup::Setup;
-use ambulo_formats::table::Table;
+use ambulo_formats::table::{OrientationTable, Table};
 use ambulo_formats::trc::Trc;
 use ambulo_results::Folder;
 
@@ -28,7 +35,7 @@ use ambulo_results::Folder;
 pub type Check = fn(&[u8]);
 
 /// All checks, by the name of target and corpus folder.
-pub const CHECKS: [(&str, Check); 20] = [
+pub const CHECKS: [(&str, Check); 22] = [
     ("c3d", c3d),
     ("trc", trc),
     ("storage", storage),
@@ -40,6 +47,8 @@ pub const CHECKS: [(&str, Check); 20] = [
     ("b3d", b3d),
     ("npz", npz),
     ("bids_motion", bids_motion),
+    ("mvnx", mvnx),
+    ("orientations", orientations),
     ("scene", scene),
     ("gait", gait),
     ("marker_set", marker_set),
@@ -152,6 +161,35 @@ pub fn bids_motion(bytes: &[u8]) {
     if is_bids_markers(&bids).is_ok_and(|has_markers| has_markers) {
         let _ = markers_from_bids(&bids, Some(100.0), "motion", &mut Findings::default());
     }
+}
+
+/// Motions of Xsens MVN: the poses of their segments, and their points.
+pub fn mvnx(bytes: &[u8]) {
+    let Ok((record, _)) = Mvnx::read(bytes) else { return };
+    let _ = events_from_mvnx(&record);
+    if let Ok(poses) = segment_poses_from_mvnx(&record, &mut Findings::default()) {
+        let _ = poses.points("motion");
+    }
+}
+
+/// Orientations of sensors: what is written reads back with the same sensors; short ones turn the built-in body.
+pub fn orientations(bytes: &[u8]) {
+    let Ok(table) = OrientationTable::read(bytes) else { return };
+    if let Ok(written) = table.write() {
+        let again = OrientationTable::read(&written).expect("what was written reads back");
+        assert_eq!(again.times.len(), table.times.len());
+        assert_eq!(again.sensors.len(), table.sensors.len());
+    }
+    let Ok(sensors) = sensors_from_table(&table, "motion") else { return };
+    if table.times.len() > 20 {
+        return;
+    }
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 70.0, height: 1.75, toe_joint: true };
+    let human = full_body(&build).expect("a usual body");
+    let axes = SensorAxes::default();
+    let trial = SensorTrial { moving: &sensors, standing: None, axes: &axes };
+    let soles = BySide::from_fn(|side| human.sole(side));
+    let _ = fit_sensors(&human.model, &soles, &trial, &FitSettings::default(), &mut Findings::default());
 }
 
 /// Scene files: parsed, not built.

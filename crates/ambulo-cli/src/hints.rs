@@ -6,6 +6,7 @@ use ambulo::analysis::{AnalysisError, ComparisonError};
 use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::kinematics::TrajectoryError;
+use ambulo::kinematics::sensor_fit::SensorError;
 use ambulo::motion::skeleton::SkeletonError;
 use ambulo::motion::{MotionError, SmplError};
 use ambulo::optimal::OptimalWalkError;
@@ -39,6 +40,8 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         }
         Code::MassUnverified => "give `--mass KG` or, with markers, a standing trial on force plates (`--static`)",
         Code::GroundPredicted => "`--grf` reads measured forces, `--no-ground` computes a motion without contact",
+        Code::SensorsHeading => "`--heading SENSOR:AXIS` names an axis that points forward",
+        Code::SensorsUnrest => "`--static FILE` is the person standing still",
         Code::WalkNotConsistent => "`--mode paper` computes the unchanged gait",
         _ => return None,
     };
@@ -62,6 +65,7 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
         cause.downcast_ref().and_then(of_results),
         cause.downcast_ref().and_then(of_walk),
         cause.downcast_ref().and_then(of_smpl),
+        cause.downcast_ref().and_then(of_sensors),
     ];
     others.into_iter().flatten().next()
 }
@@ -117,6 +121,16 @@ fn of_prediction(error: &PredictError) -> Option<&'static str> {
 fn of_smpl(error: &SmplError) -> Option<&'static str> {
     matches!(error, SmplError::NoLengths)
         .then_some("`--height M` states the stature, `--smpl MODEL.npz` gives the model")
+}
+
+fn of_sensors(error: &SensorError) -> Option<&'static str> {
+    match error {
+        SensorError::Heading { .. } | SensorError::NoBaseSensor { .. } | SensorError::HeadingAxis { .. } => {
+            Some("`--heading pelvis_imu:x` names the axis of a sensor that points forward in the standing posture")
+        }
+        SensorError::NotCalibrated { .. } => Some("`--static FILE` is the standing trial"),
+        _ => None,
+    }
 }
 
 fn of_skeleton(error: &SkeletonError) -> Option<&'static str> {

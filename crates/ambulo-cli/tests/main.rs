@@ -36,6 +36,7 @@ mod program;
 mod reproduce;
 mod results;
 mod segment_poses;
+mod sensors;
 mod simulate;
 mod summary_schema;
 mod sweep;

@@ -149,7 +149,7 @@ const XSENS: [(&str, &str); 10] = [
 ];
 
 /// The quaternion w, x, y, z of a rotation by less than half a turn.
-fn quaternion(r: &Mat3) -> [f64; 4] {
+pub(crate) fn quaternion(r: &Mat3) -> [f64; 4] {
     let w = (1.0 + r.trace()).sqrt() / 2.0;
     let part = |a: f64, b: f64| (a - b) / (4.0 * w);
     [w, part(r.m32, r.m23), part(r.m13, r.m31), part(r.m21, r.m12)]

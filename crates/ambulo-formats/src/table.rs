@@ -6,6 +6,7 @@
 //! | file | read | written |
 //! |---|---|---|
 //! | storage | versions 1-3 with one number per cell, and SIMM's header before them (`datacolumns`, `datarows`) | version 1 |
+//! | storage of quaternions | [`OrientationTable`]: `DataType=Quaternion` | version 3 |
 //! | CSV | header row, then numbers; separated by commas, semicolons or tabs; an empty cell is not-a-number | commas; an apostrophe before names that a spreadsheet would take for formulas |
 //!
 //! Numbers are written in the shortest form that reads back to the same bits.
@@ -14,10 +15,12 @@
 
 mod csv;
 pub(crate) mod lines;
+mod orientations;
 mod rows;
 mod storage;
 
 pub use csv::{guarded, unguarded};
+pub use orientations::OrientationTable;
 pub use rows::TableRows;
 
 use crate::error::{Error, Remark, quoted};

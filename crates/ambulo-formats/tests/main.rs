@@ -21,6 +21,7 @@ mod malformed_skeletons;
 mod marker_sets;
 mod markers;
 mod motions_mvnx;
+mod orientation_tables;
 mod osim_write;
 mod real_files;
 mod setups;

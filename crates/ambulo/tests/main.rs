@@ -108,6 +108,7 @@ mod scene_start;
 mod scene_verdict;
 mod scene_walkers;
 mod segment_poses;
+mod sensor_fit;
 mod simulation_closed_form;
 mod simulation_contact;
 mod simulation_robustness;

@@ -1,8 +1,8 @@
 //! Options of `ambulo forces`.
 
 use super::values::{
-    AddedMassArg, Cutoff, FootColumns, ForceCutoff, PlateFoot, number, order, outputs_of_run, seconds,
-    zero_or_more_seconds,
+    AddedMassArg, Cutoff, EarthTurn, FootColumns, ForceCutoff, HeadingAxis, PlateFoot, number, order, outputs_of_run,
+    seconds, zero_or_more_seconds,
 };
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::kinematics::marker_fit::FitSettings;
@@ -19,7 +19,8 @@ use std::path::{Path, PathBuf};
   ambulo forces --setup Setup_Scale.xml --setup Setup_IK.xml --setup Setup_InverseDynamics.xml -o out
 
 Markers (.c3d, .trc) are fitted with the built-in body, which is calibrated from --static or else from the trial itself, or with an OpenSim
-model, which --static scales. Poses of segments in a .c3d (Theia3D) drive the built-in body directly. A .b3d has its own model and coordinates; with --model its markers are fitted instead. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
+model, which --static scales. Poses of segments in a .c3d (Theia3D) or a .mvnx (Xsens) drive the built-in body directly.
+A .sto with quaternions (OpenSense) turns a model, or the built-in body of --mass and --height; --static is then a .sto of the person standing. A .b3d has its own model and coordinates; with --model its markers are fitted instead. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
 were not measured, they are predicted from the motion; with --predict, the prediction is compared with the measurement. With --track, motion
 and forces agree to rounding, without force plates.
 
@@ -33,13 +34,13 @@ The verdict says whether a person could make this motion (strength, joint ranges
 residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the data
 are bad or the motion is infeasible.")]
 pub(crate) struct ForcesArgs {
-    /// The recording: markers (.c3d, .trc, .csv with three columns per marker, _motion.tsv of BIDS), poses of segments (.c3d), coordinates (.mot, .sto, _motion.tsv), a skeleton (.bvh), a motion of the SMPL family (.npz) or a subject of AddBiomechanics (.b3d).
+    /// The recording: markers (.c3d, .trc, .csv with three columns per marker, _motion.tsv of BIDS), poses of segments (.c3d, .mvnx), coordinates (.mot, .sto, _motion.tsv), orientations of sensors (.sto with quaternions), a skeleton (.bvh), a motion of the SMPL family (.npz) or a subject of AddBiomechanics (.b3d).
     #[arg(required_unless_present = "setup")]
     pub(crate) input: Option<PathBuf>,
     /// Set-up of OpenSim's ScaleTool, InverseKinematicsTool or InverseDynamicsTool (.xml), which names files and settings; may be repeated, once for each tool, for one run of all (docs/OPENSIM.md).
     #[arg(long, value_name = "FILE")]
     pub(crate) setup: Vec<PathBuf>,
-    /// The body as an OpenSim model (.osim), or `built-in`; required for coordinates [default for markers and skeletons: the built-in body; for a .b3d: its own model].
+    /// The body as an OpenSim model (.osim), or `built-in`; required for coordinates [default for markers, sensors and skeletons: the built-in body; for a .b3d: its own model].
     #[arg(long, value_name = "FILE|built-in")]
     pub(crate) model: Option<PathBuf>,
     /// The trial of a .b3d: its number or name as `ambulo info` lists them, or `all` for a result folder in DIR for each [default: the only one].
@@ -50,6 +51,8 @@ pub(crate) struct ForcesArgs {
     pub(crate) smpl: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) subject: SubjectArgs,
+    #[command(flatten)]
+    pub(crate) sensors: SensorArgs,
     /// Measured ground forces: .mot, .sto or .csv [default: the file named in --loads]. Columns are recognised by their names, and loads without a side are assigned by the centre of pressure, unless --loads or --right and --left are given.
     #[arg(long, value_name = "FILE")]
     pub(crate) grf: Option<PathBuf>,
@@ -186,7 +189,7 @@ pub(crate) enum Filter {
 /// The recorded person, and how markers are processed.
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct SubjectArgs {
-    /// Standing trial of the same person: .c3d or .trc.
+    /// Standing trial of the same person: .c3d or .trc; for sensors a .sto with quaternions.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
     /// Body mass [kg]; a standing trial on force plates that differs by less than 5 % is used instead, a given model is scaled to it
@@ -216,6 +219,28 @@ pub(crate) struct SubjectArgs {
     /// Longest marker gap that is interpolated [s].
     #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s, value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
     pub(crate) max_gap: f64,
+}
+
+/// How the orientations of sensors are read.
+#[derive(Debug, Clone, Default, ClapArgs)]
+pub(crate) struct SensorArgs {
+    /// Sensors: the axis of one that points forward in the standing posture, such as pelvis_imu:-z (OpenSim's base_imu_label and
+    /// base_heading_axis) [default: the bending of the knees shows the direction].
+    #[arg(long, value_name = "SENSOR:AXIS")]
+    pub(crate) heading: Option<HeadingAxis>,
+    /// Sensors: turn from their earth to the axes of the model, of which y is up: angles about the fixed axes x, y and z in degrees
+    /// (OpenSim's sensor_to_opensim_rotations) [default: -90,0,0, for an earth with z up].
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub(crate) earth: Option<EarthTurn>,
+}
+
+impl SensorArgs {
+    /// The first option that was given.
+    pub(crate) fn given(&self) -> Option<&'static str> {
+        [("--heading", self.heading.is_some()), ("--earth", self.earth.is_some())]
+            .into_iter()
+            .find_map(|(option, given)| given.then_some(option))
+    }
 }
 
 impl SubjectArgs {

@@ -187,6 +187,45 @@ impl FromStr for PlateFoot {
     }
 }
 
+/// The axis of a sensor that points forward.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct HeadingAxis {
+    /// Name of the sensor.
+    pub(crate) sensor: String,
+    /// Unit vector.
+    pub(crate) axis: Vec3,
+}
+
+impl FromStr for HeadingAxis {
+    type Err = String;
+    fn from_str(text: &str) -> Result<HeadingAxis, String> {
+        let expected = "expected SENSOR:AXIS with one of x, y, z, -x, -y and -z, such as pelvis_imu:-z";
+        let (sensor, axis) = text.rsplit_once(':').ok_or(expected)?;
+        let (sign, letter) = axis.trim().strip_prefix('-').map_or((1.0, axis.trim()), |letter| (-1.0, letter));
+        let number = ["x", "y", "z"].iter().position(|known| known.eq_ignore_ascii_case(letter)).ok_or(expected)?;
+        if sensor.trim().is_empty() {
+            return Err(expected.into());
+        }
+        Ok(HeadingAxis { sensor: sensor.trim().to_owned(), axis: Vec3::ith(number, sign) })
+    }
+}
+
+/// Angles about the fixed axes x, y and z [rad].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct EarthTurn(pub(crate) [f64; 3]);
+
+impl FromStr for EarthTurn {
+    type Err = String;
+    fn from_str(text: &str) -> Result<EarthTurn, String> {
+        let angles: Option<Vec<f64>> =
+            text.split(',').map(|part| part.trim().parse().ok().filter(|angle: &f64| angle.abs() <= 360.0)).collect();
+        match angles.as_deref() {
+            Some([x, y, z]) => Ok(EarthTurn([*x, *y, *z].map(f64::to_radians))),
+            _ => Err("expected X,Y,Z: three angles in degrees from -360 to 360, such as -90,0,0".into()),
+        }
+    }
+}
+
 /// A value that is reached by a change that begins at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TimedValue {

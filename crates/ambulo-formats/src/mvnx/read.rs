@@ -181,33 +181,34 @@ impl FrameOrder {
             })?,
             None => self.last.map_or(0, |(last, _)| last + 1),
         };
-        let time_ms =
-            frame.attribute("time").and_then(|time| time.trim().parse::<f64>().ok()).filter(|time| time.is_finite());
-        if let Some((last, last_ms)) = self.last {
-            if index <= last {
-                let expected = "frames with increasing numbers; remove the repeated ones, or export the file again";
-                return Err(error_at(frame, format!("index {index} after index {last}"), expected));
-            }
-            if let (Some(time), Some(before)) =
-                (time_ms, last_ms.filter(|before| time_ms.is_some_and(|time| time <= *before)))
-                && self.rate_hz < 1000.0
-            {
-                let found = format!("time {time} ms in frame {index} after {before} ms in frame {last}");
-                return Err(error_at(
-                    frame,
-                    found,
-                    "frames at increasing times; remove the repeated ones, or export the file again",
-                ));
-            }
-        }
+        let stated_ms = frame.attribute("time").and_then(|time| time.trim().parse().ok());
+        let time_ms = stated_ms.filter(|time: &f64| time.is_finite());
+        self.check(frame, index, time_ms)?;
         if let Some(time) = time_ms {
             let (first, start) = *self.first.get_or_insert((index, time));
             let by_number = start + 1e3 * (index - first) as f64 / self.rate_hz;
-            let allowed = (0.5e3 / self.rate_hz).max(2.0);
-            self.off += usize::from((time - by_number).abs() > allowed);
+            self.off += usize::from((time - by_number).abs() > (0.5e3 / self.rate_hz).max(2.0));
         }
         self.last = Some((index, time_ms));
         Ok(index)
+    }
+
+    /// Rejects frames that repeat. Above 1000 Hz, whole milliseconds repeat.
+    fn check(&self, frame: Node<'_, '_>, index: u64, time_ms: Option<f64>) -> Result<(), Error> {
+        let Some((last, last_ms)) = self.last else { return Ok(()) };
+        if index <= last {
+            let expected = "frames with increasing numbers; remove the repeated ones, or export the file again";
+            return Err(error_at(frame, format!("index {index} after index {last}"), expected));
+        }
+        let repeated = time_ms.zip(last_ms).filter(|(time, before)| time <= before && self.rate_hz < 1000.0);
+        match repeated {
+            Some((time, before)) => {
+                let found = format!("time {time} ms in frame {index} after {before} ms in frame {last}");
+                let expected = "frames at increasing times; remove the repeated ones, or export the file again";
+                Err(error_at(frame, found, expected))
+            }
+            None => Ok(()),
+        }
     }
 
     fn remark(&self) -> Option<Remark> {

@@ -7,9 +7,9 @@ use crate::error::{Error, Remark, quoted};
 use std::io::{self, Write};
 
 /// A header is ten lines long; some programs add a few dozen lines of comments.
-const MAX_HEADER_LINES: usize = 4096;
+pub(super) const MAX_HEADER_LINES: usize = 4096;
 
-const ENDHEADER: &str = "endheader";
+pub(super) const ENDHEADER: &str = "endheader";
 
 /// Reads a `.mot` or `.sto` file.
 /// A model, a set-up file or a marker file in place of a table is a common mistake.
@@ -125,7 +125,7 @@ impl Header {
 }
 
 /// `nRows=5`, `nRows = 5` and `datarows 5` in key and value.
-fn split_key(text: &str) -> (&str, &str) {
+pub(super) fn split_key(text: &str) -> (&str, &str) {
     let separator = |c: char| c.is_whitespace() || c == '=';
     let text = text.trim();
     match text.find(separator) {
@@ -172,7 +172,7 @@ fn angles_sentence(text: &str) -> Option<bool> {
 }
 
 /// The line of names, with its number.
-fn read_names(lines: &mut Lines<'_>) -> Result<(usize, Vec<String>), Error> {
+pub(super) fn read_names(lines: &mut Lines<'_>) -> Result<(usize, Vec<String>), Error> {
     let Some(line) = lines.next_filled()? else {
         return Err(lines.truncated("a line of column names and rows of numbers"));
     };

@@ -63,6 +63,8 @@ def forces(
     plates: Mapping[int, str] | None = None,
     trial: int | str | None = None,
     smpl: _Path | bytes | None = None,
+    heading: str | None = None,
+    earth: tuple[float, float, float] | None = None,
     predict: bool = False,
     track: bool = False,
     ground: bool = True,
@@ -91,7 +93,8 @@ def forces(
     Parameters
     ----------
     recording : Recording, str or path-like, optional
-        Markers (``.c3d``, ``.trc``), coordinates of a model (``.mot``, ``.sto``, ``.csv``), a skeleton (``.bvh``), a motion of the SMPL
+        Markers (``.c3d``, ``.trc``), coordinates of a model (``.mot``, ``.sto``, ``.csv``),
+        segments of Xsens (``.mvnx``), quaternions of sensors (``.sto``), a skeleton (``.bvh``), a motion of the SMPL
         family (``.npz``) or a subject of AddBiomechanics (``.b3d``); a `setup` may name it.
     model : Model, str, path-like or bytes, optional
         The body; required for coordinates. ``"built-in"`` fits the built-in body to the markers of a ``.b3d``.
@@ -115,6 +118,10 @@ def forces(
         The trial of a ``.b3d``: its number, counted from 1, or its name.
     smpl : str, path-like or bytes, optional
         The SMPL model (``.npz``) that gives a motion its lengths.
+    heading : str, optional
+        Sensors: the axis of one that points forward in the standing posture, such as ``"pelvis_imu:-z"``.
+    earth : tuple of three floats, optional
+        Sensors: angles about the fixed axes x, y and z [deg] that turn their earth to the axes of the model.
     predict : bool, optional
         Predict the ground forces even if they were measured, and compare both.
     track : bool, optional
@@ -181,6 +188,8 @@ def forces(
     words.option("setup", [os.fspath(path) for path in ([setup] if isinstance(setup, (str, os.PathLike)) else setup or [])])
     words.file("model", model, "model.osim")
     words.file("smpl", smpl, "smpl.npz")
+    words.option("heading", heading)
+    words.option("earth", None if earth is None else ",".join(map(str, earth)))
     words.file("static", static, "static")
     words.file("grf", grf, "grf.mot")
     words.file("loads", loads, "loads.xml")

@@ -152,6 +152,28 @@ codes! {
     B3dFormDefaults "b3d.form_defaults" Warning
         "Stated mass, stature and age are those with which the form of AddBiomechanics begins."
         "State the mass of the person if it is known.";
+    // Orientations of sensors.
+    SensorsFitted "sensors.fitted" Note
+        "Sensors turn the body; the message says how far the body is from them."
+        "Check how the sensor with the largest angle sat; it may have moved on the body.";
+    SensorsHeading "sensors.heading" Note
+        "The orientations of the sensors were turned about the vertical, so that the person faces forward."
+        "Check that the person walks forward in the result; an axis of a sensor that points forward can show the direction instead.";
+    SensorsHeld "sensors.held" Note
+        "Coordinates that turn no sensor keep their default values."
+        "Nothing to do; toes and wrists are often without sensors.";
+    SensorsMissing "sensors.missing" Warning
+        "A sensor sent nothing in some frames."
+        "Check the sensor; short gaps are bridged, longer ones leave coordinates unknown.";
+    SensorsPlaced "sensors.placed" Warning
+        "Orientations do not show where the person is; the place of the pelvis follows from the feet on the ground."
+        "Read forces along the floor, speed and step lengths as estimates, and do not use running, jumping or stairs.";
+    SensorsUnknown "sensors.unknown" Warning
+        "Sensors are on no body of the model, or share one."
+        "Name the columns by the bodies of the model, with the ending `_imu`.";
+    SensorsUnrest "sensors.unrest" Warning
+        "The person moves where the default posture of the model is assumed."
+        "Record the person standing still in the default posture of the model, and give that as the standing trial.";
     // Poses of segments.
     PosesUsed "poses.used" Note
         "The file holds poses of body segments, as markerless motion capture or a suit of inertial sensors computes them; they drive the body, and markers of the file are not used."

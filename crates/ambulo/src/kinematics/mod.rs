@@ -22,6 +22,7 @@ pub mod marker_proposal;
 pub mod pose_fit;
 pub mod retarget;
 pub mod scaling;
+pub mod sensor_fit;
 
 pub use body_motion::{BodyMotion, body_motion, each_body_motion};
 pub(crate) use calibration::angles_zxy;

@@ -28,6 +28,7 @@ pub use function::Function;
 pub use import::{ImportError, OsimError, from_osim};
 pub use joint::{Displacement, Joint, JointAxis, JointSpeeds};
 pub use knots::Knots;
+pub(crate) use posture::ModelPosture;
 pub use scaled::{MassDistribution, ScaleError};
 pub use side::Side;
 pub use simm_spline::SimmSpline;

@@ -23,6 +23,7 @@ mod real_points;
 mod recorded_motion;
 mod recording;
 mod segment_poses;
+mod sensor_recording;
 pub mod skeleton;
 mod smooth;
 mod smpl;
@@ -45,9 +46,11 @@ pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_fro
 pub use marker_table::{is_marker_table, markers_from_table};
 pub use recorded_motion::{RecordedMotion, RecordedMotionError, motion_from_c3d};
 pub use recording::{Motion, MotionError};
+pub(crate) use segment_poses::posed_segment;
 pub use segment_poses::{
     PosedSegment, SegmentPoseError, SegmentPoses, events_from_mvnx, segment_poses_from_c3d, segment_poses_from_mvnx,
 };
+pub use sensor_recording::{SensorPath, SensorRecording, sensors_from_table};
 pub(crate) use smooth::check_range;
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
 pub use smpl::{SmplBody, SmplError, SmplMotion};

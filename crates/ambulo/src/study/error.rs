@@ -4,6 +4,8 @@ use crate::analysis::{AnalysisError, MarkerTrialError, Stopped};
 use crate::dynamics::residual_reduction::ResidualReductionError;
 use crate::kinematics::calibration::CalibrationError;
 use crate::kinematics::retarget::RetargetError;
+use crate::kinematics::sensor_fit::SensorError;
+use crate::model::anthropometry::BuildError;
 use crate::model::{ModelError, ScaleError};
 use crate::motion::MotionError;
 use crate::optimal::TrackError;
@@ -18,6 +20,12 @@ pub enum StudyError {
     /// A skeleton that gives no body in motion.
     #[error(transparent)]
     Skeleton(#[from] RetargetError),
+    /// Orientations of sensors that give no motion.
+    #[error(transparent)]
+    Sensors(#[from] SensorError),
+    /// The built-in body cannot be made.
+    #[error(transparent)]
+    Body(#[from] BuildError),
     /// Motion or forces that cannot be analysed.
     #[error(transparent)]
     Analysis(AnalysisError),
@@ -95,12 +103,14 @@ impl StudyError {
             StudyError::Device(_) => Some(Input::Device),
             StudyError::Markers(_)
             | StudyError::Skeleton(_)
+            | StudyError::Sensors(_)
             | StudyError::Analysis(_)
             | StudyError::MassUnknown
             | StudyError::Tracking(_)
             | StudyError::NoSuchPlate { .. } => Some(Input::Motion),
             StudyError::UnknownBody { .. }
             | StudyError::AddedMass(_)
+            | StudyError::Body(_)
             | StudyError::Size(_)
             | StudyError::ResidualReduction(_)
             | StudyError::Stopped(_) => None,

@@ -49,5 +49,5 @@ pub use settings::{GroundSettings, Settings};
 pub use size::StatedSize;
 pub use source::{
     AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse,
-    Recording, Source,
+    Recording, SensorBody, SensorSource, Source,
 };

@@ -9,7 +9,8 @@ use super::outcome::Tracking;
 use super::settings::{GroundSettings, Settings};
 use super::size::StatedSize;
 use super::source::{
-    AddedMass, CompleteMotion, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source,
+    AddedMass, CompleteMotion, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording,
+    SensorBody, SensorSource, Source,
 };
 use super::weighing::Carried;
 use crate::analysis::feasibility::Person;
@@ -21,7 +22,9 @@ use crate::ground::plates::{ContactQuality, PlateContact};
 use crate::kinematics::Trajectory;
 use crate::kinematics::calibration::{self, BodyMeasurements};
 use crate::kinematics::retarget::retarget;
+use crate::kinematics::sensor_fit::{SensorTrial, fit_sensors};
 use crate::model::anthropometry::Build;
+use crate::model::full_body::full_body;
 use crate::model::{Model, Side};
 use crate::motion::skeleton::SkeletonRecording;
 use crate::motion::{Event, ForceRecording, Motion, SmoothSettings, Window, smooth};
@@ -64,7 +67,11 @@ pub(super) enum Origin {
     Coordinates,
     Markers(Box<Followed>),
     Skeleton(Box<Tracking>),
-    Simulation { rule: &'static str },
+    /// Orientations of sensors, which do not show where the person is.
+    Sensors,
+    Simulation {
+        rule: &'static str,
+    },
 }
 
 /// A body that followed markers, and what the files state besides.
@@ -103,7 +110,7 @@ impl Origin {
     pub(super) fn followed(&self) -> Option<&Followed> {
         match self {
             Origin::Markers(followed) => Some(followed),
-            Origin::Coordinates | Origin::Skeleton(_) | Origin::Simulation { .. } => None,
+            Origin::Coordinates | Origin::Skeleton(_) | Origin::Sensors | Origin::Simulation { .. } => None,
         }
     }
 
@@ -140,6 +147,7 @@ impl Source {
             Recording::Coordinates { model, motion } => {
                 statements.observe_coordinates(&model, motion, settings, findings)
             }
+            Recording::Sensors(sensors) => statements.observe_sensors(&sensors, settings, findings, progress),
             Recording::Markers(markers) => statements.observe_markers(*markers, settings, findings, progress),
             Recording::Skeleton { skeleton, table, mass_kg } => {
                 let build = Build { table, mass: mass_kg, height: skeleton.height_m, toe_joint: true };
@@ -184,6 +192,44 @@ impl Statements {
         let model = self.loaded(self.stated.applied(model, findings)?)?;
         let of_model = Person::of_model(&model);
         let person = Person { estimated: self.stated.height_m.is_none(), ..of_model };
+        self.with_forces((model, person, motion), Origin::Coordinates, settings, findings)
+    }
+
+    fn observe_sensors(
+        self,
+        sensors: &SensorSource,
+        settings: &Settings,
+        findings: &mut Findings,
+        progress: &mut Progress<'_>,
+    ) -> Result<(Observation, ObservedMotion), StudyError> {
+        let (model, person) = match &sensors.body {
+            SensorBody::BuiltIn(build) => {
+                let human = full_body(build)?;
+                let person = Person::of_human(&human);
+                (human.model, person)
+            }
+            SensorBody::Model(model) => {
+                let model = self.stated.applied(model, findings)?;
+                let person = Person { estimated: self.stated.height_m.is_none(), ..Person::of_model(&model) };
+                (model, person)
+            }
+        };
+        let model = self.loaded(model)?;
+        progress.end(Stage::Body)?;
+        let trial = SensorTrial { moving: &sensors.moving, standing: sensors.standing.as_ref(), axes: &sensors.axes };
+        let fit = fit_sensors(&model, &person.soles, &trial, &settings.marker_fit, findings)?;
+        progress.end(Stage::Markers)?;
+        self.with_forces((model, person, fit.motion), Origin::Sensors, settings, findings)
+    }
+
+    /// A body in motion with the forces that were measured apart from it, or none.
+    fn with_forces(
+        self,
+        (model, person, motion): (Model, Person, Motion),
+        origin: Origin,
+        settings: &Settings,
+        findings: &mut Findings,
+    ) -> Result<(Observation, ObservedMotion), StudyError> {
         let (forces, idle) = match self.forces {
             _ if settings.ground == GroundSettings::NoContact => (Vec::new(), IdleForces::default()),
             MeasuredForces::InRecording => {
@@ -203,7 +249,6 @@ impl Statements {
                 carrying(walker.forces_of_table(&table, findings)?, findings)
             }
         };
-        let origin = Origin::Coordinates;
         let known_mass = KnownMass::stated(self.stated.mass_kg);
         let observation = Observation { person, model, forces, idle, origin, known_mass, device: self.device };
         Ok((observation, ObservedMotion::Recorded(motion)))

@@ -81,6 +81,8 @@ pub enum Measure {
     FrozenPoints,
     /// Uncertainty of axial rotations from keypoints.
     AxialRotation,
+    /// Share of the motion whose place was derived from the feet on the ground.
+    DerivedPlace,
     /// Cut-off frequency that may be too low.
     LowCutoff,
     /// Cut-off frequency, relative to the frame rate, that may be too high.
@@ -98,7 +100,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 18] = [
+    pub const ALL: [Measure; 19] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -115,6 +117,7 @@ impl Measure {
         Measure::Jumps,
         Measure::FrozenPoints,
         Measure::AxialRotation,
+        Measure::DerivedPlace,
         Measure::LowCutoff,
         Measure::HighCutoff,
     ];
@@ -140,6 +143,7 @@ impl Measure {
             Measure::Jumps => AtMost(0.0, 10.0),
             Measure::FrozenPoints => AtMost(0.05, 0.25),
             Measure::AxialRotation => AtMost(3.0, 180.0),
+            Measure::DerivedPlace => AtMost(0.0, 1.0),
             Measure::LowCutoff => AtLeast(3.0, 1.0),
             Measure::HighCutoff => AtMost(0.2, 0.4),
         }
@@ -165,6 +169,7 @@ impl Measure {
             Measure::Jumps => "jumps",
             Measure::FrozenPoints => "frozen_points",
             Measure::AxialRotation => "axial_rotation",
+            Measure::DerivedPlace => "derived_place",
             Measure::LowCutoff => "low_cutoff",
             Measure::HighCutoff => "high_cutoff",
         }
@@ -202,6 +207,9 @@ impl Measure {
             Measure::AxialRotation => {
                 "standard deviation of the axial rotation of the thighs, from the errors of keypoints"
             }
+            Measure::DerivedPlace => {
+                "share of the motion in which the place of the person was derived from the feet on the ground"
+            }
             Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
             Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
         }
@@ -226,6 +234,7 @@ impl Measure {
             | Measure::Gaps
             | Measure::Jumps
             | Measure::FrozenPoints
+            | Measure::DerivedPlace
             | Measure::HighCutoff => "1",
         }
     }
@@ -350,6 +359,8 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) smoothed: (Smoother, f64),
     pub(super) force_origin: ForceOrigin,
     pub(super) tracking: Option<&'a Tracking>,
+    /// Whether the place of the person follows from the feet on the ground.
+    pub(super) place_is_derived: bool,
     pub(super) mass: &'a BodyMass,
     pub(super) idle: &'a IdleForces,
     pub(super) verdict: &'a Verdict,
@@ -361,7 +372,7 @@ impl QualityEvidence<'_> {
         let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
         let of_motion = [self.gaps(), self.sliding(), self.center_of_pressure(), self.jumps(), self.cutoff()];
         let of_plates = [self.unassigned_forces(), self.silent_plates()];
-        let of_keypoints = [self.frozen_points(), self.axial_rotation()];
+        let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
             of_forces.into_iter().chain(of_plates).chain(of_keypoints).chain(of_body).chain(of_motion).flatten(),
         )
@@ -563,6 +574,14 @@ impl QualityEvidence<'_> {
             format!(
                 "keypoints hardly show axial rotations: that of the thighs is known to {deviation_deg:.0} degrees (at most {limit}), so moments about the long axes, and how the others are divided between flexion and adduction, are uncertain; the ankle moment changes by 0.1 N.m/kg with every 10 mm by which toe or heel are misplaced"
             )
+        })
+    }
+
+    /// Orientations do not show where the person is.
+    fn derived_place(&self) -> Option<QualityReason> {
+        let share = if self.place_is_derived { 1.0 } else { 0.0 };
+        Measure::DerivedPlace.reason(share, |_| {
+            "where the person is was derived from the feet on the ground, not measured: the path of the mass centre, and with it forces along the floor and the vertical force in double support, are less certain than the joint angles".to_owned()
         })
     }
 

@@ -94,6 +94,7 @@ fn road(
         body: reduction.as_ref().map_or(model, |reduced| reduced.model.clone()),
         device: device.map(|device| worn(&device, &analysis, findings)),
         partly_measured: origin.partly_measured(),
+        place_is_derived: matches!(origin, Origin::Sensors),
         tracking: tracking(origin, measured_events),
         person,
         analysis,
@@ -121,6 +122,8 @@ struct Computed {
     mass: BodyMass,
     idle: IdleForces,
     tracking: Option<Tracking>,
+    /// Whether the place of the person follows from the feet on the ground.
+    place_is_derived: bool,
     /// Times in which a force plate measured only a part of a foot's load [s].
     partly_measured: Vec<[f64; 2]>,
     recorded: Option<RecordedFaults>,
@@ -151,6 +154,7 @@ impl Computed {
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
             force_origin,
             tracking: tracking.as_ref(),
+            place_is_derived: self.place_is_derived,
             mass: &mass,
             idle: &self.idle,
             verdict: &verdict,
@@ -453,6 +457,6 @@ fn tracking(origin: Origin, measured_events: Vec<Event>) -> Option<Tracking> {
             measured_events,
         }))),
         Origin::Skeleton(tracking) => Some(*tracking),
-        Origin::Coordinates | Origin::Simulation { .. } => None,
+        Origin::Coordinates | Origin::Sensors | Origin::Simulation { .. } => None,
     }
 }

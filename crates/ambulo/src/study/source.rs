@@ -6,11 +6,12 @@ use super::size::StatedSize;
 use crate::analysis::feasibility::Person;
 use crate::analysis::{ModelProtocol, Subject};
 use crate::kinematics::Trajectory;
-use crate::model::anthropometry::SegmentTable;
+use crate::kinematics::sensor_fit::SensorAxes;
+use crate::model::anthropometry::{Build, SegmentTable};
 use crate::model::marker_set::MarkerSet;
 use crate::model::{Model, Side};
 use crate::motion::skeleton::SkeletonRecording;
-use crate::motion::{ForceRecording, Motion};
+use crate::motion::{ForceRecording, Motion, SensorRecording};
 use crate::spatial::Vec3;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
@@ -52,8 +53,32 @@ pub enum Recording {
         /// Body mass [kg].
         mass_kg: f64,
     },
+    /// Orientations of inertial sensors.
+    Sensors(Box<SensorSource>),
     /// A complete motion with its ground forces. Nothing is smoothed or predicted.
     Complete(Box<CompleteMotion>),
+}
+
+/// Orientations of sensors, and the body that they turn.
+#[derive(Debug, Clone)]
+pub struct SensorSource {
+    /// The motion.
+    pub moving: SensorRecording,
+    /// The person in the default posture of the body; `None`: the first frame of the motion.
+    pub standing: Option<SensorRecording>,
+    /// Axes of the sensors' earth.
+    pub axes: SensorAxes,
+    /// The body.
+    pub body: SensorBody,
+}
+
+/// The body that sensors turn.
+#[derive(Debug, Clone)]
+pub enum SensorBody {
+    /// The built-in one.
+    BuiltIn(Build),
+    /// A model.
+    Model(Model),
 }
 
 /// A complete motion with its ground forces, from a synthetic walk or a simulation.

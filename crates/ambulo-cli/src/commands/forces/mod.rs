@@ -4,6 +4,7 @@ mod coordinates;
 mod errors;
 mod ground_table;
 pub(crate) mod markers;
+mod sensors;
 mod setup;
 mod size;
 mod skeleton;
@@ -74,6 +75,12 @@ pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
     if args.trial.is_some() && kind != RecordingKind::Subject {
         bail!("{}: --trial chooses a trial of a .b3d; this file has one recording", args.recording().display());
     }
+    if let Some(option) = args.sensors.given().filter(|_| kind != RecordingKind::Sensors) {
+        bail!(
+            "{}: {option} is for orientations of sensors (.sto with quaternions); this is another recording",
+            args.recording().display()
+        );
+    }
     if args.smpl.is_some() && kind != RecordingKind::Smpl {
         bail!(
             "{}: --smpl gives a motion of the SMPL family (.npz) its lengths; this file has its own",
@@ -86,6 +93,7 @@ pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
         RecordingKind::Skeleton => skeleton::read(args, &mut reading)?,
         RecordingKind::Smpl => skeleton::read_smpl(args, &mut reading)?,
         RecordingKind::Subject => subject::read(args, &mut reading)?,
+        RecordingKind::Sensors => sensors::read(args, &mut reading)?,
     };
     let source = Source { device: read_device(args, &mut reading)?, ..source };
     reading.read.extend(args.device.iter().chain(&args.thresholds).cloned());
@@ -100,6 +108,7 @@ enum RecordingKind {
     Skeleton,
     Smpl,
     Subject,
+    Sensors,
 }
 
 impl RecordingKind {
@@ -115,6 +124,7 @@ impl RecordingKind {
             "csv" if files::read_table(caller, input).is_ok_and(|(table, _)| is_marker_table(&table)) => {
                 Ok(RecordingKind::Markers)
             }
+            "mot" | "sto" if sensors::is_recording(input, caller) => Ok(RecordingKind::Sensors),
             "mot" | "sto" | "csv" => Ok(RecordingKind::Coordinates),
             "c3d" | "trc" | "mvnx" => Ok(RecordingKind::Markers),
             "tsv" => {
@@ -126,7 +136,7 @@ impl RecordingKind {
             "npz" => Ok(RecordingKind::Smpl),
             "b3d" => Ok(RecordingKind::Subject),
             _ => bail!(
-                "{}: {found}; expected .c3d, .trc or .csv (markers), .mvnx (Xsens), .mot, .sto or .csv (coordinates), _motion.tsv (BIDS), .bvh (a skeleton), .npz (a motion of the SMPL family) or .b3d (a subject of AddBiomechanics)",
+                "{}: {found}; expected .c3d, .trc or .csv (markers), .mvnx (Xsens), .mot, .sto or .csv (coordinates), .sto with quaternions (sensors), _motion.tsv (BIDS), .bvh (a skeleton), .npz (a motion of the SMPL family) or .b3d (a subject of AddBiomechanics)",
                 input.display()
             ),
         }
@@ -157,9 +167,10 @@ fn studied(args: &ForcesArgs, source: Source, reading: Reading) -> Result<Motion
     };
     let stated = match &source.recording {
         Recording::Markers(markers) => markers.trial.subject.clone(),
-        Recording::Coordinates { .. } | Recording::Skeleton { .. } | Recording::Complete { .. } => {
-            SubjectParameters::default()
-        }
+        Recording::Coordinates { .. }
+        | Recording::Skeleton { .. }
+        | Recording::Sensors(_)
+        | Recording::Complete { .. } => SubjectParameters::default(),
     };
     let outcome = study::run_observed(source, &settings, &mut findings, &mut watch)
         .map_err(|error| errors::with_file(error, args, ground.as_deref()))?;

@@ -6,6 +6,7 @@ mod c3d;
 mod markers;
 mod model;
 mod mvnx;
+mod sensors;
 mod sheet;
 mod subject;
 mod table;

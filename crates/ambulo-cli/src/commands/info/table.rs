@@ -1,13 +1,16 @@
 //! Description of tables: OpenSim storage and CSV.
 
-use super::{Sheet, markers};
+use super::{Sheet, markers, sensors};
 use ambulo::findings::Findings;
 use ambulo::motion::{is_marker_table, markers_from_table};
-use ambulo_formats::table::{Table, coordinate_of_state_path};
+use ambulo_formats::table::{OrientationTable, Table, coordinate_of_state_path};
 use anyhow::Result;
 use std::path::Path;
 
 pub(super) fn describe_storage(path: &Path, bytes: &[u8]) -> Result<Sheet> {
+    if OrientationTable::is_stated(bytes) {
+        return sensors::describe(path, bytes);
+    }
     let (table, remarks) = Table::read_storage(bytes)?;
     let mut sheet = describe("OpenSim storage", &table);
     sheet.remarks(&remarks);

@@ -118,7 +118,7 @@ fn constant_part(body: &Body, poses: &SegmentPoses, [parent, own]: [PosedSegment
 }
 
 /// The rotation with the least sum of squared differences from some rotations; `None` without any.
-fn mean_rotation(rotations: impl Iterator<Item = Mat3>) -> Option<Mat3> {
+pub(crate) fn mean_rotation(rotations: impl Iterator<Item = Mat3>) -> Option<Mat3> {
     /// Rounds of the singular value decomposition of a 3 x 3 matrix.
     const MOST_ROUNDS: usize = 100;
     let sum: Mat3 = rotations.sum();

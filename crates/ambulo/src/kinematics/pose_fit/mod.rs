@@ -19,6 +19,7 @@
 mod body;
 mod joint_angles;
 
+pub(crate) use body::mean_rotation;
 pub use body::{PosedBody, body_of_poses};
 
 use super::marker_fit::{MarkerFit, MarkerResidual};

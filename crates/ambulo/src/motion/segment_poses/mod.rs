@@ -56,6 +56,11 @@ pub enum PosedSegment {
     Hand(Side),
 }
 
+/// The segment of a label such as `l_thigh_4X4`, `RightUpperLeg` or `tibia_r`; `None` for others.
+pub(crate) fn posed_segment(label: &str) -> Option<PosedSegment> {
+    labels::segment_of(label)
+}
+
 /// Poses of segments over time, with the axes of a standing person: x forward, y up, z right.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SegmentPoses {

@@ -1,0 +1,92 @@
+//! Why orientations of sensors give no motion.
+
+use crate::kinematics::marker_fit::FitError;
+use crate::model::ModelError;
+
+/// Why orientations of sensors give no motion.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SensorError {
+    /// No sensor is on a body of the model.
+    #[error(
+        "none of the sensors {sensors} is on a body of `{model}`; expected names of bodies with the ending `_imu`, such as {example}. hint: rename the columns of the file"
+    )]
+    NoBody {
+        /// Names of the sensors.
+        sensors: String,
+        /// Name of the model.
+        model: String,
+        /// Names that would be known.
+        example: String,
+    },
+    /// A sensor sent nothing in the posture of the calibration.
+    #[error(
+        "the sensor `{sensor}` has no orientation in the standing posture ({place}); expected one. hint: choose a standing trial in which all sensors send, or remove the column"
+    )]
+    NotCalibrated {
+        /// Name of the sensor.
+        sensor: String,
+        /// Where the standing posture was looked for.
+        place: String,
+    },
+    /// A sensor of the heading that is not there.
+    #[error("there is no sensor `{found}` for the heading; expected one of {known}")]
+    NoBaseSensor {
+        /// Its name.
+        found: String,
+        /// Names of the sensors.
+        known: String,
+    },
+    /// An axis of the heading that points up or down.
+    #[error(
+        "the axis {axis} of `{sensor}` is {angle_deg:.0} degrees from the horizontal in the standing posture; expected one that points forward"
+    )]
+    HeadingAxis {
+        /// The axis.
+        axis: String,
+        /// Name of the sensor.
+        sensor: String,
+        /// Its angle above the floor [deg].
+        angle_deg: f64,
+    },
+    /// A motion that does not show where forward is.
+    #[error(
+        "the direction forward is not known: {found}; expected knees that bend by {expected_deg:.0} degrees or more, or a sensor whose axis points forward in the standing posture"
+    )]
+    Heading {
+        /// What the knees do.
+        found: String,
+        /// How much they must bend [deg].
+        expected_deg: f64,
+    },
+    /// Coordinates that the sensors do not determine.
+    #[error(
+        "the sensors do not determine {coordinates}: a sensor is missing on a body between two others, none is on the pelvis, or one sent nothing. hint: add the sensor, or lock the coordinates in the model"
+    )]
+    Undetermined {
+        /// Names of the coordinates.
+        coordinates: String,
+    },
+    /// A model without feet.
+    #[error(
+        "`{model}` has no two legs with hip, knee, ankle and foot; the place of the pelvis follows from the feet on the ground"
+    )]
+    NoFeet {
+        /// Name of the model.
+        model: String,
+    },
+    /// A pelvis that cannot move to where the feet put it.
+    #[error(
+        "the root of `{model}` cannot move along all three directions; expected three translations with a coordinate each"
+    )]
+    NoTranslation {
+        /// Name of the model.
+        model: String,
+    },
+    /// Parts of the model that do not fit together.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The fit failed.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+}

@@ -1,0 +1,4 @@
+//! Fuzz target; the check is `ambulo_fuzz::mvnx`.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| ambulo_fuzz::mvnx(bytes));
