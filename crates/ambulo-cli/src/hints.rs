@@ -65,7 +65,6 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
         cause.downcast_ref().and_then(of_results),
         cause.downcast_ref().and_then(of_walk),
         cause.downcast_ref().and_then(of_smpl),
-        cause.downcast_ref().and_then(of_sensors),
     ];
     others.into_iter().flatten().next()
 }
@@ -78,6 +77,7 @@ fn of_walk(error: &SyntheticError) -> Option<&'static str> {
 fn of_study(error: &StudyError) -> Option<&'static str> {
     match error {
         StudyError::Analysis(error) => of_analysis(error),
+        StudyError::Sensors(error) => of_sensors(error),
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",

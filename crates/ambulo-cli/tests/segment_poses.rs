@@ -210,6 +210,9 @@ fn a_motion_of_xsens_mvn_gives_the_moments_of_the_walk_that_it_was_made_from() {
         assert!(info.stdout.contains(words), "{words}: {}", info.stdout);
     }
 
+    let events = bench.run(&["events", "take.mvnx"]).done();
+    assert!(events.stdout.contains("motion of the feet"), "{}", events.stdout);
+
     let lower: Vec<(&str, &str)> =
         XSENS.into_iter().filter(|(_, name)| *name != "T8" && !name.contains("Toe")).collect();
     bench.write("lower.mvnx", mvnx(&c3d, &lower));

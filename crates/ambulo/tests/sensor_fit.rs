@@ -278,17 +278,20 @@ fn opensim_finds_the_same_angles_for_disturbed_sensors() {
     let reference = include_str!("testdata/opensim_sensors/walk.csv");
     let (table, _) = Table::read_csv(reference.as_bytes()).unwrap();
     let times = table.times().unwrap();
+    let frame_at = |time: &f64| motion.times.iter().position(|known| (known - time).abs() < 1e-6).unwrap();
+    let inside: Vec<usize> =
+        (0..times.len()).filter(|&row| is_inside(&model, &fit.motion, frame_at(&times[row]))).collect();
     let mut largest = (0.0, String::new());
     let mut disturbed = 0.0;
     for (name, values) in table.columns().skip(1) {
         let k = model.coordinate(name).unwrap().index();
-        for (time, value) in times.iter().zip(values) {
-            let frame = motion.times.iter().position(|known| (known - time).abs() < 1e-6).unwrap();
-            let off = (fit.motion.columns[k].as_ref().unwrap()[frame] - value).abs();
+        for row in &inside {
+            let frame = frame_at(&times[*row]);
+            let off = (fit.motion.columns[k].as_ref().unwrap()[frame] - values[*row]).abs();
             let undisturbed = motion.columns[k].as_ref().map_or(0.0, |column| column[frame]);
-            disturbed = f64::max(disturbed, (undisturbed - value).abs());
+            disturbed = f64::max(disturbed, (undisturbed - values[*row]).abs());
             if off > largest.0 {
-                largest = (off, format!("{name} at {time} s"));
+                largest = (off, format!("{name} at {} s", times[*row]));
             }
         }
     }
@@ -296,10 +299,21 @@ fn opensim_finds_the_same_angles_for_disturbed_sensors() {
     println!(
         "{} angles at {} times: largest difference from OpenSim {off:.1e} rad ({place}); the disturbance moves them by up to {disturbed:.2} rad",
         table.columns().count() - 1,
-        times.len()
+        inside.len()
     );
-    // OpenSim weighs angles, we weigh chords: 1 - θ²/24 of each other at 0.1 rad, and its solver stops at 1e-9.
-    assert!(off < 2e-3 && disturbed > 0.05, "{off} {place} {disturbed}");
+    // OpenSim weighs angles, we weigh chords: 1 - θ²/12 of each other, 1e-3 at the disturbance of 0.1 rad, whose angles move by 0.1 rad.
+    assert!(inside.len() > 10 && off < 2e-4 && disturbed > 0.05, "{off} {place} {disturbed}");
+}
+
+/// Whether no clamped coordinate is near the end of its range. OpenSim stops before the end: at 0.72 s its knee is bent by 0.0095 rad, with a
+/// sum of squares of 0.03028 instead of 0.02986 at zero.
+fn is_inside(model: &Model, motion: &Motion, frame: usize) -> bool {
+    model.coordinates().iter().zip(&motion.columns).all(|(coordinate, column)| {
+        let (Some([low, high]), Some(column)) = (coordinate.range.filter(|_| coordinate.clamped), column) else {
+            return true;
+        };
+        (low + 0.05..high - 0.05).contains(&column[frame])
+    })
 }
 
 /// Root mean square.

@@ -58,7 +58,7 @@ pub(crate) enum C3dPart {
   ambulo events demo/input/walk.c3d
 
 Lists foot strikes and foot offs from force plates (20 N), from the motion of the feet (the median of four published methods) and from
-the file's own list, and compares the sources. Reads .c3d (all three), .trc and .bvh (motion), .mot and .sto (ground forces). Plate events
+the file's own list, and compares the sources. Reads .c3d (all three), .trc, .mvnx and .bvh (motion), .mot and .sto (ground forces). Plate events
 are left out where a foot was only partly on a plate or shared it with the other foot.")]
 pub(crate) struct EventsArgs {
     /// The recording.

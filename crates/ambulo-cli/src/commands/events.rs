@@ -24,9 +24,10 @@ pub(crate) fn run(args: &EventsArgs) -> Result<Completion> {
     let read = match files::ending(&args.input).as_str() {
         "c3d" => from_c3d(&bytes, &shown, &mut findings),
         "trc" => from_trc(&bytes, &shown, &mut findings),
+        "mvnx" => from_mvnx(&bytes, &shown, &mut findings),
         "bvh" => from_bvh(&bytes, &shown, &mut findings),
         "mot" | "sto" => from_forces(&bytes, &shown, &mut findings),
-        ending => bail!("{shown}: `.{ending}` contains no gait; expected .c3d, .trc, .bvh, .mot or .sto"),
+        ending => bail!("{shown}: `.{ending}` contains no gait; expected .c3d, .trc, .mvnx, .bvh, .mot or .sto"),
     };
     let sources = read.with_context(|| shown.clone())?;
     if let Some(output) = &args.output {
@@ -53,6 +54,13 @@ fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Ev
 fn from_trc(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {
     let file = LaboratoryFile::from_trc(bytes, shown, findings)?;
     Ok(markers_alone(&in_world(&file.recording, findings).markers, findings))
+}
+
+/// Events of a motion of Xsens MVN, and those of its contact flags.
+fn from_mvnx(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {
+    let LaboratoryFile { recording, events, .. } = LaboratoryFile::from_mvnx(bytes, shown, findings)?;
+    let motion = foot_motion(&in_world(&recording, findings).markers, findings);
+    Ok(vec![of_motion(motion), EventSource { word: "file", title: "the contact flags of the file".into(), events }])
 }
 
 fn in_world(recording: &LaboratoryRecording, findings: &mut Findings) -> LaboratoryRecording {
