@@ -211,7 +211,21 @@ fn the_lower_body_alone_is_enough_and_the_upper_body_is_refused() {
         "{error}"
     );
 
-    // MVN writes legs that turn with the pelvis if they have no sensors.
+    // MVN writes segments that turn with the pelvis if they have no sensors.
+    let mut legs_only = made();
+    for frame in &mut legs_only.frames {
+        let pelvis = frame.poses[0].orientation;
+        let others =
+            frame.poses.iter_mut().zip(SEGMENTS).filter(|(_, (label, _))| *label == "T8" || label.contains("Arm"));
+        others.for_each(|(pose, _)| pose.orientation = pelvis);
+    }
+    let mut findings = Findings::default();
+    let poses = segment_poses_from_mvnx(&legs_only, &mut findings).unwrap();
+    assert_eq!(poses.segments.len(), SEGMENTS.len() - 5);
+    let told =
+        "were not measured and are left out: torso, right upper arm, left upper arm, right forearm, left forearm";
+    assert!(findings.as_slice().iter().any(|found| found.message.ends_with(told)), "{findings:?}");
+
     let mut rigid = made();
     rigid.configuration = "UpperBody".into();
     for frame in &mut rigid.frames {

@@ -1,4 +1,4 @@
-"""Run OpenSim's IMUPlacer and IMUInverseKinematicsTool on orientations that are made from a recorded walk, and record the angles.
+"""Run OpenSim's IMUPlacer and inverse kinematics on orientations that are made from a recorded walk, and record the angles.
 
     python opensim_sensors.py DATA
 
@@ -6,6 +6,9 @@ DATA is a folder with `opensim-rajagopal-walk`. The sensors sit on their bodies 
 disturbed by some degrees, so that no posture follows all of them. `crates/ambulo/tests/sensor_fit.rs` makes the same orientations
 and compares its angles with `crates/ambulo/tests/testdata/opensim_sensors/walk.csv`, which this program writes. Requires
 `pip install opensim numpy`; recorded with OpenSim 4.6.
+
+The angles are those of OpenSim's InverseKinematicsSolver with an accuracy of 1e-10. IMUInverseKinematicsTool uses the same solver but ends its
+iteration early, whatever accuracy is set; this program prints how far its angles are from those recorded.
 """
 
 from __future__ import annotations
@@ -122,27 +125,58 @@ def main(data: str) -> None:
     placer.set_output_model_file("calibrated.osim")
     placer.run()
 
+    known = walker.model.getCoordinateSet()
+    angles = [known.get(k).getName() for k in range(known.getSize())]
+    angles = [name for name in angles if not any(part in name for part in ("_tx", "_ty", "_tz", "_beta"))]
+    solved, of_tool = by_solver(times, angles), by_tool(times, angles)
+    off = max(abs(a - b) for one, other in zip(solved, of_tool, strict=True) for a, b in zip(one, other, strict=True))
+    print(f"IMUInverseKinematicsTool is up to {off:.1e} rad from the solver")
+    TARGET.parent.mkdir(parents=True, exist_ok=True)
+    with TARGET.open("w", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(["time", *angles])
+        for time, row in list(zip(times, solved, strict=True))[::RECORDED]:
+            out.writerow([f"{time:.8f}", *(f"{value:.8f}" for value in row)])
+    print(f"{TARGET}: {len(solved[::RECORDED])} rows of {len(angles)} angles")
+
+
+def by_solver(times: list[float], angles: list[str]) -> list[list[float]]:
+    """The angles of InverseKinematicsSolver [rad]."""
+    model = opensim.Model("calibrated.osim")
+    orientations = opensim.TimeSeriesTableQuaternion("walking.sto")
+    # As IMUPlacer turned the sensors in the standing posture.
+    world_from_earth = turn([0, HEADING, 0]) @ turn([-math.pi / 2, 0, 0])
+    rotation = opensim.Rotation(opensim.Mat33(*world_from_earth.flatten().tolist()))
+    opensim.OpenSenseUtilities.rotateOrientationTable(orientations, rotation)
+    reference = opensim.OrientationsReference(opensim.OpenSenseUtilities.convertQuaternionsToRotations(orientations))
+    markers, coordinates = opensim.MarkersReference(), opensim.SimTKArrayCoordinateReference()
+    solver = opensim.InverseKinematicsSolver(model, markers, reference, coordinates, 100.0)
+    solver.setAccuracy(1e-10)
+    state = model.initSystem()
+    state.setTime(times[0])
+    solver.assemble(state)
+    found = []
+    for time in times:
+        state.setTime(time)
+        solver.track(state)
+        found.append([model.getCoordinateSet().get(name).getValue(state) for name in angles])
+    return found
+
+
+def by_tool(times: list[float], angles: list[str]) -> list[list[float]]:
+    """The angles of IMUInverseKinematicsTool [rad]."""
     tool = opensim.IMUInverseKinematicsTool()
     tool.set_model_file("calibrated.osim")
     tool.set_orientations_file("walking.sto")
     # IMUPlacer turns the heading, the tool does not: about the fixed x axis, then about the fixed y axis.
     tool.set_sensor_to_opensim_rotations(opensim.Vec3(-math.pi / 2, HEADING, 0))
-    tool.set_accuracy(1e-9)
     tool.set_results_directory("out")
     tool.set_output_motion_file("walking.mot")
     tool.set_time_range(0, times[0])
     tool.set_time_range(1, times[-1])
     tool.run()
-
-    found_names, found = table(Path("out/walking.mot"))
-    keep = [k for k, name in enumerate(found_names) if not any(part in name for part in ("_tx", "_ty", "_tz", "_beta"))]
-    TARGET.parent.mkdir(parents=True, exist_ok=True)
-    with TARGET.open("w", newline="") as file:
-        out = csv.writer(file, lineterminator="\n")
-        out.writerow([found_names[k] for k in keep])
-        for row in found[::RECORDED]:
-            out.writerow([f"{row[k] if k == 0 else math.radians(row[k]):.8f}" for k in keep])
-    print(f"{TARGET}: {len(found[::RECORDED])} rows of {len(keep)} columns")
+    names, rows = table(Path("out/walking.mot"))
+    return [[math.radians(row[names.index(name)]) for name in angles] for row in rows]
 
 
 if __name__ == "__main__":

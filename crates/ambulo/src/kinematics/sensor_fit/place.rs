@@ -54,9 +54,11 @@ pub(super) fn on_the_ground(
         let moved = path.iter().map(|place| (place.dot(&axis) - value) / slope);
         motion.columns[column] = Some(moved.collect());
     }
-    let walked = path.iter().filter(|place| place.iter().all(|x| x.is_finite()));
-    let (first, last) = (walked.clone().next(), walked.last());
-    let way = first.zip(last).map_or(0.0, |(first, last)| (last - first - up * (last - first).dot(&up)).norm());
+    let mut known = path.iter().filter(|place| place.iter().all(|x| x.is_finite()));
+    let way = known
+        .next()
+        .zip(known.next_back())
+        .map_or(0.0, |(first, last)| (last - first - up * (last - first).dot(&up)).norm());
     let message = format!(
         "sensors do not show where the person is: the lowest points of the feet were put on a level floor and kept in place, one foot at every instant, which moves the pelvis by {way:.2} m along the floor; running, jumping and stairs come out wrong"
     );

@@ -54,7 +54,7 @@ pub fn segment_poses_from_mvnx(mvnx: &Mvnx, findings: &mut Findings) -> Result<S
         statement: String::new(),
     };
     check_legs(&poses, mvnx)?;
-    let poses = axes::aligned(poses)?;
+    let poses = axes::aligned(with_measured_upper_body(poses, findings))?;
     report_missing(mvnx, &numbers, findings);
     findings.report(
         Code::PosesAssumed,
@@ -134,17 +134,21 @@ fn foot_point(mvnx: &Mvnx, side: Side, segment: &str, point: &str) -> Option<[f6
     mvnx.point(&format!("{word}{segment}"), &format!("p{word}{point}"))
 }
 
-/// Rejects legs that turn with the pelvis in every frame: MVN writes them so if only the upper body has sensors.
+/// Whether a segment turns with the pelvis in every frame: MVN writes it so if it had no sensor.
+fn turns_with_pelvis(poses: &SegmentPoses, segment: PosedSegment) -> bool {
+    let back = hanging(segment).transpose();
+    let apart = |frame: usize| {
+        let (pelvis, own) = (poses.at(PosedSegment::Pelvis, frame)?, poses.at(segment, frame)?);
+        Some((own.rotation * back - pelvis.rotation).amax())
+    };
+    let mut known = (0..poses.times.len()).filter_map(apart).peekable();
+    known.peek().is_some() && known.all(|apart| apart <= ALIKE)
+}
+
+/// Rejects legs without sensors.
 fn check_legs(poses: &SegmentPoses, mvnx: &Mvnx) -> Result<(), SegmentPoseError> {
     let legs = [PosedSegment::Thigh, PosedSegment::Shank, PosedSegment::Foot].map(|of| Side::BOTH.map(of));
-    let moves = |frame: usize| {
-        let pelvis = poses.at(PosedSegment::Pelvis, frame)?;
-        let apart = |segment: &PosedSegment| {
-            poses.at(*segment, frame).is_some_and(|leg| (leg.rotation - pelvis.rotation).amax() > ALIKE)
-        };
-        Some(legs.iter().flatten().any(apart))
-    };
-    if (0..poses.times.len()).any(|frame| moves(frame) == Some(true)) {
+    if !legs.into_iter().flatten().all(|segment| turns_with_pelvis(poses, segment)) {
         return Ok(());
     }
     let configuration = match mvnx.configuration.as_str() {
@@ -152,6 +156,23 @@ fn check_legs(poses: &SegmentPoses, mvnx: &Mvnx) -> Result<(), SegmentPoseError>
         stated => format!(" (configuration `{stated}`)"),
     };
     Err(SegmentPoseError::LegsNotMeasured { configuration })
+}
+
+/// The poses without trunk and arms that had no sensors, which would stay in the T-pose.
+fn with_measured_upper_body(mut poses: SegmentPoses, findings: &mut Findings) -> SegmentPoses {
+    let arms = [PosedSegment::UpperArm, PosedSegment::Forearm, PosedSegment::Hand].map(|of| Side::BOTH.map(of));
+    let upper = std::iter::once(PosedSegment::Torso).chain(arms.into_iter().flatten());
+    let still: Vec<PosedSegment> = upper.filter(|segment| turns_with_pelvis(&poses, *segment)).collect();
+    if !still.is_empty() {
+        let names: Vec<String> = still.iter().map(|segment| labels::in_words(*segment)).collect();
+        let message = format!(
+            "segments that turn with the pelvis in every frame were not measured and are left out: {}",
+            names.join(", ")
+        );
+        findings.report(Code::PosesAssumed, message);
+        poses.segments.retain(|(segment, _)| !still.contains(segment));
+    }
+    poses
 }
 
 fn report_missing(mvnx: &Mvnx, numbers: &[u64], findings: &mut Findings) {
