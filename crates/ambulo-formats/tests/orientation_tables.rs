@@ -37,8 +37,9 @@ fn what_is_written_reads_back() {
         assert_eq!(name, again_name);
         for (a, b) in path.iter().zip(again_path) {
             assert_eq!(a.is_some(), b.is_some());
-            let off = a.unwrap_or_default().iter().zip(b.unwrap_or_default()).map(|(a, b)| (a - b).abs());
-            assert!(off.fold(0.0, f64::max) < 1e-15, "one rounding of the length");
+            let (a, b) = (a.unwrap_or_default(), b.unwrap_or_default());
+            let off = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-15, "one rounding of the length");
         }
     }
     let twice = OrientationTable { sensors: vec![table.sensors[0].clone(); 2], ..table.clone() };

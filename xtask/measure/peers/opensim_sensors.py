@@ -7,8 +7,9 @@ disturbed by some degrees, so that no posture follows all of them. `crates/ambul
 and compares its angles with `crates/ambulo/tests/testdata/opensim_sensors/walk.csv`, which this program writes. Requires
 `pip install opensim numpy`; recorded with OpenSim 4.6.
 
-The angles are those of OpenSim's InverseKinematicsSolver with an accuracy of 1e-10. IMUInverseKinematicsTool uses the same solver but ends its
-iteration early, whatever accuracy is set; this program prints how far its angles are from those recorded.
+The angles are those of OpenSim's InverseKinematicsSolver with an accuracy of 1e-10; the test checks that they are not quite at the minimum.
+IMUInverseKinematicsTool uses the same solver but ends its iteration earlier, whatever accuracy is set; this program prints how far its angles are
+from those recorded.
 """
 
 from __future__ import annotations
