@@ -8,7 +8,7 @@ use ambulo::ground::predict::PredictError;
 use ambulo::kinematics::TrajectoryError;
 use ambulo::kinematics::sensor_fit::SensorError;
 use ambulo::motion::skeleton::SkeletonError;
-use ambulo::motion::{MotionError, SmplError};
+use ambulo::motion::{B3dError, MotionError, SmplError};
 use ambulo::optimal::OptimalWalkError;
 use ambulo::simulation::synthetic::SyntheticError;
 use ambulo::study::StudyError;
@@ -61,6 +61,7 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
         cause.downcast_ref().and_then(of_trajectory),
         cause.downcast_ref().and_then(of_prediction),
         cause.downcast_ref().and_then(of_skeleton),
+        cause.downcast_ref().and_then(of_subject),
         cause.downcast_ref().and_then(of_comparison),
         cause.downcast_ref().and_then(of_results),
         cause.downcast_ref().and_then(of_walk),
@@ -131,6 +132,10 @@ fn of_sensors(error: &SensorError) -> Option<&'static str> {
         SensorError::NotCalibrated { .. } => Some("`--static FILE` is the standing trial"),
         _ => None,
     }
+}
+
+fn of_subject(error: &B3dError) -> Option<&'static str> {
+    matches!(error, B3dError::NoPass).then_some("`--model built-in` fits the markers of the file")
 }
 
 fn of_skeleton(error: &SkeletonError) -> Option<&'static str> {

@@ -120,6 +120,16 @@ fn a_set_up_of_inverse_dynamics_is_read_without_its_document() {
 }
 
 #[test]
+fn an_element_that_occurs_twice_is_reported() {
+    let twice = KINEMATICS.replace("<colour>", "<time_range> 1 2</time_range><colour>");
+    let (Setup::InverseKinematics(setup), remarks) = read(&twice) else { panic!("another tool") };
+    assert_eq!(setup.time_range, Some([f64::NEG_INFINITY, f64::INFINITY]));
+    let expected = "<InverseKinematicsTool>: the element <time_range> occurs twice; the first is read, this one is not";
+    assert!(remarks.iter().any(|remark| remark.contains(expected)), "{remarks:?}");
+    assert!(read(KINEMATICS).1.iter().all(|remark| !remark.contains("twice")));
+}
+
+#[test]
 fn refusals_name_line_element_and_what_is_allowed() {
     let of = |text: &str, from: &str, to: &str| {
         assert!(text.contains(from), "{from}");

@@ -138,6 +138,27 @@ fn the_reason_of_a_refusal_is_the_true_one() {
 }
 
 #[test]
+fn a_cut_off_that_is_no_number_is_not_stated() {
+    let mut file = two_trials();
+    file.header.trials[0].passes[0].cutoff_hz = f32::NAN;
+    let again = B3d::read(&file.write().unwrap()).unwrap();
+    assert_eq!(again.header.trials[0].passes[0].cutoff_hz.to_bits(), 0.0_f32.to_bits());
+    file.header.trials[0].step_s = f64::NAN;
+    let error = B3d::read(&file.write().unwrap()).unwrap_err().to_string();
+    assert!(error.contains("a time step of NaN s in trial 1"), "{error}");
+}
+
+#[test]
+fn the_length_of_a_header_has_bounds() {
+    for length in [0, -1, i64::MAX, 1 << 40] {
+        let error = Header::length(&length.to_le_bytes()).unwrap_err().to_string();
+        let words = [format!("found {length} as the length of the header"), "1 to 268435456 bytes".to_owned()];
+        assert!(words.iter().all(|word| error.contains(word)), "{error}");
+    }
+    assert_eq!(Header::length(&5_i64.to_le_bytes()), Ok(13));
+}
+
+#[test]
 fn stated_sizes_cost_neither_time_nor_memory() {
     // Two thousand million frames of a kilobyte in a file of a few bytes.
     let mut trial = vec![0x18];

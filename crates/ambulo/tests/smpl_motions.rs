@@ -147,7 +147,7 @@ fn joint_centres_of_the_users_model_follow_its_shape() {
 }
 
 /// Two hops with straight legs at 100 frames per second: half a second on the floor, then a flight from 2.2 m/s upwards.
-fn hops(stated_hz: f64) -> Findings {
+fn hopping(stated_hz: f64, findings: &mut Findings) -> SkeletonRecording {
     let (speed, stand_s) = (2.2, 0.5);
     let flight_s = 2.0 * speed / STANDARD_GRAVITY;
     let place = |frame: u32| {
@@ -156,9 +156,13 @@ fn hops(stated_hz: f64) -> Findings {
         [0.0, -0.01 * f64::from(frame), 0.9 + up]
     };
     let places: Vec<[f64; 3]> = (0..190).map(place).collect();
-    let mut findings = Findings::default();
     let body = SmplBody::of_stature(&BUILD).unwrap();
-    let recording = skeleton(&archive(stated_hz, &places, 0.0), &body, &mut findings);
+    skeleton(&archive(stated_hz, &places, 0.0), &body, findings)
+}
+
+fn hops(stated_hz: f64) -> Findings {
+    let mut findings = Findings::default();
+    let recording = hopping(stated_hz, &mut findings);
     retarget(&BUILD, &recording, &mut findings).unwrap();
     findings
 }
@@ -170,4 +174,20 @@ fn a_frame_rate_that_gravity_contradicts_is_reported_with_the_one_that_it_needs(
     let said = slow.as_slice().iter().find(|finding| finding.code == Code::MotionClock).unwrap();
     assert!(said.message.contains("falls with 2.5 m/s² at the stated 50 frames per second"), "{said:?}");
     assert!(said.message.contains("gravity means about 100 frames per second"), "{said:?}");
+}
+
+#[test]
+fn places_in_millimetres_and_time_steps_for_rates_are_refused_with_the_reason() {
+    let refused = |npz: &Npz| SmplMotion::from_npz(npz).unwrap_err().to_string();
+    let places = |unit: f64| [[0.0, 0.0, 0.9 * unit], [0.0, -0.01 * unit, 0.9 * unit]];
+    for (unit, shown) in [(1000.0, "900 above the origin"), (100.0, "90 above the origin")] {
+        let error = refused(&archive(100.0, &places(unit), 0.0));
+        assert!(error.contains(shown) && error.contains("Divide it by 1000 or 100"), "{error}");
+    }
+    for rate in [0.001, 0.0, 1e6, f64::NAN] {
+        let error = refused(&archive(rate, &places(1.0), 0.0));
+        assert!(error.contains("expected 5 to 2000 frames per second"), "{error}");
+    }
+    assert!(refused(&archive(0.0083, &places(1.0), 0.0)).contains("is it the time from one frame to the next?"));
+    assert!(SmplMotion::from_npz(&archive(5.0, &places(20.0), 0.0)).is_ok());
 }

@@ -180,6 +180,7 @@ impl TuneRun<'_> {
             figure: &self.saved.figure,
             scene: self.args.scene.display().to_string(),
             evaluations: tuning.evaluations(),
+            of_generation: Tuning::tasks(self.problem.gains().len()),
             pushes: tuning.pushes(),
             control: Gain::table(&settings, self.torques.as_deref(), self.problem.gains()),
             is_better: best != start,

@@ -12,6 +12,8 @@ pub(crate) struct TunedGains<'a> {
     pub(crate) figure: &'a str,
     pub(crate) scene: String,
     pub(crate) evaluations: usize,
+    /// Evaluations that a generation needs.
+    pub(crate) of_generation: usize,
     pub(crate) pushes: PushSettings,
     /// The key of the scene.
     pub(crate) control: String,
@@ -49,8 +51,14 @@ impl TunedGains<'_> {
     }
 
     /// Why the gains are those of the scene.
-    fn kept(&self) -> &'static str {
-        if self.evaluations == 0 { "no others were tried" } else { "no better ones were found" }
+    fn kept(&self) -> String {
+        match self.evaluations {
+            0 => format!(
+                "no others were tried, because a generation needs {0} evaluations; give --evaluations {0} or more, or fewer --gains",
+                self.of_generation
+            ),
+            _ => "no better ones were found; give more --evaluations, or other --gains".to_owned(),
+        }
     }
 
     fn rows(&self) -> Vec<String> {

@@ -24,6 +24,8 @@ mod write;
 use crate::error::Error;
 use std::ops::Range;
 
+/// Most bytes of a header. It has the models of all passes as text, a few megabytes each.
+pub const MAX_HEADER_BYTES: usize = 256 << 20;
 /// Bytes of the length at the beginning of a file.
 pub const LENGTH_BYTES: usize = 8;
 
@@ -155,7 +157,7 @@ pub struct TrialPass {
     pub kind: PassKind,
     /// Whether each coordinate was observed; empty if not stated.
     pub observed: Vec<bool>,
-    /// Cut-off frequency of a low-pass filter [Hz]; 0 without one.
+    /// Cut-off frequency of a low-pass filter [Hz]; 0 if there is none, or no number is stated.
     pub cutoff_hz: f32,
 }
 

@@ -2,8 +2,8 @@
 
 use super::wire::{Field, Message};
 use super::{
-    B3d, ContactFrames, Header, LENGTH_BYTES, Layout, MissingForce, Pass, PassFrames, PassKind, Person, TrialFrames,
-    TrialHeader, TrialKind, TrialPass,
+    B3d, ContactFrames, Header, LENGTH_BYTES, Layout, MAX_HEADER_BYTES, MissingForce, Pass, PassFrames, PassKind,
+    Person, TrialFrames, TrialHeader, TrialKind, TrialPass,
 };
 use crate::error::Error;
 
@@ -34,11 +34,11 @@ pub(super) fn header_length(bytes: &[u8]) -> Result<usize, Error> {
         });
     };
     let length = i64::from_le_bytes(*first);
-    let whole = usize::try_from(length).ok().filter(|length| *length > 0).and_then(|n| n.checked_add(LENGTH_BYTES));
-    whole.ok_or_else(|| Error::Byte {
+    let of_header = usize::try_from(length).ok().filter(|length| (1..=MAX_HEADER_BYTES).contains(length));
+    of_header.map(|length| length + LENGTH_BYTES).ok_or_else(|| Error::Byte {
         offset: 0,
         found: format!("{length} as the length of the header"),
-        expected: expected.to_owned(),
+        expected: format!("1 to {MAX_HEADER_BYTES} bytes. Is this {expected}?"),
     })
 }
 
@@ -93,7 +93,7 @@ impl Header {
             if frames > 0 && self.frame_bytes(trial) == Some(0) {
                 return refused(format!("{frames} frames of no bytes in trial {number}"), "frames with a size");
             }
-            if !(trial.step_s.is_finite() && trial.step_s > 0.0) && frames > 1 {
+            if !trial.step_s.is_finite() || (frames > 1 && trial.step_s <= 0.0) {
                 return refused(format!("a time step of {} s in trial {number}", trial.step_s), "a time above zero");
             }
         }
@@ -166,7 +166,7 @@ fn trial_pass(message: Message<'_>) -> Result<TrialPass, Error> {
         match field.number {
             1 => pass.kind = kind(&field, PassKind::ALL)?,
             2 => field.varints_into(&mut observed)?,
-            10 => pass.cutoff_hz = field.float()?,
+            10 => pass.cutoff_hz = Some(field.float()?).filter(|cutoff| cutoff.is_finite()).unwrap_or_default(),
             _ => {}
         }
     }

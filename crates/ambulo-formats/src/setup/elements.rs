@@ -48,13 +48,19 @@ pub(super) fn weight(node: Node<'_, '_>) -> Result<f64, Error> {
     }
 }
 
+/// The child elements whose tag an earlier child has.
+fn elements_again<'a, 'i>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> {
+    let earlier = |n: &Node<'_, '_>| n.prev_siblings().skip(1).any(|other| other.tag_name() == n.tag_name());
+    xml::elements(node).filter(earlier)
+}
+
 /// Names of elements of a tool: those that are read, and those that are known to be of no use here.
 pub(super) struct Known<'a> {
     pub(super) read: &'a [&'a str],
     pub(super) unused: &'a [&'a str],
 }
 
-/// Names the elements that hold something and were not read.
+/// Names the elements that hold something and were not read, and those that occur twice.
 pub(super) fn remark_on_others(node: Node<'_, '_>, known: &Known<'_>, remarks: &mut Vec<Remark>) {
     let is_filled =
         |n: &Node<'_, '_>| xml::elements(*n).next().is_some() || n.text().is_some_and(|text| !text.trim().is_empty());
@@ -64,6 +70,14 @@ pub(super) fn remark_on_others(node: Node<'_, '_>, known: &Known<'_>, remarks: &
     if !unused.is_empty() {
         let message = format!("<{}>: not used: {}", node.tag_name().name(), unused.join(", "));
         remarks.push(Remark { line: Some(xml::line_of(node)), message });
+    }
+    for twice in elements_again(node).filter(|n| known.read.contains(&n.tag_name().name())) {
+        let message = format!(
+            "<{}>: the element <{}> occurs twice; the first is read, this one is not",
+            node.tag_name().name(),
+            tag(twice)
+        );
+        remarks.push(Remark { line: Some(xml::line_of(twice)), message });
     }
     for unknown in others().filter(|n| !known.unused.contains(&n.tag_name().name())) {
         let message =

@@ -66,7 +66,9 @@ pub enum B3dError {
         frames: usize,
     },
     /// No pass, so that there are no coordinates.
-    #[error("the trial has no pass of the computation, so there are no coordinates; expected markers and another body")]
+    #[error(
+        "the trial has 0 passes of the computation, so it has neither coordinates nor ground forces; expected at least one. hint: its markers can be fitted with another body"
+    )]
     NoPass,
     /// Coordinates of another number.
     #[error(
@@ -177,7 +179,8 @@ impl<'a> B3dTrial<'a> {
             findings.report(Code::B3dUnobserved, message);
         }
         let how = match pass.kind {
-            PassKind::LowPassFilter => format!("a low-pass filter of {} Hz", pass.cutoff_hz),
+            PassKind::LowPassFilter if pass.cutoff_hz > 0.0 => format!("a low-pass filter of {} Hz", pass.cutoff_hz),
+            PassKind::LowPassFilter => "a low-pass filter".to_owned(),
             PassKind::AccelerationFilter => "a filter for small accelerations".to_owned(),
             PassKind::Kinematics | PassKind::Dynamics => return,
         };

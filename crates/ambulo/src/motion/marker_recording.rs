@@ -40,7 +40,8 @@ const FARTHEST_M: f64 = 1e6;
 pub enum MarkerError {
     /// No marker is visible in any frame.
     #[error(
-        "no marker was seen in any of the {frames} frames of `{name}` (listed: {listed}); expected at least one. hint: check that this is the recording of the trial, and that its markers are labelled"
+        "no marker was seen in any of the {frames} frames of {} (listed: {listed}); expected at least one. hint: check that this is the recording of the trial, and that its markers are labelled",
+        shown(name)
     )]
     NoMarker {
         /// Name of their source.
@@ -60,7 +61,8 @@ pub enum MarkerError {
     },
     /// Times that do not increase.
     #[error(
-        "frame {frame} of `{name}`: time {later} s comes after {earlier} s; expected increasing times. hint: sort the rows, or cut the file where the clock was reset"
+        "frame {frame} of {}: time {later} s comes after {earlier} s; expected increasing times. hint: sort the rows, or cut the file where the clock was reset",
+        shown(name)
     )]
     TimeNotRising {
         /// Name of their source.
@@ -184,6 +186,11 @@ pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRec
         markers: one_of_each_name(points.iter().map(path).collect(), findings),
     };
     checked(recording, findings)
+}
+
+/// The name of a recording for messages; some formats have none.
+fn shown(name: &str) -> String {
+    if name.is_empty() { "the recording".to_owned() } else { format!("`{name}`") }
 }
 
 /// Checks the recording and reads zeros as gaps.

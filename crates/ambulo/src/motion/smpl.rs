@@ -18,11 +18,16 @@
 use super::skeleton::{SkeletonError, SkeletonRecording, skeleton_from_bvh};
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, BuildError, Dimensions};
+use crate::numerics::median;
 use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::bvh::{Bvh, Channel, ChannelKind, Joint};
 use ambulo_formats::npz::{Data, Npz};
 use nalgebra::Rotation3;
 
+/// Frame rates of recordings [Hz].
+const RATES_HZ: [f64; 2] = [5.0, 2000.0];
+/// Largest plausible height of a pelvis above the origin of a recording [m]; in centimetres it would be about 90.
+const HIGHEST_M: f64 = 20.0;
 /// Joints that all models share.
 const JOINTS: usize = 22;
 /// Their names and parents.
@@ -132,9 +137,21 @@ pub enum SmplError {
         trans: usize,
     },
     /// A frame rate that no recording has.
-    #[error("the frame rate is {found} Hz; expected a number above 0")]
+    #[error(
+        "the frame rate is {found} Hz; expected {} to {} frames per second. hint: is it the time from one frame to the next?",
+        RATES_HZ[0],
+        RATES_HZ[1]
+    )]
     Rate {
         /// The stated rate [Hz].
+        found: f64,
+    },
+    /// Places that are not in metres.
+    #[error(
+        "the pelvis is {found} above the origin (median of `trans`), which is no height in metres; expected at most {HIGHEST_M}. hint: is `trans` in millimetres or centimetres? Divide it by 1000 or 100"
+    )]
+    NotMetres {
+        /// Median height in the unit of the file.
         found: f64,
     },
     /// Neither stature nor model.
@@ -215,17 +232,29 @@ impl SmplMotion {
         }
         let rate = RATES.iter().find_map(|name| numbers(npz, name)).unwrap_or_else(|| Err(no_motion(npz, RATES[0])))?;
         let rate_hz = rate.0.first().copied().unwrap_or(f64::NAN);
-        if !(rate_hz.is_finite() && rate_hz > 0.0) {
+        if !(RATES_HZ[0]..=RATES_HZ[1]).contains(&rate_hz) {
             return Err(SmplError::Rate { found: rate_hz });
         }
         let betas = numbers(npz, "betas").and_then(Result::ok).map_or(Vec::new(), |(betas, _)| betas.to_vec());
         let rotations = poses.iter().map(|row| std::array::from_fn(|joint| vector(&row[3 * joint..3 * joint + 3])));
-        Ok(SmplMotion {
+        let motion = SmplMotion {
             rate_hz,
             rotations: rotations.collect(),
             translations: translations.iter().map(|row| vector(row)).collect(),
             betas,
-        })
+        };
+        motion.check_unit()?;
+        Ok(motion)
+    }
+
+    /// Checks that the places are in metres: the pelvis of a person is about a metre above the floor, where the origin is.
+    fn check_unit(&self) -> Result<(), SmplError> {
+        let to_upright = self.upright_from_file();
+        let heights = self.translations.iter().map(|place| (to_upright * place).y.abs()).filter(|y| y.is_finite());
+        match median(heights) {
+            Some(found) if found > HIGHEST_M => Err(SmplError::NotMetres { found: found.round() }),
+            _ => Ok(()),
+        }
     }
 
     /// The motion of a body as a skeleton, in the axes of the world.

@@ -266,13 +266,13 @@ fn common_markers<'a>(
     }
     let only_model: Vec<&str> =
         model.markers().iter().map(|m| m.name.as_str()).filter(|name| !recorded(name)).collect();
-    report_uncommon(recording, common.len(), [&only_recorded, &only_model], findings);
+    report_uncommon(recording, [common.len(), without_weight], [&only_recorded, &only_model], findings);
     Ok(common)
 }
 
 fn report_uncommon(
     recording: &MarkerRecording,
-    common: usize,
+    [tracked, without_weight]: [usize; 2],
     [only_recorded, only_model]: [&[&str]; 2],
     findings: &mut Findings,
 ) {
@@ -283,8 +283,12 @@ fn report_uncommon(
         [] => String::new(),
         _ => format!("; {} only {what}: {}", names.len(), first(names.iter().copied(), FEW_NAMES)),
     };
+    let untracked = match without_weight {
+        0 => String::new(),
+        count => format!("; {count} more have the weight 0 and are not fitted"),
+    };
     let message = format!(
-        "{common} of {} markers of `{}` are on the model and are fitted{}{}",
+        "{tracked} of {} markers of `{}` are on the model and are fitted{untracked}{}{}",
         recording.markers.len(),
         recording.name,
         part("in the recording", only_recorded),

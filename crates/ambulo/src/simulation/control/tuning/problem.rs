@@ -35,7 +35,8 @@ pub struct TuningProblem {
 }
 
 impl TuningProblem {
-    /// A problem whose search starts from settings with feedback.
+    /// A problem whose search starts from settings with feedback. Gains that are tuned start with the digits that gains are written with, so that what is
+    /// judged is what is written.
     ///
     /// # Errors
     /// A gain that starts outside its bounds; a walk without a controller.
@@ -47,18 +48,23 @@ impl TuningProblem {
         gains: &[Gain],
     ) -> Result<TuningProblem, TuningProblemError> {
         gains.iter().try_for_each(|gain| gain.check(start))?;
+        let mut start = start.clone();
+        for gain in gains {
+            let value = rounded(gain.value(&start));
+            gain.set(&mut start, value);
+        }
         let bare = ControlSettings { balance: Balance::Nothing, ..start.clone() };
         let bare = WalkController::new(human, plan, step, &bare)?;
         let maps = bare.maps(human, plan, step)?;
         let index = |name: &str| human.model.coordinate(name).map_or(0, |id| id.index());
         Ok(TuningProblem {
-            controller: bare.with_settings(human, start, &maps)?,
+            controller: bare.with_settings(human, &start, &maps)?,
             trunk: human.model.body("torso").map_or(0, |id| id.index()),
             forward: index("pelvis_tx"),
             human: human.clone(),
             plan: plan.clone(),
             step,
-            start: start.clone(),
+            start,
             gains: gains.to_vec(),
             maps,
         })
