@@ -61,6 +61,6 @@ fn subject(tracking: &Tracking) -> SubjectSummary {
         Tracking::Markers(markers) => {
             SubjectSummary::of_markers(&markers.body, &markers.listed_events, &markers.measured_events)
         }
-        Tracking::Skeleton { statement, fit } => SubjectSummary::of_skeleton(statement, fit),
+        Tracking::Skeleton { statement, fit, .. } => SubjectSummary::of_skeleton(statement, fit),
     }
 }

@@ -6,6 +6,7 @@ use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::skeleton::SkeletonRecording;
 use ambulo::motion::{SmplBody, SmplError, SmplMotion};
 use ambulo::spatial::{STANDARD_GRAVITY, Vec3};
+use ambulo::study::{self, Measure, QualityState, Recording, Settings, Source};
 use ambulo_formats::npz::{Array, Data, Npz};
 use std::f64::consts::FRAC_PI_2;
 
@@ -174,6 +175,21 @@ fn a_frame_rate_that_gravity_contradicts_is_reported_with_the_one_that_it_needs(
     let said = slow.as_slice().iter().find(|finding| finding.code == Code::MotionClock).unwrap();
     assert!(said.message.contains("falls with 2.5 m/s² at the stated 50 frames per second"), "{said:?}");
     assert!(said.message.contains("gravity means about 100 frames per second"), "{said:?}");
+}
+
+#[test]
+fn a_frame_rate_that_gravity_contradicts_makes_the_quality_bad() {
+    let quality = |stated_hz: f64| {
+        let recording = hopping(stated_hz, &mut Findings::default());
+        let skeleton = Recording::Skeleton { skeleton: recording, table: BUILD.table, mass_kg: BUILD.mass };
+        study::run(Source::new(skeleton), &Settings::default(), &mut Findings::default()).unwrap().quality
+    };
+    let slow = quality(50.0);
+    let reason = slow.reasons.iter().find(|reason| reason.measure == Measure::FrameRate).unwrap();
+    assert_eq!((slow.state, reason.state), (QualityState::Bad, QualityState::Bad));
+    assert!((reason.value - 2.0).abs() < 0.05, "{reason:?}");
+    assert!(reason.message.contains("about 100 frames per second and not 50 as stated"), "{reason:?}");
+    assert!(quality(100.0).reasons.iter().all(|reason| reason.measure != Measure::FrameRate));
 }
 
 #[test]

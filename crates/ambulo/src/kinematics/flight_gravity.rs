@@ -26,16 +26,18 @@ const SHORTEST_FALL_M: f64 = 0.02;
 const FOOT_POINTS: [&str; 4] = ["heel", "ankle", "toe", "toe_tip"];
 /// Quantile of the height of the lowest point that is the floor.
 const FLOOR: f64 = 0.05;
-/// Apparent gravity outside of these shares contradicts the clock: a frame rate that is wrong by a quarter.
-const TRUE_CLOCK: [f64; 2] = [0.64, 1.5625];
+/// A frame rate that is wrong by this factor contradicts gravity. The shape of the body and the filter of the file change the apparent gravity too.
+pub(crate) const WRONG_CLOCK: f64 = 1.25;
 
 /// The acceleration with which a person falls in flight, from which a wrong frame rate shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightGravity {
-    /// Median apparent gravity [m/s²].
+    /// Median apparent gravity at the stated frame rate [m/s²].
     pub gravity: f64,
     /// Number of flights.
     pub flights: usize,
+    /// The stated frame rate [Hz].
+    pub stated_hz: f64,
 }
 
 impl FlightGravity {
@@ -55,14 +57,21 @@ impl FlightGravity {
             gravity_of(&times, &flight.map(height).collect::<Vec<f64>>())
         };
         let found: Vec<f64> = flights(&lowest, floor + CLEAR_M).into_iter().filter_map(fallen).collect();
-        Some(FlightGravity { gravity: median(found.iter().copied())?, flights: found.len() })
+        let gravity = median(found.iter().copied())?;
+        Some(FlightGravity { gravity, flights: found.len(), stated_hz: markers.rate_hz })
     }
 
-    /// The frame rate at which flights fall with g, if the stated one contradicts it [Hz].
+    /// The frame rate at which the person falls with g [Hz].
     #[must_use]
-    pub fn contradicted_rate(&self, stated_hz: f64) -> Option<f64> {
-        let share = self.gravity / STANDARD_GRAVITY;
-        (!(TRUE_CLOCK[0]..=TRUE_CLOCK[1]).contains(&share)).then(|| stated_hz / share.sqrt())
+    pub fn rate_hz(&self) -> f64 {
+        self.stated_hz / (self.gravity / STANDARD_GRAVITY).sqrt()
+    }
+
+    /// The factor by which the stated frame rate is wrong, 1 or more.
+    #[must_use]
+    pub fn wrong_by(&self) -> f64 {
+        let factor = self.rate_hz() / self.stated_hz;
+        factor.max(factor.recip())
     }
 }
 

@@ -28,4 +28,5 @@ pub use body_motion::{BodyMotion, body_motion, each_body_motion};
 pub(crate) use calibration::angles_zxy;
 pub use clinical_angles::{ClinicalAngles, HipAngles, clinical_angles};
 pub use flight_gravity::FlightGravity;
+pub(crate) use flight_gravity::WRONG_CLOCK;
 pub use trajectory::{Posture, Trajectory, TrajectoryError};

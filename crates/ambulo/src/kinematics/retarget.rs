@@ -6,7 +6,7 @@
 //! Not handled: uneven floors, shoulders that move relative to the trunk, hands.
 //! Pinned by: tests/retarget.rs
 
-use super::flight_gravity::FlightGravity;
+use super::flight_gravity::{FlightGravity, WRONG_CLOCK};
 use super::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
 pub use super::skeleton_body::{JointCentreError, STANDING};
 use super::skeleton_body::{body_of_joint_centres, standing_ankle_height};
@@ -14,8 +14,8 @@ use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, Human};
 use crate::model::full_body::{SolePlacement, full_body};
 use crate::model::{Model, Side};
+use crate::motion::MarkerRecording;
 use crate::motion::skeleton::SkeletonRecording;
-use crate::motion::{MarkerRecording, Motion};
 
 /// Result of [`retarget`].
 #[derive(Debug, Clone)]
@@ -26,6 +26,8 @@ pub struct Retargeted {
     pub markers: MarkerRecording,
     /// The motion, and the distances of the body from the skeleton.
     pub fit: MarkerFit,
+    /// How the person falls in flight; `None` without a flight.
+    pub flights: Option<FlightGravity>,
 }
 
 /// Why a skeleton is rejected.
@@ -62,28 +64,37 @@ pub fn retarget(
         );
         findings.report(Code::BvhFloor, message);
     }
+    let fit = fit_skeleton(&human.model, &markers, findings)?;
+    let flights = FlightGravity::of(&human.model, &fit.motion, &markers);
+    report_clock(flights.filter(|flights| flights.wrong_by() > WRONG_CLOCK), findings);
+    Ok(Retargeted { human, markers, fit, flights })
+}
+
+/// The coordinates that bring a body closest to the points of a skeleton.
+fn fit_skeleton(
+    model: &Model,
+    markers: &MarkerRecording,
+    findings: &mut Findings,
+) -> Result<MarkerFit, FitError> {
     // Animation files have no swapped labels, but arms so straight that only the ranges keep them from rotating.
     let settings =
         FitSettings { outliers: OutlierDetection::Off, limits: JointLimits::Ranges, ..FitSettings::default() };
-    let fit = fit_markers(&human.model, &markers, &settings, findings)?;
-    report_clock(&human.model, &fit.motion, &markers, findings);
-    Ok(Retargeted { human, markers, fit })
+    fit_markers(model, markers, &settings, findings)
 }
 
 /// Reports a frame rate that the fall of the person in flight contradicts.
-fn report_clock(model: &Model, motion: &Motion, markers: &MarkerRecording, findings: &mut Findings) {
-    let Some(found) = FlightGravity::of(model, motion, markers) else { return };
-    let stated_hz = markers.rate_hz;
-    if let Some(true_hz) = found.contradicted_rate(stated_hz) {
-        let FlightGravity { gravity, flights } = found;
-        let message = format!(
-            "in {flights} flight {} the person falls with {gravity:.1} m/s² at the stated {stated_hz:.0} frames per second; gravity means about {true_hz:.0} frames per second. hint: every force depends on it; correct the frame rate in the file",
-            if flights == 1 { "phase" } else { "phases" }
-        );
-        findings.report(Code::MotionClock, message);
-    }
+fn report_clock(wrong: Option<FlightGravity>, findings: &mut Findings) {
+    let Some(found) = wrong else { return };
+    let FlightGravity { gravity, flights, stated_hz } = found;
+    let message = format!(
+        "in {flights} flight {} the person falls with {gravity:.1} m/s² at the stated {stated_hz:.0} frames per second; gravity means about {:.0} frames per second. hint: every force depends on it; correct the frame rate in the file",
+        if flights == 1 { "phase" } else { "phases" },
+        found.rate_hz()
+    );
+    findings.report(Code::MotionClock, message);
 }
 
+/// The recording, moved upwards by a distance [m], if that is known.
 fn raised(markers: &MarkerRecording, by: f64) -> MarkerRecording {
     let by = if by.is_finite() { by } else { 0.0 };
     let mut raised = markers.clone();

@@ -277,6 +277,7 @@ impl Statements {
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
                 fit: Box::new(body.fit),
+                flights: body.flights,
             })),
             known_mass: KnownMass::stated(Some(build.mass)),
             device: self.device,

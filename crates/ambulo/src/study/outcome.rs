@@ -11,6 +11,7 @@ use crate::analysis::{
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::predict::Prediction;
+use crate::kinematics::FlightGravity;
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
 use crate::motion::filter::LowPass;
@@ -135,6 +136,8 @@ pub enum Tracking {
         statement: String,
         /// How well the body follows.
         fit: Box<MarkerFit>,
+        /// How the person falls in flight, at the stated frame rate; `None` without a flight.
+        flights: Option<FlightGravity>,
     },
 }
 

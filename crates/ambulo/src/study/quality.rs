@@ -12,6 +12,7 @@ use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::outcome::{ForceOrigin, Tracking};
 use crate::analysis::feasibility::{Check, LARGE_RESIDUAL_BW, Reason, Verdict};
+use crate::kinematics::WRONG_CLOCK;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
@@ -83,6 +84,8 @@ pub enum Measure {
     AxialRotation,
     /// Share of the motion whose place was derived from the feet on the ground.
     DerivedPlace,
+    /// Factor by which gravity in flight contradicts the stated frame rate.
+    FrameRate,
     /// Cut-off frequency that may be too low.
     LowCutoff,
     /// Cut-off frequency, relative to the frame rate, that may be too high.
@@ -118,6 +121,7 @@ impl Measure {
         Measure::FrozenPoints,
         Measure::AxialRotation,
         Measure::DerivedPlace,
+        Measure::FrameRate,
         Measure::LowCutoff,
         Measure::HighCutoff,
     ];
@@ -144,6 +148,7 @@ impl Measure {
             Measure::FrozenPoints => AtMost(0.05, 0.25),
             Measure::AxialRotation => AtMost(3.0, 180.0),
             Measure::DerivedPlace => AtMost(0.0, 1.0),
+            Measure::FrameRate => AtMost(1.2, WRONG_CLOCK),
             Measure::LowCutoff => AtLeast(3.0, 1.0),
             Measure::HighCutoff => AtMost(0.2, 0.4),
         }
@@ -170,6 +175,7 @@ impl Measure {
             Measure::FrozenPoints => "frozen_points",
             Measure::AxialRotation => "axial_rotation",
             Measure::DerivedPlace => "derived_place",
+            Measure::FrameRate => "frame_rate",
             Measure::LowCutoff => "low_cutoff",
             Measure::HighCutoff => "high_cutoff",
         }
@@ -210,6 +216,9 @@ impl Measure {
             Measure::DerivedPlace => {
                 "share of the motion in which the place of the person was derived from the feet on the ground"
             }
+            Measure::FrameRate => {
+                "factor between the stated frame rate and that at which the person falls with g in flight"
+            }
             Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
             Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
         }
@@ -235,6 +244,7 @@ impl Measure {
             | Measure::Jumps
             | Measure::FrozenPoints
             | Measure::DerivedPlace
+            | Measure::FrameRate
             | Measure::HighCutoff => "1",
         }
     }
@@ -357,6 +367,8 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) recorded: Option<&'a RecordedFaults>,
     /// The filter of the motion, and its rate [Hz].
     pub(super) smoothed: (Smoother, f64),
+    /// Whether no frame remains without the ends of the motion, which are not measured.
+    pub(super) is_too_short: bool,
     pub(super) force_origin: ForceOrigin,
     pub(super) tracking: Option<&'a Tracking>,
     /// Whether the place of the person follows from the feet on the ground.
@@ -370,7 +382,8 @@ impl QualityEvidence<'_> {
     pub(super) fn quality(&self) -> Quality {
         let of_forces = [self.residual_force(), self.residual_moment(), self.ground_forces(), self.measured_forces()];
         let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
-        let of_motion = [self.gaps(), self.sliding(), self.center_of_pressure(), self.jumps(), self.cutoff()];
+        let of_motion =
+            [self.gaps(), self.sliding(), self.center_of_pressure(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_plates = [self.unassigned_forces(), self.silent_plates()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
@@ -402,6 +415,9 @@ impl QualityEvidence<'_> {
         let share = self.verdict.judged_share;
         Measure::GroundForces.reason(share, |limit| match self.force_origin {
             ForceOrigin::None => "there are no ground forces: moments of legs on the ground are wrong".to_owned(),
+            _ if self.is_too_short => {
+                "the motion is too short to compare it with its ground forces: the first and the last 0.1 s are not measured".to_owned()
+            }
             _ => {
                 format!("ground forces are known in {} of the motion (at least {})", percent(share), percent(limit))
             }
@@ -409,6 +425,9 @@ impl QualityEvidence<'_> {
     }
 
     fn measured_forces(&self) -> Option<QualityReason> {
+        if self.is_too_short {
+            return None;
+        }
         let share = (self.force_origin == ForceOrigin::Measured).then_some(self.verdict.fit.complete_share)?;
         Measure::MeasuredForces.reason(share, |limit| {
             format!(
@@ -582,6 +601,19 @@ impl QualityEvidence<'_> {
         let share = if self.place_is_derived { 1.0 } else { 0.0 };
         Measure::DerivedPlace.reason(share, |_| {
             "where the person is was derived from the feet on the ground, not measured: the path of the mass centre, and with it forces along the floor and the vertical force in double support, are less certain than the joint angles".to_owned()
+        })
+    }
+
+    /// Every velocity depends on the frame rate, and every force on its square.
+    fn frame_rate(&self) -> Option<QualityReason> {
+        let Some(Tracking::Skeleton { flights: Some(flights), .. }) = self.tracking else { return None };
+        Measure::FrameRate.reason(flights.wrong_by(), |limit| {
+            format!(
+                "in flight the person falls with {:.1} m/s², so the motion has about {:.0} frames per second and not {:.0} as stated (at most {limit} times apart): every force is wrong",
+                flights.gravity,
+                flights.rate_hz(),
+                flights.stated_hz
+            )
         })
     }
 

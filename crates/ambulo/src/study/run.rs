@@ -152,6 +152,7 @@ impl Computed {
         let evidence = QualityEvidence {
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
+            is_too_short: feasibility::inner_frames(analysis.trajectory.grid()).is_empty(),
             force_origin,
             tracking: tracking.as_ref(),
             place_is_derived: self.place_is_derived,

@@ -15,6 +15,7 @@ use crate::findings::{Code, Findings};
 use crate::kinematics::each_body_motion;
 use crate::model::{CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
+use std::ops::Range;
 
 /// A feasible motion was judged in at least this share of its frames.
 const LEAST_JUDGED_SHARE: f64 = 0.9;
@@ -295,6 +296,12 @@ fn lower_quartile(values: &[f64]) -> Option<f64> {
     sorted.get(sorted.len() / 4).copied()
 }
 
+/// The frames without the first and the last [`EDGE_S`]; none in a motion that is too short to be judged.
+pub(crate) fn inner_frames(grid: TimeGrid) -> Range<usize> {
+    let edge = (EDGE_S / grid.step_s).round() as usize;
+    edge..grid.frames.saturating_sub(edge).max(edge)
+}
+
 /// Checks every frame.
 fn measure(
     motion: &MotionAndForces<'_>,
@@ -307,8 +314,7 @@ fn measure(
     let mut coverage = Coverage { covered: covered(motion, &mut given, limits), ..Coverage::default() };
     let mut predicted = motion.predicted.map(|predicted| FrameReader::new(motion, predicted.forces, predicted.ground));
     let lasting = frames_that_last(shortest_s(&limits.thresholds, motion.cutoff_hz), trajectory.grid());
-    let edge = (EDGE_S / trajectory.grid().step_s).round() as usize;
-    let inner = edge..trajectory.grid().frames.saturating_sub(edge);
+    let inner = inner_frames(trajectory.grid());
     coverage.predicted = coverage.covered.iter().map(|covered| !covered && predicted.is_some()).collect();
     each_body_motion(model, trajectory, |i, bodies| {
         let covered = coverage.covered[i];

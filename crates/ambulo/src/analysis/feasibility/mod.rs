@@ -18,6 +18,7 @@ mod verdict;
 
 pub use frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_frame, least_load_n};
 pub use judgement::check;
+pub(crate) use judgement::inner_frames;
 pub use motion_and_forces::{MotionAndForces, PredictedForces};
 pub use person::Person;
 pub use thresholds::Thresholds;
