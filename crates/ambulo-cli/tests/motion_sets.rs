@@ -211,6 +211,17 @@ fn bids_motions_give_the_forces_of_the_same_markers_and_coordinates() {
     }
     bench.write("markers.csv", Table::new("markers", table).unwrap().write_csv());
     write_bids(&bench, "sub-1", &channels, &columns);
+    let text = bench.run(&["info", "sub-1_motion.tsv"]).done().stdout;
+    for line in [
+        "kind: motion of a BIDS data set".to_owned(),
+        format!("frames: {FRAMES}"),
+        "rate hz: 100".to_owned(),
+        format!("POS: {} in m", channels.len()),
+        format!("tracked points: {}", trc.markers().len()),
+        "next: ambulo forces sub-1_motion.tsv --mass KG -o out".to_owned(),
+    ] {
+        assert!(text.contains(&line), "`{line}` is missing in {text}");
+    }
     let common = ["--mass", "75", "--height", "1.75", "--to", "1.9", "--keep", "tables"];
     let computed = |input: &[&str], out: &str| bench.run(&[&["forces"], input, &common, &["-o", out]].concat()).done();
     computed(&["sub-1_motion.tsv"], "bids");
@@ -232,6 +243,8 @@ fn bids_motions_give_the_forces_of_the_same_markers_and_coordinates() {
         columns.push(column.clone());
     }
     write_bids(&bench, "sub-2", &channels, &columns);
+    let text = bench.run(&["info", "sub-2_motion.tsv"]).done().stdout;
+    assert!(text.contains("JNTANG: ") && text.contains("--model FILE.osim"), "{text}");
     let of_model = ["--model", "demo/input/figure.osim", "--keep", "tables"];
     bench.run(&[&["forces", "sub-2_motion.tsv", "-o", "angles"], &of_model[..]].concat()).done();
     cut(&bench, "demo/input/walk.mot", "walk.mot");
@@ -243,6 +256,8 @@ fn bids_motions_give_the_forces_of_the_same_markers_and_coordinates() {
     bench
         .run(&["forces", "alone_motion.tsv"])
         .refused(&["alone_channels.tsv: there is no such file", "described beside it"]);
+    bench.run(&["info", "alone_motion.tsv"]).refused(&["alone_channels.tsv: there is no such file"]);
+    bench.run(&["info", "sub-1_motion.tsv", "--markers", "m.toml"]).refused(&["a .tsv lists its markers"]);
     bench.write("table.tsv", "1\t2\n");
     bench.run(&["forces", "table.tsv"]).refused(&["a .tsv is read as motion of a BIDS data set"]);
 }

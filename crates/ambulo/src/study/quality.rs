@@ -103,7 +103,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 19] = [
+    pub const ALL: [Measure; 20] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,

@@ -1,6 +1,7 @@
 //! `ambulo info`: describes the content of a file.
 
 mod arrays;
+mod bids;
 mod bvh;
 mod c3d;
 mod markers;
@@ -21,14 +22,15 @@ use anyhow::{Context, Result, bail};
 use std::path::Path;
 
 pub(crate) fn run(args: &InfoArgs) -> Result<Completion> {
-    if files::ending(&args.file) == "b3d" {
+    let ending = files::ending(&args.file);
+    // Of a .b3d only the header is read, and a BIDS motion is several files.
+    if ["b3d", "tsv"].contains(&ending.as_str()) {
         if args.markers.is_some() {
-            bail!(
-                "{}: --markers writes the marker set of a .c3d or .trc; a .b3d lists its markers",
-                args.file.display()
-            );
+            let shown = args.file.display();
+            bail!("{shown}: --markers writes the marker set of a .c3d or .trc; a .{ending} lists its markers");
         }
-        printer::info(&subject::describe(&args.file)?, args.print)?;
+        let sheet = if ending == "b3d" { subject::describe(&args.file) } else { bids::describe(&args.file) };
+        printer::info(&sheet?, args.print)?;
         return Ok(Completion::Passed);
     }
     let bytes = files::read(&args.file)?;
@@ -52,7 +54,7 @@ fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
         "csv" => table::describe_csv(path, bytes),
         "xml" => loads(bytes),
         ending => bail!(
-            "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .mvnx, .npz, .b3d, .osim, .mot, .sto, .csv or .xml (external loads)"
+            "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .mvnx, .npz, .b3d, _motion.tsv, .osim, .mot, .sto, .csv or .xml (external loads)"
         ),
     }
 }
