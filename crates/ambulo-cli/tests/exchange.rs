@@ -1,7 +1,7 @@
 //! `info`, `convert` and `events` on files of every kind, and `forces` on laboratory files; `demo` writes all of them.
 
 use crate::workbench::Workbench;
-use ambulo_formats::bvh::Bvh;
+use ambulo_formats::bvh::{Bvh, Joint};
 use ambulo_formats::c3d::{C3d, Values};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
@@ -112,6 +112,68 @@ fn info_describes_how_a_skeleton_is_interpreted() {
     );
     let (_, text) = info(&bench, "tree.bvh");
     assert!(text.contains("axes: unknown: no joint was recognised as right hip"), "{text}");
+}
+
+/// A part of the demo's walk with a finger and a prop, which no body has.
+fn take(bench: &Workbench, frames: std::ops::Range<usize>) -> Bvh {
+    let (walk, _) = Bvh::read(&bench.read("demo/input/walk.bvh")).unwrap();
+    let mut joints = walk.joints().to_vec();
+    let turning = joints[1].channels.clone();
+    for (name, parent) in [("Thumb", Some(joints.len() - 1)), ("Ball", None)] {
+        let (offset, channels) = ([0.0, 3.0, 1.0], turning.clone());
+        joints.push(Joint { name: name.to_owned(), parent, offset, channels, end_sites: vec![[0.0, 1.0, 0.0]] });
+    }
+    let own = 2 * turning.len();
+    let frame = |k: usize| [walk.frame(k).unwrap(), &vec![k as f64; own][..]].concat();
+    Bvh::new(joints, walk.frame_time_s(), &frames.map(frame).collect::<Vec<_>>()).unwrap()
+}
+
+#[test]
+fn a_result_is_written_into_the_skeleton_of_the_animator() {
+    let bench = with_demo("convert_rig");
+    let own = take(&bench, 0..150);
+    bench.write("take.bvh", own.write());
+    let forces = ["--mass", "75", "--height", "1.75", "--keep", "kinematics,model"];
+    bench.run(&[&["forces", "take.bvh", "-o", "same", "--cutoff", "off"][..], &forces].concat()).done();
+    let run = bench.run(&["convert", "same", "same.bvh", "--rig", "take.bvh", "--verbose"]).done();
+    run.reports(&["turned by 0.00 degrees (RMS)", "all other joints keep their own rotation"]);
+    let (same, _) = Bvh::read(&bench.read("same.bvh")).unwrap();
+    assert_eq!((same.joints(), same.frames(), same.frame_time_s()), (own.joints(), 150, own.frame_time_s()));
+    let largest = |other: &Bvh| {
+        let away = |k: usize| own.frame(k).unwrap().iter().zip(other.frame(k).unwrap()).map(|(a, b)| (a - b).abs());
+        (0..other.frames()).flat_map(away).fold(0.0, f64::max)
+    };
+    assert!(largest(&same) < 1e-3, "{}", largest(&same));
+    // The part that was changed: its skeleton read again has the motion of the result.
+    bench.run(&[&["forces", "take.bvh", "-o", "out", "--consistent", "--to", "0.8"][..], &forces].concat());
+    let run = bench.run(&["convert", "out", "mine.bvh", "--rig", "take.bvh", "--verbose"]).done();
+    run.reports(&["of 150 frames, which the result does not have"]);
+    let (mine, _) = Bvh::read(&bench.read("mine.bvh")).unwrap();
+    assert!(mine.frames() < 150 && largest(&mine) > 0.1, "{}", largest(&mine));
+    let last = |bvh: &Bvh, k: usize| bvh.frame(k).unwrap()[own.channels() - 6..].to_vec();
+    assert_eq!(last(&mine, 7), last(&own, 7));
+}
+
+#[test]
+fn a_skeleton_that_is_not_that_of_the_result_is_refused() {
+    let bench = with_demo("convert_rig_refused");
+    bench.write("take.bvh", take(&bench, 0..100).write());
+    bench.write("later.bvh", take(&bench, 300..400).write());
+    bench.run(&["forces", "take.bvh", "-o", "out", "--mass", "75", "--height", "1.75", "--keep", "kinematics,model"]);
+    let refused = |args: &[&str], words: &[&str]| bench.run(&[&["convert"][..], args].concat()).refused(words);
+    refused(&["take.bvh", "x.trc", "--rig", "take.bvh"], &["--rig is for result folders only"]);
+    refused(&["out", "x.glb", "--rig", "take.bvh"], &["--rig writes a .bvh only; found `.glb`"]);
+    refused(&["out", "take.bvh", "--rig", "take.bvh", "--force"], &["this input file would be overwritten"]);
+    refused(&["out", "x.bvh", "--rig", "none.bvh"], &["none.bvh: there is no such file"]);
+    refused(&["out", "x.bvh", "--rig", "later.bvh"], &["later.bvh", "is this the result of another take?"]);
+    refused(&["demo", "x.bvh", "--rig", "take.bvh"], &["expected the result of an animation file"]);
+    bench.write("x.bvh", "mine");
+    refused(&["out", "x.bvh", "--rig", "take.bvh"], &["x.bvh", "exists"]);
+    bench.write("copy.bvh", bench.read("take.bvh"));
+    bench
+        .run(&["convert", "out", "y.bvh", "--rig", "copy.bvh"])
+        .done()
+        .reports(&["the result was computed from `take.bvh` and written into the skeleton of `copy.bvh`"]);
 }
 
 #[test]

@@ -18,8 +18,8 @@ mod sweep;
 pub use clinical_file::clinical_file;
 pub use exchange::{
     ExchangeError, Glb, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,
-    glb_of_motion, ground_reactions, laboratory_recording, marker_paths, skeleton_of, standing_recording,
-    table_of_markers, trc_of_markers,
+    glb_of_motion, ground_reactions, laboratory_recording, marker_paths, rig_of_folder, skeleton_of,
+    standing_recording, table_of_markers, trc_of_markers,
 };
 pub use figure_files::{figure_files, outcome_figures};
 pub use figures::{CycleFigures, FigureError, Mark, SceneCurves, gait_figure, paper_figure};

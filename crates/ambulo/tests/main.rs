@@ -101,6 +101,7 @@ mod reproduction;
 mod residual_reduction;
 mod residual_reduction_synthetic;
 mod retarget;
+mod rig;
 mod scaling;
 mod scene_file;
 mod scene_run;

@@ -11,6 +11,8 @@ use std::path::PathBuf;
   ambulo convert walk.bvh walk.trc --world
   ambulo convert demo walk.glb
   ambulo convert demo results.csv
+  ambulo forces demo/input/walk.bvh --mass 75 --height 1.75 -o out
+  ambulo convert out mine.bvh --rig demo/input/walk.bvh
 
 Conversions:
   .c3d         to .trc (markers), .csv (--what markers, analog or forces), .mot or .sto (ground forces per foot, with external loads in .xml)
@@ -18,7 +20,7 @@ Conversions:
   .mot, .sto   to each other or .csv; with --model to .bvh (skeleton) or .glb (animated glTF)
   .csv         to .mot or .sto
   .bvh         to .trc (joint centres) or .csv (channels)
-  folder       of results to .glb (figure or scene, ground forces as arrows), .bvh (figure) or .csv (time, quantity, unit, value)
+  folder       of results to .glb (figure or scene, ground forces as arrows), .bvh (figure, or with --rig the animator's own skeleton) or .csv (time, quantity, unit, value)
 
 Data that the new format cannot hold are reported. Positions are in metres in .csv, in millimetres in .trc and .c3d. An existing output
 is only overwritten with --force, the input never. A folder whose files belong to two runs is refused.")]
@@ -36,6 +38,9 @@ pub(crate) struct ConvertArgs {
     /// The OpenSim model (.osim) of the coordinates in a .mot or .sto; needed for .bvh and .glb.
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
+    /// The animation file (.bvh) that a folder of results was computed from: the .bvh that is written has its skeleton, joint names and fingers.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) rig: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
     #[command(flatten)]

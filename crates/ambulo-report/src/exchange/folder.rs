@@ -5,7 +5,9 @@ use super::long_table::long_table;
 use super::skeleton::skeleton_of;
 use crate::stage::{FolderMotion, Stage, folder_motion};
 use ambulo::kinematics::Trajectory;
+use ambulo::kinematics::rig::RigError;
 use ambulo::model::Model;
+use ambulo::motion::skeleton::SkeletonError;
 use ambulo_results::{Folder, ResultsError};
 
 /// Why a folder or a motion cannot be converted.
@@ -26,6 +28,12 @@ pub enum ExchangeError {
     /// The format cannot store the data.
     #[error(transparent)]
     Format(#[from] ambulo_formats::Error),
+    /// The animation file cannot be read.
+    #[error(transparent)]
+    Skeleton(#[from] SkeletonError),
+    /// The folder is not the result of the animation file.
+    #[error(transparent)]
+    Rig(#[from] RigError),
     /// Data that JSON cannot store.
     #[error("the description could not be written: {0}")]
     Data(#[from] serde_json::Error),
@@ -78,6 +86,6 @@ pub fn csv_of_folder(folder: &Folder<'_>) -> Result<String, ExchangeError> {
     long_table(folder)?.map_err(|reason| nothing(folder, reason))
 }
 
-fn nothing(folder: &Folder<'_>, reason: String) -> ExchangeError {
+pub(super) fn nothing(folder: &Folder<'_>, reason: String) -> ExchangeError {
     ExchangeError::Nothing { folder: folder.name.clone(), reason }
 }

@@ -566,6 +566,15 @@ codes! {
     ConvertLost "convert.lost" Note
         "Parts of the file that the new format cannot hold."
         "Keep the original file.";
+    ConvertRig "convert.rig" Note
+        "States by how much the motion of a result differs from the animation file whose skeleton it was written into."
+        "Nothing to do.";
+    ConvertRigLimits "convert.rig_limits" Warning
+        "Joints of an animation file lack the channels that a changed motion needs, so they keep or approximate it."
+        "Give the joints that the message names three rotation channels (and the pelvis three position channels), and export the file again.";
+    ConvertOtherName "convert.other_name" Warning
+        "A result was computed from a file of another name than the one whose skeleton it was written into."
+        "Check that both are the same take.";
     ReportNotWritten "report.not_written" Warning
         "The report page could not be written."
         "The message states the reason; all other results are complete.";

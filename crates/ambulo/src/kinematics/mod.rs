@@ -21,6 +21,7 @@ pub mod marker_fit;
 pub mod marker_proposal;
 pub mod pose_fit;
 pub mod retarget;
+pub mod rig;
 pub mod scaling;
 pub mod sensor_fit;
 

@@ -13,6 +13,7 @@ use super::skeleton_body::{body_of_joint_centres, standing_ankle_height};
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, Human};
 use crate::model::full_body::{SolePlacement, full_body};
+use crate::model::marker_set::Segment;
 use crate::model::{Model, Side};
 use crate::motion::MarkerRecording;
 use crate::motion::skeleton::SkeletonRecording;
@@ -71,7 +72,7 @@ pub fn retarget(
 }
 
 /// The coordinates that bring a body closest to the points of a skeleton.
-fn fit_skeleton(
+pub(super) fn fit_skeleton(
     model: &Model,
     markers: &MarkerRecording,
     findings: &mut Findings,
@@ -80,6 +81,15 @@ fn fit_skeleton(
     let settings =
         FitSettings { outliers: OutlierDetection::Off, limits: JointLimits::Ranges, ..FitSettings::default() };
     fit_markers(model, markers, &settings, findings)
+}
+
+/// Height of the floor under the recorded points of a skeleton [m]; the body stands on its floor at its default coordinates.
+pub(super) fn floor_under(model: &Model, markers: &MarkerRecording) -> f64 {
+    let defaults: Vec<f64> = model.coordinates().iter().map(|coordinate| coordinate.default_value).collect();
+    let standing = model.poses(&defaults);
+    let ankle = |side: Side| Segment::Foot.body(model, Some(side)).map(|foot| standing[foot.index()].translation.y);
+    let heights: Vec<f64> = Side::BOTH.into_iter().filter_map(ankle).collect();
+    floor(markers, heights.iter().sum::<f64>() / heights.len() as f64)
 }
 
 /// Reports a frame rate that the fall of the person in flight contradicts.
@@ -95,7 +105,7 @@ fn report_clock(wrong: Option<FlightGravity>, findings: &mut Findings) {
 }
 
 /// The recording, moved upwards by a distance [m], if that is known.
-fn raised(markers: &MarkerRecording, by: f64) -> MarkerRecording {
+pub(super) fn raised(markers: &MarkerRecording, by: f64) -> MarkerRecording {
     let by = if by.is_finite() { by } else { 0.0 };
     let mut raised = markers.clone();
     raised.markers.iter_mut().flat_map(|path| &mut path.positions).for_each(|place| place.y += by);

@@ -61,6 +61,12 @@ fn turn(axis: Vec3, angle: f64) -> Mat3 {
 }
 
 impl Model {
+    /// `world_from_body` of every body at these coordinates, one value for each [rad or m]; coupled ones follow their leaders.
+    #[must_use]
+    pub fn poses(&self, coordinates: &[f64]) -> Vec<Pose> {
+        ModelPosture::new(self, coordinates.to_vec()).poses
+    }
+
     /// Mass centre at these coordinates, one value for each [rad or m]; coupled ones follow their leaders [m].
     #[must_use]
     pub fn mass_center(&self, coordinates: &[f64]) -> Vec3 {

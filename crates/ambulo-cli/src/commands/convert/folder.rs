@@ -3,10 +3,12 @@
 use super::{Converted, report_lost};
 use crate::args::ConvertArgs;
 use crate::commands::result_folder::ResultFolder;
+use crate::files;
 use ambulo::findings::{Code, Findings};
-use ambulo_report::{bvh_of_folder, csv_of_folder, glb_of_folder};
+use ambulo_formats::bvh::Bvh;
+use ambulo_report::{bvh_of_folder, csv_of_folder, glb_of_folder, rig_of_folder};
 use ambulo_results::Folder;
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 
 /// Formats to which a result folder can be converted.
 pub(super) const TARGETS: &[&str] = &["glb", "bvh", "csv"];
@@ -20,6 +22,16 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
     let folder = Folder::of_files(opened.shown(), &file);
     let mut findings = Findings::default();
     let made = match to {
+        "bvh" if let Some(path) = &args.rig => {
+            let (bvh, remarks) = Bvh::read(&files::read(path)?).with_context(|| path.display().to_string())?;
+            files::note_remarks(&path.display().to_string(), &remarks, &mut findings);
+            let made = rig_of_folder(&folder, &bvh, &files::last(path), &mut findings);
+            opened.check()?;
+            return Ok(Converted {
+                files: vec![(args.output.clone(), made.with_context(|| path.display().to_string())?)],
+                findings,
+            });
+        }
         "glb" => glb_of_folder(&folder).map(|glb| {
             report_lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
             let arrows = if glb.arrows > 0 { "; arrows are 1 m for 1000 N" } else { "" };

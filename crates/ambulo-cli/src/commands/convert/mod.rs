@@ -30,7 +30,8 @@ struct Converted {
 pub(crate) fn run(args: &ConvertArgs) -> Result<Completion> {
     let (from, to) = (files::ending(&args.input), files::ending(&args.output));
     let converted = if args.input.is_dir() { of_folder(args, &to) } else { of_file(args, &from, &to) }?;
-    let inputs: Vec<PathBuf> = [Some(&args.input), args.model.as_ref()].into_iter().flatten().cloned().collect();
+    let inputs: Vec<PathBuf> =
+        [Some(&args.input), args.model.as_ref(), args.rig.as_ref()].into_iter().flatten().cloned().collect();
     for (path, _) in &converted.files {
         files::check_target(path, &inputs, args.replace.existing())?;
     }
@@ -45,6 +46,11 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Completion> {
 fn of_file(args: &ConvertArgs, from: &str, to: &str) -> Result<Converted> {
     if !args.input.exists() {
         bail!("{}: there is no such file or folder", args.input.display());
+    }
+    if args.rig.is_some() {
+        bail!(
+            "--rig is for result folders only; expected the folder that `ambulo forces` wrote for this animation file"
+        );
     }
     check_pair(from, to)?;
     check_options(args, from, to)?;
@@ -64,6 +70,9 @@ fn of_folder(args: &ConvertArgs, to: &str) -> Result<Converted> {
     }
     if args.what.is_some() || args.world || args.model.is_some() {
         bail!("--what, --world and --model are for files; a result folder has its own body and axes");
+    }
+    if args.rig.is_some() && to != "bvh" {
+        bail!("--rig writes a .bvh only; found `.{to}` for the output");
     }
     folder::convert(args, to)
 }

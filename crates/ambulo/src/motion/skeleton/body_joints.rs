@@ -60,6 +60,11 @@ impl BodyJoints {
         self.found.iter().find(|(l, s, _)| (*l, *s) == (body_joint, side)).map(|(.., joint)| *joint)
     }
 
+    /// The hips, right and left, which every recognised skeleton has.
+    pub(super) fn hips(&self) -> [usize; 2] {
+        Side::BOTH.map(|side| self.get(BodyJoint::Hip, side).unwrap_or_default())
+    }
+
     pub(super) fn find(joints: &[Joint], findings: &mut Findings) -> Result<BodyJoints, SkeletonError> {
         let aliases = built_in_aliases()?;
         let names = sided_names(joints);

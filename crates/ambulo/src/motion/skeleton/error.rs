@@ -36,6 +36,9 @@ pub enum SkeletonError {
     /// Hips that are never above the ankles.
     #[error("the hips are not above the ankles, so the upward direction is not known; expected an upright person")]
     Up,
+    /// Values that a BVH file cannot store.
+    #[error(transparent)]
+    Format(#[from] ambulo_formats::Error),
     /// The built-in table of names cannot be read.
     #[error(transparent)]
     Table(#[from] crate::toml_reader::TomlError),

@@ -22,24 +22,27 @@
 
 mod axes;
 mod body_joints;
+mod channel_angles;
 mod error;
 mod joint_paths;
 mod points;
 mod poses;
+mod rig;
 mod unit;
 mod upright_posture;
 
 pub use error::SkeletonError;
 pub use joint_paths::joint_paths;
+pub use rig::{PostureChange, Rig, RigDifferences, RigLimits, RiggedMotion};
 
 use crate::findings::{Code, Findings};
 use crate::motion::{MarkerPath, MarkerRecording};
-use crate::spatial::Mat3;
+use crate::spatial::{Mat3, Pose};
 use ambulo_formats::bvh::Bvh;
 use axes::Axes;
 use body_joints::BodyJoints;
 pub(crate) use points::HEEL_SHARE;
-use points::points;
+use points::{Point, points};
 use poses::Skeleton;
 use unit::Unit;
 use upright_posture::UprightPosture;
@@ -77,34 +80,61 @@ pub fn skeleton_from_bvh(
     height_m: Option<f64>,
     findings: &mut Findings,
 ) -> Result<SkeletonRecording, SkeletonError> {
-    let skeleton = Skeleton::new(bvh)?;
-    let body_joints = BodyJoints::find(bvh.joints(), findings)?;
-    let unit = Unit::guess(&skeleton, &body_joints, height_m, findings)?;
-    let axes = Axes::guess(&skeleton, &body_joints, findings)?;
-    let upright_posture = UprightPosture::find(&skeleton, &body_joints, &axes, findings);
-    let points = points(&skeleton, &body_joints, &upright_posture, POINT_DISTANCE_M / unit.metres);
-    let scaled = axes.world_from_file * unit.metres;
-    let mut markers: Vec<MarkerPath> = points
-        .iter()
-        .map(|point| MarkerPath { name: point.name.clone(), positions: Vec::with_capacity(skeleton.frames()) })
-        .collect();
-    for poses in skeleton.all_poses() {
-        for (point, path) in points.iter().zip(&mut markers) {
-            path.positions.push(scaled * point.at(&poses));
+    Ok(Interpreted::new(bvh, height_m, findings)?.recording(name, findings))
+}
+
+/// What the joints of a skeleton mean: those of the body, unit, axes and recorded points.
+struct Interpreted<'b> {
+    skeleton: Skeleton<'b>,
+    body_joints: BodyJoints,
+    unit: Unit,
+    axes: Axes,
+    upright_posture: UprightPosture,
+    points: Vec<Point>,
+}
+
+impl<'b> Interpreted<'b> {
+    fn new(bvh: &'b Bvh, height_m: Option<f64>, findings: &mut Findings) -> Result<Interpreted<'b>, SkeletonError> {
+        let skeleton = Skeleton::new(bvh)?;
+        let body_joints = BodyJoints::find(bvh.joints(), findings)?;
+        let unit = Unit::guess(&skeleton, &body_joints, height_m, findings)?;
+        let axes = Axes::guess(&skeleton, &body_joints, findings)?;
+        let upright_posture = UprightPosture::find(&skeleton, &body_joints, &axes, findings);
+        let points = points(&skeleton, &body_joints, &upright_posture, POINT_DISTANCE_M / unit.metres);
+        Ok(Interpreted { skeleton, body_joints, unit, axes, upright_posture, points })
+    }
+
+    fn recording(&self, name: &str, findings: &mut Findings) -> SkeletonRecording {
+        let (frames, step_s) = (self.skeleton.frames(), self.skeleton.frame_time_s());
+        let mut markers = MarkerRecording {
+            name: name.to_owned(),
+            rate_hz: 1.0 / step_s,
+            times: (0..frames).map(|frame| frame as f64 * step_s).collect(),
+            markers: self.paths(self.skeleton.all_poses()),
+        };
+        drop_initial_pose(&mut markers, findings);
+        warn_of_low_trust(&self.unit, &self.upright_posture, findings);
+        SkeletonRecording {
+            markers,
+            statement: format!("{}; {}", self.unit.statement, self.axes.statement),
+            metres_per_unit: self.unit.metres,
+            world_from_file: self.axes.world_from_file,
+            height_m: self.unit.height_m,
         }
     }
-    let times = (0..skeleton.frames()).map(|frame| frame as f64 * bvh.frame_time_s()).collect();
-    let rate_hz = 1.0 / bvh.frame_time_s();
-    let mut markers = MarkerRecording { name: name.to_owned(), rate_hz, times, markers };
-    drop_initial_pose(&mut markers, findings);
-    warn_of_low_trust(&unit, &upright_posture, findings);
-    Ok(SkeletonRecording {
-        markers,
-        statement: format!("{}; {}", unit.statement, axes.statement),
-        metres_per_unit: unit.metres,
-        world_from_file: axes.world_from_file,
-        height_m: unit.height_m,
-    })
+
+    /// Trajectories of the points when the joints have these poses.
+    fn paths(&self, poses: impl Iterator<Item = Vec<Pose>>) -> Vec<MarkerPath> {
+        let scaled = self.axes.world_from_file * self.unit.metres;
+        let empty = |point: &Point| MarkerPath { name: point.name.clone(), positions: Vec::new() };
+        let mut paths: Vec<MarkerPath> = self.points.iter().map(empty).collect();
+        for poses in poses {
+            for (point, path) in self.points.iter().zip(&mut paths) {
+                path.positions.push(scaled * point.at(&poses));
+            }
+        }
+        paths
+    }
 }
 
 /// Removes a first frame from which a joint moves faster than [`MOST_JOINT_SPEED`]: it is a pose for other programs, not motion.

@@ -7,10 +7,10 @@
 //! whole motion by a constant, and they are assumed to replace it. For other joints the assumption is the one that is nearer
 //! to the values on average: the offset, or zero.
 
+use super::channel_angles::about;
 use super::error::SkeletonError;
 use crate::spatial::{Mat3, Pose, Vec3};
-use ambulo_formats::bvh::{Bvh, ChannelKind};
-use nalgebra::Rotation3;
+use ambulo_formats::bvh::{Bvh, ChannelKind, Joint};
 use std::ops::Range;
 
 /// A skeleton in motion, in the unit and the axes of the file.
@@ -40,17 +40,56 @@ impl<'b> Skeleton<'b> {
         self.bvh.joints()[joint].parent
     }
 
+    /// Time from one frame to the next [s].
+    pub(super) fn frame_time_s(&self) -> f64 {
+        self.bvh.frame_time_s()
+    }
+
+    /// The file.
+    pub(super) fn file(&self) -> &'b Bvh {
+        self.bvh
+    }
+
+    /// The joints of the file.
+    pub(super) fn joints(&self) -> &'b [Joint] {
+        self.bvh.joints()
+    }
+
+    /// The values of a joint within a frame.
+    pub(super) fn range(&self, joint: usize) -> Range<usize> {
+        self.ranges[joint].clone()
+    }
+
+    /// Place in a frame and axis of each channel of this kind, in the order of the file.
+    pub(super) fn channels(&self, joint: usize, kind: ChannelKind) -> Vec<(usize, usize)> {
+        let of_kind = self.joints()[joint].channels.iter().zip(self.range(joint));
+        of_kind.filter(|(channel, _)| channel.kind == kind).map(|(channel, place)| (place, channel.axis)).collect()
+    }
+
+    /// A joint, its parent and so on up to a root.
+    pub(super) fn upwards(&self, joint: usize) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(Some(joint), |&joint| self.parent(joint))
+    }
+
     /// Poses of all joints in a frame; `None` is the resting pose, with all channels zero.
     pub(super) fn poses(&self, frame: Option<usize>) -> Vec<Pose> {
-        let values = frame.and_then(|frame| self.bvh.frame(frame));
+        match frame.and_then(|frame| self.bvh.frame(frame)) {
+            Some(values) => self.poses_of(values),
+            None => self.chained(|joint| Pose::at(Vec3::from(self.joints()[joint].offset))),
+        }
+    }
+
+    /// Poses of all joints with these values of all channels.
+    pub(super) fn poses_of(&self, values: &[f64]) -> Vec<Pose> {
+        self.chained(|joint| self.own_pose(joint, &values[self.range(joint)]))
+    }
+
+    /// Poses of all joints from the pose of each in its parent.
+    fn chained(&self, own_pose: impl Fn(usize) -> Pose) -> Vec<Pose> {
         let mut poses: Vec<Pose> = Vec::with_capacity(self.ranges.len());
-        for (joint, range) in self.ranges.iter().enumerate() {
-            let own = match values.and_then(|values| values.get(range.clone())) {
-                Some(values) => self.own_pose(joint, values),
-                None => Pose::at(Vec3::from(self.bvh.joints()[joint].offset)),
-            };
+        for joint in 0..self.ranges.len() {
             let parent = self.parent(joint).map_or(Pose::IDENTITY, |parent| poses[parent]);
-            poses.push(parent * own);
+            poses.push(parent * own_pose(joint));
         }
         poses
     }
@@ -70,7 +109,8 @@ impl<'b> Skeleton<'b> {
         (0..self.frames()).step_by(self.frames().div_ceil(most))
     }
 
-    fn own_pose(&self, joint: usize, values: &[f64]) -> Pose {
+    /// The pose of a joint in its parent with these values of its channels.
+    pub(super) fn own_pose(&self, joint: usize, values: &[f64]) -> Pose {
         let description = &self.bvh.joints()[joint];
         let offset = Vec3::from(description.offset);
         let mut translation = offset;
@@ -81,10 +121,7 @@ impl<'b> Skeleton<'b> {
                     let start = if self.added[joint] { offset[channel.axis] } else { 0.0 };
                     translation[channel.axis] = start + value;
                 }
-                ChannelKind::Rotation => {
-                    let axis = [Vec3::x_axis(), Vec3::y_axis(), Vec3::z_axis()][channel.axis];
-                    rotation *= Rotation3::from_axis_angle(&axis, value.to_radians()).into_inner();
-                }
+                ChannelKind::Rotation => rotation *= about(channel.axis, value.to_radians()),
             }
         }
         Pose { rotation, translation }
@@ -114,8 +151,7 @@ impl<'b> Skeleton<'b> {
 
     /// The last common ancestor of two joints.
     pub(super) fn common_ancestor(&self, a: usize, b: usize) -> Option<usize> {
-        let chain = |joint: usize| std::iter::successors(Some(joint), |&joint| self.parent(joint));
-        chain(a).skip(1).find(|joint| chain(b).skip(1).any(|other| other == *joint))
+        self.upwards(a).skip(1).find(|joint| self.upwards(b).skip(1).any(|other| other == *joint))
     }
 }
 

@@ -41,7 +41,7 @@ impl UprightPosture {
         axes: &Axes,
         findings: &mut Findings,
     ) -> UprightPosture {
-        let hips = Side::BOTH.map(|side| body_joints.get(BodyJoint::Hip, side).unwrap_or_default());
+        let hips = body_joints.hips();
         let pelvis = skeleton.common_ancestor(hips[0], hips[1]).unwrap_or_default();
         let rest = skeleton.poses(None);
         if let Some(right) = upright(&rest, body_joints, axes.up) {
