@@ -111,6 +111,19 @@ fn tasks_that_cannot_be_followed_are_reported() {
 }
 
 #[test]
+fn markers_without_a_task_are_counted() {
+    let (model, mut findings) = (hinge(), Findings::default());
+    let mut recording = recording(&model);
+    recording.markers.push(MarkerPath { name: "x".into(), positions: vec![Vec3::zeros(); 3] });
+    let settings = FitSettings { weights: [("b".to_owned(), 0.0)].into(), ..FitSettings::default() };
+    // Two markers may be too few for a fit; which are common is reported before.
+    let _ = fit_markers(&model, &recording, &settings, &mut findings);
+    let expected = "2 of 4 markers of `bar` are on the model and are fitted; 1 more have the weight 0 and are not fitted; 1 only in the recording: x";
+    let messages: Vec<&str> = findings.as_slice().iter().map(|f| f.message.as_str()).collect();
+    assert!(messages.contains(&expected), "{messages:?}");
+}
+
+#[test]
 fn impossible_tasks_are_rejected() {
     let of = |task| fit(vec![task], 1.0, &mut Findings::default()).unwrap_err().to_string();
     let heavy = of(task("q_bar", -1.0, TaskTarget::Default));

@@ -461,19 +461,19 @@ fn results_of_something_else_are_refused() {
     refused(&bvh, &unmarked, &trajectory(&unmarked, 0.0, STEP_S, &motion), "has no marker `pelvis_up`");
 }
 
+/// 120 frames of a real file.
+fn real(file: &str) -> Option<Bvh> {
+    let data = shared_data::data()?;
+    let (all, _) = Bvh::read(&std::fs::read(data.join("bvh").join(file)).unwrap()).unwrap();
+    let frames: Vec<Vec<f64>> = (1..121).filter_map(|frame| all.frame(frame).map(<[f64]>::to_vec)).collect();
+    Some(Bvh::new(all.joints().to_vec(), all.frame_time_s(), &frames).unwrap())
+}
+
 #[test]
 fn real_skeletons_get_back_their_own_fit() {
-    let Some(data) = shared_data::data() else { return };
     for file in ["AV_8Walk_Meredith_HVHA_Rep1.bvh", "01_01.bvh"] {
-        let (all, _) = Bvh::read(&std::fs::read(data.join("bvh").join(file)).unwrap()).unwrap();
-        let frames: Vec<Vec<f64>> = (1..121).filter_map(|frame| all.frame(frame).map(<[f64]>::to_vec)).collect();
-        let bvh = Bvh::new(all.joints().to_vec(), all.frame_time_s(), &frames).unwrap();
-        let mut findings = Findings::default();
-        let skeleton = skeleton_from_bvh(&bvh, file, Some(BUILD.height), &mut findings).unwrap();
-        let body = retarget(&BUILD, &skeleton, &mut findings).unwrap();
-        let value = |frame: usize| move |c: &Option<Vec<f64>>| c.as_ref().map_or(0.0, |c| c[frame]);
-        let motion: Vec<Vec<f64>> =
-            (0..frames.len()).map(|frame| body.fit.motion.columns.iter().map(value(frame)).collect()).collect();
+        let Some(bvh) = real(file) else { return };
+        let (body, motion) = fitted(&bvh);
         let made = written(&bvh, &body, &trajectory(&body, 0.0, bvh.frame_time_s(), &motion)).unwrap();
         let DifferencesOf { most, rms } = DifferencesOf::new(&made);
         println!("{file}: {rms:.1e} degrees RMS, {most:.1e} at most ({:?})", made.differences.most_turned);
@@ -481,4 +481,34 @@ fn real_skeletons_get_back_their_own_fit() {
         assert!(body.fit.errors.iter().any(|error| error.rms_m > 1e-3));
         assert!(most < 1e-4 && made.differences.most_moved_m < 1e-8, "{:?}", made.differences);
     }
+}
+
+#[test]
+fn a_real_skeleton_read_again_has_the_changed_motion() {
+    let Some(bvh) = real("AV_8Walk_Meredith_HVHA_Rep1.bvh") else { return };
+    let (body, mut motion) = fitted(&bvh);
+    let coordinates = body.human.model.coordinates();
+    let is_angle = |index: &usize| {
+        let name = &coordinates[*index].name;
+        let is_place = name.starts_with("pelvis_t") && name != "pelvis_tilt";
+        !is_place && !name.starts_with("pro_sup")
+    };
+    let angles: Vec<usize> = (0..coordinates.len()).filter(is_angle).collect();
+    for (frame, q) in motion.iter_mut().enumerate() {
+        for &index in &angles {
+            q[index] += 0.05 * (0.1 * frame as f64 + 2.0 * index as f64).cos();
+        }
+    }
+    let made = written(&bvh, &body, &trajectory(&body, 0.0, bvh.frame_time_s(), &motion)).unwrap();
+    let rms_deg = |other: &Bvh| {
+        let (_, found) = fitted(other);
+        let away = |(found, wanted): (&Vec<f64>, &Vec<f64>)| -> f64 {
+            angles.iter().map(|&index| (found[index] - wanted[index]).powi(2)).sum()
+        };
+        let squares: f64 = found.iter().zip(&motion).map(away).sum();
+        (squares / (motion.len() * angles.len()) as f64).sqrt().to_degrees()
+    };
+    let (before, after) = (rms_deg(&bvh), rms_deg(&made.bvh));
+    println!("{before:.2} degrees RMS from the changed motion before, {after:.2} degrees after");
+    assert!(before > 1.5 && after < 0.1 * before, "{before} {after}");
 }

@@ -4,7 +4,7 @@ use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::retarget::retarget;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::skeleton::SkeletonRecording;
-use ambulo::motion::{SmplBody, SmplError, SmplMotion};
+use ambulo::motion::{SmplBody, SmplError, SmplMotion, Window};
 use ambulo::spatial::{STANDARD_GRAVITY, Vec3};
 use ambulo::study::{self, Measure, QualityState, Recording, Settings, Source};
 use ambulo_formats::npz::{Array, Data, Npz};
@@ -190,6 +190,18 @@ fn a_frame_rate_that_gravity_contradicts_makes_the_quality_bad() {
     assert!((reason.value - 2.0).abs() < 0.05, "{reason:?}");
     assert!(reason.message.contains("about 100 frames per second and not 50 as stated"), "{reason:?}");
     assert!(quality(100.0).reasons.iter().all(|reason| reason.measure != Measure::FrameRate));
+}
+
+#[test]
+fn a_motion_that_is_too_short_to_be_measured_says_so() {
+    let skeleton = hopping(100.0, &mut Findings::default());
+    let window = Window { from_s: None, to_s: Some(0.19) };
+    let source = Source::new(Recording::Skeleton { skeleton, table: BUILD.table, mass_kg: BUILD.mass });
+    let settings = Settings { window, ..Settings::default() };
+    let quality = study::run(source, &settings, &mut Findings::default()).unwrap().quality;
+    let said: Vec<&str> = quality.reasons.iter().map(|reason| reason.message.as_str()).collect();
+    assert!(said.iter().any(|message| message.contains("the motion is too short to compare it")), "{said:?}");
+    assert!(said.iter().all(|message| !message.contains("0 %")), "{said:?}");
 }
 
 #[test]
