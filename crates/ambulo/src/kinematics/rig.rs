@@ -3,7 +3,7 @@
 //! The skeleton is fitted again with the body of the result, as [`retarget`](super::retarget) did. With the pose of a segment W in the
 //! fit and W' in the result, the joint of the segment is turned by W' Wᵀ, and mid-hip is moved by the difference of its places. Because the points of a
 //! skeleton are never quite those of a body, the fit of the changed skeleton is not yet the motion of the result; fit and change are repeated
-//! ([`PASSES`]), as long as they converge. So filters, residual reduction and tracking change the skeleton, while what the body does not represent (a bent spine, a knee that bends sideways)
+//! as long as they converge. So filters, residual reduction and tracking change the skeleton, while what the body does not represent (a bent spine, a knee that bends sideways)
 //! stays as recorded.
 //!
 //! The floor is that of the run: the model stands on it at its default coordinates.
@@ -106,12 +106,14 @@ pub fn on_rig(model: &Model, trajectory: &Trajectory, rig: Rig<'_>) -> Result<Ri
     trajectory.for_each_posture(|_, posture| wanted.push(poses_shown(model, posture.q.to_vec())));
     let mut frames = rig.frames(first, count);
     let mut steps = Steps::default();
-    for _ in 0..PASSES {
+    let free = without_ranges(model);
+    for pass in 0..PASSES {
         let times = recorded.times[first..first + count].to_vec();
         let markers = raised(&MarkerRecording { times, markers: rig.paths(&frames), ..recorded.clone() }, -floor);
         check_distance(model, &wanted, &markers)?;
-        // What the fit finds has been reported by the run.
-        let fit = fit_skeleton(model, &markers, &mut Findings::default())?.motion;
+        // The first fit is that of the run; what it finds has been reported there.
+        let fitted = if pass == 0 { model } else { &free };
+        let fit = fit_skeleton(fitted, &markers, &mut Findings::default())?.motion;
         let changes = steps.converging(changes(model, &wanted, &fit));
         for (values, change) in frames.iter_mut().zip(&changes) {
             rig.change(values, change);
@@ -133,21 +135,26 @@ fn changes(model: &Model, wanted: &[Vec<Pose>], fit: &Motion) -> Vec<PostureChan
     wanted.iter().enumerate().map(change).collect()
 }
 
-/// The sizes of the last changes: of mid-hip [m] and of each segment [1], frame after frame.
+/// Sizes of the changes of the pass before, all frames together: of mid-hip [m] and of each segment [1]; empty before the first.
 #[derive(Default)]
-struct Steps(Vec<Vec<f64>>);
+struct Steps(Vec<f64>);
 
 impl Steps {
-    /// The changes without those that do not converge. At the limit of a joint's range, and about the axis of a straight arm, a fit does
-    /// not follow the skeleton; without an end the skeleton would be turned further in every pass.
+    /// The changes without those of segments that do not converge: about the axis of a straight arm a fit does not follow the skeleton, which would be
+    /// turned further in every pass. All frames are treated alike, because a motion whose frames were changed by turns would tremble.
     fn converging(&mut self, mut changes: Vec<PostureChange>) -> Vec<PostureChange> {
-        let away = |turn: &Mat3| (turn - Mat3::identity()).norm();
-        let sizes = |change: &PostureChange| -> Vec<f64> {
-            [change.mid_hip.norm()].into_iter().chain(change.turns.iter().map(away)).collect()
+        let away = |turn: &Mat3| (turn - Mat3::identity()).norm_squared();
+        let squares = |change: &PostureChange| -> Vec<f64> {
+            [change.mid_hip.norm_squared()].into_iter().chain(change.turns.iter().map(away)).collect()
         };
-        let steps: Vec<Vec<f64>> = changes.iter().map(sizes).collect();
-        for (change, (now, last)) in changes.iter_mut().zip(steps.iter().zip(&self.0)) {
-            let converges = |place: usize| now[place] < CONVERGING * last[place];
+        let all: Vec<Vec<f64>> = changes.iter().map(squares).collect();
+        let rms = |place: usize| {
+            let known = all.iter().map(|squares| squares[place]).filter(|square| square.is_finite());
+            known.sum::<f64>().sqrt()
+        };
+        let steps: Vec<f64> = (0..all.first().map_or(0, Vec::len)).map(rms).collect();
+        let converges = |place: usize| self.0.get(place).is_none_or(|last| steps[place] < CONVERGING * last);
+        for change in &mut changes {
             if !converges(0) {
                 change.mid_hip = Vec3::zeros();
             }
@@ -157,6 +164,19 @@ impl Steps {
         self.0 = steps;
         changes
     }
+}
+
+/// The model without the ranges of pelvis, trunk and legs, whose orientations a skeleton shows in full. At the limit of a range a fit would not follow the
+/// skeleton. The ranges of arms keep them from turning about a straight elbow.
+fn without_ranges(model: &Model) -> Model {
+    let mut coordinates = model.coordinates().to_vec();
+    let is_arm = |name: &str| ["arm_", "elbow_", "pro_sup_"].iter().any(|stem| name.starts_with(stem));
+    for coordinate in coordinates.iter_mut().filter(|coordinate| !is_arm(&coordinate.name)) {
+        coordinate.range = None;
+    }
+    let (bodies, markers) = (model.bodies().to_vec(), model.markers().to_vec());
+    // Ranges make no model invalid.
+    Model::new(model.name(), model.gravity(), bodies, coordinates, markers).unwrap_or_else(|_| model.clone())
 }
 
 /// Checks that the model has the points and the lengths of the skeleton.
