@@ -103,7 +103,7 @@ codes! {
         "Shorten the scene or lengthen the motion.";
     MotionClock "motion.clock" Warning
         "The person falls too slowly or too fast in flight phases, so the stated frame rate is wrong."
-        "Correct the frame rate in the file; the message states the one that gravity needs.";
+        "Correct the frame rate in the file; the message states the one that gravity needs. Until then the quality of the data is bad.";
     // Skeletons.
     BvhAxes "bvh.axes" Note
         "States which axes of the skeleton file are up and forward."
