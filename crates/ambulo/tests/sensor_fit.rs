@@ -15,7 +15,7 @@ use ambulo::spatial::{Mat3, Vec3};
 use ambulo::study::{self, Measure, QualityState, Recording, SensorBody, SensorSource, Settings, Source};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
-use nalgebra::Rotation3;
+use nalgebra::{Rotation3, UnitQuaternion};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
@@ -348,7 +348,7 @@ fn squared_angles(model: &Model, q: &[f64], moving: &SensorRecording, frame: usi
     let angle = |(k, body): (usize, &&str)| {
         let measured = world_from_earth * moving.sensors[k].orientations[frame].unwrap();
         let off = (poses[model.body(body).unwrap().index()].pose.rotation * mount(k)).transpose() * measured;
-        Rotation3::from_matrix_unchecked(off).angle()
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(off)).angle()
     };
     WALK_BODIES.iter().enumerate().map(angle).map(|angle| angle * angle).sum()
 }
