@@ -1,11 +1,11 @@
 //! From a recording to the forces behind it: the one road that the command, the validation and every other program takes.
 //!
 //! ```text
-//! Source    what was recorded: coordinates, markers, a skeleton or a complete motion,
+//! Source    what was recorded: coordinates, markers, sensors, a skeleton or a complete motion,
 //!           with measured forces and what the laboratory stated
 //! Settings  filters, time range, how the ground forces are found
 //!    |
-//!   run  -> markers or skeleton to a body in motion -> smoothing -> ground forces (measured, predicted or tracked)
+//!   run  -> markers, sensors or skeleton to a body in motion -> smoothing -> ground forces (measured, predicted or tracked)
 //!    |      -> inverse dynamics -> events, cycles, body mass -> checks -> residual reduction -> verdict
 //!    v
 //! Outcome   body, motion, ground forces, joint forces, events, cycles, mass, comparison with plates, verdict
