@@ -100,7 +100,8 @@ mod tests {
             for angles_in in [[0.3, -0.7, 1.1], [2.9, 2.0, -3.0], [7.0, -1.2, -9.0], [0.4, PI / 2.0, -0.2]] {
                 let r = rotation(&order, &angles_in);
                 let near = angles_in.map(|angle| angle + 0.05);
-                let found = angles(&order, &r, if angles_in[1] == PI / 2.0 { &angles_in } else { &near });
+                let found =
+                    angles(&order, &r, if (angles_in[1] - PI / 2.0).abs() < 1e-12 { &angles_in } else { &near });
                 for (found, expected) in found.iter().zip(angles_in) {
                     assert!((found - expected).abs() < 1e-7, "{order:?}: {found:?} instead of {angles_in:?}");
                 }
