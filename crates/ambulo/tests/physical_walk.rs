@@ -309,6 +309,15 @@ fn a_figure_whose_feedback_acts_40_ms_late_survives_a_push() {
 }
 
 #[test]
+fn tuned_gains_survive_a_push_that_the_usual_ones_do_not() {
+    let case = &*LEVEL;
+    let tuned = controller(&case.human, &case.walk, &ControlSettings::tuned_in_the_plane());
+    let tuned = Case { controller: tuned, human: case.human.clone(), walk: case.walk.clone() };
+    let fall = |case: &Case| case.pushed(-250.0, 2.2).fall().is_some();
+    assert!(fall(case) && !fall(&tuned), "usual fell: {}, tuned fell: {}", fall(case), fall(&tuned));
+}
+
+#[test]
 fn foot_placement_is_for_planar_figures_and_keeps_a_figure_up_for_longer_than_nothing() {
     let case = &*LEVEL;
     let law = FootPlacement { distance: 2.0, velocity: 0.1, trunk: [300.0, 30.0] };
@@ -469,6 +478,8 @@ fn a_controller_that_cannot_be_is_refused_with_its_line() {
     let text = example("kerb-walker.toml");
     for (from, to, expected) in [
         ("control = {}", "control = { stifness = 200 }", "stiffness"),
+        ("control = {}", "control = { gains = \"best\" }", "expected \"usual\" or \"tuned\""),
+        ("control = {}", "control = { gains = \"tuned\", delay = 0.04 }", "planar figures whose feedback acts at once"),
         ("control = {}", "control = { stiffness = 0 }", "above zero"),
         ("control = {}", "control = { costs = { hight = 1 } }", "did you mean `height`"),
         ("control = {}", "control = { costs = { height = 1e4 } }", "found 1e4; expected a number from 5.0e-5 to 5.0e1"),

@@ -102,12 +102,28 @@ struct Results {
     others: Vec<(String, Walked, usize)>,
     /// Number of harmonics, share of the variance of hip, knee and ankle torques that they keep, the walk, and pushes as above.
     harmonics: Vec<OfHarmonics>,
+    tuned: Tuned,
     /// Delay of feedback [s], the walk, and pushes as above.
     delays: Vec<(f64, Walked, usize)>,
     placement: placement::Results,
     stands: Vec<standing::Stands>,
     /// The same man in three dimensions.
     spatial: spatial::Results,
+}
+
+/// The same with gains that were tuned in the plane.
+struct Tuned {
+    /// Force [N], how many of [`PHASES`] pushes were survived.
+    pushes: Vec<(f64, usize)>,
+    tiles: usize,
+    /// Slope [%] and the walk.
+    slopes: Vec<(f64, Walked)>,
+    /// How many pushes of 100 N forward and backward were survived at all of [`SPEEDS`].
+    at_speeds: usize,
+    /// Delay of feedback [s] and the walk.
+    delays: Vec<(f64, Walked)>,
+    /// How many pushes of 60 N to the right and to the left were survived in three dimensions.
+    sideways: [usize; 2],
 }
 
 /// Runs the command.
@@ -166,6 +182,7 @@ fn measure() -> Result<Results, String> {
         speeds,
         others,
         harmonics: with_harmonics(&man, &settings)?,
+        tuned: with_tuned_gains(&man, &paces)?,
         delays: with_delays(&man, &settings)?,
         placement: placement::measure(&man, &settings)?,
         stands: standing::measure(&settings)?,
@@ -185,6 +202,34 @@ fn with_harmonics(man: &Figure, settings: &ControlSettings) -> Result<Vec<OfHarm
         Ok((count, kept(man, count)?, walked(with_controller(man, &own)?, man, 100)?, survived))
     };
     [1, 2, 3, 4, 5, 6, 8, 12].into_iter().map(of).collect()
+}
+
+fn with_tuned_gains(man: &Figure, paces: &[(Figure, WalkController)]) -> Result<Tuned, String> {
+    let settings = ControlSettings::tuned_in_the_plane();
+    let own = controller(man, &settings)?;
+    let pushed = |force: &f64| Ok((*force, pushes_survived(man, &own, Vec3::x() * *force)?));
+    let mut at_speeds = 0;
+    for (figure, _) in paces {
+        at_speeds += pushed_both_ways(figure, &controller(figure, &settings)?)?;
+    }
+    let late = |delay_s: f64| {
+        let own = controller(man, &ControlSettings { delay_s, ..settings.clone() })?;
+        Ok((delay_s, walked(with_controller(man, &own)?, man, 100)?))
+    };
+    let spatial = spatial::figure(SPEED, 0.0)?;
+    let in_space = controller(&spatial, &settings)?;
+    let aside = |force: f64| pushes_survived(&spatial, &in_space, Vec3::z() * force);
+    Ok(Tuned {
+        pushes: PUSHES.iter().chain(&[300.0, -300.0]).map(pushed).collect::<Result<_, String>>()?,
+        tiles: tiles_walked(&figure(&MAN, SPEED, LIFT)?, &settings, 100)?,
+        slopes: [-5.0, 5.0]
+            .into_iter()
+            .map(|slope| Ok((slope, inclined(man, &own, slope, 100)?)))
+            .collect::<Result<_, String>>()?,
+        at_speeds,
+        delays: DELAYS_S[..3].iter().copied().map(late).collect::<Result<_, String>>()?,
+        sideways: [aside(60.0)?, aside(-60.0)?],
+    })
 }
 
 /// Walks and pushes with feedback that acts late.

@@ -1,6 +1,6 @@
 //! The page of walks by own torques.
 
-use super::{AFTER_PUSH, HOLD_S, LIFT, PHASES, PUSH_S, RAMP_S, Results, SEEDS, SPEED, TILE, Walked};
+use super::{AFTER_PUSH, HOLD_S, LIFT, PHASES, PUSH_S, RAMP_S, Results, SEEDS, SPEED, TILE, Tuned, Walked};
 use super::{spatial, standing};
 use crate::table::Table;
 use std::fmt::Write;
@@ -21,6 +21,7 @@ pub(super) fn text(results: &Results) -> String {
     page += &pushes(results);
     page += &others(results);
     page += &standing::section(&results.stands);
+    page += &tuned(&results.tuned);
     page += &delays(results);
     page += &results.placement.section();
     page += &in_three_dimensions(&results.spatial);
@@ -95,6 +96,30 @@ fn others(results: &Results) -> String {
     format!(
         "## Other speeds and figures\n\nEach with a plan and gains of its own. Pushes grow with mass; half of them are backward. Other figures walk at \
          {SPEED} m/s times the root of their stature over that of the man.\n\n{}\n",
+        table.text()
+    )
+}
+
+fn tuned(tuned: &Tuned) -> String {
+    let mut table = Table::new(&["with tuned gains", "found"]);
+    let mut row = |what: &str, found: String| table.row([what.to_owned(), found]);
+    for (force, survived) in &tuned.pushes {
+        row(&format!("pushes of {force:+.0} N"), format!("{survived} of {PHASES}"));
+    }
+    row("tiles, 100 steps", format!("{} of {SEEDS}", tuned.tiles));
+    for (slope, walked) in &tuned.slopes {
+        row(&format!("slope of {slope:+.0} %, 100 steps"), steps(walked));
+    }
+    let all = 2 * PHASES * super::SPEEDS.len();
+    row("pushes of +100 and -100 N at all speeds of this page", format!("{} of {all}", tuned.at_speeds));
+    for (delay_s, walked) in &tuned.delays {
+        row(&format!("feedback {:.0} ms later, 100 steps", 1e3 * delay_s), steps(walked));
+    }
+    for (side, survived) in ["right", "left"].iter().zip(tuned.sideways) {
+        row(&format!("in three dimensions, pushes of 60 N, {side}"), format!("{survived} of {PHASES}"));
+    }
+    format!(
+        "## Tuned gains\n\nThe same man with `ControlSettings::tuned_in_the_plane`, which `ambulo tune` found for a woman of 60 kg at 1.2 m/s.\n\n{}\n",
         table.text()
     )
 }

@@ -176,6 +176,16 @@ fn delay(table: &Table<'_>) -> Result<f64, SceneError> {
     if delay_s <= MOST_DELAY_S { Ok(delay_s) } else { Err(value.wrong("a delay of at most 0.2 s")) }
 }
 
+/// The gains that the other keys change.
+fn gains(table: &Table<'_>, is_spatial: bool) -> Result<ControlSettings, SceneError> {
+    let Some(value) = table.get("gains") else { return Ok(ControlSettings::default()) };
+    let is_tuned = value.choice(&[("usual", false), ("tuned", true)])?;
+    if is_tuned && (is_spatial || table.get("delay").is_some()) {
+        return Err(value.wrong("\"usual\" in three dimensions and with a `delay`: tuned gains are for planar figures whose feedback acts at once"));
+    }
+    Ok(if is_tuned { ControlSettings::tuned_in_the_plane() } else { ControlSettings::default() })
+}
+
 /// The controller of a figure, which needs a corrected walk of one pace and all joints for itself.
 fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<ControlEntry>, SceneError> {
     let is_spatial = walk.is_some_and(|walk| walk.mode == FigureWalkMode::Optimal);
@@ -186,7 +196,7 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<Control
         return Err(arms.wrong("no such key for a walk in the mode `optimal`, which moves the arms"));
     }
     let own = value.table("{ stiffness = …, damping = … }")?;
-    own.only(&[&["stiffness", "damping", "delay", "costs", "torques"]])?;
+    own.only(&[&["gains", "stiffness", "damping", "delay", "costs", "torques"]])?;
     if !walk.is_some_and(|walk| walk.mode != FigureWalkMode::Curves) {
         return Err(value
             .wrong("no such key without a `walk` in the mode `corrected` or `optimal`, which the controller follows"));
@@ -194,7 +204,7 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<Control
     if let Some(coordinate) = table.get("coordinate") {
         return Err(coordinate.wrong("no such key together with `control`, which drives all joints"));
     }
-    let default = ControlSettings::default();
+    let default = gains(&own, is_spatial)?;
     let settings = ControlSettings {
         stiffness: own.above_zero_or("stiffness", default.stiffness)?,
         damping_s: own.zero_or_more_or("damping", default.damping_s)?,
