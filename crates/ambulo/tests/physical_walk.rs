@@ -478,7 +478,7 @@ fn a_controller_that_cannot_be_is_refused_with_its_line() {
     let text = example("kerb-walker.toml");
     for (from, to, expected) in [
         ("control = {}", "control = { stifness = 200 }", "stiffness"),
-        ("control = {}", "control = { gains = \"best\" }", "expected \"usual\" or \"tuned\""),
+        ("control = {}", "control = { gains = \"best\" }", "expected one of \"usual\", \"tuned\""),
         ("control = {}", "control = { gains = \"tuned\", delay = 0.04 }", "planar figures whose feedback acts at once"),
         ("control = {}", "control = { stiffness = 0 }", "above zero"),
         ("control = {}", "control = { costs = { hight = 1 } }", "did you mean `height`"),
