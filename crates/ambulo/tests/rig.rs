@@ -76,7 +76,7 @@ const RIGIFY: Names = Names {
     side: behind,
 };
 
-/// What a file leaves to the reader.
+/// Properties of made files that the reader has to find out.
 struct Style {
     names: Names,
     file_from_world: Mat3,

@@ -59,11 +59,11 @@ pub struct SensorTrial<'a> {
 pub struct SensorAxes {
     /// Turn from the axes of the sensors' earth to those of the world, of which y is up.
     pub world_from_earth: Mat3,
-    /// What shows the direction forward.
+    /// How the direction forward is found.
     pub heading: SensorHeading,
 }
 
-/// What shows the direction in which a person faces who wears sensors.
+/// How the direction in which the person faces is found.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SensorHeading {
     /// The bending of the knees.

@@ -83,7 +83,7 @@ pub fn skeleton_from_bvh(
     Ok(Interpreted::new(bvh, height_m, findings)?.recording(name, findings))
 }
 
-/// What the joints of a skeleton mean: those of the body, unit, axes and recorded points.
+/// How a skeleton is read: which of its joints are those of the body, its unit, its axes and the recorded points.
 struct Interpreted<'b> {
     skeleton: Skeleton<'b>,
     body_joints: BodyJoints,

@@ -54,7 +54,7 @@ pub struct RiggedMotion {
     pub bvh: Bvh,
     /// By how much its motion differs from that of the file.
     pub differences: RigDifferences,
-    /// What the skeleton could not store.
+    /// The part of the change that the skeleton cannot store.
     pub limits: RigLimits,
 }
 
@@ -69,7 +69,7 @@ pub struct RigDifferences {
     pub most_moved_m: f64,
 }
 
-/// What a skeleton cannot store of a change.
+/// The part of a change that a skeleton cannot store.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigLimits {
     /// Segments without a joint that has rotation channels.
@@ -91,7 +91,7 @@ impl<'b> Rig<'b> {
         height_m: Option<f64>,
         segments: &[(Segment, Option<Side>)],
     ) -> Result<Rig<'b>, SkeletonError> {
-        // What the file does not state has been reported when it was analysed.
+        // Findings on unit and axes were reported when the file was analysed.
         let findings = &mut Findings::default();
         let interpreted = Interpreted::new(bvh, height_m, findings)?;
         let recording = interpreted.recording(name, findings);

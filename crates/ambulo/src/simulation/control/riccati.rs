@@ -158,7 +158,7 @@ mod tests {
         let steps = [StepMap { by_state: scalar(1.2), by_input: scalar(0.0) }];
         let costs = Costs { state: scalar(1.0), input: scalar(1.0) };
         assert!(costs.periodic(&steps).is_none());
-        // What no input reaches needs none.
+        // A state that no input changes has the gain zero.
         assert!(costs.repeated(&steps[0], 10).unwrap().0[(0, 0)].abs() < 1e-12);
     }
 }

@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector};
 /// Time for which standing looks ahead [s].
 const AHEAD_S: f64 = 3.0;
 
-/// What a figure does; movements with the number of their time step.
+/// Whether a figure walks, stops, stands or walks off; in a movement, with the number of its time step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stage {
     Walking,
