@@ -1,8 +1,9 @@
 //! Figures that walk by their own torques: `cargo xtask physical-walk [--write]`.
 //!
 //! One man, his plan at free speed and the gains of that plan walk for a thousand steps, are pushed, and walk on uneven and on inclined ground, with
-//! another mass and other legs; then plans of other speeds and other figures. With `--write` the page goes to docs/measured/PHYSICAL_WALK.md.
+//! another mass and other legs; then plans of other speeds and other figures. With `--write` the page goes to docs/measured/PHYSICAL_WALK.md and its picture to docs/images/physical_walk.svg.
 
+mod figure;
 mod page;
 mod placement;
 mod spatial;
@@ -130,10 +131,12 @@ struct Tuned {
 #[expect(clippy::print_stdout, reason = "the page is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let write = workspace::write_option(words)?;
-    let page = page::text(&measure()?);
+    let results = measure()?;
+    let page = page::text(&results);
     println!("{page}");
     if write {
         workspace::save("docs/measured/PHYSICAL_WALK.md", &page)?;
+        workspace::save("docs/images/physical_walk.svg", &figure::svg(&results)?)?;
     }
     Ok(())
 }

@@ -26,6 +26,7 @@ pub(super) fn text(results: &Results) -> String {
     page += &results.placement.section();
     page += &in_three_dimensions(&results.spatial);
     page += &harmonics(results);
+    page += "\n![Harmonics of the torques, and pushes that are survived](../images/physical_walk.svg)\n\nLeft and middle: the table above. Right: the pushes of this page, with the usual and with the tuned gains.\n";
     page
 }
 

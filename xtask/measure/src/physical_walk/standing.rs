@@ -125,10 +125,10 @@ pub(super) fn section(all: &[Stands]) -> String {
         let time = format!("{found_s:.1} / {gains_s:.1}");
         table.row([name.clone(), format!("{speed:.2}"), stopped, moved, steps, pushes, time]);
     }
+    let tried = PUSHES.map(|force| format!("{force:+}")).join(", ");
     format!(
         "## Stopping, standing, walking off\n\nEach figure walks for {WALKS_S} s, is told to stop, stands, and is told to walk. How far it moves is measured {RESTS_S} s after it stands. Pushes act for \
-         {PUSH_S} s on the trunk, forward (+) or backward (-), and grow with mass; {:?} N were tried. A figure that stands does not step to keep its balance.\n\n{}\n",
-        PUSHES,
+         {PUSH_S} s on the trunk, forward (+) or backward (-), and grow with mass; {tried} N were tried. A figure that stands does not step to keep its balance.\n\n{}\n",
         table.text()
     )
 }
