@@ -55,6 +55,7 @@ pub(crate) fn fit_keypoints(
     let number = |path: &&MarkerPath| smooth.markers.iter().position(|marker| marker.name == path.name);
     let numbers: Vec<usize> = problem.paths.iter().filter_map(number).collect();
     let mut frames = Frames::new(&problem);
+    report::missing(&problem, &frames, findings);
     let most = (0..frames.count()).map(|frame| frames.used_in(frame)).max().unwrap_or(0);
     if most < FEWEST {
         let common = problem.points.len();

@@ -154,7 +154,8 @@ fn fitted(
         smoothing::smooth(model, &mut problem, &mut frames, &states, prior, Ending::EXACT);
     }
     gaps::open_unfitted(&mut problem, &mut frames, &mut states);
-    report::markers(&problem, &frames, findings);
+    report::missing(&problem, &frames, findings);
+    report::excluded(&problem, &frames, findings);
     report::unfitted(&problem, &frames, findings);
     report::misplaced(&problem, &elsewhere, findings);
     report::coordinates(model, &problem, &frames, &states, settings.longest_gap_s, findings);

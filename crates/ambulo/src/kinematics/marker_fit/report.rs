@@ -187,15 +187,21 @@ fn corrections(
     all
 }
 
-/// Reports markers that are missing, excluded or swapped.
-pub(super) fn markers(problem: &FitProblem<'_>, frames: &Frames, findings: &mut Findings) {
-    let name = |i: usize| problem.paths[i].name.as_str();
+/// Reports markers that are missing.
+pub(super) fn missing(problem: &FitProblem<'_>, frames: &Frames, findings: &mut Findings) {
     for i in 0..frames.markers() {
         let missing = spans(frames.count(), |f| !frames.is_seen(f, i));
         if !missing.is_empty() {
-            let message = format!("marker `{}` is missing at {}", name(i), times(problem, &missing));
+            let message = format!("marker `{}` is missing at {}", problem.paths[i].name, times(problem, &missing));
             findings.report(Code::MarkersMissing, message);
         }
+    }
+}
+
+/// Reports markers that are excluded or swapped.
+pub(super) fn excluded(problem: &FitProblem<'_>, frames: &Frames, findings: &mut Findings) {
+    let name = |i: usize| problem.paths[i].name.as_str();
+    for i in 0..frames.markers() {
         let wild = spans(frames.count(), |f| {
             let path = frames.path(f, i);
             frames.is_seen(f, path) && !frames.is_used(f, i)
