@@ -115,6 +115,9 @@ fn of_prediction(error: &PredictError) -> Option<&'static str> {
         }
         PredictError::NoGravity { .. } => Some("`--no-ground` computes a motion without contact"),
         PredictError::TooLarge { .. } => Some(RANGE),
+        PredictError::OtherPerson(_) => {
+            Some("`ambulo calibrate` makes the file of `--person` from trials of this person")
+        }
         _ => None,
     }
 }

@@ -273,3 +273,27 @@ fn impossible_predictions_are_rejected() {
     bench.run(&[&MOTION[..], &["--no-ground"], &RAW].concat());
     assert_eq!(bench.json("out/summary.json")["ground"]["source"], "none");
 }
+
+#[test]
+fn a_person_is_calibrated_on_plates_and_only_that_person_is_predicted_with_it() {
+    let bench = Workbench::empty("calibrated");
+    bench.run(&["demo", "-o", "demo", "--quiet"]).done();
+    let walk = "demo/input/walk.c3d";
+    let body = ["--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
+    let calibrate = [&["calibrate", walk][..], &body, &["-o", "person.toml"]].concat();
+    let run = bench.run(&calibrate).done();
+    assert!(run.stdout.contains("right foot stances") && run.stdout.contains("person.toml"), "{}", run.stdout);
+    bench.run(&calibrate).refused(&["person.toml", "--force"]);
+    let forces = |more: &[&str]| {
+        ran(bench.run(&[&["forces", walk][..], &body, &["--predict", "--keep", "report"], more].concat()));
+        bench.json("out/summary.json")["comparison"]["feet"][0]["vertical"]["rmse_bw"].as_f64().unwrap()
+    };
+    let (before, after) = (forces(&[]), forces(&["--person", "person.toml"]));
+    assert!(after < 0.7 * before, "{before} -> {after}");
+    bench.edit("person.toml", "mass_kg = 7", "mass_kg = 6");
+    let other = [&["forces", walk][..], &body, &["--predict", "--person", "person.toml"]].concat();
+    bench.run(&other).refused(&[walk, "mass", "ambulo calibrate"]);
+    bench.run(&["calibrate", "demo/input/walk.trc", "--mass", "75", "--force"]).refused(&["walk.trc", "plates"]);
+    bench.write("person.toml", "mass_kg = 3");
+    bench.run(&other).refused(&["person.toml", "stances"]);
+}

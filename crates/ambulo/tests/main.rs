@@ -92,6 +92,7 @@ mod optimal_standing;
 mod optimal_track;
 mod osim_export;
 mod osim_import;
+mod personal_ground;
 mod physical_walk;
 mod plug_in_gait;
 mod prediction_checks;

@@ -20,8 +20,8 @@ use numbers::{NUMBERS, parameters, rounded};
 use std::fs;
 use std::time::Instant;
 
-/// Evaluations per fit: two to five minutes for all six fits on one core; more hardly change the cost.
-const EVALUATIONS: usize = 700;
+/// Evaluations per fit: a quarter of an hour for all fits on one core; more hardly change the cost.
+const EVALUATIONS: usize = 400;
 /// Seed of the search.
 const SEED: u64 = 1;
 /// Penalty of parameters away from the middle of their ranges: one at an end adds a quarter of this to the cost.
@@ -39,18 +39,41 @@ struct Order {
     write: bool,
 }
 
-/// Results of a subject, with parameters fitted on all subjects and on the others.
+/// How the parameters were fitted with which a subject is predicted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fit {
+    /// On all subjects.
+    Own,
+    /// On all others.
+    PersonLeftOut,
+    /// On those of other laboratories.
+    LaboratoryLeftOut,
+}
+
+impl Fit {
+    const ALL: [Fit; 3] = [Fit::Own, Fit::PersonLeftOut, Fit::LaboratoryLeftOut];
+
+    fn word(self) -> &'static str {
+        match self {
+            Fit::Own => "own",
+            Fit::PersonLeftOut => "person left out",
+            Fit::LaboratoryLeftOut => "laboratory left out",
+        }
+    }
+}
+
+/// Results of a subject, one entry per way to fit.
 struct Fold {
     subject: &'static str,
     importance: f64,
-    /// Fitted and calibrated on the others.
-    parameters: FittedParameters,
-    own_cost: f64,
-    left_out_cost: f64,
-    own_figures: [f64; 11],
-    left_out_figures: [f64; 11],
-    /// One entry per component.
-    bands: [Option<Band>; 6],
+    /// Whether the figures count in the means: straight walks with markers on the trunk.
+    is_judged: bool,
+    /// Fitted and calibrated.
+    parameters: [FittedParameters; 3],
+    costs: [f64; 3],
+    figures: [[f64; 11]; 3],
+    /// Predicted with the laboratory left out: whole stances, then fifths; one entry per component.
+    bands: [[Option<Band>; 6]; 6],
 }
 
 /// The results of the fit.
@@ -66,15 +89,15 @@ struct Outcome {
 }
 
 impl Outcome {
-    /// Subjects with markers on the trunk, who determine the means.
-    fn with_trunk(&self) -> impl Iterator<Item = &Fold> {
-        self.folds.iter().filter(|fold| fold.importance >= 1.0)
+    /// Subjects who determine the means.
+    fn judged(&self) -> impl Iterator<Item = &Fold> {
+        self.folds.iter().filter(|fold| fold.is_judged)
     }
 
     /// Mean over subjects.
-    fn mean_cost(&self, of: fn(&Fold) -> f64) -> f64 {
+    fn mean_cost(&self, fit: Fit) -> f64 {
         let all: f64 = self.folds.iter().map(|fold| fold.importance).sum();
-        self.folds.iter().map(|fold| fold.importance * of(fold)).sum::<f64>() / all
+        self.folds.iter().map(|fold| fold.importance * fold.costs[fit as usize]).sum::<f64>() / all
     }
 }
 
@@ -143,10 +166,26 @@ fn order(words: &[String]) -> Result<Order, String> {
 
 fn outcome(cases: &[Case], order: &Order) -> Outcome {
     let subjects = cases::subjects(cases);
-    let mut own = fitted(cases, &subjects, order, order.seed, "all");
-    let without: Vec<FittedParameters> = (0..subjects.len()).map(|i| without(cases, &subjects, i, order)).collect();
-    // Leave-one-out: every subject is predicted with the parameters fitted on the others.
-    let judged = Judged::new(cases, &subjects, &without);
+    let laboratories: Vec<&'static str> = subjects.iter().map(|subject| cases::laboratory(cases, subject)).collect();
+    let mut own = fitted(cases, &subjects, order, "all");
+    let left_out = |name: &str, stays: &dyn Fn(usize) -> bool| {
+        let others = (0..subjects.len()).filter(|&i| stays(i)).map(|i| subjects[i]).collect::<Vec<_>>();
+        fitted(cases, &others, order, &format!("without {name}"))
+    };
+    let persons: Vec<FittedParameters> =
+        (0..subjects.len()).map(|i| left_out(subjects[i], &|other| other != i)).collect();
+    let mut by_laboratory: Vec<FittedParameters> = Vec::new();
+    for (i, laboratory) in laboratories.iter().enumerate() {
+        let first = laboratories.iter().position(|other| other == laboratory).unwrap_or(i);
+        let is_alone = laboratories.iter().filter(|other| *other == laboratory).count() == 1;
+        by_laboratory.push(match (first < i, is_alone) {
+            (true, _) => by_laboratory[first],
+            (false, true) => persons[i],
+            (false, false) => left_out(laboratory, &|other| laboratories[other] != *laboratory),
+        });
+    }
+    // Every subject is predicted with the parameters fitted on other laboratories: these are the errors of strangers.
+    let judged = Judged::new(cases, &subjects, &by_laboratory);
     own.calibration = judged.calibration(|_| true);
     let cost = |parameters: &FittedParameters| cases::cost(cases, &subjects, parameters);
     let least = cost(&own);
@@ -157,17 +196,19 @@ fn outcome(cases: &[Case], order: &Order) -> Outcome {
             cost(&changed) / least - 1.0
         })
     });
-    let folds = subjects.iter().zip(&without).map(|(subject, parameters)| {
-        let calibration = judged.calibration(|other| other != *subject);
+    let folds = subjects.iter().enumerate().map(|(i, subject)| {
+        let is_other = |other: &str| cases::laboratory(cases, other) != laboratories[i];
+        let calibration = judged.calibration(is_other);
+        let parameters = [own, persons[i], by_laboratory[i]].map(|fit| FittedParameters { calibration, ..fit });
+        let fifths = |k: usize| if k == 0 { 0..5 } else { k - 1..k };
         Fold {
             subject,
             importance: cases::importance(cases, subject),
-            parameters: FittedParameters { calibration, ..*parameters },
-            own_cost: cases::subject_cost(cases, subject, &own),
-            left_out_cost: cases::subject_cost(cases, subject, parameters),
-            own_figures: cases::figures(cases, subject, &own),
-            left_out_figures: cases::figures(cases, subject, parameters),
-            bands: std::array::from_fn(|c| judged.band(c, subject, &calibration)),
+            is_judged: cases::is_judged(cases, subject),
+            parameters,
+            costs: parameters.map(|fit| cases::subject_cost(cases, subject, &fit)),
+            figures: parameters.map(|fit| cases::figures(cases, subject, &fit)),
+            bands: std::array::from_fn(|k| std::array::from_fn(|c| judged.band(c, fifths(k), subject, &calibration))),
         }
     });
     Outcome {
@@ -180,30 +221,18 @@ fn outcome(cases: &[Case], order: &Order) -> Outcome {
     }
 }
 
-/// Fitted with the `index`th subject left out.
-fn without(cases: &[Case], subjects: &[&'static str], index: usize, order: &Order) -> FittedParameters {
-    let subject = subjects[index];
-    let others: Vec<&'static str> = subjects.iter().copied().filter(|other| *other != subject).collect();
-    fitted(cases, &others, order, order.seed, &format!("without {subject}"))
-}
-
-/// Parameters fitted on some subjects from the middle of the ranges, rounded.
-fn fitted(cases: &[Case], subjects: &[&str], order: &Order, seed: u64, name: &str) -> FittedParameters {
+/// Parameters fitted on some subjects from the middle of the ranges, rounded, with the mean errors that are then left.
+fn fitted(cases: &[Case], subjects: &[&'static str], order: &Order, name: &str) -> FittedParameters {
     let begun = Instant::now();
     let cost = |place: &[f64]| {
         let pull: f64 = place.iter().map(|x| (x - 0.5).powi(2)).sum();
         cases::cost(cases, subjects, &parameters(place)) + order.pull * pull
     };
-    let mut better = |done: usize, found: &search::Found| {
-        progress(&format!(
-            "{name}: {done} of {}: {:.4}, {:.0} s",
-            order.evaluations,
-            found.cost,
-            begun.elapsed().as_secs_f64()
-        ));
-    };
-    let found = search::least(vec![0.5; NUMBERS.len()], order.evaluations, seed, &cost, &mut better);
-    rounded(parameters(&found.place))
+    let found = search::least(vec![0.5; NUMBERS.len()], order.evaluations, order.seed, &cost, &mut |_, _| ());
+    progress(&format!("{name}: {:.4}, {:.0} s", found.cost, begun.elapsed().as_secs_f64()));
+    let mut parameters = rounded(parameters(&found.place));
+    parameters.errors = cases::mean_errors(cases, subjects, &parameters);
+    parameters
 }
 
 #[cfg(test)]

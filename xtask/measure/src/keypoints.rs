@@ -83,10 +83,10 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     Ok(())
 }
 
-/// The recordings on the built-in body with a standing trial.
+/// Straight walks, two turns and a run, on the built-in body with a standing trial.
 fn recordings() -> Vec<Recording> {
-    let turning = recording::all().into_iter().filter(|r| ["HC032A18", "HC002D25", "rajagopal-run"].contains(&r.label));
-    recording::straight().into_iter().chain(turning).collect()
+    let others = recording::labelled(&["HC032A18", "HC002D25", "rajagopal-run"]);
+    recording::straight().into_iter().chain(others).collect()
 }
 
 /// Root mean square differences of three moments [N.m/kg] with and without plates, and the processor time for 100 frames [s].

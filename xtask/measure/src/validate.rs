@@ -6,15 +6,14 @@
 
 mod means;
 mod page;
+mod personal;
 pub(crate) mod recording;
 mod tracking;
 pub(crate) mod trial;
 
 use crate::workspace;
 use serde_json::{Value, json};
-use std::path::Path;
 use std::process::Command;
-use tracking::Tracked;
 use trial::Trial;
 
 /// Runs the command.
@@ -27,30 +26,21 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         return Ok(());
     }
     let mut trials = Vec::new();
-    for recording in recording::all() {
-        match recording.read(&data).and_then(|source| Trial::run(&recording, &source)) {
+    let recordings = recording::all();
+    for recording in &recordings {
+        match recording.read(&data).and_then(|source| Trial::run(recording, &source)) {
             Ok(trial) => trials.push(trial),
             Err(reason) => return Err(format!("{}: {reason}", recording.label)),
         }
     }
     let commit = commit();
-    let page = page::text(&trials, &others(&trials, &data)?);
+    let page = page::text(&trials, &personal::calibrated(&recordings, &data)?);
     println!("{page}");
     workspace::save("target/validation.json", &format!("{:#}\n", json(&trials, &commit)))?;
     if write {
         workspace::save("docs/measured/VALIDATION.md", &page)?;
     }
     Ok(())
-}
-
-/// Tracking of the other recordings of straight walking, which played no part in setting its weights.
-fn others(trials: &[Trial], data: &Path) -> Result<Vec<Tracked>, String> {
-    let is_new = |one: &recording::Recording| trials.iter().all(|trial| trial.label != one.label);
-    let track = |one: recording::Recording| {
-        let found = one.read(data).and_then(|source| Tracked::run(&one, &source));
-        found.map_err(|reason| format!("{}: {reason}", one.label))
-    };
-    recording::straight().into_iter().filter(is_new).map(track).collect()
 }
 
 /// The commit that the numbers come from, with a word where files differ from it.

@@ -7,7 +7,8 @@ use super::values::{
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::study::Settings;
-use clap::{Args as ClapArgs, ValueEnum};
+use clap::{Args as ClapArgs, FromArgMatches, ValueEnum};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, ClapArgs)]
@@ -68,6 +69,9 @@ pub(crate) struct ForcesArgs {
     /// Predict the ground forces from the motion even if they were measured, and compare both [default without measured forces].
     #[arg(long, conflicts_with = "no_ground")]
     pub(crate) predict: bool,
+    /// What force plates showed about the predicted forces of this person (.toml, written by `ambulo calibrate`).
+    #[arg(long, value_name = "FILE", conflicts_with = "no_ground")]
+    pub(crate) person: Option<PathBuf>,
     /// Change the motion until feet on soft ground alone supply its external forces, near the recorded motion and the predicted forces (docs/OPTIMAL.md). Measured forces are only compared with the result.
     #[arg(long, conflicts_with_all = ["no_ground", "predict", "consistent"])]
     pub(crate) track: bool,
@@ -148,6 +152,43 @@ impl ForcesArgs {
     /// Whether a model or the built-in body was chosen.
     pub(crate) fn has_chosen_body(&self) -> bool {
         self.model.is_some()
+    }
+}
+
+/// Options of `ambulo calibrate`.
+#[derive(Debug, Clone, ClapArgs)]
+#[command(after_help = "Example (after `ambulo demo -o demo`, which writes these files):
+  ambulo calibrate demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 -o person.toml
+  ambulo forces demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 --predict --person person.toml -o out
+
+Errors of predicted ground forces are personal and repeat. The trials, of one person walking over force plates with each foot on a plate of
+its own, are predicted and compared with the plates; FILE has the mean difference over the stance for each foot, and the size of the person, by
+which a prediction of somebody else is refused. One trial is enough to begin, more are better (docs/GROUND_FORCES.md).")]
+pub(crate) struct CalibrateArgs {
+    /// Trials of one person walking over force plates (.c3d).
+    #[arg(required = true)]
+    pub(crate) trials: Vec<PathBuf>,
+    /// The body as an OpenSim model (.osim) [default: the built-in body].
+    #[arg(long, value_name = "FILE")]
+    pub(crate) model: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) subject: SubjectArgs,
+    /// File for the calibration; an existing one is only overwritten with --force.
+    #[arg(short, long, value_name = "FILE.toml", default_value = "person.toml")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
+    pub(crate) print: PrintArgs,
+}
+
+impl CalibrateArgs {
+    /// The options by which a trial is predicted.
+    pub(crate) fn of_trial(&self, trial: &Path) -> Result<ForcesArgs, clap::Error> {
+        let command = ForcesArgs::augment_args(clap::Command::new("forces"));
+        let words = [OsStr::new("forces"), trial.as_os_str()];
+        let defaults = ForcesArgs::from_arg_matches(&command.try_get_matches_from(words)?)?;
+        Ok(ForcesArgs { model: self.model.clone(), subject: self.subject.clone(), predict: true, ..defaults })
     }
 }
 

@@ -8,7 +8,7 @@ mod values;
 mod walk;
 
 pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
-pub(crate) use forces::{Adjusted, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
+pub(crate) use forces::{Adjusted, CalibrateArgs, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
 pub(crate) use values::{Cutoff, FootColumns, ForceCutoff, PlateFoot, TimedValue, Values};
@@ -28,6 +28,8 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Compute joint moments, powers, reactions and ground forces of a recording.
     Forces(Box<ForcesArgs>),
+    /// Calibrate the predicted ground forces of a person with trials on force plates, for `forces --person`.
+    Calibrate(Box<CalibrateArgs>),
     /// Synthesise a walk at any speed and in any style; same outputs as `forces`, no file needed.
     Walk(Box<WalkArgs>),
     /// Compute walks at many speeds, of many bodies, on slopes and with loads: one table, and a page with envelopes.

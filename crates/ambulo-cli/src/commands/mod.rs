@@ -1,6 +1,7 @@
 //! The subcommands, one module each.
 
 mod bids;
+pub(crate) mod calibrate;
 pub(crate) mod compare;
 pub(crate) mod convert;
 pub(crate) mod demo;

@@ -45,6 +45,11 @@ pub(crate) struct MotionRun {
 }
 
 impl MotionRun {
+    /// What was computed.
+    pub(super) fn into_outcome(self) -> Outcome {
+        self.outcome
+    }
+
     /// Writes all files and prints the outcome.
     pub(super) fn write(&self, target: &ResultTarget, print: PrintArgs, check: CheckArgs) -> Result<Completion> {
         let summary = self.save(target)?;

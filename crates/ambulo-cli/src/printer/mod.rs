@@ -2,6 +2,7 @@
 
 #![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
+mod calibrate;
 mod comparison;
 mod consistency;
 mod forces;
@@ -13,6 +14,7 @@ mod sweep;
 mod tools;
 mod tune;
 
+pub(crate) use calibrate::calibrate;
 pub(crate) use forces::forces;
 pub(crate) use report::{report, view};
 pub(crate) use reproduce::reproduce;

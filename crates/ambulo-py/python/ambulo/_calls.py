@@ -66,6 +66,7 @@ def forces(
     heading: str | None = None,
     earth: tuple[float, float, float] | None = None,
     predict: bool = False,
+    person: _Path | bytes | None = None,
     track: bool = False,
     ground: bool = True,
     figure: str | None = None,
@@ -122,6 +123,8 @@ def forces(
         Sensors: the axis of one that points forward in the standing posture, such as ``"pelvis_imu:-z"``.
     earth : tuple of three floats, optional
         Sensors: angles about the fixed axes x, y and z [deg] that turn their earth to the axes of the model.
+    person : str, path-like or bytes, optional
+        What force plates showed about the predicted forces of this person (``.toml``), written by ``ambulo calibrate``.
     predict : bool, optional
         Predict the ground forces even if they were measured, and compare both.
     track : bool, optional
@@ -188,6 +191,7 @@ def forces(
     words.option("setup", [os.fspath(path) for path in ([setup] if isinstance(setup, (str, os.PathLike)) else setup or [])])
     words.file("model", model, "model.osim")
     words.file("smpl", smpl, "smpl.npz")
+    words.file("person", person, "person.toml")
     words.option("heading", heading)
     words.option("earth", None if earth is None else ",".join(map(str, earth)))
     words.file("static", static, "static")

@@ -20,7 +20,7 @@ use super::recording::{Analysis, Mass};
 use super::walking_direction::WalkingDirection;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::phases::contacts_from_events;
-use crate::ground::predict::{FootDeviation, Prediction};
+use crate::ground::predict::{ErrorSample, FootDeviation, Prediction, outwards_sign};
 use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet};
 use crate::model::{Model, Movement, Side};
 use crate::motion::{ForceRecording, TimeGrid, Window};
@@ -211,6 +211,65 @@ fn without([from, to]: [f64; 2], removed: [f64; 2]) -> Vec<[f64; 2]> {
     }
 }
 
+/// A whole stance of a foot on a plate of its own, predicted and measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparedStance {
+    /// Which foot.
+    pub side: Side,
+    /// From foot strike to foot off [s].
+    pub span_s: [f64; 2],
+    /// The frames in which the plate was loaded.
+    pub samples: Vec<ComparedSample>,
+}
+
+/// One frame of a stance. Forces are vertical, fore-aft, lateral (to the right) [N]; centres of pressure fore-aft, lateral [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ComparedSample {
+    /// Elapsed share of the stance by the plates.
+    pub phase: f64,
+    /// Elapsed share of the stance as it was detected from the motion, 0 to 1.
+    pub detected_phase: f64,
+    /// Predicted force.
+    pub predicted: [f64; 3],
+    /// Measured force.
+    pub measured: [f64; 3],
+    /// Standard deviation of the predicted force.
+    pub deviation: [f64; 3],
+    /// Predicted minus measured centre of pressure; not a number where one of them is unknown.
+    pub center_off: [f64; 2],
+    /// Standard deviation of the predicted centre of pressure.
+    pub center_deviation: [f64; 2],
+    /// Predicted minus measured free moment about the vertical [N.m].
+    pub free_moment_off: f64,
+    /// Standard deviation of the predicted free moment.
+    pub free_moment_deviation: f64,
+}
+
+impl ComparedStance {
+    /// Errors over the stance as detected, in the order of [`StanceErrors`](crate::ground::predict::StanceErrors): forces in body weights, centres of pressure in statures, sideways
+    /// is outwards. The samples of a component have a weight of 1 together, those of a centre of pressure more where the foot is loaded.
+    #[must_use]
+    pub fn errors(&self, weight_n: f64, stature_m: f64) -> [Vec<ErrorSample>; 5] {
+        let mut all: [Vec<ErrorSample>; 5] = Default::default();
+        let outwards = outwards_sign(self.side);
+        for s in &self.samples {
+            let phase = s.detected_phase;
+            let [up, forward, sideways] = [0, 1, 2].map(|axis| (s.measured[axis] - s.predicted[axis]) / weight_n);
+            let weight = 1.0 / self.samples.len() as f64;
+            for (axis, error) in [forward, up, outwards * sideways].into_iter().enumerate() {
+                all[axis].push(ErrorSample { phase, error, weight });
+            }
+            let load = s.measured[0] / weight_n;
+            if load > CENTER_LOAD_BW {
+                let [along, across] = s.center_off.map(|off| -off / stature_m);
+                all[3].push(ErrorSample { phase, error: along, weight: weight * load });
+                all[4].push(ErrorSample { phase, error: outwards * across, weight: weight * load });
+            }
+        }
+        all
+    }
+}
+
 /// Two analyses of one motion, with predicted and with measured forces.
 #[derive(Debug, Clone, Copy)]
 pub struct ComparedAnalyses<'a> {
@@ -246,35 +305,63 @@ impl ComparedAnalyses<'_> {
 pub fn ground_agreement(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverage) -> GroundAgreement {
     let ComparedAnalyses { model, predicted, prediction, measured } = *compared;
     let Mass { kg, .. } = measured.mass;
-    let comparison = Comparison {
-        grid: predicted.trajectory.grid(),
-        up: model.up(),
-        weight: kg * model.gravity().norm(),
-        direction: WalkingDirection::of(model, &predicted.trajectory, &prediction.footfalls),
-    };
-    let (found, truth) = (feet(model, &predicted.ground), feet(model, &measured.ground));
-    let of = |list: &[(Side, Cow<'_, BodyForces>)], side: Side| list.iter().position(|(s, _)| *s == side);
+    let weight = kg * model.gravity().norm();
+    let compared_stances = compared_stances(compared, coverage);
     let of_foot = |side: Side| {
-        let (found, truth) = (&found[of(&found, side)?].1, &truth[of(&truth, side)?].1);
-        let deviation = prediction.deviations.iter().find(|deviation| deviation.side == side);
-        comparison.foot(side, found, truth, deviation, &stances(coverage, side, comparison.grid))
+        let own: Vec<&ComparedStance> = compared_stances.iter().filter(|stance| stance.side == side).collect();
+        foot(side, weight, &own)
     };
-    let feet = Side::BOTH.into_iter().filter_map(of_foot).collect();
+    let truth = feet(model, &measured.ground);
     let moments = Side::BOTH.into_iter().flat_map(|side| {
-        let frames =
-            comparison.measured_frames(side, coverage, truth.iter().find(|(s, _)| *s == side).map(|(_, f)| &**f));
+        let truth = truth.iter().find(|(s, _)| *s == side).map(|(_, f)| &**f);
+        let frames = measured_frames(compared, side, coverage, truth);
         MOMENTS.into_iter().filter_map(move |movement| moment(compared, side, movement, &frames)).collect::<Vec<_>>()
     });
-    let grid = comparison.grid;
+    let grid = predicted.trajectory.grid();
     let inside = |event: &&Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
     let events: Vec<Event> = coverage.events.iter().filter(inside).copied().collect();
     GroundAgreement {
         mass_kg: kg,
         window_s: coverage.window,
-        feet,
+        feet: Side::BOTH.into_iter().filter_map(of_foot).collect(),
         moments: moments.collect(),
         events: event_agreement(&events, &prediction.footfalls.events()),
     }
+}
+
+/// Every whole stance of a foot on a plate of its own, predicted and measured, right foot first.
+#[must_use]
+pub fn compared_stances(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverage) -> Vec<ComparedStance> {
+    let ComparedAnalyses { model, predicted, prediction, measured } = *compared;
+    let grid = predicted.trajectory.grid();
+    let direction = WalkingDirection::of(model, &predicted.trajectory, &prediction.footfalls);
+    let (found, truth) = (feet(model, &predicted.ground), feet(model, &measured.ground));
+    let of = |list: &[(Side, Cow<'_, BodyForces>)], side: Side| list.iter().position(|(s, _)| *s == side);
+    let mut all = Vec::new();
+    for side in Side::BOTH {
+        let (Some(found_at), Some(truth_at)) = (of(&found, side), of(&truth, side)) else { continue };
+        let foot = ComparedFoot {
+            grid,
+            up: model.up(),
+            found: &found[found_at].1,
+            truth: &truth[truth_at].1,
+            deviation: prediction.deviations.iter().find(|deviation| deviation.side == side),
+        };
+        for span_s in stances(coverage, side, grid) {
+            let detected_s = detected(&prediction.footfalls, side, span_s);
+            let samples = foot.samples([span_s, detected_s], direction.during(span_s));
+            all.push(ComparedStance { side, span_s, samples });
+        }
+    }
+    all
+}
+
+/// Strike and off from the motion of the stance that overlaps one on a plate most; those of the plate where none does.
+fn detected(footfalls: &Footfalls, side: Side, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
+    let spans = footfalls.of(side).map(|fall| [fall.strike_s.unwrap_or(from_s), fall.off_s.unwrap_or(to_s)]);
+    let overlap = |[a, b]: &[f64; 2]| b.min(to_s) - a.max(from_s);
+    let most = spans.max_by(|a, b| overlap(a).total_cmp(&overlap(b)));
+    most.filter(|span| overlap(span) > 0.0).unwrap_or([from_s, to_s])
 }
 
 /// Stances of a side that are long enough and lie entirely in the motion, with a tolerance of one frame.
@@ -309,126 +396,118 @@ fn moment(
     })
 }
 
-/// Data shared by the comparisons of both feet.
-struct Comparison {
+/// Frames in which all forces on a leg were measured.
+fn measured_frames(
+    compared: &ComparedAnalyses<'_>,
+    side: Side,
+    coverage: &PlateCoverage,
+    truth: Option<&BodyForces>,
+) -> Vec<usize> {
+    let grid = compared.predicted.trajectory.grid();
+    let mut known = vec![false; grid.frames];
+    if let Some([from_s, to_s]) = coverage.window {
+        let (first, count) = grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
+        known[first..first + count].fill(true);
+    }
+    if let Some(truth) = truth {
+        let up = compared.model.up();
+        let frames = stances(coverage, side, grid).into_iter().flat_map(|stance| loaded(grid, truth, up, stance));
+        frames.for_each(|i| known[i] = true);
+    }
+    (0..known.len()).filter(|&i| known[i]).collect()
+}
+
+/// Frames of a stance in which the plate is loaded.
+fn loaded(grid: TimeGrid, truth: &BodyForces, up: Vec3, [from_s, to_s]: [f64; 2]) -> Vec<usize> {
+    let (first, count) = grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
+    (first..first + count).filter(|&i| truth.force[i].dot(&up) > CENTER_OF_PRESSURE_LOAD_N).collect()
+}
+
+/// Both sources of the forces on one foot.
+struct ComparedFoot<'a> {
     grid: TimeGrid,
     up: Vec3,
-    /// Body weight [N].
-    weight: f64,
-    direction: WalkingDirection,
+    found: &'a BodyForces,
+    truth: &'a BodyForces,
+    deviation: Option<&'a FootDeviation>,
 }
 
-/// A measured sample of a stance: frame and axes.
-struct Sample {
-    frame: usize,
-    /// Up, forwards, to the right.
-    axes: [Vec3; 3],
+impl ComparedFoot<'_> {
+    /// The loaded frames of a stance, along its axes.
+    fn samples(&self, [span_s, detected_s]: [[f64; 2]; 2], [forward, right]: [Vec3; 2]) -> Vec<ComparedSample> {
+        let axes = [self.up, forward, right];
+        let share = |time: f64, [from, to]: [f64; 2]| (time - from) / (to - from);
+        let across = |v: Vec3| axes.map(|axis| v.component_mul(&axis).norm());
+        let sample = |i: usize| {
+            let off = self.found.center_of_pressure[i] - self.truth.center_of_pressure[i];
+            let [_, along, beside] = axes.map(|axis| off.dot(&axis));
+            let [_, center_along, center_beside] = self.deviation.map_or([0.0; 3], |d| across(d.center[i]));
+            ComparedSample {
+                phase: share(self.grid.time(i), span_s),
+                detected_phase: share(self.grid.time(i), detected_s).clamp(0.0, 1.0),
+                predicted: axes.map(|axis| self.found.force[i].dot(&axis)),
+                measured: axes.map(|axis| self.truth.force[i].dot(&axis)),
+                deviation: self.deviation.map_or([0.0; 3], |d| across(d.force[i])),
+                center_off: [along, beside],
+                center_deviation: [center_along, center_beside],
+                free_moment_off: (self.found.free_moment[i] - self.truth.free_moment[i]).dot(&self.up),
+                free_moment_deviation: self.deviation.map_or(0.0, |d| d.free_moment[i]),
+            }
+        };
+        loaded(self.grid, self.truth, self.up, span_s).into_iter().map(sample).collect()
+    }
 }
 
-impl Comparison {
-    /// Frames of a stance in which the plate is loaded.
-    fn frames(&self, truth: &BodyForces, [from_s, to_s]: [f64; 2]) -> Vec<usize> {
-        let (first, count) = self.grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
-        let loaded = |i: &usize| truth.force[*i].dot(&self.up) > CENTER_OF_PRESSURE_LOAD_N;
-        (first..first + count).filter(loaded).collect()
+/// Agreement of a foot over its stances; `None` without a loaded frame.
+fn foot(side: Side, weight: f64, stances: &[&ComparedStance]) -> Option<FootAgreement> {
+    let samples: Vec<&ComparedSample> = stances.iter().flat_map(|stance| &stance.samples).collect();
+    if samples.is_empty() {
+        return None;
     }
+    let [vertical, fore_aft, lateral] = [0, 1, 2].map(|axis| force(&samples, axis, weight));
+    Some(FootAgreement {
+        side,
+        stances_s: stances.iter().map(|stance| stance.span_s).collect(),
+        samples: samples.len(),
+        vertical,
+        fore_aft,
+        lateral,
+        center_of_pressure: center(&samples, weight),
+    })
+}
 
-    /// Frames in which all forces on a leg were measured.
-    fn measured_frames(&self, side: Side, coverage: &PlateCoverage, truth: Option<&BodyForces>) -> Vec<usize> {
-        let mut known = vec![false; self.grid.frames];
-        if let Some([from_s, to_s]) = coverage.window {
-            let (first, count) = self.grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
-            known[first..first + count].fill(true);
-        }
-        if let Some(truth) = truth {
-            let frames = stances(coverage, side, self.grid).into_iter().flat_map(|stance| self.frames(truth, stance));
-            frames.for_each(|i| known[i] = true);
-        }
-        (0..known.len()).filter(|&i| known[i]).collect()
+fn force(samples: &[&ComparedSample], axis: usize, weight: f64) -> ForceAgreement {
+    let pairs: Vec<(f64, f64)> = samples.iter().map(|s| (s.predicted[axis], s.measured[axis])).collect();
+    let agreement = agreement(&pairs);
+    let half_width = |s: &&ComparedSample| BAND_90 * s.deviation[axis];
+    let inside = samples.iter().zip(&pairs).filter(|(s, (a, b))| (a - b).abs() <= half_width(s)).count();
+    let n = samples.len() as f64;
+    ForceAgreement {
+        rmse_bw: agreement.rmse / weight,
+        rrmse: agreement.rrmse,
+        r: agreement.r,
+        band: BandAgreement {
+            holds: inside as f64 / n,
+            half_width_over_rmse: samples.iter().map(half_width).sum::<f64>() / n / agreement.rmse,
+        },
     }
+}
 
-    fn foot(
-        &self,
-        side: Side,
-        found: &BodyForces,
-        truth: &BodyForces,
-        deviation: Option<&FootDeviation>,
-        stances: &[[f64; 2]],
-    ) -> Option<FootAgreement> {
-        let samples = stances.iter().flat_map(|stance| {
-            let [forward, right] = self.direction.during(*stance);
-            let axes = [self.up, forward, right];
-            self.frames(truth, *stance).into_iter().map(move |frame| Sample { frame, axes })
-        });
-        let samples: Vec<Sample> = samples.collect();
-        if samples.is_empty() {
-            return None;
-        }
-        let force = |axis: usize| self.force(&samples, axis, found, truth, deviation);
-        Some(FootAgreement {
-            side,
-            stances_s: stances.to_vec(),
-            samples: samples.len(),
-            vertical: force(0),
-            fore_aft: force(1),
-            lateral: force(2),
-            center_of_pressure: self.center(&samples, found, truth),
-        })
-    }
-
-    fn force(
-        &self,
-        samples: &[Sample],
-        axis: usize,
-        found: &BodyForces,
-        truth: &BodyForces,
-        deviation: Option<&FootDeviation>,
-    ) -> ForceAgreement {
-        let along = |series: &[Vec3], sample: &Sample| series[sample.frame].dot(&sample.axes[axis]);
-        let pairs: Vec<(f64, f64)> = samples.iter().map(|s| (along(&found.force, s), along(&truth.force, s))).collect();
-        let agreement = agreement(&pairs);
-        let half_width =
-            |s: &Sample| deviation.map_or(0.0, |d| BAND_90 * d.force[s.frame].component_mul(&s.axes[axis]).norm());
-        let inside = samples.iter().zip(&pairs).filter(|(s, (a, b))| (a - b).abs() <= half_width(s)).count();
-        let n = samples.len() as f64;
-        ForceAgreement {
-            rmse_bw: agreement.rmse / self.weight,
-            rrmse: agreement.rrmse,
-            r: agreement.r,
-            band: BandAgreement {
-                holds: inside as f64 / n,
-                half_width_over_rmse: samples.iter().map(half_width).sum::<f64>() / n / agreement.rmse,
-            },
-        }
-    }
-
-    fn center(&self, samples: &[Sample], found: &BodyForces, truth: &BodyForces) -> CenterAgreement {
-        let load = |s: &Sample| truth.force[s.frame].dot(&self.up);
-        let measured = samples.iter().filter(|s| load(s) > CENTER_LOAD_BW * self.weight);
-        let (mut squares, mut weighted, mut loads) = ([0.0; 2], [0.0; 2], 0.0);
-        let (mut count, mut missing) = (0, 0);
-        for sample in measured {
-            let off = found.center_of_pressure[sample.frame] - truth.center_of_pressure[sample.frame];
-            if off.x.is_nan() {
-                missing += 1;
-                continue;
-            }
-            count += 1;
-            loads += load(sample);
-            for (k, axis) in sample.axes[1..].iter().enumerate() {
-                let square = off.dot(axis).powi(2);
-                squares[k] += square;
-                weighted[k] += square * load(sample);
-            }
-        }
-        let root_mm = |sum: f64, weight: f64| 1e3 * (sum / weight).sqrt();
-        CenterAgreement {
-            samples: count,
-            missing,
-            fore_aft_mm: root_mm(squares[0], count as f64),
-            lateral_mm: root_mm(squares[1], count as f64),
-            fore_aft_weighted_mm: root_mm(weighted[0], loads),
-            lateral_weighted_mm: root_mm(weighted[1], loads),
-        }
+fn center(samples: &[&ComparedSample], weight: f64) -> CenterAgreement {
+    let load = |s: &ComparedSample| s.measured[0];
+    let measured = || samples.iter().filter(|s| load(s) > CENTER_LOAD_BW * weight);
+    let known: Vec<_> = measured().filter(|s| !s.center_off[0].is_nan()).collect();
+    let loads: f64 = known.iter().map(|s| load(s)).sum();
+    let root_mm = |axis: usize, of: &dyn Fn(&ComparedSample) -> f64, sum: f64| {
+        1e3 * (known.iter().map(|s| s.center_off[axis].powi(2) * of(s)).sum::<f64>() / sum).sqrt()
+    };
+    let count = known.len();
+    CenterAgreement {
+        samples: count,
+        missing: measured().count() - count,
+        fore_aft_mm: root_mm(0, &|_| 1.0, count as f64),
+        lateral_mm: root_mm(1, &|_| 1.0, count as f64),
+        fore_aft_weighted_mm: root_mm(0, &load, loads),
+        lateral_weighted_mm: root_mm(1, &load, loads),
     }
 }

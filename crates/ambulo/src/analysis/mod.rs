@@ -27,8 +27,8 @@ pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle, over_cycle_of};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts_from_force, events};
 pub use ground_agreement::{
-    BandAgreement, CenterAgreement, ComparedAnalyses, FootAgreement, ForceAgreement, GroundAgreement, MomentAgreement,
-    PlateCoverage, ground_agreement,
+    BandAgreement, CenterAgreement, ComparedAnalyses, ComparedSample, ComparedStance, FootAgreement, ForceAgreement,
+    GroundAgreement, MomentAgreement, PlateCoverage, compared_stances, ground_agreement,
 };
 pub(crate) use marker_trial::fit_body_to_markers;
 pub use marker_trial::{

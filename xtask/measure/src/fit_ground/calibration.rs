@@ -5,7 +5,8 @@
 
 use super::cases::{Case, Sample, StanceSamples, mean};
 use super::numbers::three_digits;
-use ambulo::ground::predict::{DeviationCalibration, DeviationScaling, FittedParameters};
+use ambulo::ground::predict::{DeviationCalibration, DeviationScaling, FittedParameters, scaling_at};
+use std::ops::Range;
 
 /// Standard deviations on either side that contain 90 % of a normal distribution.
 const BAND_90: f64 = 1.645;
@@ -31,6 +32,9 @@ pub(super) struct Judged {
     subjects: Vec<(&'static str, Vec<StanceSamples>)>,
 }
 
+/// Factors and floors of a component in each fifth of a stance.
+pub(super) type Fifths = [DeviationScaling; 5];
+
 impl Judged {
     /// Straight walks of these subjects, each predicted with its own parameters and the deviations of the equations unchanged.
     pub(super) fn new(cases: &[Case], subjects: &[&'static str], parameters: &[FittedParameters]) -> Judged {
@@ -42,52 +46,67 @@ impl Judged {
         Judged { subjects: subjects.iter().zip(parameters).map(own).collect() }
     }
 
-    /// Stances of a component, subject by subject; subjects that are not judged on it are left out.
-    fn of_component(&self, component: usize, only: impl Fn(&str) -> bool) -> Vec<Vec<&[Sample]>> {
+    /// Stances of a component, subject by subject, within some fifths; subjects that are not judged on it are left out.
+    fn of_component(
+        &self,
+        component: usize,
+        fifths: Range<usize>,
+        only: impl Fn(&str) -> bool,
+    ) -> Vec<Vec<Vec<Sample>>> {
+        let within = |s: &&Sample| fifths.contains(&((5.0 * s.phase) as usize).min(4));
         let chosen = self.subjects.iter().filter(|(subject, _)| only(subject));
         let lists = chosen.map(|(_, stances)| {
-            let own = stances.iter().map(|stance| stance[component].as_slice());
-            own.filter(|samples| !samples.is_empty()).collect::<Vec<&[Sample]>>()
+            let own = stances.iter().map(|stance| stance[component].iter().filter(within).copied().collect());
+            own.filter(|samples: &Vec<Sample>| !samples.is_empty()).collect::<Vec<_>>()
         });
         lists.filter(|stances| !stances.is_empty()).collect()
     }
 
     /// Factors and floors from the subjects for which `only` says so.
     pub(super) fn calibration(&self, only: impl Fn(&str) -> bool) -> DeviationCalibration {
-        let spread = |component: usize| fitted(&self.of_component(component, &only));
+        let whole = |component: usize| fitted(&self.of_component(component, 0..5, &only));
+        let of_fifth =
+            |component: usize| std::array::from_fn(|k| fitted(&self.of_component(component, k..k + 1, &only)));
         DeviationCalibration {
-            force: std::array::from_fn(spread),
-            center: std::array::from_fn(|i| spread(3 + i)),
-            free_moment: spread(5),
+            force: std::array::from_fn(of_fifth),
+            center: std::array::from_fn(|i| whole(3 + i)),
+            free_moment: whole(5),
         }
     }
 
-    /// How a band does on a subject; `None` where the subject is not judged on that component.
-    pub(super) fn band(&self, component: usize, subject: &str, calibration: &DeviationCalibration) -> Option<Band> {
-        let stances = self.of_component(component, |name| name == subject);
+    /// How a band does on a subject within some fifths; `None` where the subject is not judged on that component.
+    pub(super) fn band(
+        &self,
+        component: usize,
+        fifths: Range<usize>,
+        subject: &str,
+        calibration: &DeviationCalibration,
+    ) -> Option<Band> {
+        let stances = self.of_component(component, fifths, |name| name == subject);
         (!stances.is_empty()).then(|| band(&stances, &spread(calibration, component)))
     }
 }
 
 /// The spread of one of [`super::cases::COMPONENTS`].
-pub(super) fn spread(calibration: &DeviationCalibration, component: usize) -> DeviationScaling {
+pub(super) fn spread(calibration: &DeviationCalibration, component: usize) -> Fifths {
     match component {
         0..3 => calibration.force[component],
-        3 | 4 => calibration.center[component - 3],
-        _ => calibration.free_moment,
+        3 | 4 => [calibration.center[component - 3]; 5],
+        _ => [calibration.free_moment; 5],
     }
 }
 
 /// Where nothing was predicted there is no band.
-fn half_width(sample: &Sample, spread: &DeviationScaling) -> f64 {
-    if sample.deviation > 0.0 { BAND_90 * spread.variance(sample.deviation.powi(2), sample.unit).sqrt() } else { 0.0 }
+fn half_width(sample: &Sample, spread: &Fifths) -> f64 {
+    let scaling = scaling_at(spread, sample.phase);
+    if sample.deviation > 0.0 { BAND_90 * scaling.variance(sample.deviation.powi(2), sample.unit).sqrt() } else { 0.0 }
 }
 
-fn band(subjects: &[Vec<&[Sample]>], spread: &DeviationScaling) -> Band {
+fn band(subjects: &[Vec<Vec<Sample>>], spread: &Fifths) -> Band {
     let holds =
-        |stance: &&[Sample]| mean(stance.iter().map(|s| f64::from(u8::from(s.error.abs() <= half_width(s, spread)))));
-    let width = |stances: &Vec<&[Sample]>| {
-        let all = || stances.iter().copied().flatten();
+        |stance: &Vec<Sample>| mean(stance.iter().map(|s| f64::from(u8::from(s.error.abs() <= half_width(s, spread)))));
+    let width = |stances: &Vec<Vec<Sample>>| {
+        let all = || stances.iter().flatten();
         mean(all().map(|s| half_width(s, spread))) / mean(all().map(|s| s.error.powi(2))).sqrt()
     };
     Band {
@@ -97,17 +116,14 @@ fn band(subjects: &[Vec<&[Sample]>], spread: &DeviationScaling) -> Band {
 }
 
 /// The sharpest pair of factor and floor that holds enough.
-fn fitted(subjects: &[Vec<&[Sample]>]) -> DeviationScaling {
-    let rmse = mean(
-        subjects
-            .iter()
-            .map(|stances| mean(stances.iter().copied().flatten().map(|s| (s.error / s.unit).powi(2))).sqrt()),
-    );
+fn fitted(subjects: &[Vec<Vec<Sample>>]) -> DeviationScaling {
+    let rmse =
+        mean(subjects.iter().map(|stances| mean(stances.iter().flatten().map(|s| (s.error / s.unit).powi(2))).sqrt()));
     let pairs = FLOORS.map(|share| {
         let spread = DeviationScaling { factor: factor(subjects, share * rmse), floor: share * rmse };
         DeviationScaling { factor: three_digits(spread.factor), floor: three_digits(spread.floor) }
     });
-    let rated = pairs.map(|spread| (spread, band(subjects, &spread)));
+    let rated = pairs.map(|spread| (spread, band(subjects, &[spread; 5])));
     let enough = |band: &Band| band.holds >= HELD - 0.01;
     let sharpest = rated
         .iter()
@@ -118,11 +134,11 @@ fn fitted(subjects: &[Vec<&[Sample]>]) -> DeviationScaling {
 }
 
 /// The factor that gives the required share with a floor, by bisection on a logarithmic scale: the share grows with the factor.
-fn factor(subjects: &[Vec<&[Sample]>], floor: f64) -> f64 {
+fn factor(subjects: &[Vec<Vec<Sample>>], floor: f64) -> f64 {
     let [mut low, mut high] = FACTORS;
     for _ in 0..30 {
         let factor = (low * high).sqrt();
-        if band(subjects, &DeviationScaling { factor, floor }).holds < HELD { low = factor } else { high = factor }
+        if band(subjects, &[DeviationScaling { factor, floor }; 5]).holds < HELD { low = factor } else { high = factor }
     }
     high
 }
@@ -138,22 +154,17 @@ mod tests {
         let mut sample = |i: usize| {
             let deviation = 1.0 + (i % 7) as f64;
             let truth = (true_factor * deviation).hypot(floor);
-            Sample { error: truth * random.normal(), deviation, unit: 1.0 }
+            Sample { phase: (i % 100) as f64 / 100.0, error: truth * random.normal(), deviation, unit: 1.0 }
         };
         (0..20).map(|_| (0..100).map(&mut sample).collect()).collect()
-    }
-
-    /// One subject with these stances.
-    fn slices(stances: &[Vec<Sample>]) -> Vec<Vec<&[Sample]>> {
-        vec![stances.iter().map(Vec::as_slice).collect()]
     }
 
     #[test]
     fn a_band_of_normal_errors_holds_nine_in_ten_and_so_it_does_on_others() {
         for (factor, floor) in [(1.0, 0.0), (2.5, 0.0), (0.5, 3.0)] {
             let (own, others) = (stances(1, factor, floor), stances(2, factor, floor));
-            let found = fitted(&slices(&own));
-            let band = band(&slices(&others), &found);
+            let found = fitted(&[own]);
+            let band = band(&[others], &[found; 5]);
             assert!((band.holds - 0.9).abs() < 0.03, "{factor}, {floor}: {found:?} gives {band:?}");
             assert!(band.half_width_over_rmse < 1.7, "{band:?}");
         }
@@ -162,13 +173,13 @@ mod tests {
     #[test]
     fn a_factor_is_found_again() {
         let own = stances(3, 2.0, 0.0);
-        let found = factor(&slices(&own), 0.0);
+        let found = factor(&[own], 0.0);
         assert!((found - 2.0).abs() < 0.1, "{found}");
     }
 
     #[test]
     fn where_nothing_was_predicted_nothing_is_held() {
-        let sample = Sample { error: 0.1, deviation: 0.0, unit: 1.0 };
-        assert!(half_width(&sample, &DeviationScaling { factor: 5.0, floor: 9.0 }).abs() < 1e-12);
+        let sample = Sample { phase: 0.5, error: 0.1, deviation: 0.0, unit: 1.0 };
+        assert!(half_width(&sample, &[DeviationScaling { factor: 5.0, floor: 9.0 }; 5]).abs() < 1e-12);
     }
 }

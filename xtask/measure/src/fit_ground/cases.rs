@@ -1,19 +1,18 @@
 //! The recordings of the fit, prepared for repeated predictions.
 
-use crate::validate::recording::{self, Group};
-use ambulo::analysis::{Analysis, ComparedAnalyses, FootAgreement, GroundAgreement, PlateCoverage, ground_agreement};
+use crate::validate::recording::{self, Group, Recording};
+use ambulo::analysis::{
+    Analysis, ComparedAnalyses, ComparedStance, FootAgreement, GroundAgreement, PlateCoverage, compared_stances,
+    ground_agreement,
+};
 use ambulo::findings::Findings;
-use ambulo::ground::feet;
-use ambulo::ground::predict::{FittedParameters, PredictSettings, Prediction, Prescribed, predict};
-use ambulo::model::Side;
-use ambulo::motion::Window;
-use ambulo::spatial::Vec3;
+use ambulo::ground::predict::{
+    ErrorSample, FittedParameters, PredictSettings, Prediction, Prescribed, StanceCurve, StanceErrors, predict,
+};
 use ambulo::study::{Outcome, PredictedGround};
 use std::path::Path;
 
-/// A sample is used while the measured vertical force exceeds this [N].
-const LOADED_N: f64 = 20.0;
-/// Its centre of pressure is used above this share of body weight.
+/// Centres of pressure and free moments are used above this share of body weight.
 const CENTER_LOAD_BW: f64 = 0.05;
 /// Weight of a subject without markers on the trunk.
 const WITHOUT_TRUNK: f64 = 0.5;
@@ -21,6 +20,7 @@ const WITHOUT_TRUNK: f64 = 0.5;
 /// A recording with its footfalls found.
 pub(super) struct Case {
     pub(super) subject: &'static str,
+    pub(super) laboratory: &'static str,
     pub(super) group: Group,
     /// By the prediction with the shipped numbers.
     outcome: Outcome,
@@ -45,6 +45,8 @@ pub(super) const NEEDS_TRUNK: [usize; 2] = [2, 4];
 /// One component in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sample {
+    /// Elapsed share of the stance.
+    pub(super) phase: f64,
     /// Predicted minus measured value.
     pub(super) error: f64,
     /// Standard deviation of the prediction.
@@ -59,7 +61,8 @@ pub(super) type StanceSamples = [Vec<Sample>; 6];
 /// All walking recordings next to the workspace, without runs. `said` is called for each recording that is loaded.
 pub(super) fn load(data: &Path, said: &mut dyn FnMut(&str)) -> Result<Vec<Case>, String> {
     let mut cases = Vec::new();
-    for recording in recording::all().into_iter().filter(|recording| recording.group != Group::Running) {
+    let walks = |r: &Recording| r.group != Group::Running;
+    for recording in recording::all().into_iter().filter(walks) {
         said(recording.label);
         let case = recording.read(data).and_then(|source| {
             let outcome = recording.predict(&source, Prescribed::default())?;
@@ -67,6 +70,7 @@ pub(super) fn load(data: &Path, said: &mut dyn FnMut(&str)) -> Result<Vec<Case>,
                 outcome.prediction.as_ref().ok_or("nothing was predicted")?;
             Ok(Case {
                 subject: recording.subject,
+                laboratory: recording.laboratory,
                 group: recording.group,
                 prescribed: Prescribed { footfalls: Some(prediction.footfalls.clone()), ..Prescribed::default() },
                 measured: measured.clone().ok_or("no plates")?,
@@ -92,20 +96,26 @@ pub(super) fn subjects(cases: &[Case]) -> Vec<&'static str> {
 
 impl Case {
     fn predict(&self, parameters: &FittedParameters) -> Option<Prediction> {
-        let settings = PredictSettings { prescribed: self.prescribed.clone(), parameters: *parameters };
+        let settings = PredictSettings { prescribed: self.prescribed.clone(), parameters: *parameters, person: None };
         let Outcome { body, person, .. } = &self.outcome;
         predict(body, &self.measured.trajectory, &person.soles, &settings, &mut Findings::default()).ok()
     }
 
     /// Agreement of a prediction with the measured forces; `None` without a prediction.
     pub(super) fn agreement(&self, parameters: &FittedParameters) -> Option<GroundAgreement> {
+        self.compared(parameters, |compared| ground_agreement(compared, &self.coverage))
+    }
+
+    /// Stances of a prediction and of the plates.
+    pub(super) fn stances(&self, parameters: &FittedParameters) -> Vec<ComparedStance> {
+        self.compared(parameters, |compared| compared_stances(compared, &self.coverage)).unwrap_or_default()
+    }
+
+    fn compared<T>(&self, parameters: &FittedParameters, compare: impl Fn(&ComparedAnalyses<'_>) -> T) -> Option<T> {
         let prediction = self.predict(parameters)?;
         let found = Analysis { ground: prediction.ground.clone(), ..self.outcome.analysis.clone() };
         let (model, measured) = (&self.outcome.body, &self.measured);
-        Some(ground_agreement(
-            &ComparedAnalyses { model, predicted: &found, prediction: &prediction, measured },
-            &self.coverage,
-        ))
+        Some(compare(&ComparedAnalyses { model, predicted: &found, prediction: &prediction, measured }))
     }
 
     /// The cost that the fit minimises: errors of the feet divided by their criteria, 1 if all are just met.
@@ -125,56 +135,75 @@ impl Case {
         mean(agreement.feet.iter().map(of_foot))
     }
 
-    /// Whether the recording is straight walking; turns are part of the fit but evaluated separately.
+    /// Whether the recording is straight walking at a usual speed; others are part of the fit but evaluated separately.
     pub(super) fn is_straight(&self) -> bool {
-        self.group != Group::Turning
+        matches!(self.group, Group::Walking | Group::NoTrunk)
     }
 
-    /// Errors against plates with their deviations, stance by stance, of a straight walk; along the world's axes.
-    pub(super) fn samples(&self, parameters: &FittedParameters) -> Vec<StanceSamples> {
-        let (Some(prediction), Some(agreement)) = (self.predict(parameters), self.agreement(parameters)) else {
-            return Vec::new();
-        };
-        let stances = agreement.feet.iter().flat_map(|foot| foot.stances_s.iter().map(move |span| (foot.side, *span)));
-        stances.filter_map(|(side, span)| self.of_stance(&prediction, side, span)).collect()
-    }
-
-    fn of_stance(&self, prediction: &Prediction, side: Side, [from_s, to_s]: [f64; 2]) -> Option<StanceSamples> {
+    /// Body weight [N] and stature [m].
+    fn size(&self) -> [f64; 2] {
         let model = &self.outcome.body;
-        let weight = self.measured.mass.kg * model.gravity().norm();
-        let foot = |ground| feet(model, ground).into_iter().find(|(of, _)| *of == side).map(|(_, foot)| foot);
-        let (found, truth) = (foot(&prediction.ground)?, foot(&self.measured.ground)?);
-        let deviation = prediction.deviations.iter().find(|deviation| deviation.side == side)?;
-        let (first, count) = self.measured.trajectory.grid().inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
+        [self.measured.mass.kg * model.gravity().norm(), model.stature().height_m]
+    }
+
+    /// Errors against plates with their deviations, stance by stance.
+    pub(super) fn samples(&self, parameters: &FittedParameters) -> Vec<StanceSamples> {
+        self.stances(parameters).iter().map(|stance| self.of_stance(stance)).collect()
+    }
+
+    fn of_stance(&self, stance: &ComparedStance) -> StanceSamples {
+        let [weight, _] = self.size();
         let mut out = StanceSamples::default();
-        for i in first..first + count {
-            let load = truth.force[i].y;
-            if load <= LOADED_N {
-                continue;
-            }
-            let apart = |a: &[Vec3], b: &[Vec3]| a[i] - b[i];
-            let force = apart(&found.force, &truth.force);
-            let center = apart(&found.center_of_pressure, &truth.center_of_pressure);
-            let free_moment = apart(&found.free_moment, &truth.free_moment).y;
-            let (of_force, of_center) = (deviation.force[i], deviation.center[i]);
-            let parts = [
-                (force.x, of_force.x, weight),
-                (force.y, of_force.y, weight),
-                (force.z, of_force.z, weight),
-                (center.x, of_center.x, 1.0),
-                (center.z, of_center.z, 1.0),
-                (free_moment, deviation.free_moment[i], weight),
-            ];
+        for s in &stance.samples {
+            let [up, forward, sideways] = [0, 1, 2].map(|k| (s.predicted[k] - s.measured[k], s.deviation[k], weight));
+            let [along, across] = [0, 1].map(|k| (s.center_off[k], s.center_deviation[k], 1.0));
+            let free_moment = (s.free_moment_off, s.free_moment_deviation, weight);
+            let parts = [forward, up, sideways, along, across, free_moment];
             for (c, (error, deviation, unit)) in parts.into_iter().enumerate() {
-                let counts = c < 3 || load > CENTER_LOAD_BW * weight;
+                let counts = c < 3 || s.measured[0] > CENTER_LOAD_BW * weight;
                 let judged = self.group != Group::NoTrunk || !NEEDS_TRUNK.contains(&c);
                 if counts && judged && error.is_finite() {
-                    out[c].push(Sample { error, deviation, unit });
+                    out[c].push(Sample { phase: s.detected_phase, error, deviation, unit });
                 }
             }
         }
-        Some(out)
+        out
     }
+}
+
+/// Mean errors of the estimate with these parameters on the straight walks of some subjects: of the sideways force and of the centre of
+/// pressure along the way, the only components whose mean error on the others is also that of a subject or a laboratory left out.
+pub(super) fn mean_errors(cases: &[Case], subjects: &[&str], parameters: &FittedParameters) -> StanceErrors {
+    let mut all: [Vec<ErrorSample>; 5] = Default::default();
+    for subject in subjects {
+        let own = cases.iter().filter(|case| case.subject == *subject && case.group == Group::Walking);
+        let stances: Vec<[Vec<ErrorSample>; 5]> = own
+            .flat_map(|case| {
+                let [weight_n, stature_m] = case.size();
+                case.stances(parameters).into_iter().map(move |stance| stance.errors(weight_n, stature_m))
+            })
+            .collect();
+        let share = 1.0 / stances.len() as f64;
+        for stance in &stances {
+            for (all, own) in all.iter_mut().zip(stance) {
+                all.extend(own.iter().map(|sample| ErrorSample { weight: share * sample.weight, ..*sample }));
+            }
+        }
+    }
+    let errors = StanceErrors::through(&all);
+    let none = StanceCurve::NONE;
+    let rounded = |curve: StanceCurve| StanceCurve(curve.0.map(|value| (1e5 * value).round() / 1e5));
+    StanceErrors { force: [none, none, rounded(errors.force[2])], center: [rounded(errors.center[0]), none] }
+}
+
+/// The laboratory of a subject.
+pub(super) fn laboratory(cases: &[Case], subject: &str) -> &'static str {
+    cases.iter().find(|case| case.subject == subject).map_or("", |case| case.laboratory)
+}
+
+/// Whether a subject has a straight walk at a usual speed with markers on the trunk.
+pub(super) fn is_judged(cases: &[Case], subject: &str) -> bool {
+    cases.iter().any(|case| case.subject == subject && case.group == Group::Walking)
 }
 
 /// Weight of a subject.

@@ -1,6 +1,6 @@
 //! The fitted parameters with their plausible ranges, mapped to the unit cube.
 
-use ambulo::ground::predict::{DeviationCalibration, FittedParameters};
+use ambulo::ground::predict::{DeviationCalibration, FittedParameters, StanceErrors};
 
 /// A fitted number.
 #[derive(Debug, Clone, Copy)]
@@ -65,8 +65,11 @@ impl Number {
 
 /// Parameters at a point of the unit cube, with the estimator's own standard deviations.
 pub(super) fn parameters(place: &[f64]) -> FittedParameters {
-    let mut parameters =
-        FittedParameters { calibration: DeviationCalibration::UNSCALED, ..FittedParameters::default() };
+    let mut parameters = FittedParameters {
+        errors: StanceErrors::default(),
+        calibration: DeviationCalibration::UNSCALED,
+        ..FittedParameters::default()
+    };
     for (number, place) in NUMBERS.iter().zip(place) {
         number.set(&mut parameters, number.at(*place));
     }

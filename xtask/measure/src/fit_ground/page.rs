@@ -1,11 +1,11 @@
 //! The page: tables that read as text and as Markdown.
 
-use super::calibration::spread;
+use super::calibration::{Band, spread};
 use super::cases::COMPONENTS;
 use super::numbers::{NUMBERS, Number};
-use super::{Fold, Order, Outcome};
+use super::{Fit, Fold, Order, Outcome};
 use crate::table::Table;
-use ambulo::ground::predict::FittedParameters;
+use ambulo::ground::predict::{DeviationScaling, FittedParameters, KNOTS};
 
 /// Components of a force in the order of the figures.
 const FORCES: [&str; 3] = ["up", "forward", "sideways"];
@@ -17,11 +17,11 @@ pub(super) fn text(order: &Order, outcome: &Outcome) -> String {
         "# Fit of the ground-force estimator\n\n\
          Settings: `--evaluations {evaluations} --seed {seed} --pull {pull}`. The numbers of `ambulo::ground::predict::FittedParameters` that no law gives are fitted to recordings with plates. Footfalls are found once a \
          recording, from motion alone; every prediction is made as `ambulo forces --predict` makes it. A random local search with \
-         {evaluations} evaluations a fit starts from the middle of the ranges, also for the fits that leave a subject out.\n\n\
+         {evaluations} evaluations a fit starts from the middle of the ranges, also for the fits that leave a person or a laboratory out.\n\n\
          Cost of a recording, mean over its feet: upward force rRMSE / 4 % + RMSE / 5 % of body weight + 0.3 (1 - r) / 0.01, forward \
          rRMSE / 8.5 %, sideways rRMSE / 12 % + 0.3 (1 - r) / 0.12, centre of pressure along / 24 mm + across / 24 mm. Subjects: mean over \
-         their recordings, turns included; PiG has no markers on the trunk, is not judged sideways and across, and counts half. A run is \
-         left out. Added to it is {pull} x the sum over the numbers of their squared distance from the middle of the range, as a share of the \
+         their recordings, turns and fast walks included; PiG has no markers on the trunk, is not judged sideways and across, and counts half. \
+         Runs are left out. Added to it is {pull} x the sum over the numbers of their squared distance from the middle of the range, as a share of the \
          range: what recordings do not tell stays in the middle. Costs below are without it.\n"
     );
     let values = format!(
@@ -31,18 +31,15 @@ pub(super) fn text(order: &Order, outcome: &Outcome) -> String {
         outcome.cost,
         outcome.cost_of_shipped
     );
-    let costs = format!(
-        "{}\n`own`: fitted on all subjects. `left out`: fitted on the others. Mean over subjects, PiG at half: own {:.3}, left out {:.3}.\n",
-        costs(outcome),
-        outcome.mean_cost(|fold| fold.own_cost),
-        outcome.mean_cost(|fold| fold.left_out_cost)
-    );
+    let mean_costs = Fit::ALL.map(|fit| format!("{} {:.3}", fit.word(), outcome.mean_cost(fit)));
+    let costs = format!("{}\nMean over subjects, PiG at half: {}.\n", costs(outcome), mean_costs.join(", "));
     let sections = [
         ("Numbers: range, fit, and change of the cost when one is halved or doubled", values),
         ("Cost of each subject", costs),
-        ("Figures of straight walks, own and left out", figures(outcome)),
+        ("Figures of straight walks", figures(outcome)),
+        ("Mean errors that are taken off", errors(outcome)),
         ("Standard deviations: factor and floor", spreads(outcome)),
-        ("Bands of 90 %, subject left out: share held [%], half-width over RMSE", bands(outcome)),
+        ("Bands of 90 %, laboratory left out: share held [%], half-width over RMSE", bands(outcome)),
     ];
     sections.into_iter().fold(head, |page, (title, part)| format!("{page}\n## {title}\n\n{part}"))
 }
@@ -71,7 +68,7 @@ fn numbers(outcome: &Outcome) -> String {
     ]);
     let shipped = FittedParameters::default();
     for (number, changes) in NUMBERS.iter().zip(&outcome.sensitivity) {
-        let folds = outcome.folds.iter().map(|fold| number.of(&fold.parameters));
+        let folds = outcome.folds.iter().flat_map(|fold| &fold.parameters[1..]).map(|fit| number.of(fit));
         let (low, high) = folds.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         let Number { name, unit, range, .. } = number;
         let change = |x: f64| format!("{:+.1}", 100.0 * x);
@@ -92,9 +89,10 @@ fn numbers(outcome: &Outcome) -> String {
 }
 
 fn costs(outcome: &Outcome) -> String {
-    let mut table = Table::new(&["subject", "own", "left out"]);
+    let mut table = Table::new(&["subject", Fit::ALL[0].word(), Fit::ALL[1].word(), Fit::ALL[2].word()]);
     for fold in &outcome.folds {
-        table.row([fold.subject.to_owned(), number(fold.own_cost, 3), number(fold.left_out_cost, 3)]);
+        let [own, person, laboratory] = fold.costs.map(|cost| number(cost, 3));
+        table.row([fold.subject.to_owned(), own, person, laboratory]);
     }
     table.text()
 }
@@ -104,80 +102,117 @@ fn figures(outcome: &Outcome) -> String {
     head.extend(FORCES.iter().flat_map(|f| [format!("{f} RMSE [%BW]"), "rRMSE [%]".to_owned(), "r".to_owned()]));
     head.extend(["centre along [mm]".to_owned(), "across [mm]".to_owned()]);
     let mut table = Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
-    let row = |subject: &str, fit: &str, values: &[f64; 11]| -> [String; 13] {
+    let row = |subject: &str, fit: Fit, values: &[f64; 11]| -> [String; 13] {
         std::array::from_fn(|column| match column {
             0 => subject.to_owned(),
-            1 => fit.to_owned(),
+            1 => fit.word().to_owned(),
             2..11 if column % 3 == 1 => number(values[column - 2], 3),
             2..11 => number(values[column - 2], 2),
             _ => number(values[column - 2], 1),
         })
     };
     for fold in &outcome.folds {
-        table.row(row(fold.subject, "own", &fold.own_figures));
-        table.row(row(fold.subject, "left out", &fold.left_out_figures));
+        if fold.figures[0][0].is_finite() {
+            Fit::ALL.into_iter().for_each(|fit| table.row(row(fold.subject, fit, &fold.figures[fit as usize])));
+        }
     }
-    let mean = |of: fn(&Fold) -> &[f64; 11]| {
-        std::array::from_fn(|k| super::cases::mean(outcome.with_trunk().map(|fold| of(fold)[k])))
-    };
-    table.row(row("mean without PiG", "own", &mean(|fold| &fold.own_figures)));
-    table.row(row("mean without PiG", "left out", &mean(|fold| &fold.left_out_figures)));
+    for fit in Fit::ALL {
+        let of = |k: usize| super::cases::mean(outcome.judged().map(|fold| fold.figures[fit as usize][k]));
+        table.row(row("mean with markers on the trunk", fit, &std::array::from_fn(of)));
+    }
     table.text()
 }
 
-fn spreads(outcome: &Outcome) -> String {
-    let mut table = Table::new(&["component", "unit of the floor", "factor", "floor", "left out: factors", "floors"]);
-    for (c, component) in COMPONENTS.iter().enumerate() {
-        let own = spread(&outcome.parameters.calibration, c);
-        let folds: Vec<_> = outcome.folds.iter().map(|fold| spread(&fold.parameters.calibration, c)).collect();
-        let ends = |of: fn(&ambulo::ground::predict::DeviationScaling) -> f64| {
-            let (low, high) = folds.iter().map(of).fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
-            format!("{} to {}", digits(low), digits(high))
+fn errors(outcome: &Outcome) -> String {
+    let mut table = Table::new(&[
+        "share of the stance",
+        "force outwards [%BW]",
+        "left out, least",
+        "most",
+        "centre along [% stature]",
+        "left out, least",
+        "most",
+    ]);
+    for (k, knot) in KNOTS.iter().enumerate() {
+        let values = |of: fn(&FittedParameters, usize) -> f64| {
+            let folds = outcome.folds.iter().flat_map(|fold| &fold.parameters[1..]).map(|fit| 100.0 * of(fit, k));
+            let (low, high) = folds.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+            [100.0 * of(&outcome.parameters, k), low, high].map(|x| number(x, 2))
         };
-        let unit = match c {
-            0..3 => "BW",
-            3 | 4 => "m",
-            _ => "BW m",
-        };
-        table.row([
-            (*component).to_owned(),
-            unit.to_owned(),
-            digits(own.factor),
-            digits(own.floor),
-            ends(|s| s.factor),
-            ends(|s| s.floor),
-        ]);
+        let [force, force_low, force_high] = values(|fit, k| fit.errors.force[2].0[k]);
+        let [center, center_low, center_high] = values(|fit, k| fit.errors.center[0].0[k]);
+        table.row([number(*knot, 2), force, force_low, force_high, center, center_low, center_high]);
     }
     format!(
-        "{}\nDeviation = root of (factor x deviation of the equations)^2 + floor^2; the sharpest pair whose band of 1.645 deviations \
-         holds 90 % of the samples (plate above 20 N; centres of pressure and free moments above 5 % of body weight), mean over stances, \
-         then over subjects; straight walks. Each subject is predicted with the numbers fitted on the others, so these are the errors of strangers. \
-         `left out`: from the other subjects alone.\n",
+        "{}\nMeasured minus estimated, mean over the straight walks of the subjects, each subject counted once. The other components have no mean \
+         error that also a person and a laboratory left out has.\n",
+        table.text()
+    )
+}
+
+fn spreads(outcome: &Outcome) -> String {
+    let mut table = Table::new(&[
+        "component",
+        "share of the stance",
+        "unit of the floor",
+        "factor",
+        "floor",
+        "left out: factors",
+        "floors",
+    ]);
+    for (c, component) in COMPONENTS.iter().enumerate() {
+        let fifths = if c < 3 { 5 } else { 1 };
+        for k in 0..fifths {
+            let own = spread(&outcome.parameters.calibration, c)[k];
+            let folds: Vec<_> =
+                outcome.folds.iter().map(|fold| spread(&fold.parameters[0].calibration, c)[k]).collect();
+            let ends = |of: fn(&DeviationScaling) -> f64| {
+                let (low, high) = folds.iter().map(of).fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+                format!("{} to {}", digits(low), digits(high))
+            };
+            let unit = match c {
+                0..3 => "BW",
+                3 | 4 => "m",
+                _ => "BW m",
+            };
+            let phase = if fifths == 1 { "whole".to_owned() } else { format!("{:.1}", 0.1 + 0.2 * k as f64) };
+            table.row([
+                (*component).to_owned(),
+                phase,
+                unit.to_owned(),
+                digits(own.factor),
+                digits(own.floor),
+                ends(|s| s.factor),
+                ends(|s| s.floor),
+            ]);
+        }
+    }
+    format!(
+        "{}\nDeviation = root of (factor x deviation of the equations)^2 + floor^2, linear between the shares of the stance; the sharpest pair whose \
+         band of 1.645 deviations holds 90 % of the samples (plate above 20 N; centres of pressure and free moments above 5 % of body weight), mean over \
+         stances, then over subjects; straight walks. Each subject is predicted with the numbers fitted on other laboratories, so these are the errors of \
+         strangers. `left out`: without the laboratory of each subject.\n",
         table.text()
     )
 }
 
 fn bands(outcome: &Outcome) -> String {
-    let mut head = vec!["component"];
-    head.extend(outcome.folds.iter().flat_map(|fold| [fold.subject, "width"]));
-    head.extend(["mean without PiG", "width"]);
-    let mut rows = String::new();
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    rows += &line(&head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>());
-    rows += &line(
-        &head.iter().enumerate().map(|(i, _)| if i == 0 { ":---" } else { "---:" }.to_owned()).collect::<Vec<_>>(),
-    );
+    let mut table = Table::new(&["component", "part of the stance", "mean held", "width", "least held", "by"]);
+    let parts = ["whole", "1st fifth", "2nd fifth", "3rd fifth", "4th fifth", "5th fifth"];
     for (c, component) in COMPONENTS.iter().enumerate() {
-        let found: Vec<_> = outcome.folds.iter().map(|fold| fold.bands[c]).collect();
-        let mut cells = vec![(*component).to_owned()];
-        for band in &found {
-            cells.push(band.map_or("-".to_owned(), |band| number(100.0 * band.holds, 0)));
-            cells.push(band.map_or("-".to_owned(), |band| number(band.half_width_over_rmse, 2)));
+        for (k, part) in parts.iter().enumerate() {
+            let known: Vec<(&Fold, Band)> =
+                outcome.judged().filter_map(|fold| Some((fold, fold.bands[k][c]?))).collect();
+            let least = known.iter().min_by(|a, b| a.1.holds.total_cmp(&b.1.holds));
+            table.row([
+                (*component).to_owned(),
+                (*part).to_owned(),
+                number(100.0 * super::cases::mean(known.iter().map(|(_, band)| band.holds)), 0),
+                number(super::cases::mean(known.iter().map(|(_, band)| band.half_width_over_rmse)), 2),
+                number(least.map_or(f64::NAN, |(_, band)| 100.0 * band.holds), 0),
+                least.map_or("-", |(fold, _)| fold.subject).to_owned(),
+            ]);
         }
-        let known = || outcome.with_trunk().filter_map(|fold| fold.bands[c]);
-        cells.push(number(100.0 * super::cases::mean(known().map(|band| band.holds)), 0));
-        cells.push(number(super::cases::mean(known().map(|band| band.half_width_over_rmse)), 2));
-        rows += &line(&cells);
     }
-    rows
+    table.text()
 }

@@ -2,7 +2,7 @@
 
 use super::recording::Group;
 use super::trial::Trial;
-use ambulo::analysis::{FootAgreement, ForceAgreement, GroundAgreement};
+use ambulo::analysis::{ComparedStance, FootAgreement, ForceAgreement, GroundAgreement};
 
 /// A figure of a trial: the mean over its feet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,6 +27,8 @@ pub(super) enum Figure {
     Width(usize),
 }
 
+/// Standard deviations on either side that contain 90 % of a normal distribution.
+const BAND_90: f64 = 1.645;
 /// Names of the components of a force.
 pub(super) const COMPONENTS: [&str; 3] = ["vertical", "fore-aft", "lateral"];
 /// Joints whose sagittal moments are compared, by the beginning of the column's name.
@@ -65,24 +67,29 @@ impl Figure {
     }
 }
 
-/// Mean over subjects of the mean over their walking trials.
-pub(super) fn over_subjects<'a>(
-    trials: &'a [Trial],
-    figure: Figure,
-    of: impl Fn(&'a Trial) -> Option<&'a GroundAgreement>,
-) -> f64 {
-    let walking: Vec<&Trial> = trials.iter().filter(|trial| trial.group == Group::Walking).collect();
-    let mut subjects: Vec<&str> = walking.iter().map(|trial| trial.subject).collect();
+/// Mean over subjects of the mean over their trials of a kind.
+pub(super) fn over_subjects<'a>(trials: &'a [Trial], group: Group, of: impl Fn(&'a Trial) -> f64) -> f64 {
+    let own: Vec<&Trial> = trials.iter().filter(|trial| trial.group == group).collect();
+    let mut subjects: Vec<&str> = own.iter().map(|trial| trial.subject).collect();
     subjects.dedup();
-    let of_subject = |subject: &str| {
-        let own = walking.iter().filter(|trial| trial.subject == subject);
-        mean(own.filter_map(|trial| of(trial)).map(|agreement| figure.of(agreement)))
-    };
+    let of_subject = |subject: &str| mean(own.iter().filter(|trial| trial.subject == subject).map(|trial| of(trial)));
     mean(subjects.into_iter().map(of_subject))
 }
 
+/// Share of the samples of a component inside the 90 % band in a fifth of the stances of a trial.
+pub(super) fn held_in_fifth(trial: &Trial, axis: usize, fifth: usize) -> f64 {
+    let of_stance = |stance: &ComparedStance| {
+        let own = stance.samples.iter().filter(|s| ((5.0 * s.phase) as usize).min(4) == fifth);
+        mean(own.map(|s| {
+            let is_inside = (s.predicted[axis] - s.measured[axis]).abs() <= BAND_90 * s.deviation[axis];
+            f64::from(u8::from(is_inside))
+        }))
+    };
+    mean(trial.stances.iter().map(of_stance))
+}
+
 /// Mean of what is a number.
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
+pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let known: Vec<f64> = values.filter(|x| x.is_finite()).collect();
     known.iter().sum::<f64>() / known.len() as f64
 }

@@ -1,7 +1,7 @@
 //! The recordings with plates, and how they are read.
 
 use ambulo::findings::Findings;
-use ambulo::ground::predict::{PredictSettings, Prescribed};
+use ambulo::ground::predict::{PersonalErrors, PredictSettings, Prescribed};
 use ambulo::model::Model;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::coordinates_from_table;
@@ -21,6 +21,8 @@ pub(crate) enum Group {
     Walking,
     /// Straight walking without markers on the trunk.
     NoTrunk,
+    /// Straight walking at 1.6 m/s and more.
+    FastWalking,
     /// Walking round a corner.
     Turning,
     /// Running.
@@ -32,6 +34,7 @@ impl Group {
         match self {
             Group::Walking => "walking",
             Group::NoTrunk => "walking, no trunk markers",
+            Group::FastWalking => "fast walking",
             Group::Turning => "turning",
             Group::Running => "running",
         }
@@ -45,115 +48,254 @@ enum Kind {
     Coordinates { motion: &'static str, model: &'static str },
     /// Markers on a model.
     ModelMarkers { markers: &'static str, model: &'static str },
-    /// Markers on the built-in body, possibly with a standing trial on plates; `mass` is the stated body mass.
-    Markers { markers: &'static str, standing: &'static str, mass: f64, height: f64 },
+    /// Markers on the built-in body, possibly with a standing trial; body mass and stature as stated in data/README.md.
+    Markers { markers: &'static str, standing: Option<&'static str>, mass: f64, height: Option<f64> },
 }
 
 /// The source of measured forces; `None` is the C3D itself.
 type Grf = Option<(&'static str, [&'static str; 2])>;
+
+/// A person and the laboratory in which the person was recorded.
+#[derive(Debug, Clone, Copy)]
+struct Person {
+    subject: &'static str,
+    laboratory: &'static str,
+    folder: &'static str,
+    standing: Option<&'static str>,
+    /// [kg]
+    mass: f64,
+    /// [m]
+    height: Option<f64>,
+    trials: &'static [(&'static str, &'static str, Group)],
+    /// Forces of the trials in a table.
+    grf: Grf,
+}
 
 /// A recording.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Recording {
     pub(crate) label: &'static str,
     pub(crate) subject: &'static str,
+    pub(crate) laboratory: &'static str,
     pub(crate) group: Group,
     folder: &'static str,
     kind: Kind,
     grf: Grf,
 }
 
-/// All recordings with plates.
-pub(crate) fn all() -> Vec<Recording> {
-    let c3d = |label, subject, group, folder, markers, standing, mass, height| Recording {
+const fn child(
+    subject: &'static str,
+    folder: &'static str,
+    standing: Option<&'static str>,
+    size: [f64; 2],
+    trials: &'static [(&'static str, &'static str, Group)],
+) -> Person {
+    let laboratory = "McGill";
+    Person { subject, laboratory, folder, standing, mass: size[0], height: Some(size[1]), trials, grf: None }
+}
+
+/// Everybody with markers on the built-in body: label, file and kind of each trial. Left out are the turn of HC034A, in which the plates carry
+/// clearly less than the weight, and hamner-subject04-run3, which has no marker on knees and ankles (data/README.md).
+const PEOPLE: [Person; 14] = [
+    child(
+        "HC032A",
+        "biomechzoo-HC032A",
+        Some("HC032A01.c3d"),
+        [60.3, 1.58],
+        &[("HC032A03", "HC032A03.c3d", Group::Walking), ("HC032A18", "HC032A18.c3d", Group::Turning)],
+    ),
+    child(
+        "HC002D",
+        "biomechzoo-HC002D",
+        Some("HC002D02.c3d"),
+        [32.1, 1.45],
+        &[("HC002D06", "HC002D06.c3d", Group::Walking), ("HC002D25", "HC002D25.c3d", Group::Turning)],
+    ),
+    child(
+        "HC030A",
+        "biomechzoo-HC030A",
+        Some("HC030A01.c3d"),
+        [45.8, 1.48],
+        &[("HC030A05", "HC030A05.c3d", Group::Walking), ("HC030A22", "HC030A22.c3d", Group::Turning)],
+    ),
+    child(
+        "HC031A",
+        "biomechzoo-HC031A",
+        Some("HC031A01.c3d"),
+        [27.7, 1.33],
+        &[("HC031A06", "HC031A06.c3d", Group::Walking), ("HC031A23", "HC031A23.c3d", Group::Turning)],
+    ),
+    child(
+        "HC033A",
+        "biomechzoo-HC033A",
+        Some("HC033A01.c3d"),
+        [51.5, 1.605],
+        &[("HC033A10", "HC033A10.c3d", Group::Walking), ("HC033A22", "HC033A22.c3d", Group::Turning)],
+    ),
+    child(
+        "HC036A",
+        "biomechzoo-HC036A",
+        Some("HC036A01.c3d"),
+        [33.0, 1.34],
+        &[("HC036A10", "HC036A10.c3d", Group::Walking), ("HC036A23", "HC036A23.c3d", Group::Turning)],
+    ),
+    child(
+        "HC055A",
+        "biomechzoo-HC055A",
+        Some("HC055A01.c3d"),
+        [32.0, 1.44],
+        &[("HC055A09", "HC055A09.c3d", Group::Walking), ("HC055A34", "HC055A34.c3d", Group::Turning)],
+    ),
+    child(
+        "HC003B",
+        "biomechzoo-HC003B",
+        None,
+        [38.5, 1.525],
+        &[("HC003B08", "HC003B08.c3d", Group::Walking), ("HC003B21", "HC003B21.c3d", Group::Turning)],
+    ),
+    child("HC034A", "biomechzoo-HC034A", None, [45.3, 1.54], &[("HC034A07", "HC034A07.c3d", Group::Walking)]),
+    Person {
+        subject: "UNIPD",
+        laboratory: "Padua",
+        folder: "motonms-unipd",
+        standing: Some("Static1.c3d"),
+        mass: 82.6,
+        height: None,
+        trials: &[
+            ("UNIPD 1", "Walking1.c3d", Group::Walking),
+            ("UNIPD 2", "Walking2.c3d", Group::Walking),
+            ("UNIPD 3", "Walking3.c3d", Group::Walking),
+            ("UNIPD 4", "Walking4.c3d", Group::Walking),
+            ("UNIPD 5", "Walking5.c3d", Group::Walking),
+        ],
+        grf: None,
+    },
+    Person {
+        subject: "flat foot",
+        laboratory: "BTK",
+        folder: "btkdata-flatfoot-full",
+        standing: Some("PiG_Calibration-FlatFoot-Full.c3d"),
+        mass: 47.5,
+        height: Some(1.505),
+        trials: &[("flat foot", "PiG_Motion-FlatFoot-Full.c3d", Group::Walking)],
+        grf: None,
+    },
+    Person {
+        subject: "PiG",
+        laboratory: "BTK",
+        folder: "btkdata-pig-adult3plates",
+        standing: Some("PiG_Calibration3_FF.c3d"),
+        mass: 74.0,
+        height: Some(1.76),
+        trials: &[("PiG_Motion3", "PiG_Motion3_FF.c3d", Group::NoTrunk)],
+        grf: None,
+    },
+    Person {
+        subject: "fast walker",
+        laboratory: "OpenSim, C3D",
+        folder: "opensim-core-fast-walk",
+        standing: None,
+        mass: 66.4,
+        height: None,
+        trials: &[
+            ("fast 2", "walking2.c3d", Group::FastWalking),
+            ("fast 5", "walking5.c3d", Group::FastWalking),
+            ("fast test", "test_walking.c3d", Group::FastWalking),
+        ],
+        grf: None,
+    },
+    Person {
+        subject: "rajagopal-run",
+        laboratory: "OpenSim, run",
+        folder: "opensim-rajagopal-run",
+        standing: Some("static_run.trc"),
+        mass: 72.84,
+        height: Some(1.80),
+        trials: &[("rajagopal-run", "motion_capture_run.trc", Group::Running)],
+        grf: Some(("grf_run.mot", ["R_ground_force_", "L_ground_force_"])),
+    },
+];
+
+/// The recordings of OpenSim's own models.
+fn on_models() -> [Recording; 3] {
+    let (gait, walk) = ("opensim-gait2392-subject01", "opensim-rajagopal-walk");
+    let model = "subject01_simbody.osim";
+    let recording = |label, subject, folder, kind, grf| Recording {
         label,
         subject,
-        group,
+        laboratory: subject,
+        group: Group::Walking,
         folder,
-        kind: Kind::Markers { markers, standing, mass, height },
-        grf: None,
+        kind,
+        grf: Some(grf),
     };
-    let (gait, walk, run) = ("opensim-gait2392-subject01", "opensim-rajagopal-walk", "opensim-rajagopal-run");
-    let (woman, child, man) = ("biomechzoo-HC032A", "biomechzoo-HC002D", "btkdata-pig-adult3plates");
-    let model = "subject01_simbody.osim";
-    vec![
-        Recording {
-            label: "gait2392, markers",
-            subject: "gait2392",
-            group: Group::Walking,
-            folder: gait,
-            kind: Kind::ModelMarkers { markers: "subject01_walk1.trc", model },
-            grf: Some(("subject01_walk1_grf.mot", ["ground_force_", "1_ground_force_"])),
-        },
-        Recording {
-            label: "gait2392, given angles",
-            subject: "gait2392",
-            group: Group::Walking,
-            folder: gait,
-            kind: Kind::Coordinates { motion: "subject01_walk1_ik.mot", model },
-            grf: Some(("core-id-test/subject01_walk1_grf.mot", ["ground_force_", "l_ground_force_"])),
-        },
-        Recording {
-            label: "rajagopal-walk, markers",
-            subject: "rajagopal-walk",
-            group: Group::Walking,
-            folder: walk,
-            kind: Kind::ModelMarkers { markers: "markers_walk.trc", model: "subject_walk_scaled.osim" },
-            grf: Some(("grf_walk.mot", ["ground_force_r_", "ground_force_l_"])),
-        },
-        c3d("HC032A03", "HC032A", Group::Walking, woman, "HC032A03.c3d", "HC032A01.c3d", 60.3, 1.58),
-        c3d("HC002D06", "HC002D", Group::Walking, child, "HC002D06.c3d", "HC002D02.c3d", 32.1, 1.45),
-        c3d("PiG_Motion3", "PiG", Group::NoTrunk, man, "PiG_Motion3_FF.c3d", "PiG_Calibration3_FF.c3d", 74.0, 1.76),
-        c3d("HC032A18", "HC032A", Group::Turning, woman, "HC032A18.c3d", "HC032A01.c3d", 60.3, 1.58),
-        c3d("HC002D25", "HC002D", Group::Turning, child, "HC002D25.c3d", "HC002D02.c3d", 32.1, 1.45),
-        Recording {
-            label: "rajagopal-run",
-            subject: "rajagopal-run",
-            group: Group::Running,
-            folder: run,
-            kind: Kind::Markers {
-                markers: "motion_capture_run.trc",
-                standing: "static_run.trc",
-                mass: 72.84,
-                height: 1.80,
-            },
-            grf: Some(("grf_run.mot", ["R_ground_force_", "L_ground_force_"])),
-        },
+    [
+        recording(
+            "gait2392, markers",
+            "gait2392",
+            gait,
+            Kind::ModelMarkers { markers: "subject01_walk1.trc", model },
+            ("subject01_walk1_grf.mot", ["ground_force_", "1_ground_force_"]),
+        ),
+        recording(
+            "gait2392, given angles",
+            "gait2392",
+            gait,
+            Kind::Coordinates { motion: "subject01_walk1_ik.mot", model },
+            ("core-id-test/subject01_walk1_grf.mot", ["ground_force_", "l_ground_force_"]),
+        ),
+        recording(
+            "rajagopal-walk, markers",
+            "rajagopal-walk",
+            walk,
+            Kind::ModelMarkers { markers: "markers_walk.trc", model: "subject_walk_scaled.osim" },
+            ("grf_walk.mot", ["ground_force_r_", "ground_force_l_"]),
+        ),
     ]
 }
 
-/// Straight walking of eight people with plates, one trial each.
+/// Straight walks of the eight people with a standing trial in the laboratories with C3D files, one each.
+const STRAIGHT: [&str; 8] =
+    ["HC032A03", "HC002D06", "PiG_Motion3", "HC030A05", "HC031A06", "HC033A10", "HC036A10", "HC055A09"];
+
+/// The recordings of [`STRAIGHT`].
 pub(crate) fn straight() -> Vec<Recording> {
-    let child = |label, folder, markers, standing, mass, height| Recording {
-        label,
-        subject: label,
-        group: Group::Walking,
-        folder,
-        kind: Kind::Markers { markers, standing, mass, height },
-        grf: None,
+    labelled(&STRAIGHT)
+}
+
+/// Recordings by their labels.
+pub(crate) fn labelled(labels: &[&str]) -> Vec<Recording> {
+    let all = all();
+    labels.iter().filter_map(|label| all.iter().find(|recording| recording.label == *label).copied()).collect()
+}
+
+/// All recordings with plates, person by person.
+pub(crate) fn all() -> Vec<Recording> {
+    let trials = |person: &'static Person| {
+        let Person { subject, laboratory, folder, standing, mass, height, trials, grf } = *person;
+        trials.iter().map(move |&(label, markers, group)| {
+            let kind = Kind::Markers { markers, standing, mass, height };
+            Recording { label, subject, laboratory, group, folder, kind, grf }
+        })
     };
-    let known = all().into_iter().filter(|r| ["HC032A03", "HC002D06", "PiG_Motion3"].contains(&r.label));
-    known
-        .chain([
-            child("HC030A05", "biomechzoo-HC030A", "HC030A05.c3d", "HC030A01.c3d", 45.8, 1.48),
-            child("HC031A06", "biomechzoo-HC031A", "HC031A06.c3d", "HC031A01.c3d", 27.7, 1.33),
-            child("HC033A10", "biomechzoo-HC033A", "HC033A10.c3d", "HC033A01.c3d", 51.5, 1.605),
-            child("HC036A10", "biomechzoo-HC036A", "HC036A10.c3d", "HC036A01.c3d", 33.0, 1.34),
-            child("HC055A09", "biomechzoo-HC055A", "HC055A09.c3d", "HC055A01.c3d", 32.0, 1.44),
-        ])
-        .collect()
+    on_models().into_iter().chain(PEOPLE.iter().flat_map(trials)).collect()
 }
 
 impl Recording {
     /// The prediction from its motion and its comparison with the plates, as `ambulo forces --predict` computes them. `prescribed` replaces
     /// estimates by truths.
     pub(crate) fn predict(&self, source: &Source, prescribed: Prescribed) -> Result<Outcome, String> {
-        let settings = Settings {
-            ground: GroundSettings::Predicted,
-            prediction: PredictSettings { prescribed, ..PredictSettings::default() },
-            ..Settings::default()
-        };
-        study::run(source.clone(), &settings, &mut Findings::default()).map_err(|e| e.to_string())
+        predicted(source, PredictSettings { prescribed, ..PredictSettings::default() })
+    }
+
+    /// The prediction with the calibration of a person.
+    pub(crate) fn predict_person(&self, source: &Source, person: Option<PersonalErrors>) -> Result<Outcome, String> {
+        predicted(source, PredictSettings { person, ..PredictSettings::default() })
+    }
+
+    /// Whether the files are trials of a person on the built-in body, each a recording of its own.
+    pub(crate) fn is_of_a_person(&self) -> bool {
+        matches!(self.kind, Kind::Markers { .. })
     }
 
     /// Its files, read.
@@ -174,9 +316,10 @@ impl Recording {
             }
             Kind::Markers { markers, standing, mass, height } => {
                 let trial = laboratory_file(markers, &file(markers)?, findings)?;
-                let standing = Some(laboratory_file(standing, &file(standing)?, findings)?);
+                let read = |name: &str| laboratory_file(name, &file(name)?, &mut Findings::default());
+                let standing = standing.map(read).transpose()?;
                 let table = SegmentTable::DeLevaMale;
-                let body = MarkerBody::BuiltIn { table, mass_kg: Some(mass), height_m: Some(height), set: None };
+                let body = MarkerBody::BuiltIn { table, mass_kg: Some(mass), height_m: height, set: None };
                 Source::markers(MarkerSource { trial, standing, body, plates: Vec::new() })
             }
         };
@@ -185,6 +328,11 @@ impl Recording {
             None => source,
         })
     }
+}
+
+fn predicted(source: &Source, prediction: PredictSettings) -> Result<Outcome, String> {
+    let settings = Settings { ground: GroundSettings::Predicted, prediction, ..Settings::default() };
+    study::run(source.clone(), &settings, &mut Findings::default()).map_err(|e| e.to_string())
 }
 
 fn coordinates(model: &[u8], motion: &[u8], findings: &mut Findings) -> Result<Source, String> {

@@ -5,11 +5,13 @@ use super::page::number;
 use super::recording::Recording;
 use crate::table::Table;
 use ambulo::analysis::{ComparedAnalyses, GroundAgreement, ground_agreement, track};
-use ambulo::ground::predict::Prescribed;
 use ambulo::optimal::TrackSettings;
-use ambulo::study::{Outcome, PredictedGround, Source};
+use ambulo::study::{Outcome, PredictedGround};
 use cpu_time::ThreadTime;
 use std::array;
+
+/// People on whose recordings the weights of tracking were set.
+const WEIGHTS_SET_ON: [&str; 6] = ["gait2392", "rajagopal-walk", "rajagopal-run", "HC032A", "HC002D", "PiG"];
 
 /// What tracking found in a recording.
 pub(super) struct Tracked {
@@ -33,21 +35,8 @@ pub(super) struct Found {
 }
 
 impl Tracked {
-    /// Tracks another recording.
-    pub(super) fn run(recording: &Recording, source: &Source) -> Result<Tracked, String> {
-        let outcome = recording.predict(source, Prescribed::default())?;
-        let agreement = outcome.prediction.as_ref().and_then(|found| found.agreement.clone());
-        let agreement = agreement.ok_or("plates saw no foot in full")?;
-        Tracked::new(recording, &outcome, &agreement, false).ok_or_else(|| "no plates".to_owned())
-    }
-
-    /// Tracks the motion of a prediction. `is_known`: the recording played a part in setting the weights.
-    pub(super) fn new(
-        recording: &Recording,
-        outcome: &Outcome,
-        predicted: &GroundAgreement,
-        is_known: bool,
-    ) -> Option<Tracked> {
+    /// Tracks the motion of a prediction.
+    pub(super) fn new(recording: &Recording, outcome: &Outcome, predicted: &GroundAgreement) -> Option<Tracked> {
         let PredictedGround { prediction, measured, coverage, .. } = outcome.prediction.as_ref()?;
         let (measured, coverage) = (measured.as_ref()?, coverage.as_ref()?);
         let (model, soles) = (&outcome.body, &outcome.person.soles);
@@ -64,8 +53,14 @@ impl Tracked {
                 moved: [motion.moved[0].to_degrees(), 1e3 * motion.moved[1]],
             }
         });
-        let predicted = predicted.clone();
-        Some(Tracked { label: recording.label, group: recording.group.word(), is_known, predicted, found })
+        let is_known = WEIGHTS_SET_ON.contains(&recording.subject);
+        Some(Tracked {
+            label: recording.label,
+            group: recording.group.word(),
+            is_known,
+            predicted: predicted.clone(),
+            found,
+        })
     }
 }
 

@@ -2,7 +2,9 @@
 
 use super::recording::{Group, Recording};
 use super::tracking::Tracked;
-use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PlateCoverage};
+use ambulo::analysis::{
+    Analysis, ComparedAnalyses, ComparedStance, GroundAgreement, MassSource, PlateCoverage, compared_stances,
+};
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
 use ambulo::ground::predict::{PredictSettings, Prescribed, predict};
@@ -32,6 +34,8 @@ pub(super) struct Trial {
     /// Time without a loaded foot in the instrumented window: predicted, measured [s].
     pub(super) flight_s: [f64; 2],
     pub(super) agreement: GroundAgreement,
+    /// The whole stances, predicted and measured.
+    pub(super) stances: Vec<ComparedStance>,
     /// The agreement in the instrumented window with one source of error replaced: name, agreement.
     pub(super) budget: Vec<(&'static str, GroundAgreement)>,
     /// Tracking of the same motion.
@@ -45,6 +49,8 @@ impl Trial {
             outcome.prediction.as_ref().ok_or("nothing was predicted")?;
         let (measured, seen) = measured.as_ref().zip(coverage.as_ref()).ok_or("no plates")?;
         let agreement = agreement.clone().ok_or("plates saw no foot in full")?;
+        let (model, predicted) = (&outcome.body, &outcome.analysis);
+        let stances = compared_stances(&ComparedAnalyses { model, predicted, prediction, measured }, seen);
         let judged = inside_window(seen);
         let mut budget = Vec::new();
         budget.extend(outcome.agreement_over(&judged).map(|agreement| ("nothing", agreement)));
@@ -66,8 +72,9 @@ impl Trial {
             microseconds: microseconds(&outcome)?,
             peaks_off: peaks_off(&outcome, measured, seen),
             flight_s: [&outcome.analysis, measured].map(|analysis| flight_s(&outcome, analysis, seen)),
-            tracked: Tracked::new(recording, &outcome, &agreement, true),
+            tracked: Tracked::new(recording, &outcome, &agreement),
             agreement,
+            stances,
             budget,
         })
     }

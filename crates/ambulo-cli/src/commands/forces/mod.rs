@@ -19,6 +19,7 @@ use crate::replacement::ResultTarget;
 use crate::{Completion, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
+use ambulo::ground::predict::PersonalErrors;
 use ambulo::kinematics::marker_fit::{FitMethod, FitSettings, OutlierDetection, SmoothnessPrior};
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
@@ -96,7 +97,7 @@ pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
         RecordingKind::Sensors => sensors::read(args, &mut reading)?,
     };
     let source = Source { device: read_device(args, &mut reading)?, ..source };
-    reading.read.extend(args.device.iter().chain(&args.thresholds).cloned());
+    reading.read.extend(args.device.iter().chain(&args.thresholds).chain(&args.person).cloned());
     studied(args, source, reading)
 }
 
@@ -160,7 +161,8 @@ struct Reading {
 
 fn studied(args: &ForcesArgs, source: Source, reading: Reading) -> Result<MotionRun> {
     let Reading { caller, mut findings, mut clock, read, ground, tracked, setups: _ } = reading;
-    let settings = settings(args, tracked)?;
+    let mut settings = settings(args, tracked)?;
+    settings.prediction.person = read_person(args, &caller)?;
     let mut watch = |stage: study::Stage| {
         clock.lap(stage.word());
         if caller.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -323,4 +325,12 @@ fn settings(args: &ForcesArgs, tracked: Option<TrackedTasks>) -> Result<Settings
         thresholds: read_thresholds(args.thresholds.as_deref())?,
         ..defaults
     })
+}
+
+/// The calibration of `--person`.
+fn read_person(args: &ForcesArgs, caller: &Caller) -> Result<Option<PersonalErrors>> {
+    let Some(path) = &args.person else { return Ok(None) };
+    let shown = || path.display().to_string();
+    let text = String::from_utf8(files::read_input(caller, path)?).with_context(shown)?;
+    PersonalErrors::from_toml(&text).with_context(shown).map(Some)
 }

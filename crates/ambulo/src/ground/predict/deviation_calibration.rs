@@ -3,7 +3,8 @@
 //!   σ² = (k σ_estimate)² + floor²
 //!
 //! The estimate assumes independent evidence and exact models; k and the floor correct its deviation, component by component, by the
-//! errors relative to force plates. Leave-one-out across subjects, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
+//! errors relative to force plates. For forces they depend on the elapsed share of the stance, because the strike is known worst: one pair for
+//! each fifth, linear between their middles. Leave-one-out across subjects, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
 
 /// Factor k and floor for the standard deviation of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,11 +26,24 @@ impl DeviationScaling {
     }
 }
 
+/// Factors and floors of a component in each fifth of a stance.
+pub type ByFifth = [DeviationScaling; 5];
+
+/// Factor and floor at an elapsed share of the stance: those of the fifths, linear between their middles.
+#[must_use]
+pub fn scaling_at(fifths: &ByFifth, phase: f64) -> DeviationScaling {
+    let place = (5.0 * phase - 0.5).clamp(0.0, 4.0);
+    let k = (place as usize).min(3);
+    let mix =
+        |of: fn(&DeviationScaling) -> f64| of(&fifths[k]) + (of(&fifths[k + 1]) - of(&fifths[k])) * (place - k as f64);
+    DeviationScaling { factor: mix(|s| s.factor), floor: mix(|s| s.floor) }
+}
+
 /// Calibration of all components.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeviationCalibration {
     /// Force forward, up, sideways.
-    pub force: [DeviationScaling; 3],
+    pub force: [ByFifth; 3],
     /// Centre of pressure along and across the foot.
     pub center: [DeviationScaling; 2],
     /// Free moment.
@@ -39,7 +53,7 @@ pub struct DeviationCalibration {
 impl DeviationCalibration {
     /// Leaves the estimated deviations unchanged.
     pub const UNSCALED: DeviationCalibration = DeviationCalibration {
-        force: [DeviationScaling::UNSCALED; 3],
+        force: [[DeviationScaling::UNSCALED; 5]; 3],
         center: [DeviationScaling::UNSCALED; 2],
         free_moment: DeviationScaling::UNSCALED,
     };
@@ -54,6 +68,15 @@ impl Default for DeviationCalibration {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn scalings_are_those_of_the_fifths_in_their_middles_and_straight_between() {
+        let fifths: ByFifth = std::array::from_fn(|k| DeviationScaling { factor: k as f64, floor: 1.0 });
+        for (phase, factor) in [(0.0, 0.0), (0.1, 0.0), (0.2, 0.5), (0.5, 2.0), (0.9, 4.0), (1.0, 4.0)] {
+            let found = scaling_at(&fifths, phase);
+            assert!((found.factor - factor).abs() < 1e-12 && (found.floor - 1.0).abs() < 1e-12, "{phase}: {found:?}");
+        }
+    }
 
     #[test]
     fn a_factor_multiplies_the_deviation_and_a_floor_is_added_in_squares() {

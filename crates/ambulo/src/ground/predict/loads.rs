@@ -1,11 +1,12 @@
 //! Forces, centres of pressure and free moments of a foot in every frame from the estimate, with standard deviations.
 
 use super::FootDeviation;
+use super::deviation_calibration::scaling_at;
 use super::expected::Expectation;
 use super::geometry::nearest_on_sole;
 use super::normal_equations::Solution;
 use super::samples::{ComponentSample, EstimateInputs, frames_of, sample};
-use super::stances::GaitType;
+use super::stances::{GaitType, Stance};
 use super::unknowns::{Curve, Unknowns};
 use crate::model::Side;
 use crate::spatial::Vec3;
@@ -49,7 +50,10 @@ pub(super) fn loads(
         let stance = expectation.stance;
         for frame in frames_of(inputs, stance) {
             let at = sample(inputs, expectation, curves, frame);
-            let estimates: [Estimate; 6] = std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
+            let mut estimates: [Estimate; 6] =
+                std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
+            let phase = stance.elapsed_share(inputs.grid.time(frame));
+            let center_error = inputs.take_errors_off(stance, phase, &mut estimates);
             let [forward, up, right, about_forward, about_up, about_right] = estimates;
             let axes = [stance.forward, inputs.body_scale.up, stance.right];
             let vertical = up.value.max(LEAST_LOAD * inputs.body_scale.weight_n);
@@ -60,25 +64,53 @@ pub(super) fn loads(
                 None => {
                     let moved = (axes[0] * about_right.value - axes[2] * about_forward.value) / vertical;
                     let sole = &inputs.geometry.feet[side][frame].sole;
-                    nearest_on_sole(sole, inputs.half_widths[side], at.center + moved, axes[1])
+                    nearest_on_sole(sole, inputs.half_widths[side], at.center + moved + center_error, axes[1])
                 }
             };
             out.free_moment[frame] = about_up.value;
             out.height[frame] = stance.height_m;
             let deviation = &mut out.deviation;
             let run_factor = if stance.gait == GaitType::Run { RUN_DEVIATION } else { 1.0 };
+            let remaining = inputs.remaining(stance);
             let weight = inputs.body_scale.weight_n;
             let calibration = &inputs.parameters.calibration;
-            let spread = |axis: usize, of: &Estimate| calibration.force[axis].variance(of.variance, weight);
+            let spread = |axis: usize, of: &Estimate| {
+                remaining * scaling_at(&calibration.force[axis], phase).variance(of.variance, weight)
+            };
             deviation.force[frame] =
                 rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;
             let [along, across] = [(0, &about_right), (1, &about_forward)]
-                .map(|(axis, of)| calibration.center[axis].variance(of.variance / vertical.powi(2), 1.0));
+                .map(|(axis, of)| remaining * calibration.center[axis].variance(of.variance / vertical.powi(2), 1.0));
             deviation.center[frame] = rotated(axes, [along, 0.0, across]) * run_factor;
             deviation.free_moment[frame] = calibration.free_moment.variance(about_up.variance, weight).sqrt();
         }
     }
     out
+}
+
+impl EstimateInputs<'_> {
+    /// Adds the mean errors of walking, and those of the person, to an estimate; returns that of the centre of pressure [m].
+    fn take_errors_off(&self, stance: &Stance, phase: f64, estimates: &mut [Estimate; 6]) -> Vec3 {
+        if stance.gait != GaitType::Walk {
+            return Vec3::zeros();
+        }
+        let (side, errors) = (stance.side, &self.parameters.errors);
+        let own = self.person.map_or(([0.0; 3], [0.0; 2]), |p| (p.force(side, phase), p.center(side, phase)));
+        let (force, center) = (errors.force(side, phase), errors.center(side, phase));
+        for (of, error) in estimates.iter_mut().zip((0..3).map(|axis| force[axis] + own.0[axis])) {
+            of.value += error * self.body_scale.weight_n;
+        }
+        let [along, across] = [0, 1].map(|axis| (center[axis] + own.1[axis]) * self.body_scale.height_m);
+        stance.forward * along + stance.right * across
+    }
+
+    /// Share of the variance of the errors that remains for this person.
+    fn remaining(&self, stance: &Stance) -> f64 {
+        match self.person {
+            Some(person) if stance.gait == GaitType::Walk => person.remaining(stance.side),
+            _ => 1.0,
+        }
+    }
 }
 
 /// Value and variance of a component.

@@ -16,9 +16,11 @@ mod gaussian_filter;
 mod geometry;
 mod loads;
 mod normal_equations;
+mod personal;
 mod prescribed;
 mod samples;
 mod stance_curves;
+mod stance_errors;
 mod stances;
 mod total;
 mod unilateral;
@@ -33,13 +35,15 @@ use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
-pub use deviation_calibration::{DeviationCalibration, DeviationScaling};
+pub use deviation_calibration::{ByFifth, DeviationCalibration, DeviationScaling, scaling_at};
 use estimate::estimate;
 pub use fitted_parameters::FittedParameters;
 use geometry::Geometry;
+pub use personal::{OtherPerson, PersonalErrors};
 pub use prescribed::Prescribed;
 use samples::EstimateInputs;
 use stance_curves::StanceCurves;
+pub use stance_errors::{ErrorSample, KNOTS, REPEATS, StanceCurve, StanceErrors, outwards_sign, trusted};
 use stances::{BodyScale, stances};
 use std::ops::Range;
 pub use total::total_wrench;
@@ -123,6 +127,8 @@ pub struct PredictSettings {
     pub prescribed: Prescribed,
     /// Standard deviations of prior and evidence.
     pub parameters: FittedParameters,
+    /// What plates have shown about the person.
+    pub person: Option<PersonalErrors>,
 }
 
 /// Why forces cannot be predicted.
@@ -161,6 +167,9 @@ pub enum PredictError {
         /// Its gravity [m/s²].
         gravity: f64,
     },
+    /// A calibration of somebody else.
+    #[error(transparent)]
+    OtherPerson(#[from] OtherPerson),
     /// Built-in curves that cannot be read.
     #[error("the built-in normative curves cannot be read: {message}")]
     Curves {
@@ -249,22 +258,8 @@ pub fn predict(
         None => footfalls(model, trajectory, &soles.map(Some), findings),
     };
     let total = settings.prescribed.total(total_wrench(model, trajectory));
-    let up = model.up();
-    let stature = model.stature();
-    let gravity = model.gravity().norm();
-    if model.mass() <= 0.0 {
-        return Err(PredictError::NoMass { model: name(), mass: model.mass() });
-    }
-    if gravity < LEAST_GRAVITY {
-        return Err(PredictError::NoGravity { model: name(), gravity });
-    }
-    let body_scale = BodyScale {
-        up,
-        weight_n: model.mass() * gravity,
-        leg_time_s: (stature.leg_length_m / gravity).sqrt(),
-        leg_speed_m_s: (stature.leg_length_m * gravity).sqrt(),
-        height_m: stature.height_m,
-    };
+    let body_scale = body_scale(model)?;
+    settings.person.as_ref().map_or(Ok(()), |person| person.check(model))?;
     let curves = StanceCurves::built_in().map_err(|e| PredictError::Curves { message: e.to_string() })?;
     let geometry = Geometry::new(model, trajectory, &soles);
     let stances = stances(&footfalls, trajectory.grid(), &geometry, &body_scale, curves);
@@ -277,8 +272,10 @@ pub fn predict(
         body_scale: &body_scale,
         parameters: &settings.parameters,
         prescribed: &settings.prescribed,
+        person: settings.person.as_ref(),
     };
     let mut feet = estimate(&inputs, curves)?;
+    let up = body_scale.up;
     enforce_unilateral_contact(&mut feet, up, &settings.prescribed);
     let deviations = feet.values().map(|foot| foot.deviation.clone()).collect();
     let ground = feet.iter().map(|(side, foot)| {
@@ -289,4 +286,23 @@ pub fn predict(
     });
     let ground = GroundForces { bodies: ground.collect() };
     Ok(Prediction { ground, deviations, footfalls, total, rule: RULE })
+}
+
+/// Mass, size and gravity of a model.
+fn body_scale(model: &Model) -> Result<BodyScale, PredictError> {
+    let name = || model.name().to_owned();
+    let (stature, gravity) = (model.stature(), model.gravity().norm());
+    if model.mass() <= 0.0 {
+        return Err(PredictError::NoMass { model: name(), mass: model.mass() });
+    }
+    if gravity < LEAST_GRAVITY {
+        return Err(PredictError::NoGravity { model: name(), gravity });
+    }
+    Ok(BodyScale {
+        up: model.up(),
+        weight_n: model.mass() * gravity,
+        leg_time_s: (stature.leg_length_m / gravity).sqrt(),
+        leg_speed_m_s: (stature.leg_length_m * gravity).sqrt(),
+        height_m: stature.height_m,
+    })
 }

@@ -4,6 +4,7 @@ use super::center_path::center_path;
 use super::expected::{Component, Expectation};
 use super::fitted_parameters::FittedParameters;
 use super::geometry::{Geometry, nearest_on_sole};
+use super::personal::PersonalErrors;
 use super::prescribed::Prescribed;
 use super::stances::{BodyScale, GaitType, Stance};
 use super::unknowns::{ActiveSplines, Curve};
@@ -25,6 +26,7 @@ pub(super) struct EstimateInputs<'a> {
     pub(super) body_scale: &'a BodyScale,
     pub(super) parameters: &'a FittedParameters,
     pub(super) prescribed: &'a Prescribed,
+    pub(super) person: Option<&'a PersonalErrors>,
 }
 
 impl EstimateInputs<'_> {

@@ -210,7 +210,7 @@ impl Stream {
         self.step_timing.update(&footfalls);
         self.step_timing.extrapolate(&mut footfalls, trajectory.grid());
         let prescribed = Prescribed { footfalls: Some(footfalls), ..Prescribed::default() };
-        let settings = PredictSettings { prescribed, parameters: self.parameters };
+        let settings = PredictSettings { prescribed, parameters: self.parameters, person: None };
         let prediction = predict(&self.model, &trajectory, &self.soles, &settings, &mut findings)?;
         self.findings = findings;
         Ok(Some((trajectory, prediction)))

@@ -1,0 +1,29 @@
+//! `ambulo calibrate`: what force plates show about the predicted ground forces of a person.
+
+use super::forces;
+use crate::args::CalibrateArgs;
+use crate::caller::Caller;
+use crate::{Completion, files, printer};
+use ambulo::study::{Outcome, personal_errors};
+use anyhow::{Error, Result};
+
+pub(crate) fn run(args: &CalibrateArgs) -> Result<Completion> {
+    let inputs: Vec<_> = args.trials.iter().chain(&args.subject.still).chain(&args.model).cloned().collect();
+    files::check_target(&args.output, &inputs, args.replace.existing())?;
+    let mut outcomes: Vec<Outcome> = Vec::new();
+    for trial in &args.trials {
+        printer::progress(&format!("predicting {}", trial.display()), args.print);
+        outcomes.push(forces::compute(&args.of_trial(trial)?, &Caller::default())?.into_outcome());
+    }
+    let person = personal_errors(&outcomes).map_err(|error| {
+        let trial = error.trial().map(|number| args.trials[number].display().to_string());
+        let error = Error::new(error);
+        match trial {
+            Some(trial) => error.context(trial),
+            None => error,
+        }
+    })?;
+    files::write(&args.output, person.to_toml().as_bytes())?;
+    printer::calibrate(&person, args.trials.len(), &args.output, args.print)?;
+    Ok(Completion::Passed)
+}

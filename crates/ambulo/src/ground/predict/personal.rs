@@ -1,0 +1,200 @@
+//! What force plates have shown about the estimate for one person: a shifted prior for the person's other trials.
+//!
+//! Errors of the estimate are personal and repeat: segments with other masses than in the table, an own way to strike. The mean error of a few
+//! stances on plates, weighted by what they can be trusted ([`super::stance_errors`]), is taken off the estimate of the same foot; with stances
+//! of one foot only, the other foot gets its mirror image. The standard deviations shrink to what remains.
+
+use super::stance_errors::{KNOTS, REPEATS, StanceCurve, StanceErrors, trusted};
+use crate::model::{BySide, Model, Side};
+use crate::toml_reader::{Source, Table, TomlError};
+use std::fmt::Write as _;
+
+/// Largest difference of mass, stature and leg length of the same person, as a share: clothes, and errors of a calibration.
+const SAME_PERSON: f64 = 0.05;
+const DOCUMENT: &str = "docs/GROUND_FORCES.md";
+/// Keys of the curves of a foot, in the order of [`StanceErrors`].
+const KEYS: [&str; 5] = ["forward", "up", "outwards", "center_along", "center_outwards"];
+
+/// Mean errors of the estimate for a person.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PersonalErrors {
+    /// Body mass [kg].
+    pub mass_kg: f64,
+    /// Stature [m].
+    pub stature_m: f64,
+    /// Length of a leg [m].
+    pub leg_length_m: f64,
+    /// Number of stances on plates.
+    pub stances: BySide<usize>,
+    /// Measured minus estimated, mean over these stances.
+    pub errors: BySide<StanceErrors>,
+}
+
+/// A person that is not the calibrated one.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "the person has a {what} of {found:.3} {unit}, the calibrated person {expected:.3} {unit}; expected a difference of at most 5 %"
+)]
+pub struct OtherPerson {
+    /// Mass, stature or leg length.
+    pub what: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Of the person in the motion.
+    pub found: f64,
+    /// Of the calibrated person.
+    pub expected: f64,
+}
+
+impl PersonalErrors {
+    /// Whether a model has the size of the person.
+    ///
+    /// # Errors
+    /// Mass, stature or leg length differs by more than 5 %.
+    pub fn check(&self, model: &Model) -> Result<(), OtherPerson> {
+        let stature = model.stature();
+        let sizes = [
+            ("mass", "kg", model.mass(), self.mass_kg),
+            ("stature", "m", stature.height_m, self.stature_m),
+            ("leg length", "m", stature.leg_length_m, self.leg_length_m),
+        ];
+        for (what, unit, found, expected) in sizes {
+            let is_same = (found / expected - 1.0).abs() <= SAME_PERSON;
+            if !is_same {
+                return Err(OtherPerson { what, unit, found, expected });
+            }
+        }
+        Ok(())
+    }
+
+    /// The errors of a foot, and how far they are trusted.
+    fn of(&self, side: Side) -> (&StanceErrors, f64) {
+        let other = if side == Side::Right { Side::Left } else { Side::Right };
+        let from = if self.stances[side] > 0 { side } else { other };
+        (&self.errors[from], trusted(self.stances[from]))
+    }
+
+    /// Force forward, up, to the right [body weights] that is added to the estimate.
+    pub(super) fn force(&self, side: Side, phase: f64) -> [f64; 3] {
+        let (errors, trust) = self.of(side);
+        errors.force(side, phase).map(|error| trust * error)
+    }
+
+    /// Centre of pressure forward and to the right [stature] that is added.
+    pub(super) fn center(&self, side: Side, phase: f64) -> [f64; 2] {
+        let (errors, trust) = self.of(side);
+        errors.center(side, phase).map(|error| trust * error)
+    }
+
+    /// Share of the variance of an error that remains.
+    pub(super) fn remaining(&self, side: Side) -> f64 {
+        1.0 - REPEATS * self.of(side).1
+    }
+
+    /// As a file.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let mut text = format!(
+            "# What force plates have shown about the ground forces that are predicted for a person: docs/GROUND_FORCES.md.\n\
+             # Measured minus predicted over the stance: forces in body weights, centre of pressure in statures.\n\
+             mass_kg = {:.4}\nstature_m = {:.4}\nleg_length_m = {:.4}\nstances = [{}, {}] # right, left\n",
+            self.mass_kg, self.stature_m, self.leg_length_m, self.stances.right, self.stances.left
+        );
+        for (side, errors) in self.errors.iter() {
+            let _ = write!(text, "\n[{side}]\n");
+            let curves = errors.force.iter().chain(&errors.center);
+            for (key, curve) in KEYS.iter().zip(curves) {
+                let numbers: Vec<String> = curve.0.iter().map(|x| format!("{x:.6}")).collect();
+                let _ = writeln!(text, "{key} = [{}]", numbers.join(", "));
+            }
+        }
+        text
+    }
+
+    /// From the text of a file.
+    ///
+    /// # Errors
+    /// Keys that are unknown or missing, numbers out of range.
+    pub fn from_toml(text: &str) -> Result<PersonalErrors, TomlError> {
+        let source = Source::new(text, DOCUMENT);
+        let parsed = source.parse()?;
+        let root = Table::root(&source, &parsed);
+        root.only(&[&["mass_kg", "stature_m", "leg_length_m", "stances", "right", "left"]])?;
+        let size = |key: &str, what: &str| root.need(key, what)?.above_zero();
+        let count = "stances of the right and the left foot";
+        let stances = root.need("stances", count)?;
+        let [right, left] = stances.numbers::<2>("two counts")?;
+        if ![right, left].iter().all(|n| (0.0..1e6).contains(n) && n.fract() == 0.0) || right + left < 1.0 {
+            return Err(stances.wrong("two whole numbers, one of them at least 1"));
+        }
+        let foot = |side: &str| -> Result<StanceErrors, TomlError> {
+            let table = root.need(side, "the curves of this foot")?.table("the curves of this foot")?;
+            table.only(&[&KEYS])?;
+            let curve = |key: &str| {
+                let value = table.need(key, "a curve over the stance")?;
+                value.numbers::<{ KNOTS.len() }>("15 numbers").map(StanceCurve)
+            };
+            Ok(StanceErrors {
+                force: [curve(KEYS[0])?, curve(KEYS[1])?, curve(KEYS[2])?],
+                center: [curve(KEYS[3])?, curve(KEYS[4])?],
+            })
+        };
+        Ok(PersonalErrors {
+            mass_kg: size("mass_kg", "the body mass [kg]")?,
+            stature_m: size("stature_m", "the stature [m]")?,
+            leg_length_m: size("leg_length_m", "the length of a leg [m]")?,
+            stances: BySide { right: right as usize, left: left as usize },
+            errors: BySide { right: foot("right")?, left: foot("left")? },
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn person() -> PersonalErrors {
+        let mut errors = StanceErrors::default();
+        errors.force[1].0[5] = 0.05;
+        errors.center[0].0[3] = -0.004;
+        errors.force[2].0[7] = 0.01;
+        PersonalErrors {
+            mass_kg: 70.5,
+            stature_m: 1.75,
+            leg_length_m: 0.91,
+            stances: BySide { right: 2, left: 0 },
+            errors: BySide { right: errors, left: StanceErrors::default() },
+        }
+    }
+
+    #[test]
+    fn a_file_gives_the_person_back() {
+        let person = person();
+        assert_eq!(PersonalErrors::from_toml(&person.to_toml()), Ok(person));
+    }
+
+    #[test]
+    fn a_damaged_file_is_refused_with_its_place() {
+        let text = person().to_toml();
+        for (from, to, expected) in [
+            ("mass_kg = 70.5", "mass_kg = -1", "mass_kg"),
+            ("stances = [2, 0]", "stances = [0, 0]", "stances"),
+            ("stances = [2, 0]", "stances = [1.5, 0]", "stances"),
+            ("up = [0.000000, ", "up = [", "15"),
+            ("[left]", "[middle]", "middle"),
+            ("outwards = ", "sideways = ", "sideways"),
+        ] {
+            let error = PersonalErrors::from_toml(&text.replacen(from, to, 1)).unwrap_err().to_string();
+            assert!(error.contains(expected), "{expected}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_foot_without_stances_gets_the_mirror_image_of_the_other() {
+        let person = person();
+        let (right, left) = (person.force(Side::Right, 0.4), person.force(Side::Left, 0.4));
+        assert!((right[2] + left[2]).abs() < 1e-15 && right[2] > 0.0);
+        assert!((right[2] - trusted(2) * 0.01).abs() < 1e-12);
+        assert!((person.remaining(Side::Left) - (1.0 - REPEATS * trusted(2))).abs() < 1e-12);
+    }
+}
