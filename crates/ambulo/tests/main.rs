@@ -24,6 +24,7 @@ mod arc_joint;
 mod architecture;
 mod b3d_trials;
 mod bids_recordings;
+mod bushings;
 mod calibration;
 mod calibration_files;
 mod calibration_moments;

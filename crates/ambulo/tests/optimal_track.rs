@@ -10,11 +10,11 @@ use ambulo::ground::predict::{PredictSettings, Prediction};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::model::{BySide, CoordinateKind, Drive, Model, Movement, Side, from_osim};
+use ambulo::model::{Bushing, BushingEnd, BySide, CoordinateKind, Drive, Model, Movement, Resistance, Side, from_osim};
 use ambulo::motion::{Window, coordinates_from_table};
 use ambulo::optimal::{NO_ROOT_FORCE, TrackError, TrackSettings, TrackedMotion};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
-use ambulo::spatial::Vec3;
+use ambulo::spatial::{Pose, Vec3};
 use ambulo::study::{self, ForceTable, GroundSettings, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::osim::OsimModel;
@@ -173,6 +173,12 @@ fn what_cannot_be_tracked_is_refused() {
     assert!(matches!(high, TrackError::SoleOffFloor { .. }), "{high}");
     let nobody = track(&WALK.human.model, &analysis, &prediction, &BySide::default(), &settings).unwrap_err();
     assert!(matches!(nobody, TrackError::NoFeet { .. }), "{nobody}");
+    let end = BushingEnd { body: None, frame: Pose::IDENTITY };
+    let none = Resistance { angular: Vec3::zeros(), linear: Vec3::zeros() };
+    let strap = Bushing { name: "strap".into(), ends: [end; 2], stiffness: none, damping: none, groups: Vec::new() };
+    let strapped = WALK.human.model.clone().with_bushings(vec![strap]).unwrap();
+    let held = track(&strapped, &analysis, &prediction, &soles, &settings).unwrap_err();
+    assert!(matches!(held, TrackError::Bushing { ref bushing, .. } if bushing == "strap"), "{held}");
 }
 
 /// Gait2392's walk on a treadmill with force plates: the published coordinates, from which the plates know nothing.

@@ -170,11 +170,11 @@ def main() -> None:
         write = csv.writer(file, lineterminator="\n").writerow
         write(["motion", *head])
         for motion in range(MOTIONS):
-            write([motion, *(f"{number:.15g}" for number in one(model, state, matter, solver, places, generator))])
+            write([motion, *(f"{number:.15g}" for number in one(model, state, matter, solver, places, generator, JOINTS))])
 
 
-def one(model, state, matter, solver, places, generator) -> list[float]:
-    """Return the numbers of one random motion."""
+def one(model, state, matter, solver, places, generator, trees) -> list[float]:
+    """Return the numbers of one random motion, with the places of the tips of some trees."""
     q, qd, qdd = (opensim.Vector(state.getNQ(), 0.0) for _ in range(3))
     u, udot = (opensim.Vector(state.getNU(), 0.0) for _ in range(2))
     for at_q, at_u in places:
@@ -187,7 +187,7 @@ def one(model, state, matter, solver, places, generator) -> list[float]:
     matter.calcQDotDot(state, udot, qdd)
     tau = solver.solve(state, udot)
     numbers = [vector.get(at) for at_q, at_u in places for vector, at in ((q, at_q), (qd, at_q), (qdd, at_q), (tau, at_u))]
-    for name in JOINTS:
+    for name in trees:
         point = model.getBodySet().get(f"{name}_tip").getPositionInGround(state)
         numbers += [point.get(i) for i in range(3)]
     return numbers

@@ -1,4 +1,4 @@
-//! OpenSim models (`.osim`): bodies, joints, coordinates, couplers and markers, as in the document.
+//! OpenSim models (`.osim`): bodies, joints, coordinates, couplers, bushings and markers, as in the document.
 //!
 //! Document versions 20303 to 40600 are read, in both layouts: joints nested in their child body with
 //! `location_in_parent` (to 30500), and joints in a `JointSet` with offset frames (from 30505), the frames named by
@@ -8,6 +8,7 @@
 //! Elements without a role in rigid-body dynamics (muscles, wrapping, geometry, controllers) are counted in
 //! [`OsimModel::ignored`], by the tag of its element.
 
+mod bushing;
 mod constraint;
 mod frame;
 mod function;
@@ -15,6 +16,7 @@ mod joint;
 mod marker_set;
 mod write;
 
+pub use bushing::OsimBushing;
 pub use constraint::OsimConstraint;
 pub use function::{Knots, OsimFunction};
 pub use joint::{OsimAxis, OsimCoordinate, OsimJoint, OsimJointKind};
@@ -46,6 +48,8 @@ pub struct OsimModel {
     pub joints: Vec<OsimJoint>,
     /// Constraints in document order.
     pub constraints: Vec<OsimConstraint>,
+    /// Bushings that are switched on, in document order.
+    pub bushings: Vec<OsimBushing>,
     /// Markers in document order.
     pub markers: Vec<OsimMarker>,
     /// Offset frames of bodies, joints and other components, by `owner/name`.
@@ -156,6 +160,7 @@ fn read_model(model: Node<'_, '_>, document_version: u32, remarks: Vec<Remark>) 
         joints.push(joint::read_framed(node, &frames)?);
     }
     let constraints = members(model, "ConstraintSet").map(constraint::read).collect::<Result<_, _>>()?;
+    let bushings = bushing::of_model(model, &frames)?;
     let markers = marker_set::of_model(model, &frames)?;
     Ok(OsimModel {
         name: name_of(model).to_owned(),
@@ -164,6 +169,7 @@ fn read_model(model: Node<'_, '_>, document_version: u32, remarks: Vec<Remark>) 
         bodies,
         joints,
         constraints,
+        bushings,
         markers,
         frames: frames.by_owner(),
         ignored: count_ignored(model),
@@ -211,7 +217,7 @@ fn read_inertia(body: Node<'_, '_>) -> Result<[f64; 6], Error> {
 fn count_ignored(model: Node<'_, '_>) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     let sets = ["ForceSet", "ControllerSet", "ProbeSet", "ContactGeometrySet", "ComponentSet"];
-    let listed = sets.iter().flat_map(|set| members(model, set));
+    let listed = sets.iter().flat_map(|set| members(model, set)).filter(|node| !node.has_tag_name(bushing::TAG));
     let wrapped = model.descendants().filter(|n| n.tag_name().name().starts_with("Wrap") && is_wrap_object(*n));
     for node in listed.chain(wrapped) {
         *counts.entry(node.tag_name().name().to_owned()).or_insert(0) += 1;

@@ -1,15 +1,16 @@
-//! Models as documents that OpenSim 4 loads: bodies, joints, coordinates, couplers, markers.
+//! Models as documents that OpenSim 4 loads: bodies, joints, coordinates, couplers, bushings, markers.
 //!
 //! Numbers are written such that they read back to the same bits, except orientations of frames, which are written as
 //! angles and read back to rounding.
 
 use super::function::DEEPEST;
 use super::{
-    Knots, OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind,
-    OsimMarker, OsimModel,
+    Knots, OsimAxis, OsimBody, OsimBushing, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint,
+    OsimJointKind, OsimMarker, OsimModel,
 };
 use crate::error::{Error, quoted};
 use crate::xml::escaped;
+use std::collections::BTreeSet;
 
 /// Document version of the layout that is written.
 const VERSION: u32 = 40000;
@@ -23,6 +24,7 @@ impl OsimModel {
         let constraints = self.constraints.iter().map(constraint).collect::<Result<String, Error>>()?;
         let bodies = self.bodies.iter().map(body).collect::<Result<String, Error>>()?;
         let joints = self.joints.iter().map(joint).collect::<Result<String, Error>>()?;
+        let bushings = self.bushings.iter().map(bushing).collect::<Result<String, Error>>()?;
         let markers = self.markers.iter().map(marker).collect::<Result<String, Error>>()?;
         let mut out = format!("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"{VERSION}\">\n");
         out += &format!("\t<Model name=\"{}\">\n", escaped(&self.name));
@@ -32,11 +34,28 @@ impl OsimModel {
         if !constraints.is_empty() {
             out += &set("ConstraintSet", "constraintset", &constraints);
         }
+        if !bushings.is_empty() {
+            out += &holder(2, "ForceSet", "forceset", &(group(3, "objects", &bushings) + &self.groups()));
+        }
         if !markers.is_empty() {
             out += &set("MarkerSet", "markerset", &markers);
         }
         out += "\t</Model>\n</OpenSimDocument>\n";
         Ok(out.into_bytes())
+    }
+
+    /// The groups of forces; a name with spaces cannot be a member of one.
+    fn groups(&self) -> String {
+        let names: BTreeSet<&String> = self.bushings.iter().flat_map(|bushing| &bushing.groups).collect();
+        let members = |group: &String| {
+            let inside = self.bushings.iter().filter(|bushing| bushing.groups.contains(group));
+            inside.map(|bushing| bushing.name.as_str()).collect::<Vec<_>>().join(" ")
+        };
+        let all: String = names
+            .into_iter()
+            .map(|name| holder(4, "ObjectGroup", name, &element(5, "members", &members(name))))
+            .collect();
+        if all.is_empty() { all } else { group(3, "groups", &all) }
     }
 }
 
@@ -184,6 +203,19 @@ fn constraint(constraint: &OsimConstraint) -> Result<String, Error> {
         + &element(5, "dependent_coordinate_name", dependent)
         + &element(5, "scale_factor", &numbers(&[scale])?);
     Ok(holder(4, "CoordinateCouplerConstraint", name, &content))
+}
+
+fn bushing(bushing: &OsimBushing) -> Result<String, Error> {
+    let [first, second] = [1, 2].map(|end| format!("{}_frame{end}", bushing.name));
+    let frames = frame(&first, &bushing.frames[0])? + &frame(&second, &bushing.frames[1])?;
+    let content = element(5, "socket_frame1", &first)
+        + &element(5, "socket_frame2", &second)
+        + &group(5, "frames", &frames)
+        + &element(5, "rotational_stiffness", &numbers(&bushing.rotational_stiffness)?)
+        + &element(5, "translational_stiffness", &numbers(&bushing.translational_stiffness)?)
+        + &element(5, "rotational_damping", &numbers(&bushing.rotational_damping)?)
+        + &element(5, "translational_damping", &numbers(&bushing.translational_damping)?);
+    Ok(holder(4, super::bushing::TAG, &bushing.name, &content))
 }
 
 fn marker(marker: &OsimMarker) -> Result<String, Error> {

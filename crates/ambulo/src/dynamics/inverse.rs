@@ -9,7 +9,8 @@
 //!
 //! (f_i, n_i) is the wrench of the parent on body i at J. Its generalised forces are τ = Σ_axes (dθ/dq) a · n_i for
 //! rotations and (dd/dq) e · f_i for translations, so that a coordinate's share of the power is τ q̇. At the root, which is
-//! free, (f, n) is the residual: the disagreement between the measured loads and the motion.
+//! free, (f, n) is the residual: the disagreement between the measured loads and the motion. The bushings of a model are loads that
+//! follow from the motion (model::bushing).
 //!
 //! | code       | symbol | unit        | meaning                                              |
 //! | `force`    | f_i    | N           | of the parent on the body, world axes                |
@@ -23,10 +24,10 @@
 //! tests/opensim_parity.rs
 
 use crate::kinematics::lanes::{Lanes, M3, V3};
-use crate::kinematics::plan::{Plan, Segment};
+use crate::kinematics::plan::{Plan, PlannedBushing, Segment};
 use crate::kinematics::sweep::{self, Scratch};
 use crate::kinematics::{BodyMotion, Posture, Trajectory};
-use crate::model::{BodyId, Model};
+use crate::model::{BodyId, Model, bushing};
 use crate::spatial::{Vec3, Wrench};
 use pulp::{Arch, Simd, WithSimd};
 use std::cell::RefCell;
@@ -348,6 +349,9 @@ impl<const N: usize> Kernel<N> {
             self.force[load.body + 1] -= load.force;
             self.moment[load.body + 1] -= load.moment + arm.cross(load.force);
         }
+        for bushing in &plan.bushings {
+            self.resist(bushing);
+        }
         self.tau.fill([0.0; N]);
         for &i in plan.outwards.iter().rev() {
             let segment = &plan.segments[i];
@@ -360,6 +364,25 @@ impl<const N: usize> Kernel<N> {
             self.moment[segment.parent] += moment + arm.cross(force);
             self.project(plan, segment, i, force, moment);
         }
+    }
+
+    /// Adds the load of a bushing to the second of its bodies, and the opposite one to the first.
+    fn resist(&mut self, bushing: &PlannedBushing) {
+        let (mut point, mut force, mut moment) = (V3::ZERO, V3::ZERO, V3::ZERO);
+        for lane in 0..N {
+            let ends = bushing.ends.each_ref().map(|end| self.scratch.states[end.state].frame(end, lane));
+            let load = bushing::load(&bushing.stiffness, &bushing.damping, ends.map(|e| e.0), ends.map(|e| e.1));
+            point.set_lane(lane, ends[1].0.translation);
+            force.set_lane(lane, load.force);
+            moment.set_lane(lane, load.moment);
+        }
+        let [first, second] = bushing.ends.each_ref().map(|end| end.state);
+        let about_center = |state: usize| moment + (point - self.scratch.states[state].center).cross(force);
+        let (on_first, on_second) = (about_center(first), about_center(second));
+        self.force[first] += force;
+        self.moment[first] += on_first;
+        self.force[second] -= force;
+        self.moment[second] -= on_second;
     }
 
     /// τ of the coordinates of one joint.

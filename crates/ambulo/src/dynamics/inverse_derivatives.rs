@@ -27,7 +27,7 @@
 //! algebra", IEEE Robotics and Automation Letters 7 (2022), arXiv 2105.05102 (equations unverified; the tests compare with finite
 //! differences and an independent recursion). The form of B is ours.
 //! Cost: one pass over all pairs of links of which one carries the other.
-//! Not handled: ball-like joints.
+//! Not handled: ball-like joints; bushings, which are left out.
 //! Pinned by: tests/inverse_derivatives.rs
 
 use crate::kinematics::Posture;
@@ -61,7 +61,7 @@ pub struct InverseDerivatives {
     pub by_acceleration: DMatrix<f64>,
 }
 
-/// Computes the generalised forces without external loads, and their derivatives by positions, rates and accelerations.
+/// Computes the generalised forces without external loads and bushings, and their derivatives by positions, rates and accelerations.
 ///
 /// In the mass matrix, the diagonal entry of the height of the pelvis is the body mass:
 ///

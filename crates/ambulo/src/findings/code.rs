@@ -51,6 +51,9 @@ codes! {
     ModelInertia "model.inertia" Warning
         "A body's inertia is one that no rigid body can have."
         "Correct the inertia in the model file: moments of inertia are positive, and none exceeds the sum of the other two.";
+    ModelBushing "model.bushing" Note
+        "A bushing of the model, a spring with a damper between two bodies, acts on both: the forces of the coordinates are those that act besides it."
+        "Nothing to do. To leave it out, switch it off in the model, or exclude it in the set-up of inverse dynamics.";
     ModelConstraint "model.constraint" Warning
         "A constraint of the model is not enforced; forces that pass through it are reported at the joints of the tree."
         "Read the forces of the joints around the constraint with care, or use a model without it.";

@@ -3,7 +3,7 @@
 //! The sweeps use only the joint frames M on the children: inertia, mass centre and the joints of the children are given in the
 //! axes of M, so that an offset on the child costs nothing per frame.
 
-use crate::model::{Displacement, Function, Joint, JointAxis, JointSpeeds, Model};
+use crate::model::{Bushing, Displacement, Function, Joint, JointAxis, JointSpeeds, Model, Resistance};
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 use std::ops::Range;
 
@@ -20,6 +20,26 @@ pub(crate) struct Plan {
     /// and cousins in between keep the processor busy.
     pub(crate) outwards: Vec<usize>,
     pub(crate) axes: Vec<Axis>,
+    pub(crate) bushings: Vec<PlannedBushing>,
+}
+
+/// A bushing between two bodies.
+#[derive(Debug, Clone)]
+pub(crate) struct PlannedBushing {
+    pub(crate) ends: [PlannedEnd; 2],
+    pub(crate) stiffness: Resistance,
+    pub(crate) damping: Resistance,
+}
+
+/// A frame of a bushing.
+#[derive(Debug, Clone)]
+pub(crate) struct PlannedEnd {
+    /// State of the body: 0 is ground, i + 1 is body i.
+    pub(crate) state: usize,
+    /// The axes of the frame in those of M.
+    pub(crate) axes: Mat3,
+    /// From the mass centre to the origin of the frame, in M axes [m].
+    pub(crate) from_center: Vec3,
 }
 
 /// One body and its joint.
@@ -89,6 +109,7 @@ impl Plan {
             segments: Vec::new(),
             outwards: Vec::new(),
             axes: Vec::new(),
+            bushings: Vec::new(),
         };
         for body in model.bodies() {
             let joint_from_body = body.joint.child_from_joint.inverse();
@@ -96,7 +117,21 @@ impl Plan {
             plan.push(&body.joint, joint_from_body, &inertia);
         }
         plan.outwards = plan.by_depth();
+        plan.bushings = model.bushings().iter().map(|bushing| plan.bushing(bushing)).collect();
         plan
+    }
+
+    fn bushing(&self, bushing: &Bushing) -> PlannedBushing {
+        let ends = bushing.ends.map(|end| match end.body {
+            None => PlannedEnd { state: 0, axes: end.frame.rotation, from_center: end.frame.translation },
+            Some(id) => {
+                let segment = &self.segments[id.index()];
+                let frame = segment.joint_from_body * end.frame;
+                let from_center = frame.translation - segment.to_center;
+                PlannedEnd { state: id.index() + 1, axes: frame.rotation, from_center }
+            }
+        });
+        PlannedBushing { ends, stiffness: bushing.stiffness, damping: bushing.damping }
     }
 
     fn push(&mut self, joint: &Joint, joint_from_body: Pose, inertia: &Inertia) {

@@ -19,10 +19,10 @@
 //! Cost: linear in bodies. Pinned by: tests/independent.rs, tests/identities.rs
 
 use super::lanes::{Lanes, M3, V3};
-use super::plan::{Axis, Direction, Plan, Segment, Source, Spherical};
+use super::plan::{Axis, Direction, Plan, PlannedEnd, Segment, Source, Spherical};
 use super::sin_cos::sin_cos;
 use crate::model::arc;
-use crate::spatial::{Mat3, Vec3};
+use crate::spatial::{Mat3, Pose, Twist, Vec3};
 
 /// Motion of one body in N frames: axes of M and mass centre.
 #[derive(Debug, Clone, Copy)]
@@ -38,6 +38,17 @@ pub(crate) struct BodyState<const N: usize> {
     pub(crate) to_joint: V3<N>,
     /// From the joint centre to the mass centre [m].
     pub(crate) to_center: V3<N>,
+}
+
+impl<const N: usize> BodyState<N> {
+    /// Pose and velocity, in the world, of a frame on the body in one of the N frames of time.
+    pub(crate) fn frame(&self, end: &PlannedEnd, lane: usize) -> (Pose, Twist) {
+        let body = self.rotation.lane(lane);
+        let arm = body * end.from_center;
+        let center = Twist { angular: self.omega.lane(lane), linear: self.v.lane(lane) };
+        let pose = Pose { rotation: body * end.axes, translation: self.center.lane(lane) + arm };
+        (pose, Twist { linear: center.velocity_at(arm), ..center })
+    }
 }
 
 /// Scratch memory of N frames.

@@ -2,12 +2,13 @@
 
 use super::osim_frame::frame;
 use super::{
-    Body, BodyId, Coordinate, CoordinateId, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds, Knots,
-    Marker, Model,
+    Body, BodyId, Bushing, Coordinate, CoordinateId, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds,
+    Knots, Marker, Model,
 };
 use crate::spatial::{Pose, Vec3};
 use ambulo_formats::osim::{
-    OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFunction, OsimJoint, OsimJointKind, OsimMarker, OsimModel,
+    OsimAxis, OsimBody, OsimBushing, OsimConstraint, OsimCoordinate, OsimFunction, OsimJoint, OsimJointKind,
+    OsimMarker, OsimModel,
 };
 use nalgebra::Rotation3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,7 +35,7 @@ pub enum ExportError {
 const VERSION: u32 = 40000;
 const GROUND: &str = "ground";
 
-/// Converts a model to a document: bodies, joints with their curves, couplers of coordinates, and markers.
+/// Converts a model to a document: bodies, joints with their curves, couplers of coordinates, bushings and markers.
 ///
 /// # Errors
 /// Joints with angular velocities about other axes than x, y, z in this order; coordinates that move no joint.
@@ -48,6 +49,7 @@ pub fn to_osim(model: &Model) -> Result<OsimModel, ExportError> {
         bodies: model.bodies().iter().map(body).collect(),
         joints,
         constraints: model.coordinates().iter().filter_map(|c| coupler(model, c)).collect(),
+        bushings: model.bushings().iter().map(|b| bushing(model, b)).collect(),
         markers: model.markers().iter().map(|m| marker(model, m)).collect(),
         frames: BTreeMap::new(),
         ignored: BTreeMap::new(),
@@ -264,6 +266,19 @@ fn coupler(model: &Model, coordinate: &Coordinate) -> Option<OsimConstraint> {
         dependent: coordinate.name.clone(),
         function: function(curve),
     })
+}
+
+fn bushing(model: &Model, bushing: &Bushing) -> OsimBushing {
+    OsimBushing {
+        name: component_name(&bushing.name),
+        line: 0,
+        frames: bushing.ends.map(|end| frame(name_of(model, end.body), &end.frame)),
+        rotational_stiffness: bushing.stiffness.angular.into(),
+        translational_stiffness: bushing.stiffness.linear.into(),
+        rotational_damping: bushing.damping.angular.into(),
+        translational_damping: bushing.damping.linear.into(),
+        groups: bushing.groups.clone(),
+    }
 }
 
 fn marker(model: &Model, marker: &Marker) -> OsimMarker {

@@ -3,14 +3,15 @@
 use super::osim_frame::pose;
 use super::scapulothoracic;
 use super::{
-    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
-    JointSpeeds, Knots, Marker, Model, ModelError, SimmSpline,
+    Body, BodyId, Bushing, BushingEnd, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint,
+    JointAxis, JointSpeeds, Knots, Marker, Model, ModelError, Resistance, SimmSpline,
 };
 use crate::findings::{Code, Finding, Findings};
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
 use crate::spatial::{Inertia, InertiaError, Mat3, Vec3};
 use ambulo_formats::osim::{
-    OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFunction, OsimJoint, OsimJointKind, OsimModel,
+    OsimAxis, OsimBody, OsimBushing, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind,
+    OsimModel,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -179,7 +180,32 @@ pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model,
         fixed: m.fixed,
     });
     let gravity = Vec3::from(document.gravity);
-    Ok(Model::new(document.name.clone(), gravity, bodies, coordinates, markers.collect())?)
+    let model = Model::new(document.name.clone(), gravity, bodies, coordinates, markers.collect())?;
+    note_bushings(document, findings);
+    Ok(model.with_bushings(document.bushings.iter().map(|b| import_bushing(b, &body_ids)).collect())?)
+}
+
+fn note_bushings(document: &OsimModel, findings: &mut Findings) {
+    for OsimBushing { name, frames: [first, second], .. } in &document.bushings {
+        let message = format!(
+            "the bushing `{name}` between `{}` and `{}` is applied: the forces of the coordinates are those that act besides it",
+            first.body, second.body
+        );
+        findings.report(Code::ModelBushing, message);
+    }
+}
+
+fn import_bushing(bushing: &OsimBushing, bodies: &BTreeMap<&str, BodyId>) -> Bushing {
+    let resistance =
+        |angular: [f64; 3], linear: [f64; 3]| Resistance { angular: angular.into(), linear: linear.into() };
+    let end = |frame: &OsimFrame| BushingEnd { body: bodies.get(frame.body.as_str()).copied(), frame: pose(frame) };
+    Bushing {
+        name: bushing.name.clone(),
+        ends: bushing.frames.each_ref().map(end),
+        stiffness: resistance(bushing.rotational_stiffness, bushing.translational_stiffness),
+        damping: resistance(bushing.rotational_damping, bushing.translational_damping),
+        groups: bushing.groups.clone(),
+    }
 }
 
 fn note_ignored(document: &OsimModel, findings: &mut Findings) {

@@ -6,6 +6,7 @@
 pub mod anatomy;
 pub mod anthropometry;
 pub(crate) mod arc;
+pub(crate) mod bushing;
 mod by_side;
 mod export;
 pub mod full_body;
@@ -22,6 +23,7 @@ mod side;
 mod simm_spline;
 
 pub use anatomy::{Anatomy, Movement};
+pub use bushing::{Bushing, BushingEnd, Resistance};
 pub use by_side::BySide;
 pub use export::{ExportError, to_osim};
 pub use function::Function;
@@ -146,6 +148,7 @@ pub struct Model {
     bodies: Vec<Body>,
     coordinates: Vec<Coordinate>,
     markers: Vec<Marker>,
+    bushings: Vec<Bushing>,
     anatomy: Arc<Anatomy>,
 }
 
@@ -179,6 +182,16 @@ pub enum ModelError {
         what: &'static str,
         /// The name.
         name: String,
+    },
+    /// A bushing on a body that the model does not have.
+    #[error("bushing `{bushing}` is fixed to body {index}; expected one of {count}")]
+    Bushing {
+        /// The bushing.
+        bushing: String,
+        /// Index of the body.
+        index: usize,
+        /// Number of bodies.
+        count: usize,
     },
     /// Too many axes, or an axis without direction.
     #[error("joint `{joint}`: {found}; expected at most three rotations and three translations about unit axes")]
@@ -247,7 +260,8 @@ impl Model {
     ) -> Result<Model, ModelError> {
         let anatomy = Arc::default();
         let up = gravity.try_normalize(f64::MIN_POSITIVE).map_or(Vec3::y(), |down| -down);
-        let mut model = Model { name: name.into(), gravity, up, bodies, coordinates, markers, anatomy };
+        let bushings = Vec::new();
+        let mut model = Model { name: name.into(), gravity, up, bodies, coordinates, markers, bushings, anatomy };
         model.check()?;
         model.anatomy = Arc::new(Anatomy::find(&model));
         Ok(model)
@@ -319,6 +333,28 @@ impl Model {
     #[must_use]
     pub fn markers(&self) -> &[Marker] {
         &self.markers
+    }
+
+    /// Springs with dampers between bodies. Inverse dynamics applies them.
+    #[must_use]
+    pub fn bushings(&self) -> &[Bushing] {
+        &self.bushings
+    }
+
+    /// The model with these bushings instead of its own.
+    ///
+    /// # Errors
+    /// A bushing on a body that the model does not have.
+    pub fn with_bushings(mut self, bushings: Vec<Bushing>) -> Result<Model, ModelError> {
+        let count = self.bodies.len();
+        for bushing in &bushings {
+            let mut bodies = bushing.ends.iter().filter_map(|end| end.body.map(BodyId::index));
+            if let Some(index) = bodies.find(|index| *index >= count) {
+                return Err(ModelError::Bushing { bushing: bushing.name.clone(), index, count });
+            }
+        }
+        self.bushings = bushings;
+        Ok(self)
     }
 
     /// Anatomical meaning of the parts.

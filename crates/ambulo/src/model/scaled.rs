@@ -1,7 +1,7 @@
 //! Scales a model body by body, as OpenSim does.
 //!
 //! Factors are along the axes of the frame of each body. With S = diag(factors of the body):
-//! - mass centre, markers and joint frames on the body: position S p, orientation unchanged;
+//! - mass centre, markers, joint frames and frames of bushings on the body: position S p, orientation unchanged;
 //! - translations of a joint are scaled by the factors of the parent, aᵀ S a along their axis a; a translation that is itself a
 //!   coordinate (slope one, no intercept) is not, because its value is a length of the motion, not of the body;
 //! - the half axes of an ellipsoid are scaled by the factors of the parent along them;
@@ -17,7 +17,8 @@
 //! Pinned by: tests/scaling.rs, against OpenSim 4.6
 
 use super::{
-    Body, BodyId, CoordinateKind, Displacement, Drive, Function, JointAxis, JointSpeeds, Marker, Model, ModelError,
+    Body, BodyId, Bushing, BushingEnd, CoordinateKind, Displacement, Drive, Function, JointAxis, JointSpeeds, Marker,
+    Model, ModelError,
 };
 use crate::spatial::{Inertia, InertiaError, Mat3, Pose, Vec3};
 
@@ -110,7 +111,9 @@ impl Model {
         }
         let place = |m: &Marker| Marker { location: of(m.body).component_mul(&m.location), ..m.clone() };
         let markers = self.markers.iter().map(place).collect();
-        Ok(Model::new(self.name.clone(), self.gravity, bodies, coordinates, markers)?)
+        let end = |end: BushingEnd| BushingEnd { frame: scaled_pose(&end.frame, &of(end.body)), ..end };
+        let bushings = self.bushings.iter().map(|b| Bushing { ends: b.ends.map(end), ..b.clone() }).collect();
+        Ok(Model::new(self.name.clone(), self.gravity, bodies, coordinates, markers)?.with_bushings(bushings)?)
     }
 
     /// The model with other markers.
@@ -118,7 +121,8 @@ impl Model {
     /// # Errors
     /// None at present; see [`ModelError`].
     pub fn with_markers(&self, markers: Vec<Marker>) -> Result<Model, ModelError> {
-        Model::new(self.name.clone(), self.gravity, self.bodies.clone(), self.coordinates.clone(), markers)
+        Model::new(self.name.clone(), self.gravity, self.bodies.clone(), self.coordinates.clone(), markers)?
+            .with_bushings(self.bushings.clone())
     }
 }
 

@@ -8,6 +8,7 @@ use crate::kinematics::scaling::{
 use crate::model::{MassDistribution, Model};
 use crate::motion::{Motion, MotionError, coordinates_from_table};
 use crate::spatial::Vec3;
+use ambulo_formats::osim::{OsimBushing, OsimModel};
 use ambulo_formats::setup::{
     CoordinateTarget, FitTasks, InverseDynamicsSetup, Measurement, PlacerSetup, ScaleSetup, ScalerSetup, ScalingMethod,
 };
@@ -146,16 +147,28 @@ fn distances(measurement: &Measurement) -> DistanceMeasurement {
     }
 }
 
-/// Reports that forces of the model are never applied, unless the set-up excludes them all.
+/// Removes the bushings that a set-up of inverse dynamics excludes: by name, by group, or all.
+pub fn exclude_bushings(document: &mut OsimModel, setup: &InverseDynamicsSetup) {
+    let words = &setup.forces_to_exclude;
+    let is_named = |bushing: &OsimBushing| {
+        words.contains(&bushing.name) || bushing.groups.iter().any(|group| words.contains(group))
+    };
+    document.bushings.retain(|bushing| !excludes_all(setup) && !is_named(bushing));
+}
+
+fn excludes_all(setup: &InverseDynamicsSetup) -> bool {
+    setup.forces_to_exclude.iter().any(|word| word.eq_ignore_ascii_case("all"))
+}
+
+/// Reports that forces of the model other than bushings are never applied, unless the set-up excludes them all.
 pub fn report_forces_of_model(setup: &InverseDynamicsSetup, findings: &mut Findings) {
-    let excludes_all = setup.forces_to_exclude.iter().any(|word| word.eq_ignore_ascii_case("all"));
-    if !excludes_all {
+    if !excludes_all(setup) {
         let excluded = match &setup.forces_to_exclude[..] {
             [] => "none, and OpenSim applies all of them".to_owned(),
             names => format!("{}, and OpenSim applies the others", names.join(", ")),
         };
         let message = format!(
-            "forces of the model (muscles, ligaments, springs, bushings) are never applied here; the set-up excludes {excluded}, if the model has any"
+            "forces of the model other than bushings (muscles, ligaments, springs) are never applied here; the set-up excludes {excluded}, if the model has any"
         );
         findings.report(Code::SetupUnused, message);
     }

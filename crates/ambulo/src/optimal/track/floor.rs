@@ -14,6 +14,9 @@ pub(super) fn checked(model: &Model) -> Result<(), TrackError> {
     if (model.up() - Vec3::y()).norm() > 1e-6 {
         return Err(TrackError::NotUpright { model: name() });
     }
+    if let Some(bushing) = model.bushings().first() {
+        return Err(TrackError::Bushing { model: name(), bushing: bushing.name.clone() });
+    }
     let roots = model.bodies().iter().filter(|body| body.joint.parent.is_none());
     let is_free = |id: CoordinateId| matches!(model.coordinates()[id.index()].drive, Drive::Free);
     let ids: Vec<CoordinateId> = roots.flat_map(|body| body.joint.coordinates()).collect();

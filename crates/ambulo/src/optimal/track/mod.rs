@@ -137,6 +137,16 @@ pub enum TrackError {
         /// Its name.
         model: String,
     },
+    /// A spring between bodies.
+    #[error(
+        "the model `{model}` has the bushing `{bushing}`, which the tracked motion would not feel; expected a model without bushings"
+    )]
+    Bushing {
+        /// Name of the model.
+        model: String,
+        /// Name of the bushing.
+        bushing: String,
+    },
     /// Another vertical than y.
     #[error("the gravity of the model `{model}` does not act along -y; expected y as the upward axis")]
     NotUpright {

@@ -61,6 +61,7 @@ pub(super) fn add(
     sources: &mut InputFiles<'_, '_>,
 ) -> Result<(PlacedFigure, Option<Recorder>), SceneError> {
     let model = sources.model(&entry.model_place, &entry.model)?;
+    note_bushings(&model, &entry.name, sources);
     let model =
         standing_at(&model, &entry.pose).map_err(|e| entry.model_place.error(format!("{}: {e}", entry.model)))?;
     refuse_unknown(entry, number, &model)?;
@@ -86,7 +87,15 @@ pub(super) fn add(
     Ok((PlacedFigure { figure, first_body, name: entry.name.clone(), tree: None, accelerations: Vec::new() }, recorder))
 }
 
-/// The model with its ground moved.
+/// Reports bushings, which the simulator does not have.
+fn note_bushings(model: &Model, figure: &str, sources: &mut InputFiles<'_, '_>) {
+    for bushing in model.bushings() {
+        let message = format!("the simulator does not apply the bushing `{}` of the figure `{figure}`", bushing.name);
+        sources.findings.report(Code::ModelIgnored, message);
+    }
+}
+
+/// The model with its ground moved, without bushings.
 fn standing_at(model: &Model, world_from_ground: &Pose) -> Result<Model, crate::model::ModelError> {
     let mut bodies = model.bodies().to_vec();
     for body in bodies.iter_mut().filter(|body| body.joint.parent.is_none()) {
