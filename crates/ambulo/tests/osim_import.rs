@@ -387,6 +387,8 @@ fn a_coupler_ties_one_coordinate_to_another_unless_it_is_switched_off() {
     let place = "<CoordinateCouplerConstraint";
     assert_refused(&custom("q", "", &coupler("q", "knee", "")), place, &["constraint `tie`", "coordinate `knee`"]);
     assert_refused(&custom("q", "", &coupler("", "p", "")), place, &["name=\"tie\"", "independent_coordinate_names"]);
+    let two = ["`q p` in <independent_coordinate_names>, which `p` follows", "one name. hint: keep"];
+    assert_refused(&custom("q", "", &coupler("q p", "p", "")), place, &two);
     let circle = refusal(&custom("q", "", &coupler("q", "q", "")));
     assert!(circle.contains("coordinate `q` follows a coordinate that itself follows another"), "{circle}");
 }
@@ -498,7 +500,9 @@ fn errors_state_line_and_element() {
     assert_refused(&mute, "<CustomJoint", &["`/bodyset/sand`, which leads to no body", "stone"]);
     let unconnected = text.replace("<socket_child_frame>/bodyset/stone</socket_child_frame>", "");
     assert_refused(&unconnected, "<CustomJoint", &["no <socket_child_frame>"]);
-    assert_refused(&custom("q p", "", ""), "translation2", &["a second coordinate `p`", "functions of one coordinate"]);
+    let words =
+        ["the axis `translation2` of the joint `joint`", "`q`, `p`", "a function of one coordinate. hint: keep"];
+    assert_refused(&custom("q p", "", ""), "translation2", &words);
     assert_refused(&custom("knee", "", ""), "<CustomJoint", &["an axis that follows `knee`"]);
     let unknown = rising("<Spline3D><x>1</x></Spline3D>");
     assert_refused(&unknown, "<Spline3D", &["function type `Spline3D`", "SimmSpline"]);

@@ -2,7 +2,7 @@
 
 use super::function::{self, OsimFunction};
 use super::name_of;
-use crate::error::Error;
+use crate::error::{Error, quoted};
 use crate::xml;
 use roxmltree::Node;
 
@@ -49,10 +49,12 @@ pub(super) fn read(node: Node<'_, '_>) -> Result<OsimConstraint, Error> {
         return Ok(OsimConstraint::Other { kind: node.tag_name().name().to_owned(), name, line });
     }
     let dependent = xml::text(node, "dependent_coordinate_name").unwrap_or_default().to_owned();
-    let mut leaders = xml::text(node, "independent_coordinate_names").unwrap_or_default().split_whitespace();
-    let (Some(independent), None) = (leaders.next(), leaders.next()) else {
-        let expected = "one name in <independent_coordinate_names>";
-        return Err(xml::error_at(node, "none or several".into(), expected));
+    let leaders = xml::text(node, "independent_coordinate_names").unwrap_or_default();
+    let [independent] = leaders.split_whitespace().collect::<Vec<_>>()[..] else {
+        let found =
+            format!("{} in <independent_coordinate_names>, which {} follows", quoted(leaders), quoted(&dependent));
+        let expected = "one name. hint: keep the coordinate that moves the other one most, and write the function at the usual value of the rest";
+        return Err(xml::error_at(node, found, expected));
     };
     let holder = xml::child(node, "coupled_coordinates_function");
     let function = match holder.map(function::held_by).transpose()?.flatten() {

@@ -96,6 +96,12 @@ fn held_at_depth(node: Node<'_, '_>, depth: usize) -> Result<Option<OsimFunction
     }
 }
 
+/// The tag of the function of a component.
+pub(super) fn tag_held_by<'a>(node: Node<'a, '_>) -> Option<&'a str> {
+    let holder = xml::child(node, "function").unwrap_or(node);
+    xml::elements(holder).map(|n| n.tag_name().name()).find(|tag| is_function_tag(tag))
+}
+
 fn is_function_tag(tag: &str) -> bool {
     matches!(tag, "Constant" | "Sine" | "GCVSpline" | "SimmSpline" | "NaturalCubicSpline") || tag.ends_with("Function")
 }

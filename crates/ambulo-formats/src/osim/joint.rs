@@ -197,9 +197,8 @@ fn read_axis(node: Node<'_, '_>) -> Result<OsimAxis, Error> {
     }
     let mut names = xml::text(node, "coordinates").unwrap_or_default().split_whitespace();
     let coordinate = names.next().map(str::to_owned);
-    if let Some(second) = names.next() {
-        let found = format!("a second coordinate {}", quoted(second));
-        return Err(xml::error_at(node, found, "functions of one coordinate"));
+    if let (Some(first), Some(second)) = (&coordinate, names.next()) {
+        return Err(of_two_coordinates(node, first, second));
     }
     let function = match (function::held_by(node)?, &coordinate) {
         (Some(function), _) => function,
@@ -211,6 +210,23 @@ fn read_axis(node: Node<'_, '_>) -> Result<OsimAxis, Error> {
         return Err(xml::error_at(node, "a function without a coordinate".into(), "a name in <coordinates>"));
     }
     Ok(OsimAxis { axis, coordinate, function })
+}
+
+/// The error of an axis that follows several coordinates.
+fn of_two_coordinates(axis: Node<'_, '_>, first: &str, second: &str) -> Error {
+    let joint =
+        axis.ancestors().find(|node| node.tag_name().name().ends_with("Joint")).map_or("", |node| name_of(node));
+    let function = function::tag_held_by(axis).unwrap_or("no function");
+    let found = format!(
+        "the axis {} of the joint {} with {function} of several coordinates, {}, {}",
+        quoted(name_of(axis)),
+        quoted(joint),
+        quoted(first),
+        quoted(second)
+    );
+    let expected = "a function of one coordinate. hint: keep the coordinate that moves the axis most, and write the function at the usual \
+                    value of the others, as a SimmSpline or PolynomialFunction";
+    xml::error_at(axis, found, expected)
 }
 
 fn is_constant(function: &OsimFunction) -> bool {
