@@ -128,8 +128,13 @@ fn a_set_up_of_inverse_dynamics_is_the_command_with_its_files_and_settings() {
     let bench = laboratory_with_setups("setup_id");
     let by_options = ["walk.mot", "--model", "figure.osim", "--loads", "walk_grf.xml", "--from", "0.5", "--to", "1.5"];
     forces(&bench, &[&by_options[..], &["--cutoff", "6", "--force-cutoff", "off", "-o", "options"]].concat()).done();
+    // The set-up excludes all forces of the model, also a strap between thigh and shank.
+    let strap = "<ForceSet><objects><BushingForce name=\"strap\"><socket_frame1>/bodyset/femur_r</socket_frame1>\
+        <socket_frame2>/bodyset/tibia_r</socket_frame2><rotational_stiffness>50 50 50</rotational_stiffness></BushingForce></objects></ForceSet></Model>";
+    bench.edit("figure.osim", "</Model>", strap);
     forces(&bench, &["--setup", "setups/id.xml", "-o", "setup"]).done();
     assert_eq!(bench.text("options/moments.sto"), bench.text("setup/moments.sto"));
+    assert!(findings(&bench, "setup").iter().all(|(code, _)| code != "model.bushing"));
     // An option replaces what the set-up says.
     forces(&bench, &["--setup", "setups/id.xml", "--cutoff", "10", "--to", "1.2", "-o", "other"]).done();
     assert_ne!(bench.text("options/moments.sto"), bench.text("other/moments.sto"));
@@ -143,6 +148,7 @@ fn a_set_up_of_inverse_dynamics_is_the_command_with_its_files_and_settings() {
     assert_found(&bench, "flight", "setup.unused", "names no external loads");
     assert_found(&bench, "flight", "setup.unused", "the element <colour> is not known");
     assert_found(&bench, "flight", "setup.unused", "forces of the model");
+    assert_found(&bench, "flight", "model.bushing", "`strap` between `femur_r` and `tibia_r`");
 }
 
 #[test]
@@ -159,7 +165,10 @@ fn inverse_kinematics_and_dynamics_are_one_run() {
     // A knee that is held straight by a task.
     let task = "<IKTaskSet><objects><IKCoordinateTask name=\"knee_angle_r\"><weight>1000</weight><value_type>manual_value</value_type>\
         <value>0</value></IKCoordinateTask></objects></IKTaskSet>";
-    bench.write("setups/ik.xml", kinematics(task));
+    // In a file of its own, as in the tutorials of OpenSim 2, whose file of coordinates was needed by no task.
+    bench.write("setups/tasks.xml", format!("<OpenSimDocument Version=\"20302\">{task}</OpenSimDocument>"));
+    let elsewhere = "<IKTaskSet file=\"tasks.xml\"/><coordinate_file>missing.mot</coordinate_file>";
+    bench.write("setups/ik.xml", kinematics(elsewhere));
     forces(&bench, &["--setup", "setups/id.xml", "--setup", "setups/ik.xml", "-o", "straight"]).done();
     let straight = bench.table("straight/kinematics.mot").column("knee_angle_r").unwrap().to_vec();
     assert!(straight.iter().all(|angle| angle.abs() < 0.5), "{straight:?}");

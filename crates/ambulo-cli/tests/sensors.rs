@@ -92,7 +92,41 @@ fn sensors_turn_a_model_or_the_built_in_body() {
     for words in ["orientations of sensors", "femur_r_imu", "next: ambulo forces walking.sto --static STANDING.sto"] {
         assert!(info.stdout.contains(words), "{words}: {}", info.stdout);
     }
+    set_ups(&bench);
     refusals(&bench);
+}
+
+/// The set-ups of OpenSense's tools are the options; without a base sensor, the knees show the direction.
+fn set_ups(bench: &Workbench) {
+    let earth = "<sensor_to_opensim_rotations>-1.5707963267948966 0 0</sensor_to_opensim_rotations>";
+    let placer = format!(
+        "<OpenSimDocument Version=\"40000\"><IMUPlacer><model_file>../demo/input/figure.osim</model_file>{earth}\
+         <orientation_file_for_calibration>../standing.sto</orientation_file_for_calibration>\
+         <output_model_file>calibrated.osim</output_model_file></IMUPlacer></OpenSimDocument>"
+    );
+    let kinematics = format!(
+        "<OpenSimDocument Version=\"40000\"><IMUInverseKinematicsTool><model_file>calibrated.osim</model_file>{earth}\
+         <orientations_file>../walking.sto</orientations_file><time_range>-Inf Inf</time_range></IMUInverseKinematicsTool></OpenSimDocument>"
+    );
+    std::fs::create_dir(bench.folder.join("setups")).unwrap();
+    bench.write("setups/placer.xml", placer);
+    bench.write("setups/imu.xml", kinematics);
+    let both = ["forces", "--setup", "setups/placer.xml", "--setup", "setups/imu.xml"];
+    let run = bench.run(&[&both[..], &["-o", "set_ups", "--verbose"]].concat());
+    assert!(run.stderr.contains("calibrated.osim was not read; the model on which"), "{}", run.stderr);
+    let (found, known) = (bench.table("set_ups/kinematics.mot"), bench.table("model/kinematics.mot"));
+    for name in ["hip_flexion_r", "knee_angle_l", "pelvis_tx"] {
+        let pairs = found.column(name).unwrap().iter().zip(known.column(name).unwrap());
+        let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-5, "{name} {off}");
+    }
+    let refused = |words: &[&str], message: &[&str]| bench.run(&[&both[..], words].concat()).refused(message);
+    refused(&["demo/input/walk.mot"], &["walk.mot", "imu.xml needs orientations of sensors"]);
+    bench.write("setups/ik.xml", "<InverseKinematicsTool/>");
+    refused(&["--setup", "setups/ik.xml"], &["imu.xml is for sensors, and another set-up is for markers"]);
+    bench
+        .run(&["forces", "walking.sto", "--setup", "setups/ik.xml", "--model", "demo/input/figure.osim"])
+        .refused(&["walking.sto", "these are orientations of sensors; the set-up needs markers"]);
 }
 
 fn refusals(bench: &Workbench) {

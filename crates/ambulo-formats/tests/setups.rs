@@ -1,8 +1,8 @@
 //! Set-ups of OpenSim's tools.
 
 use ambulo_formats::setup::{
-    CoordinateTarget, CoordinateTask, InverseDynamicsSetup, InverseKinematicsSetup, ManualScale, MarkerTask,
-    MeasuredSegment, Measurement, ScaleSetup, ScalingMethod, Setup,
+    CoordinateTarget, CoordinateTask, HeadingSensor, InverseDynamicsSetup, InverseKinematicsSetup, ManualScale,
+    MarkerTask, MeasuredSegment, Measurement, ScaleSetup, ScalingMethod, Setup,
 };
 
 const SCALE: &str = r#"<?xml version="1.0" encoding="UTF-8" ?>
@@ -144,7 +144,7 @@ fn refusals_name_line_element_and_what_is_allowed() {
         (of(SCALE, "1 2.5", "2.5 1"), ["line 25", "`2.5 1`", "the start first"]),
         (
             of(SCALE, "<MeasurementSet>", "<MeasurementSet file=\"set.xml\">"),
-            ["line 13", "file=\"set.xml\"", "hint: copy"],
+            ["line 13", "file=\"set.xml\": another file", "a file with the element <MeasurementSet>"],
         ),
         (of(KINEMATICS, "<weight>10</weight>", "<weight>-1</weight>"), ["line 5", "the weight -1", "zero or more"]),
         (of(KINEMATICS, "manual_value", "guess"), ["line 7", "`guess`", "from_file"]),
@@ -162,4 +162,112 @@ fn a_set_up_cut_anywhere_is_refused_without_a_panic() {
     for end in 0..SCALE.trim_end().len() {
         assert!(Setup::read(&SCALE.as_bytes()[..end]).is_err(), "{end}");
     }
+}
+
+// ---- Sets in other files, and older documents ----
+
+const TASKS: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<OpenSimDocument Version="20302">
+  <IKTaskSet name="walk">
+    <objects>
+      <IKMarkerTask name="RASI"><weight>10</weight></IKMarkerTask>
+      <IKCoordinateTask name="hip_r"><weight>2</weight><value_type>from_file</value_type></IKCoordinateTask>
+    </objects>
+  </IKTaskSet>
+</OpenSimDocument>"#;
+
+/// A set-up of inverse kinematics with its tasks in another file, as OpenSim 2 wrote it.
+fn old_kinematics(tool: &str, more: &str) -> String {
+    format!(
+        "<OpenSimDocument Version=\"20302\">\n<{tool} name=\"walk\">\n<model_file>scaled.osim</model_file>\n\
+         <IKTaskSet file=\"tasks\\walk.xml\" />\n{more}\n</{tool}></OpenSimDocument>"
+    )
+}
+
+fn with_tasks(text: &str, tasks: &str) -> Result<(Setup, Vec<String>), String> {
+    let mut load = |file: &str| match file {
+        "tasks/walk.xml" => Ok(tasks.as_bytes().to_vec()),
+        other => Err(format!("there is no {other}")),
+    };
+    let (setup, remarks) = Setup::read_with(text.as_bytes(), &mut load).map_err(|error| error.to_string())?;
+    Ok((setup, remarks.iter().map(ToString::to_string).collect()))
+}
+
+#[test]
+fn sets_in_files_of_their_own_are_put_in_their_places() {
+    for tool in ["InverseKinematicsTool", "InverseKinemtaticsTool"] {
+        let text = old_kinematics(
+            tool,
+            "<marker_file>walk.trc</marker_file><time_range>0.4 1.6</time_range><colour>blue</colour>",
+        );
+        let (Setup::InverseKinematics(setup), remarks) = with_tasks(&text, TASKS).unwrap() else {
+            panic!("another tool")
+        };
+        assert_eq!(setup.tasks.markers, [MarkerTask { marker: "RASI".into(), weight: 10.0 }]);
+        assert!(setup.tasks.follow_file());
+        assert_eq!((setup.marker_file.as_deref(), setup.time_range), (Some("walk.trc"), Some([0.4, 1.6])));
+        // The lines of the document are those that it has without the set.
+        assert!(remarks[0].contains("line 5") && remarks[0].contains("<colour>"), "{remarks:?}");
+    }
+    let text = old_kinematics("InverseKinematicsTool", "");
+    let refused = |text: &str, tasks: &str, words: &[&str]| {
+        let error = with_tasks(text, tasks).unwrap_err();
+        assert!(words.iter().all(|word| error.contains(word)), "{error}");
+    };
+    refused(&text.replace("walk.xml", "run.xml"), TASKS, &["line 4", "there is no tasks/run.xml", "<IKTaskSet>"]);
+    refused(&text, "<OpenSimDocument/>", &["line 4", "no element <IKTaskSet>"]);
+    refused(&text, "<IKTaskSet", &["line 4", "tasks/walk.xml"]);
+    refused(&text, &TASKS.replace("name=\"walk\"", "file=\"a.xml\""), &["names a further file, a.xml"]);
+    let many = text.replace("<IKTaskSet", &format!("{}<IKTaskSet", "<IKTaskSet file=\"tasks/walk.xml\"/>".repeat(20)));
+    refused(&many, TASKS, &["more than 16 sets"]);
+    refused(&text, &TASKS.replace(">10<", ">-1<"), &["line 4", "RASI", "the weight -1"]);
+}
+
+#[test]
+fn the_trial_of_an_old_tool_has_its_files() {
+    let trials = |number: usize| {
+        let trial = "<IKTrial name=\"t\"><marker_file>walk.trc</marker_file><time_range>0 1</time_range></IKTrial>";
+        old_kinematics("IKTool", &format!("<IKTrialSet><objects>{}</objects></IKTrialSet>", trial.repeat(number)))
+    };
+    let (Setup::InverseKinematics(setup), _) = with_tasks(&trials(1), TASKS).unwrap() else { panic!("another tool") };
+    assert_eq!((setup.marker_file.as_deref(), setup.time_range), (Some("walk.trc"), Some([0.0, 1.0])));
+    assert!(with_tasks(&trials(2), TASKS).unwrap_err().contains("2 trials in <IKTrialSet>"));
+}
+
+// ---- Sensors ----
+
+const PLACER: &str = r#"<OpenSimDocument Version="40000"><IMUPlacer>
+    <model_file>figure.osim</model_file>
+    <base_imu_label>pelvis_imu</base_imu_label>
+    <base_heading_axis>-Z</base_heading_axis>
+    <sensor_to_opensim_rotations>-1.5 0 0.5</sensor_to_opensim_rotations>
+    <orientation_file_for_calibration>standing.sto</orientation_file_for_calibration>
+    <output_model_file>calibrated.osim</output_model_file>
+  </IMUPlacer></OpenSimDocument>"#;
+
+const SENSORS: &str = r#"<OpenSimDocument Version="40600"><IMUInverseKinematicsTool name="walk">
+    <model_file>calibrated.osim</model_file>
+    <sensor_to_opensim_rotations>-1.5 0 0.5</sensor_to_opensim_rotations>
+    <orientations_file>walk.sto</orientations_file>
+    <time_range>-Inf 2</time_range>
+    <OrientationWeightSet><objects><OrientationWeight name="torso_imu"><weight>0.5</weight></OrientationWeight></objects></OrientationWeightSet>
+  </IMUInverseKinematicsTool></OpenSimDocument>"#;
+
+#[test]
+fn set_ups_of_sensors_are_read() {
+    let (Setup::SensorPlacer(placer), remarks) = read(PLACER) else { panic!("another tool") };
+    assert_eq!(placer.heading, Some(HeadingSensor { sensor: "pelvis_imu".into(), axis: 2, is_negative: true }));
+    assert_eq!((placer.earth_rad, placer.orientations_file.as_deref()), ([-1.5, 0.0, 0.5], Some("standing.sto")));
+    assert!(remarks[0].contains("not used: output_model_file"), "{remarks:?}");
+    let blank = PLACER.replace(">pelvis_imu<", "><").replace("-1.5 0 0.5", "");
+    let (Setup::SensorPlacer(placer), _) = read(&blank) else { panic!("another tool") };
+    assert_eq!((placer.heading, placer.earth_rad), (None, [0.0; 3]));
+    let error = Setup::read(PLACER.replace(">-Z<", ">up<").as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("line 4") && error.contains("`up`") && error.contains("x, -x"), "{error}");
+    let (Setup::SensorKinematics(setup), _) = read(SENSORS) else { panic!("another tool") };
+    assert_eq!(setup.weights, [("torso_imu".to_owned(), 0.5)]);
+    assert_eq!(
+        (setup.orientations_file.as_deref(), setup.time_range),
+        (Some("walk.sto"), Some([f64::NEG_INFINITY, 2.0]))
+    );
 }

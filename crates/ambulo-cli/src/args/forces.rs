@@ -38,7 +38,7 @@ pub(crate) struct ForcesArgs {
     /// The recording: markers (.c3d, .trc, .csv with three columns per marker, _motion.tsv of BIDS), poses of segments (.c3d, .mvnx), coordinates (.mot, .sto, _motion.tsv), orientations of sensors (.sto with quaternions), a skeleton (.bvh), a motion of the SMPL family (.npz) or a subject of AddBiomechanics (.b3d).
     #[arg(required_unless_present = "setup")]
     pub(crate) input: Option<PathBuf>,
-    /// Set-up of OpenSim's ScaleTool, InverseKinematicsTool or InverseDynamicsTool (.xml), which names files and settings; may be repeated, once for each tool, for one run of all (docs/OPENSIM.md).
+    /// Set-up of OpenSim's ScaleTool, InverseKinematicsTool, InverseDynamicsTool, IMUPlacer or IMUInverseKinematicsTool (.xml), which names files and settings; may be repeated, once for each tool, for one run of all (docs/OPENSIM.md).
     #[arg(long, value_name = "FILE")]
     pub(crate) setup: Vec<PathBuf>,
     /// The body as an OpenSim model (.osim), or `built-in`; required for coordinates [default for markers, sensors and skeletons: the built-in body; for a .b3d: its own model].

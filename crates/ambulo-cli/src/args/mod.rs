@@ -11,7 +11,7 @@ pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Adjusted, CalibrateArgs, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
-pub(crate) use values::{Cutoff, FootColumns, ForceCutoff, PlateFoot, TimedValue, Values};
+pub(crate) use values::{Cutoff, EarthTurn, FootColumns, ForceCutoff, HeadingAxis, PlateFoot, TimedValue, Values};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};

@@ -196,23 +196,46 @@ pub(crate) struct HeadingAxis {
     pub(crate) axis: Vec3,
 }
 
+impl HeadingAxis {
+    /// The axis x, y or z, by number, or the opposite direction.
+    pub(crate) fn of(sensor: &str, axis: usize, is_negative: bool) -> HeadingAxis {
+        HeadingAxis { sensor: sensor.to_owned(), axis: Vec3::ith(axis, if is_negative { -1.0 } else { 1.0 }) }
+    }
+}
+
+impl fmt::Display for HeadingAxis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = self.axis.iamax();
+        let sign = if self.axis[number] < 0.0 { "-" } else { "" };
+        write!(f, "{}:{sign}{}", self.sensor, ["x", "y", "z"][number])
+    }
+}
+
 impl FromStr for HeadingAxis {
     type Err = String;
     fn from_str(text: &str) -> Result<HeadingAxis, String> {
         let expected = "expected SENSOR:AXIS with one of x, y, z, -x, -y and -z, such as pelvis_imu:-z";
         let (sensor, axis) = text.rsplit_once(':').ok_or(expected)?;
-        let (sign, letter) = axis.trim().strip_prefix('-').map_or((1.0, axis.trim()), |letter| (-1.0, letter));
+        let (is_negative, letter) = axis.trim().strip_prefix('-').map_or((false, axis.trim()), |letter| (true, letter));
         let number = ["x", "y", "z"].iter().position(|known| known.eq_ignore_ascii_case(letter)).ok_or(expected)?;
         if sensor.trim().is_empty() {
             return Err(expected.into());
         }
-        Ok(HeadingAxis { sensor: sensor.trim().to_owned(), axis: Vec3::ith(number, sign) })
+        Ok(HeadingAxis::of(sensor.trim(), number, is_negative))
     }
 }
 
 /// Angles about the fixed axes x, y and z [rad].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct EarthTurn(pub(crate) [f64; 3]);
+
+/// In degrees, as the option takes it.
+impl fmt::Display for EarthTurn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0.map(|angle| (1e6 * angle.to_degrees()).round() / 1e6);
+        write!(f, "{x},{y},{z}")
+    }
+}
 
 impl FromStr for EarthTurn {
     type Err = String;

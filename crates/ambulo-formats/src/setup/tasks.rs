@@ -14,6 +14,14 @@ pub struct FitTasks {
     pub coordinates: Vec<CoordinateTask>,
 }
 
+impl FitTasks {
+    /// Whether a coordinate follows the file of coordinates.
+    #[must_use]
+    pub fn follow_file(&self) -> bool {
+        self.coordinates.iter().any(|task| task.target == CoordinateTarget::FromFile)
+    }
+}
+
 /// The weight of a marker.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerTask {

@@ -76,6 +76,13 @@ pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
     if args.trial.is_some() && kind != RecordingKind::Subject {
         bail!("{}: --trial chooses a trial of a .b3d; this file has one recording", args.recording().display());
     }
+    if let (Some(setup), true) = (reading.setups.of_sensors(), kind != RecordingKind::Sensors) {
+        bail!(
+            "{}: {} needs orientations of sensors (.sto with quaternions) as the recording; this is another recording",
+            args.recording().display(),
+            setup.display()
+        );
+    }
     if let Some(option) = args.sensors.given().filter(|_| kind != RecordingKind::Sensors) {
         bail!(
             "{}: {option} is for orientations of sensors (.sto with quaternions); this is another recording",
@@ -235,9 +242,8 @@ fn input(args: &ForcesArgs, ground: Option<&Path>, stated: SubjectParameters, ou
 }
 
 fn read_model(path: &Path, reading: &mut Reading) -> Result<Model> {
-    let model = parse_model(&files::read_input(&reading.caller, path)?, path, &mut reading.findings)?;
-    reading.read.push(path.to_owned());
-    Ok(model)
+    let document = read_document(path, reading)?;
+    from_osim(&document, &mut reading.findings).with_context(|| path.display().to_string())
 }
 
 /// The model with the markers of `--marker-set`.
@@ -252,10 +258,13 @@ fn read_model_with_markers(path: &Path, set: Option<&Path>, reading: &mut Readin
     from_osim(&document, &mut reading.findings).with_context(|| path.display().to_string())
 }
 
+/// The document of a model, without the forces that a set-up excludes.
 fn read_document(path: &Path, reading: &mut Reading) -> Result<OsimModel> {
     let bytes = files::read_input(&reading.caller, path)?;
     reading.read.push(path.to_owned());
-    OsimModel::read(&bytes).with_context(|| path.display().to_string())
+    let mut document = OsimModel::read(&bytes).with_context(|| path.display().to_string())?;
+    reading.setups.exclude_forces(&mut document);
+    Ok(document)
 }
 
 /// The model in the content of an OpenSim file.

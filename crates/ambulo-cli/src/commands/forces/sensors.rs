@@ -20,6 +20,10 @@ pub(super) fn is_recording(path: &Path, caller: &Caller) -> bool {
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     reject_unused_options(args)?;
+    if reading.setups.has_markers() {
+        bail!("{}: these are orientations of sensors; the set-up needs markers", args.recording().display());
+    }
+    reading.tracked = reading.setups.sensor_weights();
     size::check(&args.subject)?;
     let moving = read_sensors(args.recording(), reading)?;
     let still = args.subject.still.as_deref();
@@ -93,7 +97,6 @@ fn reject_unused_options(args: &ForcesArgs) -> Result<()> {
         ("--marker-set", args.subject.marker_set.is_some()),
         ("--plate", !args.subject.plate.is_empty()),
         ("--figure", args.model_file().is_some() && args.subject.figure != SubjectArgs::DEFAULT_FIGURE),
-        ("--setup", !args.setup.is_empty()),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((option, _)) => {

@@ -1,12 +1,17 @@
 //! Set-ups of OpenSim's tools: their files and settings in place of options that were not given.
 
 use super::Reading;
-use crate::args::{Cutoff, ForceCutoff, ForcesArgs};
+use crate::args::{Cutoff, EarthTurn, ForceCutoff, ForcesArgs, HeadingAxis};
 use crate::files;
 use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
-use ambulo::study::{LaboratoryFile, ModelProtocol, TrackedTasks, report_forces_of_model, scaling_of_setup};
-use ambulo_formats::setup::{InverseDynamicsSetup, InverseKinematicsSetup, ScaleSetup, Setup};
+use ambulo::study::{
+    LaboratoryFile, ModelProtocol, TrackedTasks, exclude_bushings, report_forces_of_model, scaling_of_setup,
+};
+use ambulo_formats::osim::OsimModel;
+use ambulo_formats::setup::{
+    InverseDynamicsSetup, InverseKinematicsSetup, ScaleSetup, SensorKinematicsSetup, SensorPlacerSetup, Setup,
+};
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
@@ -24,6 +29,8 @@ pub(super) struct Setups {
     scale: Option<Stated<ScaleSetup>>,
     kinematics: Option<Stated<InverseKinematicsSetup>>,
     dynamics: Option<Stated<InverseDynamicsSetup>>,
+    placer: Option<Stated<SensorPlacerSetup>>,
+    sensors: Option<Stated<SensorKinematicsSetup>>,
 }
 
 impl<S> Stated<S> {
@@ -59,6 +66,7 @@ pub(super) fn resolved(args: &ForcesArgs, reading: &mut Reading) -> Result<Force
     setups.fill_model(&mut resolved, &mut reading.findings)?;
     setups.fill_recording(&mut resolved, &mut reading.findings)?;
     setups.fill_scaling(&mut resolved, &mut reading.findings);
+    setups.fill_sensors(&mut resolved, &mut reading.findings);
     setups.fill_dynamics(&mut resolved, &mut reading.findings);
     reading.setups = setups;
     Ok(resolved)
@@ -69,8 +77,9 @@ impl Setups {
         let mut setups = Setups::default();
         for path in paths {
             let shown = path.display().to_string();
+            let bytes = files::read_input(&reading.caller, path)?;
             let (setup, remarks) =
-                Setup::read(&files::read_input(&reading.caller, path)?).with_context(|| shown.clone())?;
+                Setup::read_with(&bytes, &mut |set| read_set(path, set, reading)).with_context(|| shown.clone())?;
             for remark in &remarks {
                 reading.findings.report(Code::SetupUnused, format!("{shown}: {remark}"));
             }
@@ -80,6 +89,8 @@ impl Setups {
                 Setup::Scale(setup) => setups.scale.replace(Stated { path, setup }).map(|s| s.path),
                 Setup::InverseKinematics(setup) => setups.kinematics.replace(Stated { path, setup }).map(|s| s.path),
                 Setup::InverseDynamics(setup) => setups.dynamics.replace(Stated { path, setup }).map(|s| s.path),
+                Setup::SensorPlacer(setup) => setups.placer.replace(Stated { path, setup }).map(|s| s.path),
+                Setup::SensorKinematics(setup) => setups.sensors.replace(Stated { path, setup }).map(|s| s.path),
             };
             if let Some(before) = before {
                 bail!("{shown}: a second set-up of {tool}, after {}; expected one of each tool", before.display());
@@ -93,8 +104,34 @@ impl Setups {
         self.scale.is_some() || self.kinematics.is_some()
     }
 
+    /// The set-up that needs orientations of sensors as the recording.
+    pub(super) fn of_sensors(&self) -> Option<&Path> {
+        let placer = self.placer.as_ref().map(|s| s.path.as_path());
+        self.sensors.as_ref().map(|s| s.path.as_path()).or(placer)
+    }
+
+    /// Weights of sensors; `None` without a set-up that states some.
+    pub(super) fn sensor_weights(&self) -> Option<TrackedTasks> {
+        let weights = &self.sensors.as_ref()?.setup.weights;
+        let tracked = || TrackedTasks { weights: weights.iter().cloned().collect(), tasks: Vec::new() };
+        (!weights.is_empty()).then(tracked)
+    }
+
+    /// Removes forces of the model that a set-up excludes.
+    pub(super) fn exclude_forces(&self, document: &mut OsimModel) {
+        if let Some(dynamics) = &self.dynamics {
+            exclude_bushings(document, &dynamics.setup);
+        }
+    }
+
     /// Rejects options that contradict the set-ups.
     fn check(&self, args: &ForcesArgs) -> Result<()> {
+        if let (Some(sensors), true) = (self.of_sensors(), self.has_markers()) {
+            bail!(
+                "{} is for sensors, and another set-up is for markers; expected one of both. hint: scale the model first, and place the sensors on the subject.osim of that run",
+                sensors.display()
+            );
+        }
         if let (Some(scale), true) = (&self.scale, args.subject.height.is_some()) {
             bail!(
                 "--height contradicts {}, which states how the model is scaled; expected one of both",
@@ -117,31 +154,33 @@ impl Setups {
         Ok(())
     }
 
-    /// The model before scaling, or the model of the later tools.
+    /// The model before scaling or without sensors, or else the model of the later tools.
     fn fill_model(&self, args: &mut ForcesArgs, findings: &mut Findings) -> Result<()> {
         let of_kinematics = self.kinematics.as_ref().and_then(|s| s.file(s.setup.model_file.as_ref()));
+        let of_sensors = self.sensors.as_ref().and_then(|s| s.file(s.setup.model_file.as_ref()));
         let of_dynamics = self.dynamics.as_ref().and_then(|s| s.file(s.setup.model_file.as_ref()));
-        let of_scale = self.scale.as_ref().and_then(|s| s.file(s.setup.model_file.as_ref()));
-        let later: Vec<&PathBuf> = of_kinematics.iter().chain(&of_dynamics).collect();
-        if let Some(scale) = &self.scale {
-            for model in &later {
-                let message = format!(
-                    "{} was not read; the model that {} scales was used",
-                    model.display(),
-                    scale.path.display()
-                );
-                findings.report(Code::SetupUnused, message);
+        let later: Vec<&PathBuf> = of_kinematics.iter().chain(&of_sensors).chain(&of_dynamics).collect();
+        let stated = match self.first_model() {
+            Some((file, use_of_it)) => {
+                for model in &later {
+                    let message = format!("{} was not read; the model {use_of_it} was used", model.display());
+                    findings.report(Code::SetupUnused, message);
+                }
+                file
             }
-        } else if let ([a, b], None) = (&later[..], &args.model)
-            && a != b
-        {
-            bail!(
-                "the set-ups name two models, {} and {}; expected one. hint: --model FILE chooses one for the whole run",
-                a.display(),
-                b.display()
-            );
-        }
-        let stated = if self.scale.is_some() { of_scale } else { of_kinematics.or(of_dynamics) };
+            None => {
+                if let ([a, b], None) = (&later[..], &args.model)
+                    && a != b
+                {
+                    bail!(
+                        "the set-ups name two models, {} and {}; expected one. hint: --model FILE chooses one for the whole run",
+                        a.display(),
+                        b.display()
+                    );
+                }
+                later.first().map(|file| (*file).clone())
+            }
+        };
         fill(&mut args.model, stated, "--model", findings);
         if args.model.is_none() {
             bail!("the set-up names no <model_file>; expected one, or --model FILE.osim");
@@ -149,21 +188,38 @@ impl Setups {
         Ok(())
     }
 
-    /// The recording: markers of inverse kinematics, coordinates of inverse dynamics, or the standing trial of scaling alone.
+    /// The model of the tool that makes the model of the later ones, and what is done with it.
+    fn first_model(&self) -> Option<(Option<PathBuf>, String)> {
+        let scale = self.scale.as_ref();
+        let scaled = scale.map(|s| (s.file(s.setup.model_file.as_ref()), format!("that {} scales", s.path.display())));
+        let placer = self.placer.as_ref();
+        let placed = placer
+            .map(|s| (s.file(s.setup.model_file.as_ref()), format!("on which {} places sensors", s.path.display())));
+        scaled.or(placed)
+    }
+
+    /// The recording: markers or sensors of inverse kinematics, coordinates of inverse dynamics, or the standing trial of scaling or placing
+    /// alone.
     fn fill_recording(&self, args: &mut ForcesArgs, findings: &mut Findings) -> Result<()> {
         let markers = self.kinematics.as_ref().and_then(|s| s.file(s.setup.marker_file.as_ref()));
         let coordinates = self.dynamics.as_ref().and_then(|s| s.file(s.setup.coordinates_file.as_ref()));
         let standing = self.scale.as_ref().and_then(|s| s.file(self.standing_file().as_ref()));
-        if let (Some(coordinates), true) = (&coordinates, self.has_markers()) {
-            let message = format!("{} was not read; the coordinates are those of the markers", coordinates.display());
+        let others = [(self.has_markers(), "markers"), (self.of_sensors().is_some(), "sensors")];
+        if let (Some(coordinates), Some((_, what))) = (&coordinates, others.iter().find(|(is_used, _)| *is_used)) {
+            let message = format!("{} was not read; the coordinates are those of the {what}", coordinates.display());
             findings.report(Code::SetupUnused, message);
         }
-        let stated = if self.has_markers() { markers.or(standing) } else { coordinates };
+        let sensors = self.sensors.as_ref().and_then(|s| s.file(s.setup.orientations_file.as_ref()));
+        let stated = match others {
+            [(true, _), _] => markers.or(standing),
+            [_, (true, _)] => sensors.or(self.standing_sensors()),
+            _ => coordinates,
+        };
         fill(&mut args.input, stated, "the recording", findings);
         match &args.input {
             Some(_) => Ok(()),
             None => bail!(
-                "the set-up names no recording (<marker_file> or <coordinates_file>); expected one, or the recording before the options"
+                "the set-up names no recording (<marker_file>, <orientations_file> or <coordinates_file>); expected one, or the recording before the options"
             ),
         }
     }
@@ -194,14 +250,46 @@ impl Setups {
         replaced(args.subject.mass, scale.setup.mass_kg, "--mass", findings);
     }
 
+    /// Orientations of the sensors while the person stands.
+    fn standing_sensors(&self) -> Option<PathBuf> {
+        self.placer.as_ref().and_then(|s| s.file(s.setup.orientations_file.as_ref()))
+    }
+
+    /// Standing posture, heading and earth of sensors.
+    fn fill_sensors(&self, args: &mut ForcesArgs, findings: &mut Findings) {
+        let of_placer = self.placer.as_ref().map(|s| s.setup.earth_rad);
+        let of_kinematics = self.sensors.as_ref().map(|s| s.setup.earth_rad);
+        if let (Some(used), Some(other)) = (of_placer, of_kinematics)
+            && EarthTurn(used) != EarthTurn(other)
+        {
+            let message = format!(
+                "sensor_to_opensim_rotations {other:?} of IMUInverseKinematicsTool were not used: those of IMUPlacer, {used:?}, apply to both"
+            );
+            findings.report(Code::SetupUnused, message);
+        }
+        fill(&mut args.sensors.earth, of_placer.or(of_kinematics).map(EarthTurn), "--earth", findings);
+        let heading = self.placer.as_ref().and_then(|s| s.setup.heading.as_ref());
+        let heading = heading.map(|stated| HeadingAxis::of(&stated.sensor, stated.axis, stated.is_negative));
+        fill(&mut args.sensors.heading, heading, "--heading", findings);
+        fill(&mut args.subject.still, self.standing_sensors(), "--static", findings);
+        if let (Some(sensors), None, None) = (&self.sensors, &self.placer, &args.subject.still) {
+            let message = format!(
+                "{}: where the sensors of the model sit was not read; they are placed in its default posture by the first frame",
+                sensors.path.display()
+            );
+            findings.report(Code::SetupUnused, message);
+        }
+    }
+
     /// Loads, filters and times; inverse dynamics of OpenSim leaves loads unfiltered.
     fn fill_dynamics(&self, args: &mut ForcesArgs, findings: &mut Findings) {
-        let of_kinematics = self.kinematics.as_ref().and_then(|s| s.setup.time_range);
+        let of_sensors = self.sensors.as_ref().and_then(|s| s.setup.time_range);
+        let of_kinematics = self.kinematics.as_ref().and_then(|s| s.setup.time_range).or(of_sensors);
         let of_dynamics = self.dynamics.as_ref().and_then(|s| s.setup.time_range);
         if let (Some(used), Some([from, to])) = (of_dynamics, of_kinematics.filter(|range| of_dynamics != Some(*range)))
         {
             let message = format!(
-                "the time range {from} to {to} s of InverseKinematicsTool was not used: all is computed in that of InverseDynamicsTool, {} to {} s",
+                "the time range {from} to {to} s of inverse kinematics was not used: all is computed in that of InverseDynamicsTool, {} to {} s",
                 used[0], used[1]
             );
             findings.report(Code::SetupUnused, message);
@@ -243,7 +331,8 @@ impl Setups {
         }
         let Some(scale) = &self.scale else { return Ok(Some(Box::default())) };
         let placer = scale.setup.placer.as_ref();
-        let coordinates = scale.file(placer.and_then(|placer| placer.coordinate_file.as_ref()));
+        let following = placer.filter(|placer| placer.tasks.follow_file());
+        let coordinates = scale.file(following.and_then(|placer| placer.coordinate_file.as_ref()));
         let coordinates = coordinates.map(|path| read_table(&path, reading)).transpose()?;
         let scaling = scaling_of_setup(&scale.setup, model, coordinates.as_ref(), &mut reading.findings)
             .with_context(|| scale.path.display().to_string())?;
@@ -257,12 +346,21 @@ impl Setups {
     /// The weights of the fit of the recording.
     pub(super) fn tasks(&self, model: &Model, reading: &mut Reading) -> Result<Option<TrackedTasks>> {
         let Some(kinematics) = &self.kinematics else { return Ok(None) };
-        let coordinates = kinematics.file(kinematics.setup.coordinate_file.as_ref());
+        let file = kinematics.setup.coordinate_file.as_ref().filter(|_| kinematics.setup.tasks.follow_file());
+        let coordinates = kinematics.file(file);
         let coordinates = coordinates.map(|path| read_table(&path, reading)).transpose()?;
         TrackedTasks::of_setup(&kinematics.setup.tasks, model, coordinates.as_ref(), &mut reading.findings)
             .map(Some)
             .with_context(|| kinematics.path.display().to_string())
     }
+}
+
+/// The file of a set that a set-up names, from the folder of the set-up.
+fn read_set(setup: &Path, named: &str, reading: &mut Reading) -> Result<Vec<u8>, String> {
+    let file = plain(&setup.parent().unwrap_or(Path::new("")).join(named));
+    let bytes = files::read_input(&reading.caller, &file).map_err(|error| error.to_string())?;
+    reading.read.push(file);
+    Ok(bytes)
 }
 
 fn read_table(path: &Path, reading: &mut Reading) -> Result<Table> {
@@ -308,6 +406,18 @@ impl Shown for f64 {
 }
 
 impl Shown for Cutoff {
+    fn shown(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Shown for HeadingAxis {
+    fn shown(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Shown for EarthTurn {
     fn shown(&self) -> String {
         self.to_string()
     }
