@@ -36,6 +36,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (loads, _) = ExternalLoads::read(LOADS.as_bytes())?;
     save("external_loads", "one.xml", &loads.write())?;
     save("setup", "scale.xml", SCALE_SETUP.as_bytes())?;
+    save("setup", "sensors.xml", SENSOR_SETUP.as_bytes())?;
+    save("setup", "placer.xml", PLACER_SETUP.as_bytes())?;
+    save("setup", "old.xml", OLD_SETUP.as_bytes())?;
+    copy("osim", "crates/ambulo/tests/testdata/opensim_bushings/bushings.osim")?;
     save("osim", "two.osim", &OsimModel::read(OSIM.as_bytes())?.write()?)?;
     save("bvh", "leg.bvh", &bvh()?.write())?;
     save("b3d", "two.b3d", &subject().write()?)?;
@@ -71,7 +75,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Two frames of the lower body, standing, with contacts of the feet.
 fn mvnx() -> String {
     let names = ["Pelvis", "RightUpperLeg", "RightLowerLeg", "RightFoot", "LeftUpperLeg", "LeftLowerLeg", "LeftFoot"];
-    let heel = |side: &str| format!("<points><point label=\"p{side}HeelFoot\"><pos_b>-0.036 0 -0.085</pos_b></point></points>");
+    let heel = |side: &str| {
+        format!("<points><point label=\"p{side}HeelFoot\"><pos_b>-0.036 0 -0.085</pos_b></point></points>")
+    };
     let points = |name: &str| name.strip_suffix("Foot").map_or_else(String::new, heel);
     let segments: String =
         names.iter().map(|name| format!("<segment label=\"{name}\">{}</segment>", points(name))).collect();
@@ -95,7 +101,15 @@ fn mvnx() -> String {
 fn orientations() -> OrientationTable {
     let turned = |angle: f64| Some([(angle / 2.0).cos(), 0.0, (angle / 2.0).sin(), 0.0]);
     let path = |bend: f64| [0.0, 0.5, 1.0].map(|share| turned(bend * share)).to_vec();
-    let sensors = [("pelvis", 0.0), ("femur_r", -0.2), ("tibia_r", 0.8), ("calcn_r", 0.8), ("femur_l", 0.0), ("tibia_l", 0.5), ("calcn_l", 0.5)];
+    let sensors = [
+        ("pelvis", 0.0),
+        ("femur_r", -0.2),
+        ("tibia_r", 0.8),
+        ("calcn_r", 0.8),
+        ("femur_l", 0.0),
+        ("tibia_l", 0.5),
+        ("calcn_l", 0.5),
+    ];
     OrientationTable {
         rate_hz: Some(100.0),
         times: vec![0.0, 0.01, 0.02],
@@ -123,6 +137,19 @@ const SCALE_SETUP: &str = "<ScaleTool name=\"s\"><mass>70</mass><GenericModelMak
     <Scale><scales>1 2 3</scales><segment>f</segment></Scale></objects></ScaleSet><time_range>0 1</time_range></ModelScaler>\
     <MarkerPlacer><IKTaskSet><objects><IKMarkerTask name=\"A\"><weight>2</weight></IKMarkerTask><IKCoordinateTask name=\"q\">\
     <value_type>manual_value</value_type><value>1</value></IKCoordinateTask></objects></IKTaskSet></MarkerPlacer></ScaleTool>\n";
+
+const SENSOR_SETUP: &str = "<IMUInverseKinematicsTool><orientations_file>w.sto</orientations_file><time_range>0 2</time_range>\
+    <OrientationWeightSet><objects><OrientationWeight name=\"p\"><weight>0.5</weight></OrientationWeight></objects></OrientationWeightSet>\
+    </IMUInverseKinematicsTool>\n";
+
+const PLACER_SETUP: &str = "<IMUPlacer><model_file>a.osim</model_file><base_imu_label>p</base_imu_label><base_heading_axis>-z\
+    </base_heading_axis><sensor_to_opensim_rotations>-1.5 0 0</sensor_to_opensim_rotations>\
+    <orientation_file_for_calibration>s.sto</orientation_file_for_calibration></IMUPlacer>\n";
+
+/// The target takes this document as the file of its set as well, in which the first set is the one below the trials.
+const OLD_SETUP: &str = "<IKTool><IKTrialSet><objects><IKTrial><marker_file>a.trc</marker_file></IKTrial></objects></IKTrialSet>\
+    <x><IKTaskSet><objects><IKMarkerTask name=\"A\"><weight>1</weight></IKMarkerTask></objects></IKTaskSet></x>\
+    <IKTaskSet file=\"a.xml\"/></IKTool>\n";
 
 const THRESHOLDS: &str = "shortest_s = 0.05\nskip = [\"power\"]\n[person]\nmass_kg = 60.0\n[strength]\nshare = 0.8\n\
     [friction]\navailable = 0.5\n[support]\nacceleration_ratio = 1.5\n";

@@ -6,12 +6,12 @@
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
-use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::kinematics::sensor_fit::{SensorAxes, SensorTrial, fit_sensors};
+use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
-use ambulo::model::{BySide, from_osim};
 use ambulo::model::marker_set::MarkerSet;
+use ambulo::model::{BySide, from_osim};
 use ambulo::motion::{
     B3dTrial, SmplMotion, Window, coordinates_from_table, events_from_mvnx, is_bids_markers, markers_from_bids,
     segment_poses_from_mvnx, sensors_from_table,
