@@ -120,6 +120,7 @@ fn set_ups(bench: &Workbench) {
         let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(off < 1e-5, "{name} {off}");
     }
+    placed_sensors(bench);
     let refused = |words: &[&str], message: &[&str]| bench.run(&[&both[..], words].concat()).refused(message);
     refused(&["demo/input/walk.mot"], &["walk.mot", "imu.xml needs orientations of sensors"]);
     bench.write("setups/ik.xml", "<InverseKinematicsTool/>");
@@ -127,6 +128,27 @@ fn set_ups(bench: &Workbench) {
     bench
         .run(&["forces", "walking.sto", "--setup", "setups/ik.xml", "--model", "demo/input/figure.osim"])
         .refused(&["walking.sto", "these are orientations of sensors; the set-up needs markers"]);
+}
+
+/// Inverse kinematics alone uses the sensors of its model, which another program placed; their heading is that of the model.
+fn placed_sensors(bench: &Workbench) {
+    let mut model = bench.text("demo/input/figure.osim");
+    for body in BODIES {
+        let frame = format!(
+            "<Body name=\"{body}\"><components><PhysicalOffsetFrame name=\"{body}_imu\"><socket_parent>..</socket_parent>\
+             <orientation>0 0 0</orientation></PhysicalOffsetFrame></components>"
+        );
+        assert!(model.contains(&format!("<Body name=\"{body}\">")), "{body}");
+        model = model.replace(&format!("<Body name=\"{body}\">"), &frame);
+    }
+    bench.write("setups/calibrated.osim", model);
+    bench.run(&["forces", "--setup", "setups/imu.xml", "--cutoff", "off", "-o", "placed"]).done();
+    let (found, known) = (bench.table("placed/kinematics.mot"), bench.table("demo/input/walk.mot"));
+    for name in ["hip_flexion_r", "knee_angle_l", "pelvis_rotation"] {
+        let pairs = found.column(name).unwrap().iter().zip(known.column(name).unwrap());
+        let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-3, "{name} {off}");
+    }
 }
 
 fn refusals(bench: &Workbench) {

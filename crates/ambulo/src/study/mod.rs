@@ -42,7 +42,9 @@ pub use error::{Input, StudyError};
 pub use force_filter::ForceFilter;
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
 pub use mass::{BodyMass, MassEstimate, MassState, MassWitness, standing_mass_kg};
-pub use opensim_setup::{SetupError, TrackedTasks, exclude_bushings, report_forces_of_model, scaling_of_setup};
+pub use opensim_setup::{
+    SetupError, TrackedTasks, exclude_bushings, report_forces_of_model, scaling_of_setup, standing_sensors_of,
+};
 pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedGround, TrackedMarkers, Tracking};
 pub use personal::{CalibrationError, personal_errors};
 pub use quality::{Measure, Quality, QualityLimits, QualityReason, QualityState};

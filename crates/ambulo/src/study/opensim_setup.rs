@@ -5,9 +5,10 @@ use crate::kinematics::marker_fit::{CoordinateTask, TaskTarget};
 use crate::kinematics::scaling::{
     DistanceMeasurement, MarkerPlacement, MeasuredBody, ScalingProtocol, ScalingStep, fit_weights,
 };
+use crate::kinematics::sensor_fit::{SensorAxes, standing_posture};
 use crate::model::{MassDistribution, Model};
-use crate::motion::{Motion, MotionError, coordinates_from_table};
-use crate::spatial::Vec3;
+use crate::motion::{Motion, MotionError, SensorRecording, coordinates_from_table};
+use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::osim::{OsimBushing, OsimModel};
 use ambulo_formats::setup::{
     CoordinateTarget, FitTasks, InverseDynamicsSetup, Measurement, PlacerSetup, ScaleSetup, ScalerSetup, ScalingMethod,
@@ -145,6 +146,26 @@ fn distances(measurement: &Measurement) -> DistanceMeasurement {
         pairs: measurement.pairs.clone(),
         bodies: measurement.bodies.iter().map(of).collect(),
     }
+}
+
+/// The standing posture that the sensors of a model show, for the sensors of a recording; `None` if none of them is in the model. OpenSim's
+/// IMUPlacer writes a sensor as an offset frame on its body.
+#[must_use]
+pub fn standing_sensors_of(
+    document: &OsimModel,
+    model: &Model,
+    recording: &SensorRecording,
+    axes: &SensorAxes,
+) -> Option<SensorRecording> {
+    let placed = recording.sensors.iter().filter_map(|sensor| {
+        let is_it = |key: &&String| key.rsplit('/').next() == Some(sensor.name.as_str());
+        let frame = &document.frames[document.frames.keys().find(is_it)?];
+        let [a, b, c] = frame.rotation;
+        let rotation = Mat3::new(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
+        Some((sensor.name.clone(), model.body(&frame.body)?, rotation))
+    });
+    let placed: Vec<_> = placed.collect();
+    (!placed.is_empty()).then(|| standing_posture(model, &placed, axes))
 }
 
 /// Removes the bushings that a set-up of inverse dynamics excludes: by name, by group, or all.

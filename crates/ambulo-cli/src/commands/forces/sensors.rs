@@ -1,14 +1,17 @@
 //! Reads orientations of sensors (`.sto` with quaternions), for a model or for the built-in body.
 
-use super::{Reading, added_mass, ground_table, read_model, size};
+use super::{Reading, added_mass, ground_table, read_document, size};
 use crate::args::{ForcesArgs, SubjectArgs};
 use crate::caller::Caller;
 use crate::files;
+use ambulo::findings::Code;
 use ambulo::kinematics::sensor_fit::{SensorAxes, SensorHeading};
 use ambulo::model::anthropometry::Build;
+use ambulo::model::from_osim;
 use ambulo::motion::{SensorRecording, sensors_from_table};
 use ambulo::spatial::Mat3;
-use ambulo::study::{Recording, SensorBody, SensorSource, Source};
+use ambulo::study::{Recording, SensorBody, SensorSource, Source, standing_sensors_of};
+use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::OrientationTable;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
@@ -33,9 +36,12 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     });
     let standing = standing.transpose()?;
     reading.clock.lap("read_motion");
-    let body = body(args, reading)?;
+    let (body, document) = body(args, reading)?;
     let forces = ground_table::read(args, reading)?;
-    let sensors = SensorSource { moving, standing, axes: axes(args), body };
+    let mut sensors = SensorSource { moving, standing, axes: axes(args), body };
+    if let Some(document) = document.filter(|_| reading.setups.uses_placed_sensors()) {
+        stand_as_placed(&mut sensors, &document, reading);
+    }
     let source = Source::new(Recording::Sensors(Box::new(sensors)));
     Ok(Source { forces, added_mass: added_mass(args), stated: size::stated(&args.subject), ..source })
 }
@@ -53,10 +59,27 @@ fn read_sensors(path: &Path, reading: &mut Reading) -> Result<SensorRecording> {
     sensors_from_table(&table, &shown).context(shown)
 }
 
-/// The model, or the built-in body of the stated size.
-fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<SensorBody> {
+/// Takes the standing posture from the sensors of the model, if nothing else shows it.
+fn stand_as_placed(sensors: &mut SensorSource, document: &OsimModel, reading: &mut Reading) {
+    let (SensorBody::Model(model), None) = (&sensors.body, &sensors.standing) else { return };
+    match standing_sensors_of(document, model, &sensors.moving, &sensors.axes) {
+        Some(standing) => {
+            sensors.standing = Some(standing);
+            sensors.axes.heading = SensorHeading::OfModel;
+        }
+        None => {
+            let message = "the model has none of the sensors of the recording; they are placed in its default posture by the first frame";
+            reading.findings.report(Code::SetupUnused, message);
+        }
+    }
+}
+
+/// The model with its document, or the built-in body of the stated size.
+fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<(SensorBody, Option<OsimModel>)> {
     if let Some(path) = args.model_file() {
-        return Ok(SensorBody::Model(read_model(path, reading)?));
+        let document = read_document(path, reading)?;
+        let model = from_osim(&document, &mut reading.findings).with_context(|| path.display().to_string())?;
+        return Ok((SensorBody::Model(model), Some(document)));
     }
     let SubjectArgs { mass: Some(mass), height: Some(height), .. } = args.subject else {
         bail!(
@@ -65,7 +88,7 @@ fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<SensorBody> {
         );
     };
     let table = args.subject.figure.parse().context("--figure")?;
-    Ok(SensorBody::BuiltIn(Build { table, mass, height, toe_joint: true }))
+    Ok((SensorBody::BuiltIn(Build { table, mass, height, toe_joint: true }), None))
 }
 
 fn axes(args: &ForcesArgs) -> SensorAxes {

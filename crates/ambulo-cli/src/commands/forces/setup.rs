@@ -110,6 +110,11 @@ impl Setups {
         self.sensors.as_ref().map(|s| s.path.as_path()).or(placer)
     }
 
+    /// Whether the sensors are those that the model has: inverse kinematics without a placement.
+    pub(super) fn uses_placed_sensors(&self) -> bool {
+        self.sensors.is_some() && self.placer.is_none()
+    }
+
     /// Weights of sensors; `None` without a set-up that states some.
     pub(super) fn sensor_weights(&self) -> Option<TrackedTasks> {
         let weights = &self.sensors.as_ref()?.setup.weights;
@@ -272,13 +277,6 @@ impl Setups {
         let heading = heading.map(|stated| HeadingAxis::of(&stated.sensor, stated.axis, stated.is_negative));
         fill(&mut args.sensors.heading, heading, "--heading", findings);
         fill(&mut args.subject.still, self.standing_sensors(), "--static", findings);
-        if let (Some(sensors), None, None) = (&self.sensors, &self.placer, &args.subject.still) {
-            let message = format!(
-                "{}: where the sensors of the model sit was not read; they are placed in its default posture by the first frame",
-                sensors.path.display()
-            );
-            findings.report(Code::SetupUnused, message);
-        }
     }
 
     /// Loads, filters and times; inverse dynamics of OpenSim leaves loads unfiltered.

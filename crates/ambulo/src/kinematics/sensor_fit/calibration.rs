@@ -46,7 +46,7 @@ pub(super) fn calibrated(
     let world_from_earth = trial.axes.world_from_earth;
     let up = model.up();
     let forward = level(posture.poses[0].rotation.column(0).into(), up).unwrap_or_else(Vec3::x);
-    let facing = facing(model, trial, &standing, up)?;
+    let facing = facing(model, trial, &standing, forward, up)?;
     let heading = up.dot(&facing.cross(&forward)).atan2(facing.dot(&forward));
     let turn = Rotation3::from_axis_angle(&Unit::new_normalize(up), heading).into_inner() * world_from_earth;
     report_heading(&trial.axes.heading, heading, findings);
@@ -164,9 +164,16 @@ fn report_unrest(trial: &SensorTrial<'_>, findings: &mut Findings) {
 }
 
 /// The horizontal direction in which the person faces in the standing posture, in world axes before the turn of the heading.
-fn facing(model: &Model, trial: &SensorTrial<'_>, standing: &[Standing], up: Vec3) -> Result<Vec3, SensorError> {
+fn facing(
+    model: &Model,
+    trial: &SensorTrial<'_>,
+    standing: &[Standing],
+    forward: Vec3,
+    up: Vec3,
+) -> Result<Vec3, SensorError> {
     let SensorAxes { world_from_earth, heading } = trial.axes;
     match heading {
+        SensorHeading::OfModel => Ok(forward),
         SensorHeading::Sensor { sensor, axis } => {
             let Some(base) = standing.iter().find(|known| known.name.eq_ignore_ascii_case(sensor)) else {
                 let known: Vec<String> = standing.iter().map(|known| format!("`{}`", known.name)).collect();
@@ -243,6 +250,7 @@ fn axis_name(axis: &Vec3) -> String {
 
 fn report_heading(source: &SensorHeading, heading: f64, findings: &mut Findings) {
     let by = match source {
+        SensorHeading::OfModel => return,
         SensorHeading::Knees => "the bending of the knees".to_owned(),
         SensorHeading::Sensor { sensor, axis } => format!("the axis {} of `{sensor}`", axis_name(axis)),
     };

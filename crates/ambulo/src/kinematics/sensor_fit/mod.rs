@@ -37,8 +37,8 @@ pub use error::SensorError;
 use super::marker_fit::{FitSettings, OutlierDetection, fit_markers};
 use crate::findings::{Code, Findings};
 use crate::model::anatomy::Sole;
-use crate::model::{BodyId, BySide, Drive, JointSpeeds, Marker, Model};
-use crate::motion::{MarkerPath, MarkerRecording, Motion, SensorRecording};
+use crate::model::{BodyId, BySide, Drive, JointSpeeds, Marker, Model, ModelPosture};
+use crate::motion::{MarkerPath, MarkerRecording, Motion, SensorPath, SensorRecording};
 use crate::spatial::{Mat3, Vec3};
 use calibration::{Calibration, calibrated};
 use std::f64::consts::FRAC_PI_2;
@@ -68,6 +68,8 @@ pub struct SensorAxes {
 pub enum SensorHeading {
     /// The bending of the knees.
     Knees,
+    /// The sensors have the heading of the model: no turn.
+    OfModel,
     /// An axis of a sensor that points forward in the standing posture.
     Sensor {
         /// Name of the sensor.
@@ -83,6 +85,20 @@ impl Default for SensorAxes {
         let turn = nalgebra::Rotation3::from_axis_angle(&Vec3::x_axis(), -FRAC_PI_2);
         SensorAxes { world_from_earth: turn.into_inner(), heading: SensorHeading::Knees }
     }
+}
+
+/// The orientations of sensors whose turns in their bodies are known, by name, in the default posture of a model: a standing posture for
+/// [`SensorTrial::standing`], with the heading of the model.
+#[must_use]
+pub fn standing_posture(model: &Model, sensors: &[(String, BodyId, Mat3)], axes: &SensorAxes) -> SensorRecording {
+    let default = model.coordinates().iter().map(|coordinate| coordinate.default_value).collect();
+    let posture = ModelPosture::new(model, default);
+    let earth_from_world = axes.world_from_earth.transpose();
+    let path = |(name, body, body_from_sensor): &(String, BodyId, Mat3)| SensorPath {
+        name: name.clone(),
+        orientations: vec![Some(earth_from_world * posture.poses[body.index()].rotation * body_from_sensor)],
+    };
+    SensorRecording { name: model.name().to_owned(), times: vec![0.0], sensors: sensors.iter().map(path).collect() }
 }
 
 /// Coordinates from sensors.
