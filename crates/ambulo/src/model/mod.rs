@@ -15,7 +15,7 @@ mod import;
 mod joint;
 mod knots;
 pub mod marker_set;
-mod osim_frame;
+pub(crate) mod osim_frame;
 mod posture;
 mod scaled;
 mod scapulothoracic;

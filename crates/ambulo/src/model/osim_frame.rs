@@ -4,7 +4,7 @@ use crate::spatial::{Mat3, Pose, Vec3};
 use ambulo_formats::osim::OsimFrame;
 
 /// The pose of a frame in its body.
-pub(super) fn pose(frame: &OsimFrame) -> Pose {
+pub(crate) fn pose(frame: &OsimFrame) -> Pose {
     let [a, b, c] = frame.rotation;
     let rotation = Mat3::new(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
     Pose { rotation, translation: Vec3::from(frame.translation_m) }

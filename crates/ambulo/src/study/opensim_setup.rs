@@ -6,9 +6,9 @@ use crate::kinematics::scaling::{
     DistanceMeasurement, MarkerPlacement, MeasuredBody, ScalingProtocol, ScalingStep, fit_weights,
 };
 use crate::kinematics::sensor_fit::{SensorAxes, standing_posture};
-use crate::model::{MassDistribution, Model};
+use crate::model::{MassDistribution, Model, osim_frame};
 use crate::motion::{Motion, MotionError, SensorRecording, coordinates_from_table};
-use crate::spatial::{Mat3, Vec3};
+use crate::spatial::Vec3;
 use ambulo_formats::osim::{OsimBushing, OsimModel};
 use ambulo_formats::setup::{
     CoordinateTarget, FitTasks, InverseDynamicsSetup, Measurement, PlacerSetup, ScaleSetup, ScalerSetup, ScalingMethod,
@@ -160,9 +160,7 @@ pub fn standing_sensors_of(
     let placed = recording.sensors.iter().filter_map(|sensor| {
         let is_it = |key: &&String| key.rsplit('/').next() == Some(sensor.name.as_str());
         let frame = &document.frames[document.frames.keys().find(is_it)?];
-        let [a, b, c] = frame.rotation;
-        let rotation = Mat3::new(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
-        Some((sensor.name.clone(), model.body(&frame.body)?, rotation))
+        Some((sensor.name.clone(), model.body(&frame.body)?, osim_frame::pose(frame).rotation))
     });
     let placed: Vec<_> = placed.collect();
     (!placed.is_empty()).then(|| standing_posture(model, &placed, axes))
