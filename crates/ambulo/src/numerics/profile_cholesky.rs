@@ -5,7 +5,8 @@
 //!
 //!   L_ij = (A_ij - Σ_k L_ik L_jk) / L_jj        L_ii = √(A_ii - Σ_k L_ik²)        k from the later of both beginnings to j - 1
 //!
-//! Sums have eight parts, one per lane, added in a fixed order: the result has the same bits on every processor.
+//! Neighbouring rows that begin in the same column are factored side by side, one lane per row, so that every entry is a sum in the order of k.
+//! Sums of the solution have eight parts, one per lane, added in a fixed order. So the result has the same bits on every processor.
 //!
 //! Source: A. George, J. W. Liu, "Computer solution of large sparse positive definite systems", 1981, chapter 4 (unverified).
 //! Cost: half the sum of the squares of the row lengths.
@@ -23,6 +24,11 @@ pub struct ProfileMatrix {
     starts: Vec<usize>,
     entries: Vec<f64>,
 }
+
+/// Vectors of a column of a panel.
+const VECTORS: usize = 4;
+/// Columns that are computed together: their sums do not wait for each other.
+const TOGETHER: usize = 4;
 
 /// The factor L of a [`ProfileMatrix`].
 #[derive(Debug, Clone)]
@@ -77,60 +83,166 @@ impl ProfileMatrix {
 
     #[inline(always)]
     fn factor_in_place<S: Simd>(&mut self, simd: S) -> bool {
+        let mut panel = Panel::new(VECTORS * S::F64_LANES);
         let mut i = 0;
         while i < self.first.len() {
-            let alike = i + 1 < self.first.len() && self.first[i] == self.first[i + 1];
-            let rows = if alike { 2 } else { 1 };
-            let done = if alike { self.factor_rows::<S, 2>(simd, i) } else { self.factor_rows::<S, 1>(simd, i) };
+            panel.load(self, i);
+            if !panel.factor(simd, self) {
+                return false;
+            }
+            panel.store(self);
+            i += panel.rows;
+        }
+        true
+    }
+}
+
+/// Neighbouring rows that begin in the same column, side by side: one lane per row.
+struct Panel {
+    lanes: usize,
+    /// Number of the first row, and number of rows.
+    row: usize,
+    rows: usize,
+    /// The column in which the rows begin.
+    begin: usize,
+    /// One entry per lane, column after column.
+    entries: Vec<f64>,
+}
+
+impl Panel {
+    fn new(lanes: usize) -> Panel {
+        Panel { lanes, row: 0, rows: 0, begin: 0, entries: Vec::new() }
+    }
+
+    /// Takes the rows of a matrix from `row` on, as many as fit.
+    fn load(&mut self, matrix: &ProfileMatrix, row: usize) {
+        let begin = matrix.first[row];
+        let alike = matrix.first[row..].iter().take(self.lanes).take_while(|column| **column == begin);
+        (self.row, self.begin, self.rows) = (row, begin, alike.count());
+        self.entries.clear();
+        self.entries.resize((row + self.rows - begin) * self.lanes, 0.0);
+        for lane in 0..self.rows {
+            let from = &matrix.entries[matrix.starts[row + lane]..][..=row + lane - begin];
+            for (to, value) in self.entries.iter_mut().skip(lane).step_by(self.lanes).zip(from) {
+                *to = *value;
+            }
+        }
+    }
+
+    /// Puts the rows back.
+    fn store(&self, matrix: &mut ProfileMatrix) {
+        for lane in 0..self.rows {
+            let to = &mut matrix.entries[matrix.starts[self.row + lane]..][..=self.row + lane - self.begin];
+            for (to, value) in to.iter_mut().zip(self.entries.iter().skip(lane).step_by(self.lanes)) {
+                *to = *value;
+            }
+        }
+    }
+
+    /// Factors the rows, after all rows above; `false` if a pivot is not positive.
+    #[inline(always)]
+    fn factor<S: Simd>(&mut self, simd: S, above: &ProfileMatrix) -> bool {
+        let (first, end) = (&above.first, self.row + self.rows);
+        let mut j = self.begin;
+        while j < self.row {
+            let alike = j + TOGETHER <= self.row && first[j..j + TOGETHER].iter().all(|column| *column == first[j]);
+            if alike {
+                self.eliminate::<S, TOGETHER>(simd, j, above);
+                j += TOGETHER;
+            } else {
+                self.eliminate::<S, 1>(simd, j, above);
+                j += 1;
+            }
+        }
+        while j < end {
+            let together = if j + TOGETHER <= end { TOGETHER } else { 1 };
+            let done = if together > 1 { self.pivots::<S, TOGETHER>(simd, j) } else { self.pivots::<S, 1>(simd, j) };
             if !done {
                 return false;
             }
-            i += rows;
+            j += together;
         }
         true
     }
 
-    /// Factors the rows i to i + P - 1, which begin in the same column; `false` if a pivot is not positive.
+    /// Computes the columns j to j + R - 1 from the rows with these numbers, which lie above and begin in the same column.
     #[inline(always)]
-    fn factor_rows<S: Simd, const P: usize>(&mut self, simd: S, i: usize) -> bool {
-        let ProfileMatrix { first, starts, entries } = self;
-        let (above, rest) = entries.split_at_mut(starts[i]);
-        let begin = first[i];
-        let mut rest = rest;
-        let mut rows: [&mut [f64]; P] = array::from_fn(|p| {
-            let (row, after) = std::mem::take(&mut rest).split_at_mut(i + p + 1 - begin);
-            rest = after;
-            row
+    fn eliminate<S: Simd, const R: usize>(&mut self, simd: S, j: usize, above: &ProfileMatrix) {
+        let from = self.begin.max(above.first[j]);
+        let factors: [&[f64]; R] = array::from_fn(|r| {
+            let row = above.starts[j + r] - above.first[j];
+            &above.entries[row + from..=row + j + r]
         });
-        let mut j = begin;
-        while j < i {
-            let alike = j + TOGETHER <= i && first[j..j + TOGETHER].iter().all(|column| *column == first[j]);
-            if alike {
-                eliminate::<S, P, TOGETHER>(simd, &mut rows, begin, j, first[j], above, starts);
-                j += TOGETHER;
-            } else {
-                eliminate::<S, P, 1>(simd, &mut rows, begin, j, first[j], above, starts);
-                j += 1;
+        let (known, own) = self.entries.split_at_mut((j - self.begin) * self.lanes);
+        let mut sums = columns::<S, R>(own);
+        let before = factors.map(|row| &row[..j - from]);
+        subtract(simd, &mut sums, S::as_simd_f64s(&known[(from - self.begin) * self.lanes..]).0, |r, k| before[r][k]);
+        for r in 0..R {
+            let (among, pivot) = factors[r][j - from..].split_at(r);
+            for (q, factor) in among.iter().enumerate() {
+                let other = sums[q];
+                subtract(simd, array::from_mut(&mut sums[r]), &other, |_, _| *factor);
             }
+            sums[r] = scaled(simd, sums[r], 1.0 / pivot[0]);
         }
-        // The rows themselves: each depends on the one before.
-        for p in 0..P {
-            let (before, own) = rows.split_at_mut(p);
-            let row = &mut *own[0];
-            for (q, other) in before.iter().enumerate() {
-                let column = i + q - begin;
-                let [[sum]] = dots(simd, [&row[..column]], [&other[..column]]);
-                row[column] = (row[column] - sum) / other[column];
+        S::as_mut_simd_f64s(own).0[..R * VECTORS].copy_from_slice(sums.as_flattened());
+    }
+
+    /// Computes the columns j to j + R - 1 of the panel's own rows; `false` if a pivot is not positive.
+    #[inline(always)]
+    fn pivots<S: Simd, const R: usize>(&mut self, simd: S, j: usize) -> bool {
+        let (lanes, lane) = (self.lanes, j - self.row);
+        let (known, own) = self.entries.split_at_mut((j - self.begin) * lanes);
+        let mut sums = columns::<S, R>(own);
+        let factors: &[f64] = known;
+        subtract(simd, &mut sums, S::as_simd_f64s(known).0, |r, k| factors[k * lanes + lane + r]);
+        for r in 0..R {
+            for q in 0..r {
+                let other = sums[q];
+                subtract(simd, array::from_mut(&mut sums[r]), &other, |_, _| own[q * lanes + lane + r]);
             }
-            let (known, diagonal) = row.split_at_mut(i + p - begin);
-            let [[square]] = dots(simd, [known], [known]);
-            let pivot = diagonal[0] - square;
+            let column = &mut own[r * lanes..(r + 1) * lanes];
+            S::as_mut_simd_f64s(column).0.copy_from_slice(&sums[r]);
+            let pivot = column[lane + r];
             if !(pivot > 0.0 && pivot.is_finite()) {
                 return false;
             }
-            diagonal[0] = pivot.sqrt();
+            sums[r] = scaled(simd, sums[r], 1.0 / pivot.sqrt());
+            S::as_mut_simd_f64s(column).0.copy_from_slice(&sums[r]);
+            column[lane + r] = pivot.sqrt();
         }
         true
+    }
+}
+
+/// The first R columns of a panel.
+#[inline(always)]
+fn columns<S: Simd, const R: usize>(entries: &[f64]) -> [[S::f64s; VECTORS]; R] {
+    let vectors = S::as_simd_f64s(entries).0;
+    array::from_fn(|r| array::from_fn(|v| vectors[r * VECTORS + v]))
+}
+
+#[inline(always)]
+fn scaled<S: Simd>(simd: S, column: [S::f64s; VECTORS], factor: f64) -> [S::f64s; VECTORS] {
+    let factor = simd.splat_f64s(factor);
+    column.map(|x| simd.mul_f64s(x, factor))
+}
+
+/// Subtracts `factor(r, k)` times column k of some known columns from sum r, for all k in their order.
+#[inline(always)]
+fn subtract<S: Simd, const R: usize>(
+    simd: S,
+    sums: &mut [[S::f64s; VECTORS]; R],
+    known: &[S::f64s],
+    factor: impl Fn(usize, usize) -> f64,
+) {
+    for (k, column) in known.chunks_exact(VECTORS).enumerate() {
+        for (r, sum) in sums.iter_mut().enumerate() {
+            let factor = simd.splat_f64s(factor(r, k));
+            for (sum, x) in sum.iter_mut().zip(column) {
+                *sum = simd.sub_f64s(*sum, simd.mul_f64s(factor, *x));
+            }
+        }
     }
 }
 
@@ -141,62 +253,26 @@ impl ProfileFactor {
     }
 }
 
-/// Lanes of a sum.
+/// Lanes of a sum of products.
 const LANES: usize = 8;
-/// Columns that are computed together: their sums do not wait for each other.
-const TOGETHER: usize = 4;
 
-/// Entries j to j + R - 1 of `rows` that begin at column `begin`; the rows j to j + R - 1 in `above` begin at column `first`.
+/// Sum of products of two rows of the same length.
 #[inline(always)]
-fn eliminate<S: Simd, const P: usize, const R: usize>(
-    simd: S,
-    rows: &mut [&mut [f64]; P],
-    begin: usize,
-    j: usize,
-    first: usize,
-    above: &[f64],
-    starts: &[usize],
-) {
-    let common = begin.max(first);
-    let others: [&[f64]; R] = array::from_fn(|r| &above[starts[j + r]..=starts[j + r] + j + r - first]);
-    let own: [&[f64]; P] = array::from_fn(|p| &rows[p][common - begin..j - begin]);
-    let sums = dots(simd, own, others.map(|other| &other[common - first..j - first]));
-    for (row, sums) in rows.iter_mut().zip(&sums) {
-        for r in 0..R {
-            let (known, pivot) = others[r][j - first..].split_at(r);
-            let sum: f64 = known.iter().zip(&row[j - begin..]).map(|(a, b)| a * b).sum();
-            row[j + r - begin] = (row[j + r - begin] - sums[r] - sum) / pivot[0];
-        }
-    }
-}
-
-/// Sums of products of each of `a` with each of `b`, all of the same length.
-#[inline(always)]
-fn dots<S: Simd, const P: usize, const R: usize>(simd: S, a: [&[f64]; P], b: [&[f64]; R]) -> [[f64; R]; P] {
+fn dot<S: Simd>(simd: S, a: &[f64], b: &[f64]) -> f64 {
     let vectors = LANES / S::F64_LANES;
-    let whole = a[0].len() / LANES * LANES;
-    let x = a.map(|a| S::as_simd_f64s(&a[..whole]).0);
-    let y = b.map(|b| S::as_simd_f64s(&b[..whole]).0);
-    let mut sums = [[[simd.splat_f64s(0.0); LANES]; R]; P];
-    for start in (0..x[0].len()).step_by(vectors) {
-        for v in 0..vectors {
-            for r in 0..R {
-                let y = y[r][start + v];
-                for p in 0..P {
-                    sums[p][r][v] = simd.add_f64s(sums[p][r][v], simd.mul_f64s(x[p][start + v], y));
-                }
-            }
+    let whole = a.len() / LANES * LANES;
+    let (x, y) = (S::as_simd_f64s(&a[..whole]).0, S::as_simd_f64s(&b[..whole]).0);
+    let mut sums = [simd.splat_f64s(0.0); LANES];
+    for (x, y) in x.chunks_exact(vectors).zip(y.chunks_exact(vectors)) {
+        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
+            *sum = simd.add_f64s(*sum, simd.mul_f64s(*x, *y));
         }
     }
-    array::from_fn(|p| {
-        array::from_fn(|r| {
-            let mut lanes = [0.0; LANES];
-            S::as_mut_simd_f64s(&mut lanes).0.copy_from_slice(&sums[p][r][..vectors]);
-            let pairs: [f64; 4] = array::from_fn(|k| lanes[k] + lanes[k + 4]);
-            let rest: f64 = a[p][whole..].iter().zip(&b[r][whole..]).map(|(x, y)| x * y).sum();
-            (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]) + rest
-        })
-    })
+    let mut lanes = [0.0; LANES];
+    S::as_mut_simd_f64s(&mut lanes).0.copy_from_slice(&sums[..vectors]);
+    let pairs: [f64; 4] = array::from_fn(|k| lanes[k] + lanes[k + 4]);
+    let rest: f64 = a[whole..].iter().zip(&b[whole..]).map(|(x, y)| x * y).sum();
+    (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]) + rest
 }
 
 struct Factor<'a>(&'a mut ProfileMatrix);
@@ -221,8 +297,7 @@ impl WithSimd for Solve<'_> {
         for i in 0..first.len() {
             let row = &entries[starts[i]..=starts[i] + i - first[i]];
             let (known, pivot) = row.split_at(i - first[i]);
-            let [[sum]] = dots(simd, [known], [&x[first[i]..i]]);
-            x[i] = (x[i] - sum) / pivot[0];
+            x[i] = (x[i] - dot(simd, known, &x[first[i]..i])) / pivot[0];
         }
         for i in (0..first.len()).rev() {
             let row = &entries[starts[i]..=starts[i] + i - first[i]];
