@@ -134,6 +134,21 @@ impl Evaluator {
         Ok(Evaluator { kernel, soles: soles.to_vec(), levels, chains, couplers })
     }
 
+    /// Numbers of the coordinates on which the force of a coordinate depends: those of links that carry its link or are carried by it. Forces of the
+    /// ground depend on the links that carry the foot, which all carry each other.
+    pub(super) fn related(&self, coordinate: usize) -> Vec<usize> {
+        let links = &self.kernel.links;
+        let chain = |link: usize| std::iter::successors(Some(link), |&carried| links[carried].before);
+        let own: Vec<usize> = (0..links.len()).filter(|&link| links[link].coordinate == coordinate).collect();
+        let is_related =
+            |link: usize| own.iter().any(|&one| chain(one).any(|l| l == link) || chain(link).any(|l| l == one));
+        let mut related: Vec<usize> =
+            (0..links.len()).filter(|&link| is_related(link)).map(|link| links[link].coordinate).collect();
+        related.sort_unstable();
+        related.dedup();
+        related
+    }
+
     /// Coupled coordinates take the values that follow from those of their leaders.
     fn follow_leaders(&self, [q, qd, qdd]: &mut Posture) {
         for (follower, leader, function) in &self.couplers {

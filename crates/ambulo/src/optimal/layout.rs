@@ -41,6 +41,18 @@ pub(super) struct Weights {
     pub(super) values: [[f64; OVERLAP]; 3],
 }
 
+impl Weights {
+    /// Weights times one factor for the value, the first and the second derivative each.
+    pub(super) fn scaled(mut self, factors: [f64; 3]) -> Weights {
+        for (values, factor) in self.values.iter_mut().zip(factors) {
+            for value in values {
+                *value *= factor;
+            }
+        }
+        self
+    }
+}
+
 impl Layout {
     pub(super) fn new(model: &Model, span: Span, knots: usize, per_knot: usize) -> Layout {
         Layout { span, width: model.coordinates().len(), knots: knots.max(OVERLAP), per_knot, mirror: mirror(model) }

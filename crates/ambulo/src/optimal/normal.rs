@@ -5,6 +5,7 @@
 //!
 //!   block(k, l) += Σ_de W_dk W_el H_de          d, e: value, rate, acceleration; k, l: the six blocks of the interval
 //!
+//! Rates of forces, which depend on two instants of one interval and on few coordinates, are mapped first and multiplied then ([`IntervalRows`]).
 //! Blocks beyond the last knot are then added to those that they repeat ([`Layout::origin`]).
 
 use super::layout::{Layout, Weights};
@@ -34,6 +35,49 @@ pub(super) struct NormalEquations {
     arch: Arch,
 }
 
+/// Residuals of one knot interval that depend on the same few coordinates.
+#[derive(Debug, Clone)]
+pub(super) struct IntervalRows {
+    /// Numbers of the coordinates, in their order.
+    coordinates: Vec<usize>,
+    residuals: Vec<f64>,
+    /// Slopes by the unknowns of these coordinates in the six blocks of the interval, block after block.
+    rows: Vec<f64>,
+}
+
+impl IntervalRows {
+    pub(super) fn new(coordinates: Vec<usize>) -> IntervalRows {
+        IntervalRows { coordinates, residuals: Vec::new(), rows: Vec::new() }
+    }
+
+    pub(super) fn coordinates(&self) -> &[usize] {
+        &self.coordinates
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.residuals.clear();
+        self.rows.clear();
+    }
+
+    /// Adds a residual from its slopes in z of two instants of the interval, with the weights of these.
+    pub(super) fn add(&mut self, residual: f64, instants: [(&Weights, &[f64]); 2]) {
+        let (few, start) = (self.coordinates.len(), self.rows.len());
+        self.residuals.push(residual);
+        self.rows.resize(start + OVERLAP * few, 0.0);
+        let row = &mut self.rows[start..];
+        for (weights, slopes) in instants {
+            let n = slopes.len() / 3;
+            for (weights, slopes) in weights.values.iter().zip(slopes.chunks(n)) {
+                for (place, weight) in row.chunks_mut(few).zip(weights) {
+                    for (sum, &c) in place.iter_mut().zip(&self.coordinates) {
+                        *sum += weight * slopes[c];
+                    }
+                }
+            }
+        }
+    }
+}
+
 impl InstantSums {
     pub(super) fn new(coordinates: usize) -> InstantSums {
         let width = 3 * coordinates;
@@ -45,17 +89,20 @@ impl InstantSums {
         self.right.fill(0.0);
     }
 
-    /// Adds a residual that depends on everything. Only the lower half of the matrix is filled; see [`InstantSums::complete`].
+    /// Adds residuals that depend on everything. Only the lower half of the matrix is filled; see [`InstantSums::complete`].
     #[inline(always)]
-    fn add_row(&mut self, residual: f64, row: &[f64]) {
+    fn add_rows(&mut self, residuals: &[f64], rows: &[f64]) {
         let width = self.width;
-        for (i, &a) in row.iter().enumerate() {
-            if a == 0.0 {
-                continue;
-            }
-            self.right[i] += a * residual;
-            for (sum, b) in self.matrix[i * width..=i * width + i].iter_mut().zip(row) {
-                *sum += a * b;
+        for (i, sums) in self.matrix.chunks_mut(width).enumerate() {
+            for (residual, row) in residuals.iter().zip(rows.chunks(width)) {
+                let a = row[i];
+                if a == 0.0 {
+                    continue;
+                }
+                self.right[i] += a * residual;
+                for (sum, b) in sums[..=i].iter_mut().zip(row) {
+                    *sum += a * b;
+                }
             }
         }
     }
@@ -77,6 +124,7 @@ impl InstantSums {
         }
     }
 
+    /// Copies the lower half of the matrix to the upper one.
     fn complete(&mut self) {
         for i in 0..self.width {
             for j in 0..i {
@@ -129,7 +177,7 @@ impl NormalEquations {
     pub(super) fn add_instant(&mut self, weights: &Weights, sums: &mut InstantSums) {
         sums.complete();
         let arch = self.arch;
-        arch.dispatch(Map { to: self, rows: weights, columns: weights, from: &sums.matrix, symmetric: true });
+        arch.dispatch(Map { to: self, weights, from: &sums.matrix });
         self.add_right(weights, &sums.right);
     }
 
@@ -144,15 +192,10 @@ impl NormalEquations {
         }
     }
 
-    /// Adds rows that couple two instants of one interval: `cross` is Σ r_aᵀ r_b in z of both, and its transpose is added too.
-    pub(super) fn add_pair(&mut self, a: &Weights, b: &Weights, cross: &[f64]) {
+    /// Adds rows of the interval that begins with block `first`.
+    pub(super) fn add_interval(&mut self, first: usize, rows: &IntervalRows) {
         let arch = self.arch;
-        arch.dispatch(Map { to: self, rows: a, columns: b, from: cross, symmetric: false });
-    }
-
-    /// Σ aᵀ b of rows of two instants.
-    pub(super) fn cross(&self, a: &[f64], b: &[f64], width: usize, sum: &mut [f64]) {
-        self.arch.dispatch(Cross { a, b, width, sum });
+        arch.dispatch(AddInterval { to: self, first, rows });
     }
 
     /// The matrix and the right-hand side of the unknowns.
@@ -205,44 +248,51 @@ impl WithSimd for AddRows<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        for (residual, row) in self.residuals.iter().zip(self.rows.chunks(self.sums.width)) {
-            self.sums.add_row(*residual, row);
-        }
+        self.sums.add_rows(self.residuals, self.rows);
     }
 }
 
-struct Cross<'a> {
-    a: &'a [f64],
-    b: &'a [f64],
-    width: usize,
-    sum: &'a mut [f64],
+struct AddInterval<'a> {
+    to: &'a mut NormalEquations,
+    first: usize,
+    rows: &'a IntervalRows,
 }
 
-impl WithSimd for Cross<'_> {
+impl WithSimd for AddInterval<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.sum.fill(0.0);
-        for (a, b) in self.a.chunks(self.width).zip(self.b.chunks(self.width)) {
-            for (value, sums) in a.iter().zip(self.sum.chunks_mut(self.width)) {
-                for (sum, b) in sums.iter_mut().zip(b) {
-                    *sum += value * b;
+        let AddInterval { to, first, rows: IntervalRows { coordinates, residuals, rows } } = self;
+        let (n, few) = (to.width, coordinates.len());
+        let mut products = vec![0.0; OVERLAP * few];
+        for i in 0..OVERLAP * few {
+            let (k, a) = (i / few, coordinates[i % few]);
+            let products = &mut products[..=i];
+            products.fill(0.0);
+            let right = &mut to.right[(first + k) * n + a];
+            for (residual, row) in residuals.iter().zip(rows.chunks(OVERLAP * few)) {
+                *right += row[i] * residual;
+                for (sum, value) in products.iter_mut().zip(row) {
+                    *sum += row[i] * value;
+                }
+            }
+            for (l, products) in products.chunks(few).enumerate() {
+                let block = &mut to.blocks[(((first + k) * OVERLAP + k - l) * n + a) * n..][..n];
+                for (&b, product) in coordinates.iter().zip(products) {
+                    block[b] += product;
                 }
             }
         }
     }
 }
 
-/// Maps a matrix in z of two instants of one interval to the blocks.
+/// Maps a matrix in z of an instant to the blocks.
 struct Map<'a> {
     to: &'a mut NormalEquations,
-    rows: &'a Weights,
-    columns: &'a Weights,
+    weights: &'a Weights,
     /// 3 n by 3 n.
     from: &'a [f64],
-    /// Both instants are the same; otherwise the transpose is added too.
-    symmetric: bool,
 }
 
 impl WithSimd for Map<'_> {
@@ -250,7 +300,7 @@ impl WithSimd for Map<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Map { to, rows, columns, from, symmetric } = self;
+        let Map { to, weights: Weights { first, values }, from } = self;
         let n = to.width;
         // G_dl = Σ_e H_de W_el.
         for d in 0..3 {
@@ -258,7 +308,7 @@ impl WithSimd for Map<'_> {
                 let half = &mut to.half[(d * OVERLAP + l) * n * n..][..n * n];
                 for (a, half) in half.chunks_mut(n).enumerate() {
                     let row = &from[(d * n + a) * 3 * n..][..3 * n];
-                    let weights = [0, 1, 2].map(|e| columns.values[e][l]);
+                    let weights = [0, 1, 2].map(|e| values[e][l]);
                     for b in 0..n {
                         half[b] = weights[0] * row[b] + weights[1] * row[n + b] + weights[2] * row[2 * n + b];
                     }
@@ -266,27 +316,12 @@ impl WithSimd for Map<'_> {
             }
         }
         for k in 0..OVERLAP {
-            let weights = [0, 1, 2].map(|d| rows.values[d][k]);
-            for l in 0..OVERLAP {
-                if symmetric && l > k {
-                    continue;
-                }
+            let weights = [0, 1, 2].map(|d| values[d][k]);
+            for l in 0..=k {
                 let parts = [0, 1, 2].map(|d| &to.half[(d * OVERLAP + l) * n * n..][..n * n]);
-                let (high, low) = (k.max(l), k.min(l));
-                let place = ((rows.first + high) * OVERLAP + high - low) * n * n;
-                let block = &mut to.blocks[place..place + n * n];
-                let sum = |i: usize| weights[0] * parts[0][i] + weights[1] * parts[1][i] + weights[2] * parts[2][i];
-                if l <= k {
-                    for (i, entry) in block.iter_mut().enumerate() {
-                        *entry += sum(i);
-                    }
-                }
-                if !symmetric && l >= k {
-                    for a in 0..n {
-                        for b in 0..n {
-                            block[b * n + a] += sum(a * n + b);
-                        }
-                    }
+                let block = &mut to.blocks[((first + k) * OVERLAP + k - l) * n * n..][..n * n];
+                for (i, entry) in block.iter_mut().enumerate() {
+                    *entry += weights[0] * parts[0][i] + weights[1] * parts[1][i] + weights[2] * parts[2][i];
                 }
             }
         }

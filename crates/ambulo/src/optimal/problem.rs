@@ -11,7 +11,7 @@ mod bending;
 
 use super::instant::{Evaluator, Instant};
 use super::layout::{Layout, Span, Weights};
-use super::normal::{InstantSums, NormalEquations, empty_matrix};
+use super::normal::{InstantSums, IntervalRows, NormalEquations, empty_matrix};
 use super::objective::{Quantity, Row, Term};
 use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;
@@ -84,6 +84,7 @@ pub(super) struct Transcription<'a> {
     base: Vec<Instant>,
     sums: InstantSums,
     rows: Rows,
+    rates: Vec<Rates<'a>>,
 }
 
 /// Full rows of an instant, with their residuals.
@@ -91,6 +92,13 @@ pub(super) struct Transcription<'a> {
 struct Rows {
     residuals: Vec<f64>,
     slopes: Vec<f64>,
+}
+
+/// Rates of forces that depend on the same coordinates.
+#[derive(Debug)]
+struct Rates<'a> {
+    terms: Vec<(CoordinateId, &'a Term)>,
+    rows: IntervalRows,
 }
 
 impl Problem {
@@ -168,6 +176,24 @@ impl Problem {
         self.model.mass() * self.model.gravity().norm()
     }
 
+    /// Terms of rates of forces, with the coordinates of these forces.
+    fn forces_by_rate(&self) -> impl Iterator<Item = (CoordinateId, &Term)> {
+        self.terms.iter().filter_map(|term| Some((term.quantity.is_rate_of_force()?, term)))
+    }
+
+    /// The same terms, grouped by the coordinates on which the forces depend.
+    fn rates(&self, evaluator: &Evaluator) -> Vec<Rates<'_>> {
+        let mut groups: Vec<Rates<'_>> = Vec::new();
+        for (id, term) in self.forces_by_rate() {
+            let related = evaluator.related(id.index());
+            match groups.iter_mut().find(|group| group.rows.coordinates() == related) {
+                Some(group) => group.terms.push((id, term)),
+                None => groups.push(Rates { terms: vec![(id, term)], rows: IntervalRows::new(related) }),
+            }
+        }
+        groups
+    }
+
     /// Adds forward motion, which the splines do not include.
     pub(super) fn add_travel(&self, share: f64, posture: &mut [Vec<f64>; 3]) {
         if let Some((id, distance)) = self.travel {
@@ -181,8 +207,10 @@ impl<'a> Transcription<'a> {
     pub(super) fn new(problem: &'a Problem) -> Result<Transcription<'a>, CurvedJointError> {
         let layout = problem.layout();
         let root = problem.root_scales().into_iter().map(|(id, scale)| (id.index(), scale)).collect::<Vec<_>>();
+        let evaluator = Evaluator::new(&problem.model, &problem.soles, &problem.levels_m)?;
         Ok(Transcription {
-            evaluator: Evaluator::new(&problem.model, &problem.soles, &problem.levels_m)?,
+            rates: problem.rates(&evaluator),
+            evaluator,
             stage: Stage { shoes: problem.shoes, slack: 1.0, slip: 1.0 },
             multipliers: vec![0.0; layout.instants() * root.len()],
             instants: vec![Instant::default(); layout.instants()],
@@ -233,14 +261,9 @@ impl<'a> Transcription<'a> {
         self.timed(self.layout.weights(share, interval))
     }
 
-    fn timed(&self, mut weights: Weights) -> Weights {
+    fn timed(&self, weights: Weights) -> Weights {
         let rate = 1.0 / self.problem.duration_s;
-        for (values, factor) in weights.values.iter_mut().zip([1.0, rate, rate * rate]) {
-            for value in values {
-                *value *= factor;
-            }
-        }
-        weights
+        weights.scaled([1.0, rate, rate * rate])
     }
 
     /// Number of instants in the sums. In a repeated motion the last instant equals the first one and is left out.
@@ -266,7 +289,7 @@ impl<'a> Transcription<'a> {
                 cost += (self.root_residual(index, k) * share).powi(2);
             }
         }
-        for (id, term) in self.rates() {
+        for (id, term) in self.problem.forces_by_rate() {
             for index in 0..self.instants.len() - 1 {
                 cost += self.rate_residual(id, term, index).map_or(0.0, |r| (r * share).powi(2));
             }
@@ -290,10 +313,6 @@ impl<'a> Transcription<'a> {
             }
         };
         self.problem.terms.iter().map(|term| (term.name.clone(), of(term))).collect()
-    }
-
-    fn rates(&self) -> impl Iterator<Item = (CoordinateId, &'a Term)> + use<'a> {
-        self.problem.terms.iter().filter_map(|term| Some((term.quantity.is_rate_of_force()?, term)))
     }
 
     fn rate_residual(&self, id: CoordinateId, term: &Term, index: usize) -> Option<f64> {
@@ -421,34 +440,31 @@ impl<'a> Transcription<'a> {
 
     /// Rows of the rates of forces, each between two instants of one interval.
     fn rate_rows(&mut self, normal: &mut NormalEquations) {
-        let (width, share, per_second) = (3 * self.layout.width, self.share(), self.per_second());
-        let mut cross = vec![0.0; width * width];
-        let rates: Vec<(CoordinateId, &Term)> = self.rates().collect();
-        if rates.is_empty() {
-            return;
-        }
-        for index in 0..self.instants.len() - 1 {
-            let (first, interval) = self.layout.instant(index);
-            let (second, _) = self.layout.instant(index + 1);
-            let mut residuals = Vec::new();
-            let mut slopes = [Vec::new(), Vec::new()];
-            for (id, term) in &rates {
-                let Some(residual) = self.rate_residual(*id, term, index) else { continue };
-                residuals.push(residual * share);
-                let factor = share * per_second / term.deviation;
-                for (k, sign) in [(0, -1.0), (1, 1.0)] {
-                    let row = &self.instants[index + k].slopes[id.index() * width..(id.index() + 1) * width];
-                    slopes[k].extend(row.iter().map(|slope| slope * sign * factor));
+        let mut groups = std::mem::take(&mut self.rates);
+        for interval in 0..self.layout.knots {
+            for group in &mut groups {
+                group.rows.clear();
+                for index in interval * self.layout.per_knot..(interval + 1) * self.layout.per_knot {
+                    self.rates_after(index, group);
                 }
+                normal.add_interval(interval, &group.rows);
             }
-            let ends = [first, second].map(|at| self.timed(self.layout.weights(at, interval)));
-            for k in 0..2 {
-                self.sums.clear();
-                normal.add_rows(&mut self.sums, &residuals, &slopes[k]);
-                normal.add_instant(&ends[k], &mut self.sums);
-            }
-            normal.cross(&slopes[0], &slopes[1], width, &mut cross);
-            normal.add_pair(&ends[0], &ends[1], &cross);
+        }
+        self.rates = groups;
+    }
+
+    /// Adds the rows of rates between an instant and the next one.
+    fn rates_after(&self, index: usize, Rates { terms, rows }: &mut Rates<'a>) {
+        let (width, share) = (3 * self.layout.width, self.share());
+        let (from, interval) = self.layout.instant(index);
+        let (until, _) = self.layout.instant(index + 1);
+        let ends = [from, until].map(|at| self.timed(self.layout.weights(at, interval)));
+        for (id, term) in terms {
+            let Some(residual) = self.rate_residual(*id, term, index) else { continue };
+            let factor = share * self.per_second() / term.deviation;
+            let slopes = [index, index + 1].map(|i| &self.instants[i].slopes[id.index() * width..][..width]);
+            let weights = [ends[0].scaled([-factor; 3]), ends[1].scaled([factor; 3])];
+            rows.add(residual * share, [(&weights[0], slopes[0]), (&weights[1], slopes[1])]);
         }
     }
 

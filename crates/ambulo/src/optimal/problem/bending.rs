@@ -53,7 +53,7 @@ impl<'a> Transcription<'a> {
         for (k, (coordinate, scale)) in self.root.iter().enumerate().filter(|_| counts) {
             pull.forces[*coordinate] += self.root_residual(index, k) * share * share / (scale * self.stage.slack);
         }
-        for (id, term) in self.rates() {
+        for (id, term) in problem.forces_by_rate() {
             let factor = share * share * self.per_second() / term.deviation;
             let until = index.checked_sub(1).and_then(|before| self.rate_residual(id, term, before));
             let from = (index + 1 < self.instants.len()).then(|| self.rate_residual(id, term, index)).flatten();
