@@ -4,13 +4,12 @@
 use super::cyclic_curve::{CyclicCurve, SteadyCurve};
 use super::jet::Jet;
 use super::joint::LegJoint;
+use super::stride::FREE_SPEED;
 
 /// Smallest distance of knots [cycles]; closer knots cause excessive accelerations.
 const CLOSEST_KNOTS: f64 = 0.005;
 /// Samples of a cycle at which angles are checked; half a percent apart.
 const SAMPLES: usize = 200;
-/// Free walking, where the direction of sub-cycles agrees with their names.
-const REFERENCE_SPEED: f64 = 0.429;
 
 /// An error of a curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,10 +75,10 @@ fn check_sense(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
     let n = curve.knots().len();
     let turn = |k: usize, speed: f64| curve.knots()[(k + 1) % n].angle.at(speed) - curve.knots()[k].angle.at(speed);
     for k in 0..n {
-        let (here, usual) = (turn(k, speed), turn(k, REFERENCE_SPEED));
+        let (here, usual) = (turn(k, speed), turn(k, FREE_SPEED));
         if here * usual < 0.0 {
             let message = format!(
-                "found a sub-cycle that turns by {:.2}° at dimensionless speed {speed:.3} and by {:.2}° at {REFERENCE_SPEED}; \
+                "found a sub-cycle that turns by {:.2}° at dimensionless speed {speed:.3} and by {:.2}° at {FREE_SPEED}; \
                  expected the same direction at every speed",
                 here.to_degrees(),
                 usual.to_degrees()

@@ -5,7 +5,7 @@ use super::error::GaitError;
 use super::joint::{LegJoint, WalkPart};
 use super::machine::{Condition, Driven, MachineSettings};
 use super::pace_plan::PaceChange;
-use super::stride::{ADULT_EXPONENT, EXPONENT_1997};
+use super::stride::{ADULT_EXPONENT, EXPONENT_1997, FREE_SPEED};
 use crate::model::Side;
 use crate::toml_reader::nearest;
 
@@ -171,8 +171,6 @@ impl Style {
     }
 }
 
-/// V* of free walking.
-const FREE_SPEED: f64 = 0.429;
 /// V* of slow and fast walking: the speeds with these names in the data.
 const SLOW_SPEED: f64 = 0.290;
 const FAST_SPEED: f64 = 0.560;

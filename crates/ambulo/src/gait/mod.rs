@@ -62,6 +62,7 @@ pub use other_planes::{OtherPlaneLaws, OtherPlanes};
 pub use pace_plan::{Clock, PaceChange};
 pub use quintic::{End, quintic};
 pub use speed_law::{GRAVITY, SpeedLaw, SpeedRange};
+pub(crate) use stride::FREE_SPEED;
 pub use stride::{
     ADULT_EXPONENT, CHILD_EXPONENT, EXPONENT_1997, REFERENCE_LEG, StrideLaw, WALKING_SPEEDS, walking_speeds,
 };

@@ -22,8 +22,10 @@
 use super::jet::Jet;
 use super::speed_law::GRAVITY;
 
-/// Dimensionless speed and step frequency of free walking.
-const FREE: [f64; 2] = [0.429, 0.565];
+/// Dimensionless speed V₀ of free walking.
+pub(crate) const FREE_SPEED: f64 = 0.429;
+/// Dimensionless step frequency F₀ of free walking.
+const FREE_CADENCE: f64 = 0.565;
 /// Cadence exponent of adults.
 pub const ADULT_EXPONENT: f64 = 0.5;
 /// Cadence exponent of children.
@@ -64,13 +66,14 @@ impl StrideLaw {
     /// Cycles per second at a law speed; both steps of a cycle take the same time.
     #[must_use]
     pub fn cycle_rate(&self, law_speed: Jet) -> Jet {
-        (law_speed * (1.0 / FREE[0])).power(self.exponent) * (0.5 * FREE[1] * self.cadence_scale / self.leg_time())
+        (law_speed * (1.0 / FREE_SPEED)).power(self.exponent)
+            * (0.5 * FREE_CADENCE * self.cadence_scale / self.leg_time())
     }
 
     /// Step length [m] at a law speed.
     #[must_use]
     pub fn step_length(&self, law_speed: f64) -> f64 {
-        let preferred = FREE[0] / FREE[1] * (law_speed / FREE[0]).powf(1.0 - self.exponent);
+        let preferred = FREE_SPEED / FREE_CADENCE * (law_speed / FREE_SPEED).powf(1.0 - self.exponent);
         preferred * self.length_scale * self.leg_length
     }
 
@@ -89,15 +92,15 @@ impl StrideLaw {
     /// The law speed at which a step frequency [steps/s] is the preferred one; `None` if frequency does not follow speed (b = 0).
     #[must_use]
     pub fn law_speed_of_frequency(&self, frequency: f64) -> Option<f64> {
-        let ratio = frequency * self.leg_time() / FREE[1];
-        (self.exponent > 0.0).then(|| FREE[0] * ratio.powf(1.0 / self.exponent))
+        let ratio = frequency * self.leg_time() / FREE_CADENCE;
+        (self.exponent > 0.0).then(|| FREE_SPEED * ratio.powf(1.0 / self.exponent))
     }
 
     /// The law speed at which a step length [m] is the preferred one.
     #[must_use]
     pub fn law_speed_of_step(&self, step_length: f64) -> f64 {
-        let ratio = step_length / self.leg_length * FREE[1] / FREE[0];
-        FREE[0] * ratio.powf(1.0 / (1.0 - self.exponent))
+        let ratio = step_length / self.leg_length * FREE_CADENCE / FREE_SPEED;
+        FREE_SPEED * ratio.powf(1.0 / (1.0 - self.exponent))
     }
 }
 

@@ -12,7 +12,7 @@ use super::solution::Solution;
 use super::solve::Continuation;
 use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;
-use crate::gait::{JointMoments, Walk};
+use crate::gait::{FREE_SPEED, JointMoments, Walk};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, CoordinateKind, Model, Movement, Side};
 use crate::spatial::Vec3;
@@ -224,8 +224,6 @@ pub const FINE_STAGES: [Continuation; 11] = [
     Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0001, updates: 4, steps: 20, gain: 1e-3 },
 ];
 
-/// Dimensionless speed of free walking in Schwartz, Rozumalski, Trost 2008.
-const FREE_SPEED: f64 = 0.429;
 /// Deviation of a joint angle from its range that costs 1 [rad].
 const RANGE: f64 = 0.2 * DEGREE;
 
