@@ -223,17 +223,14 @@ impl PacePlan {
 
     /// Phase and pace at a time [s].
     pub(super) fn at(&self, time_s: f64) -> Clock {
-        let begun = self.ramps.partition_point(|ramp| ramp.start_s <= time_s);
+        // At its start, a ramp has the pace before it exactly: rounding could begin a single support.
+        let begun = self.ramps.partition_point(|ramp| ramp.start_s < time_s);
         let Some(ramp) = begun.checked_sub(1).map(|last| &self.ramps[last]) else {
             return self.steady(self.initial, self.initial_phase, time_s);
         };
         let since = time_s - ramp.start_s;
         if since >= ramp.duration_s {
             return self.steady(ramp.to, ramp.phases[1], since - ramp.duration_s);
-        }
-        // Exactly the pace before: rounding could have begun a single support.
-        if since <= 0.0 {
-            return self.steady(ramp.from, ramp.phases[0], 0.0);
         }
         let phase = ramp.phase(&self.law, since);
         ramp.between(ramp.share_of_angles(phase), phase)
