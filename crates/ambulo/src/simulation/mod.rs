@@ -64,6 +64,7 @@ mod impact;
 mod impulse;
 mod projection;
 mod smooth;
+mod soles;
 mod start;
 mod step;
 mod touch;

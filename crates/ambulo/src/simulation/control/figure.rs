@@ -1,17 +1,17 @@
 //! A figure in a world of its own, as the controller sees it: coordinates of its model, motors at its joints, loads under its feet.
 
 use super::settings::ControlError;
-use crate::contact::{HuntCrossley, Shape};
+use crate::contact::HuntCrossley;
 use crate::dynamics::{Convergence, LinkError};
 use crate::findings::Findings;
 use crate::kinematics::Posture;
 use crate::model::Side;
 use crate::model::anthropometry::Human;
 use crate::simulation::consistent_walk::soft_ground;
-use crate::simulation::figure_tree::{FigurePlace, FigureTree, center_from};
+use crate::simulation::figure_tree::{FigurePlace, FigureTree};
+use crate::simulation::soles::{add_level_ground, add_soles};
 use crate::simulation::walking::{WalkingError, sole_material};
-use crate::simulation::{Motor, Obstacle, Owner, StepSettings, StepWorkspace, Surface, World, WorldState, step};
-use crate::spatial::Pose;
+use crate::simulation::{Motor, StepSettings, StepWorkspace, World, WorldState, step};
 
 /// A figure on level ground.
 #[derive(Debug, Clone)]
@@ -32,7 +32,10 @@ impl FigureWorld {
     pub(super) fn new(human: &Human, shoes: HuntCrossley, settings: StepSettings) -> Result<FigureWorld, ControlError> {
         let mut world = World { gravity: human.model.gravity(), ..World::default() };
         let tree = FigureTree::add(&mut world, &human.model, "")?;
-        let sides = add_soles(&mut world, human, shoes)?;
+        world.materials.push(sole_material(&soft_ground(shoes)));
+        let soles = add_soles(&mut world, human, 0, 0).map_err(WalkingError::from)?;
+        add_level_ground(&mut world, 0);
+        let sides = soles.into_iter().map(|(_, side)| Some(side)).chain([None]).collect();
         world.check().map_err(WalkingError::from)?;
         let state = WorldState::new(&world);
         let joint_of = world.joint_of_body();
@@ -89,42 +92,4 @@ impl FigureWorld {
             |place: &FigurePlace| place.joint(&self.joint_of).map_or(0.0, |(joint, k)| forces.efforts[joint][k]);
         self.tree.places.iter().map(effort).collect()
     }
-}
-
-/// Adds soles and ground; the side of each surface.
-fn add_soles(world: &mut World, human: &Human, shoes: HuntCrossley) -> Result<Vec<Option<Side>>, ControlError> {
-    world.materials.push(sole_material(&soft_ground(shoes)));
-    let mut sides = Vec::new();
-    for sole in &human.soles {
-        world.surfaces.push(Surface {
-            owner: Owner::Body(sole.body.index()),
-            shape: Shape::sphere(sole.radius).map_err(WalkingError::from)?,
-            owner_from_shape: center_from(&human.model, sole.body) * Pose::at(sole.center),
-            material: 0,
-        });
-        sides.push(Some(sole.side));
-    }
-    world.obstacles.push(Obstacle { name: "ground".to_owned(), pose: Pose::IDENTITY, path: None });
-    world.surfaces.push(Surface {
-        owner: Owner::Obstacle(0),
-        shape: Shape::half_space(),
-        owner_from_shape: Pose::IDENTITY,
-        material: 0,
-    });
-    sides.push(None);
-    // Feet do not touch each other.
-    let of = |side: Side| human.soles.iter().filter(move |sole| sole.side == side).map(|sole| sole.body.index());
-    for right in of(Side::Right) {
-        world.ignored.extend(of(Side::Left).map(|left| (Owner::Body(right), Owner::Body(left))));
-    }
-    // Nor do the parts of one foot.
-    for side in Side::BOTH {
-        for one in of(side) {
-            let others = of(side).filter(|other| *other > one);
-            world.ignored.extend(others.map(|other| (Owner::Body(one), Owner::Body(other))));
-        }
-    }
-    world.ignored.sort_unstable();
-    world.ignored.dedup();
-    Ok(sides)
 }

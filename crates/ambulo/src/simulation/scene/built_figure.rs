@@ -12,7 +12,7 @@ use super::recorder::Recorder;
 use super::sources::{InputFiles, PlannedWalk, chain};
 use super::walk_recorder::{FigureRecorder, Live, LiveTargets};
 use super::{Place, SceneError};
-use crate::contact::{HuntCrossley, Shape};
+use crate::contact::HuntCrossley;
 use crate::findings::Findings;
 use crate::gait::machine::{WalkMachine, planned};
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
@@ -25,11 +25,10 @@ use crate::simulation::consistent_walk::{ConsistentWalkSettings, make_changing_w
 use crate::simulation::figure_tree::{FigureJointError, FigureTree};
 use crate::simulation::joint::rotation;
 use crate::simulation::signal::Signal;
+use crate::simulation::soles::{add_soles, lowest};
 use crate::simulation::walking::{GaitTargets, gait_signals};
-use crate::simulation::world::{
-    ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Owner, Spring, Surface, World,
-};
-use crate::spatial::{Pose, Vec3};
+use crate::simulation::world::{ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Spring, World};
+use crate::spatial::Vec3;
 
 /// Grip point of a hand, as a share of the length from the wrist to the fingertips.
 const GRIP: f64 = 0.5;
@@ -93,7 +92,12 @@ pub(super) fn add(
         }
     }
     add_spheres(world, entry, number, model, first_body)?;
-    let soles = add_soles(world, built, &human, first_body)?;
+    let shoes = built.shoes.unwrap_or_else(|| {
+        let law = ContactLaw::HuntCrossley(HuntCrossley::SOFT_SHOES);
+        world.materials.push(Material { friction: HuntCrossley::SOFT_SHOES.dynamic_friction, restitution: 0.0, law });
+        world.materials.len() - 1
+    });
+    let soles = add_soles(world, &human, first_body, shoes).map_err(|e| built.place.error(e.to_string()))?;
     world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
     let live = motion.live.map(|(targets, start_s)| Live::Machines(LiveTargets { targets, figure, start_s }));
     let live = live.or(controller.map(|controller| Live::Controller(Box::new(controller))));
@@ -242,8 +246,7 @@ fn standing_height(human: &Human, q: &[f64], qd: &[f64], qdd: &[f64]) -> f64 {
         q[up.index()] = 0.0;
     }
     let motions = body_motion(&human.model, Posture { q: &q, qd, qdd });
-    let heights = human.soles.iter().map(|s| motions[s.body.index()].pose.place(s.center).y - s.radius);
-    -heights.fold(f64::INFINITY, f64::min)
+    -lowest(&human.soles, &motions)
 }
 
 /// The unchanged curves of the gait, with the lowest sole on the ground.
@@ -395,35 +398,4 @@ fn acting_on(
         acting.motor = Some(Motor { target: signal(), kp: stiffness, kd: damping, max });
     }
     Ok(acting)
-}
-
-/// Adds the soles, which do not touch each other; returns the indices of their surfaces.
-fn add_soles(
-    world: &mut World,
-    built: &BuiltFigure,
-    human: &Human,
-    first_body: usize,
-) -> Result<Vec<(usize, Side)>, SceneError> {
-    let material = built.shoes.unwrap_or_else(|| {
-        let law = ContactLaw::HuntCrossley(HuntCrossley::SOFT_SHOES);
-        world.materials.push(Material { friction: HuntCrossley::SOFT_SHOES.dynamic_friction, restitution: 0.0, law });
-        world.materials.len() - 1
-    });
-    let mut soles = Vec::new();
-    for sole in &human.soles {
-        soles.push((world.surfaces.len(), sole.side));
-        world.surfaces.push(Surface {
-            owner: Owner::Body(first_body + sole.body.index()),
-            shape: Shape::sphere(sole.radius).map_err(|e| built.place.error(e.to_string()))?,
-            owner_from_shape: Pose::at(sole.center - human.model.bodies()[sole.body.index()].inertia.center()),
-            material,
-        });
-    }
-    let feet = |wanted: Side| human.soles.iter().filter(move |s| s.side == wanted).map(|s| first_body + s.body.index());
-    for right in feet(Side::Right) {
-        world.ignored.extend(feet(Side::Left).map(|left| (Owner::Body(right), Owner::Body(left))));
-    }
-    world.ignored.sort_unstable();
-    world.ignored.dedup();
-    Ok(soles)
 }

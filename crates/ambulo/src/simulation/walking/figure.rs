@@ -1,13 +1,14 @@
 //! A walking figure in the sagittal plane, as bodies, joints and soles of a world.
 
-use crate::contact::{HuntCrossley, Shape, ShapeError};
+use crate::contact::{HuntCrossley, ShapeError};
 use crate::dynamics::LinkError;
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
-use crate::model::anthropometry::{ContactSphere, Human};
+use crate::model::anthropometry::Human;
 use crate::model::{Body, BodyId, CoordinateId, Displacement, Function, JointAxis, Model, Side};
+use crate::simulation::soles::{add_level_ground, add_soles, lowest};
 use crate::simulation::{
-    ContactLaw, ImpactLaw, JointCoordinate, JointDrive, JointKind, Material, Obstacle, Owner, RigidBody, Signal,
-    Surface, TreeJoint, World, WorldError, WorldState,
+    ContactLaw, ImpactLaw, JointCoordinate, JointDrive, JointKind, Material, RigidBody, Signal, TreeJoint, World,
+    WorldError, WorldState,
 };
 use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
@@ -202,16 +203,9 @@ impl Walker {
 
     fn add_soles(&mut self, human: &Human, ground: &GroundContact) -> Result<(), WalkingError> {
         self.world.materials.push(sole_material(ground));
-        for sole in &human.soles {
-            let center = self.model.bodies()[sole.body.index()].inertia.center();
-            self.world.surfaces.push(Surface {
-                owner: Owner::Body(sole.body.index()),
-                shape: Shape::sphere(sole.radius)?,
-                owner_from_shape: Pose::at(sole.center - center),
-                material: 0,
-            });
-            self.sides.push(Some(sole.side));
-        }
+        let soles = add_soles(&mut self.world, human, 0, 0)?;
+        add_level_ground(&mut self.world, 0);
+        self.sides = soles.into_iter().map(|(_, side)| Some(side)).chain([None]).collect();
         for (k, side) in Side::BOTH.into_iter().enumerate() {
             let mut bodies = human.soles.iter().filter(|sole| sole.side == side).map(|sole| sole.body);
             if let Some(heel) = bodies.next() {
@@ -219,22 +213,6 @@ impl Walker {
                 self.toes[k] = bodies.find(|body| *body != heel);
             }
         }
-        self.world.obstacles.push(Obstacle { name: "ground".to_owned(), pose: Pose::IDENTITY, path: None });
-        self.world.surfaces.push(Surface {
-            owner: Owner::Obstacle(0),
-            shape: Shape::half_space(),
-            owner_from_shape: Pose::IDENTITY,
-            material: 0,
-        });
-        self.sides.push(None);
-        // Feet do not touch each other.
-        let soles: Vec<Owner> = self.world.surfaces.iter().map(|surface| surface.owner).collect();
-        for (number, owner) in soles.iter().enumerate().filter(|(_, owner)| matches!(owner, Owner::Body(_))) {
-            let others = soles[number + 1..].iter().filter(|other| matches!(other, Owner::Body(_)) && *other != owner);
-            self.world.ignored.extend(others.map(|other| (*owner, *other)));
-        }
-        self.world.ignored.sort_unstable();
-        self.world.ignored.dedup();
         Ok(())
     }
 
@@ -251,8 +229,7 @@ impl Walker {
         }
         let at = |q: &[f64]| body_motion(&self.model, Posture { q, qd: &qd, qdd: &qdd });
         let motions = at(&q);
-        let low = |sole: &ContactSphere| motions[sole.body.index()].pose.place(sole.center).y - sole.radius;
-        let lowest = human.soles.iter().map(low).fold(f64::INFINITY, f64::min);
+        let lowest = lowest(&human.soles, &motions);
         if let (Some(y), true) = (y, lowest.is_finite()) {
             q[y] = -self.placed[y].sense * lowest;
         }
