@@ -8,7 +8,7 @@ use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::Movement;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
-use ambulo::optimal::{ECCENTRIC, OptimalWalk, Solution, StrengthCurve, soles_with_width};
+use ambulo::optimal::{ECCENTRIC, OptimalWalk, Solution, StandingMovements, StrengthCurve, soles_with_width};
 use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::control::{
     Balance, ControlError, ControlSettings, FootPlacement, PhysicalWalk, TorqueCurves, WalkController,
@@ -423,6 +423,16 @@ fn a_controller_without_standing_cannot_stop() {
     let error = case.walk().set_speed(0.0).unwrap_err();
     assert!(error.to_string().contains("found the speed 0 m/s"), "{error}");
     assert!(!case.walk().controller().is_standing());
+}
+
+#[test]
+fn movements_that_do_not_join_the_walk_are_refused() {
+    let Case { human, walk, controller } = &*LEVEL;
+    let walk = walk.solution();
+    let of_another = StandingMovements { stop: walk.clone(), start: walk.clone() };
+    let settings = ControlSettings::default();
+    let error = controller.clone().with_movements(human, walk, &of_another, StepSettings::default(), &settings);
+    assert!(matches!(error, Err(ControlError::Movements { speed }) if (speed - 1.25).abs() < 1e-9));
 }
 
 #[test]

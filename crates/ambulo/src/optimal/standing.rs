@@ -132,6 +132,15 @@ impl StandingMovements {
         let start = checked("start", joining(human, walk, Some(&standing[0]))?.solve()?)?;
         Ok(StandingMovements { stop, start })
     }
+
+    /// Whether the stop begins in a walk, and the start ends in it.
+    #[must_use]
+    pub fn join(&self, walk: &Solution) -> bool {
+        let coordinates = |solution: &Solution| solution.problem().model.coordinates().len();
+        [(&self.stop, false), (&self.start, true)]
+            .into_iter()
+            .all(|(movement, is_start)| coordinates(movement) == coordinates(walk) && !misses(movement, walk, is_start))
+    }
 }
 
 /// Whether a movement differs from the walk where it joins it.

@@ -55,7 +55,7 @@ fn stands(name: String, figure: &Figure, settings: &ControlSettings) -> Result<S
     let own = controller(figure, settings)?;
     let clock = ThreadTime::now();
     let own =
-        own.with_standing(human, plan, &movements, StepSettings::default(), settings).map_err(|e| e.to_string())?;
+        own.with_movements(human, plan, &movements, StepSettings::default(), settings).map_err(|e| e.to_string())?;
     let made_s = [found_s, clock.elapsed().as_secs_f64()];
     let mut walk = with_controller(figure, &own)?;
     let until = |walk: &mut PhysicalWalk, time_s: f64| walk.walk_until(time_s).map_err(|e| e.to_string());

@@ -12,6 +12,7 @@ use crate::kinematics::{Posture, body_motion};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, Model, Movement, Side};
 use crate::optimal::{Solution, StandingMovements, StrengthCurve};
+use crate::simulation::soles::lowest;
 use crate::simulation::walking::TorqueSeries;
 use crate::simulation::{Motor, StepSettings};
 use nalgebra::{DMatrix, DVector};
@@ -56,11 +57,7 @@ impl Body {
     fn lowest(&self, q: &[f64]) -> [f64; 2] {
         let still = vec![0.0; q.len()];
         let motions = body_motion(&self.model, Posture { q, qd: &still, qdd: &still });
-        Side::BOTH.map(|side| {
-            let of_side = self.soles.iter().filter(|sole| sole.side == side);
-            let height = |sole: &ContactSphere| motions[sole.body.index()].pose.place(sole.center).y - sole.radius;
-            of_side.map(height).fold(f64::INFINITY, f64::min)
-        })
+        Side::BOTH.map(|side| lowest(self.soles.iter().filter(|sole| sole.side == side), &motions))
     }
 }
 
@@ -254,11 +251,26 @@ impl WalkController {
     }
 
     /// The same controller, which can stop, stand and walk off: speed 0 in [`WalkController::set_speed`]. `walk` and `settings` are those of its
-    /// slowest speed, `movements` those of this walk.
+    /// slowest speed.
     ///
     /// # Errors
-    /// A walk that is not the slowest one, balance without feedback of the whole state, gains that cannot be computed.
+    /// Movements that are not found; those of [`WalkController::with_movements`].
     pub fn with_standing(
+        self,
+        human: &Human,
+        walk: &Solution,
+        step: StepSettings,
+        settings: &ControlSettings,
+    ) -> Result<WalkController, ControlError> {
+        let movements = StandingMovements::find(human, walk)?;
+        self.with_movements(human, walk, &movements, step, settings)
+    }
+
+    /// As [`WalkController::with_standing`], with movements that were found before.
+    ///
+    /// # Errors
+    /// A walk that is not the slowest one, movements of another walk, balance without feedback of the whole state, gains that cannot be computed.
+    pub fn with_movements(
         mut self,
         human: &Human,
         walk: &Solution,
@@ -269,6 +281,9 @@ impl WalkController {
         let pace = &self.paces[0];
         let value = pace.value.as_ref().filter(|_| (pace.speed - walk.speed()).abs() <= SPEED_ROUNDING);
         let value = value.ok_or(ControlError::Standing { found: walk.speed(), slowest: pace.speed })?;
+        if !movements.join(walk) {
+            return Err(ControlError::Movements { speed: walk.speed() });
+        }
         let [state, input] = costs(human, &pace.plan, &settings.costs, step.step_s);
         let mut maker = Maker {
             human,

@@ -204,6 +204,14 @@ pub enum ControlError {
         /// Slowest speed of the controller [m/s].
         slowest: f64,
     },
+    /// Movements that do not begin and end in the walk.
+    #[error(
+        "found a stop or a start that does not join the walk at {speed:.2} m/s; expected those that `StandingMovements::find` returns for this walk"
+    )]
+    Movements {
+        /// Speed of the walk [m/s].
+        speed: f64,
+    },
     /// The Riccati equation has no solution.
     #[error("the feedback of the walk could not be computed: its Riccati equation did not converge")]
     Riccati,

@@ -7,7 +7,7 @@ use crate::gait::{Gait, PaceChange, Speed, Walk};
 use crate::model::anthropometry::Build;
 use crate::optimal::{OptimalWalk, StandingMovements};
 use crate::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
-use crate::simulation::control::{ControlError, ControlSettings, SpeedSchedule, TorqueCurves, WalkController};
+use crate::simulation::control::{ControlSettings, SpeedSchedule, TorqueCurves, WalkController};
 use crate::simulation::walking::TorqueSeries;
 
 /// Duration of a change of speed without one of its own [s].
@@ -99,10 +99,7 @@ impl Planner<'_> {
         let mut controller = WalkController::joined(&all).map_err(|e| place.error(chain(&e)))?;
         if schedule.has_standing() {
             let slowest = self.plan(speeds[0], sources)?;
-            let (human, walk) = (&slowest.human, &slowest.solution);
-            let with = StandingMovements::find(human, walk)
-                .map_err(ControlError::from)
-                .and_then(|movements| controller.with_standing(human, walk, &movements, steps, settings));
+            let with = controller.with_standing(&slowest.human, &slowest.solution, steps, settings);
             controller = with.map_err(|e| place.error(chain(&e)))?;
         }
         if schedule.begins_standing() {

@@ -8,7 +8,7 @@ use crate::model::anthropometry::Human;
 use crate::optimal::{OptimalWalk, StandingMovements};
 use crate::simulation::StepSettings;
 use crate::simulation::consistent_walk::CorrectionReport;
-use crate::simulation::control::{ControlError, ControlSettings, PhysicalWalk, SpeedSchedule, WalkController};
+use crate::simulation::control::{ControlSettings, PhysicalWalk, SpeedSchedule, WalkController};
 use crate::simulation::walking::WalkRecording;
 
 /// Duration of the recording after a fall [s].
@@ -27,9 +27,7 @@ pub(super) fn physical(
     let controllers = plans.iter().map(|plan| WalkController::new(&plan.figure(), &plan.solution, step, &control));
     let mut controller = WalkController::joined(&controllers.collect::<Result<Vec<_>, _>>()?)?;
     if let Some(slowest) = plans.first().filter(|_| schedule.has_standing()) {
-        let (human, walk) = (slowest.figure(), &slowest.solution);
-        let movements = StandingMovements::find(&human, walk).map_err(ControlError::from)?;
-        controller = controller.with_standing(&human, walk, &movements, step, &control)?;
+        controller = controller.with_standing(&slowest.figure(), &slowest.solution, step, &control)?;
     }
     let first = plans.into_iter().min_by(|a, b| apart(a, &schedule).total_cmp(&apart(b, &schedule)));
     let Some(first) = first else { return Err(SyntheticError::Changing { gait: settings.gait.name.clone() }) };
