@@ -17,6 +17,10 @@
 //! | `tolerance_foot_m`       | σ_p      | m           |
 //! | `residual_force_bw`      | σ_F / BW | -           |
 //!
+//! [`crate::optimal`] is no substitute, although it also fits splines by least squares. There the ground force is a function of posture and motion,
+//! the masses are known, the forces at the root must vanish, and joints must consist of hinges and slides. Here the loads are measured, mass and
+//! trunk may be wrong, the residual keeps what noise cannot explain, and models of recordings have ball-like joints too.
+//!
 //! Sources: least squares as in Remy and Thelen 2009, J Biomech Eng 131:031005 (unverified), there on accelerations, here on
 //! splines; adjustment of the trunk's mass centre as in OpenSim's residual reduction (Delp et al. 2007, IEEE Trans Biomed Eng
 //! 54:1940, unverified). The equations are derived here; see docs/CONSISTENCY.md.
