@@ -210,6 +210,11 @@ impl NormalEquations {
                 right[row] += sign * self.right[block * n + a];
                 for back in 0..OVERLAP.min(block + 1) {
                     let from = &self.blocks[((block * OVERLAP + back) * n + a) * n..][..n];
+                    if block < layout.blocks() {
+                        let lower = if back == 0 { &from[..=a] } else { from };
+                        matrix.add_row(row, (block - back) * n, lower);
+                        continue;
+                    }
                     for (b, &value) in from.iter().enumerate() {
                         // Of a block on the diagonal, the lower half only.
                         if value == 0.0 || back == 0 && b > a {

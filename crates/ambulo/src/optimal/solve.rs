@@ -189,10 +189,10 @@ impl<'a> Method<'a> {
         self.transcription.cost()
     }
 
-    /// Improves the unknowns; the number of steps taken. The instants are those of the last unknowns.
+    /// Improves the unknowns; the number of steps taken. Before and after, the instants are those of the unknowns.
     fn minimise(&mut self, unknowns: &mut [f64], stage: &Continuation) -> usize {
         self.damping = self.damping.min(FIRST_DAMPING);
-        let mut cost = self.cost(unknowns);
+        let mut cost = self.transcription.cost();
         for step in 0..stage.steps {
             let Some(after) = self.step(unknowns, cost) else { return step };
             let gain = cost - after;
