@@ -249,9 +249,13 @@ fn a_known_walk_starts_other_speeds_and_other_figures() {
         WalkProblem::new(human, &human.soles, HuntCrossley::SOFT_SHOES, &walk, &costs).unwrap()
     };
     let woman = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true }.human().unwrap();
+    // It has no joint in the trunk.
+    let stiff = Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.8, toe_joint: true }.human().unwrap();
+    assert!(stiff.model.coordinates().len() < human.model.coordinates().len());
     let slower = other(human, walk.speed() - 0.1);
     let cost = |s: &Solution| s.progress.last().unwrap().cost;
-    for next in [&slower, &other(human, walk.speed() + 0.2), &other(&woman, walk.speed())] {
+    let figures = [&woman, &stiff].map(|figure| other(figure, walk.speed()));
+    for next in [&slower, &other(human, walk.speed() + 0.2), &figures[0], &figures[1]] {
         let (near, cold) = (next.solve_near(problem, solution.unknowns()).unwrap(), next.solve(&STAGES).unwrap());
         let root = near.progress.last().unwrap().root.1;
         println!(
@@ -276,6 +280,9 @@ fn a_walk_with_other_joints_or_knots_is_no_start() {
     // Coarse splines leave forces at the root, and the solver goes on.
     assert!(stages(&coarse.solve_near(problem, solution.unknowns()).unwrap()) >= STAGES.len());
     // As from the first guess.
+    let build = Build { toe_joint: false, ..MAN };
+    let fewer = case(build.human().unwrap(), false);
+    assert_eq!(stages(&problem.solve_near(&fewer.problem, fewer.solution.unknowns()).unwrap()), stages(solution));
     assert_eq!(stages(&problem.solve_near(problem, &solution.unknowns()[1..]).unwrap()), stages(solution));
     assert_eq!(stages(&problem.solve_near(problem, solution.unknowns()).unwrap()), NEAR_STAGES.len());
 }

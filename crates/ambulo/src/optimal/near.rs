@@ -1,4 +1,4 @@
-//! A walk from the solution of a similar one: another speed, or a figure of another size with the same joints.
+//! A walk from the solution of a similar one: another speed, or a figure of another size with the same joints or some of them.
 //!
 //! The start differs from the new first guess as the known solution differs from its own guess; translations grow with leg length. So what the
 //! solver found out about the walk is kept, and what the targets say about the change is added. Feet of this start slip by some mm/s and
@@ -9,7 +9,7 @@ use super::solution::Solution;
 use super::solve::Continuation;
 use super::walk::{WalkProblem, moves_sideways};
 use crate::dynamics::CurvedJointError;
-use crate::model::{CoordinateKind, Model, Movement};
+use crate::model::{CoordinateId, CoordinateKind, Movement};
 
 /// Stages of a solution that starts near a known one.
 pub const NEAR_STAGES: [Continuation; 5] = [
@@ -35,18 +35,16 @@ pub(super) fn longer(stages: &[Continuation]) -> Vec<Continuation> {
 
 impl WalkProblem {
     /// Solves the problem from the solution of a similar walk, in fewer steps than from the first guess: another speed (steps of up to 0.2 m/s
-    /// were tried) or cadence, another mass and height. `unknowns` solve `known` ([`Solution::unknowns`]): knot after knot, one number per
-    /// coordinate [rad or m], without forward motion. If joints, span or knots are not the same, it starts from the first guess.
+    /// were tried) or cadence, another mass and height, fewer joints. `unknowns` solve `known` ([`Solution::unknowns`]): knot after knot, one number
+    /// per coordinate [rad or m], without forward motion. If `known` lacks coordinates of this walk, or if span or knots are not the same, it starts
+    /// from the first guess.
     ///
     /// Check [`Solution::progress`] or [`Solution::unbalanced`], as after [`WalkProblem::solve`].
     ///
     /// # Errors
     /// If the figure has joints that are not hinges or slides.
     pub fn solve_near(&self, known: &WalkProblem, unknowns: &[f64]) -> Result<Solution, CurvedJointError> {
-        if !self.is_like(known) || unknowns.len() != self.guess.len() {
-            return self.solve(self.stages());
-        }
-        let start = self.start_near(known, unknowns)?;
+        let Some(start) = self.start_near(known, unknowns)? else { return self.solve(self.stages()) };
         let mut stages = NEAR_STAGES;
         if moves_sideways(&self.problem.model) {
             for (stage, slip) in stages.iter_mut().zip(NEAR_SLIP) {
@@ -57,30 +55,29 @@ impl WalkProblem {
         self.problem.balanced(found, &[&Continuation::on(&stages)], &self.kept)
     }
 
-    /// Whether the unknowns of both problems mean the same.
-    fn is_like(&self, known: &WalkProblem) -> bool {
-        let names = |model: &Model| model.coordinates().iter().map(|c| c.name.clone()).collect::<Vec<_>>();
+    /// The start of this problem near a solution of a similar one; `None` if the splines of that one do not tell those of all coordinates.
+    fn start_near(&self, known: &WalkProblem, unknowns: &[f64]) -> Result<Option<Vec<f64>>, CurvedJointError> {
         let (own, other) = (&self.problem, &known.problem);
-        own.span == other.span
-            && own.knots == other.knots
-            && self.guess.len() == known.guess.len()
-            && names(&own.model) == names(&other.model)
-    }
-
-    /// The start of this problem near a solution of a similar one.
-    fn start_near(&self, known: &WalkProblem, unknowns: &[f64]) -> Result<Vec<f64>, CurvedJointError> {
-        let coordinates = self.problem.model.coordinates();
-        let larger = self.problem.length_m / known.problem.length_m;
-        let scale = |place: usize| match coordinates[place % coordinates.len()].kind {
-            CoordinateKind::Translation => larger,
-            _ => 1.0,
-        };
-        let beyond = unknowns.iter().zip(&known.guess).map(|(solved, guessed)| solved - guessed);
-        let mut start: Vec<f64> =
-            self.guess.iter().zip(beyond).enumerate().map(|(i, (guess, beyond))| guess + scale(i) * beyond).collect();
-        if let Some((height, _)) = self.problem.model.anatomy().coordinate(Movement::PelvisUp, None) {
-            self.problem.settle(&mut start, height)?;
+        let coordinates = own.model.coordinates();
+        let places: Option<Vec<usize>> =
+            coordinates.iter().map(|c| other.model.coordinate(&c.name).map(CoordinateId::index)).collect();
+        let Some(places) = places else { return Ok(None) };
+        if own.span != other.span || own.knots != other.knots || unknowns.len() != known.guess.len() {
+            return Ok(None);
         }
-        Ok(start)
+        let larger = own.length_m / other.length_m;
+        let mut start = self.guess.clone();
+        let width = other.model.coordinates().len();
+        let knots = unknowns.chunks(width).zip(known.guess.chunks(width));
+        for (start, (solved, guessed)) in start.chunks_mut(coordinates.len()).zip(knots) {
+            for ((x, &place), coordinate) in start.iter_mut().zip(&places).zip(coordinates) {
+                let scale = if coordinate.kind == CoordinateKind::Translation { larger } else { 1.0 };
+                *x += scale * (solved[place] - guessed[place]);
+            }
+        }
+        if let Some((height, _)) = own.model.anatomy().coordinate(Movement::PelvisUp, None) {
+            own.settle(&mut start, height)?;
+        }
+        Ok(Some(start))
     }
 }
