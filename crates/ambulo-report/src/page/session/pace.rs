@@ -41,7 +41,7 @@ pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
         id: "pace".to_owned(),
         title: "Pace".to_owned(),
         note: Some(
-            "Forward speed of the pelvis, averaged over one step, and the speed that the gait asks for.".to_owned(),
+            "Forward speed of the pelvis, averaged over one step; dashed: the speed that the gait asks for.".to_owned(),
         ),
         columns: 1,
         panels: vec![panel],
