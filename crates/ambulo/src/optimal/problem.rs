@@ -517,7 +517,9 @@ mod tests {
         let mut evaluator = Evaluator::new(&human.model, &human.soles, &[]).unwrap();
         let wave = |k: usize| (1.7 * k as f64).sin();
         let mut posture = [0.3, 2.0, 20.0].map(|size| (0..count).map(|k| size * wave(k)).collect::<Vec<f64>>());
-        posture[0][human.model.coordinate("pelvis_ty").unwrap().index()] = 0.5 * human.dimensions.leg_length;
+        let height = human.model.coordinate("pelvis_ty").unwrap().index();
+        // Its feet are in the ground and sink further.
+        (posture[0][height], posture[1][height]) = (0.8 * human.dimensions.leg_length, -3.0);
         let mut at = [Instant { posture, ..Instant::default() }];
         evaluator.evaluate(&HuntCrossley::SOFT_SHOES, &mut at);
         assert!(at[0].contacts.iter().any(|contact| contact.values[1] > 0.0));
