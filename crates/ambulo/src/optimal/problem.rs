@@ -476,8 +476,6 @@ impl<'a> Transcription<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::anthropometry::{Build, SegmentTable};
-    use crate::model::full_body::full_body;
     use crate::optimal::instant::{Contact, SLIP};
     use crate::optimal::objective::Bound;
     use crate::optimal::{Continuation, SPATIAL_STAGES, STAGES};
@@ -502,36 +500,9 @@ mod tests {
     #[test]
     fn stages_in_three_dimensions_end_with_the_cost_of_slip_of_the_problem() {
         let slips = SPATIAL_STAGES.map(|stage| stage.slip);
-        assert!(slips.is_sorted_by(|a, b| a >= b) && slips[0] > 1.0 && slips[7] == 1.0, "{slips:?}");
+        assert!(slips.is_sorted_by(|a, b| a >= b) && slips[0] > 1.0 && slips.last() == Some(&1.0), "{slips:?}");
         for (spatial, planar) in SPATIAL_STAGES.iter().zip(&STAGES) {
             assert_eq!(Continuation { slip: planar.slip, updates: planar.updates, ..*spatial }, *planar);
         }
-    }
-
-    /// With entries that are left out, the gradient would be wrong, and steps would not be those of Gauss and Newton.
-    #[test]
-    fn forces_depend_on_the_motion_of_related_coordinates_alone() {
-        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
-        let human = full_body(&build).unwrap();
-        let count = human.model.coordinates().len();
-        let mut evaluator = Evaluator::new(&human.model, &human.soles, &[]).unwrap();
-        let wave = |k: usize| (1.7 * k as f64).sin();
-        let mut posture = [0.3, 2.0, 20.0].map(|size| (0..count).map(|k| size * wave(k)).collect::<Vec<f64>>());
-        let height = human.model.coordinate("pelvis_ty").unwrap().index();
-        // Its feet are in the ground and sink further.
-        (posture[0][height], posture[1][height]) = (0.8 * human.dimensions.leg_length, -3.0);
-        let mut at = [Instant { posture, ..Instant::default() }];
-        evaluator.evaluate(&HuntCrossley::SOFT_SHOES, &mut at);
-        assert!(at[0].contacts.iter().any(|contact| contact.values[1] > 0.0));
-        let mut unrelated = 0;
-        for row in 0..count {
-            let related = evaluator.related(row);
-            for column in (0..3 * count).filter(|column| !related.contains(&(column % count))) {
-                assert_eq!(at[0].slopes[3 * count * row + column], 0.0, "force {row} by {column}");
-                unrelated += 1;
-            }
-        }
-        // Each leg has 7 coordinates and each arm 5: none depends on those of the other side.
-        assert!(unrelated > 3 * 2 * (7 * 7 + 5 * 5), "{unrelated}");
     }
 }
