@@ -4,7 +4,6 @@
 //! their tables, with a second laboratory, and with the sideways forces of the recordings. A failed criterion is listed as missed and is no
 //! error. With `--write` the page goes to docs/measured/OPTIMAL_WALK.md.
 
-mod bounds;
 mod criteria;
 mod curves;
 mod page;
@@ -77,7 +76,6 @@ struct Results {
     /// The planar figure at free speed: CPU time [s], steps, largest residual force at the root.
     planar: (f64, usize, f64),
     others: Vec<(Build, Found, Vec<Band>)>,
-    bounds: bounds::Bounds,
 }
 
 /// Runs the command.
@@ -108,14 +106,10 @@ fn measure() -> Result<Results, String> {
         let [_, _, bands, _, _] = curves::people(human.dimensions.leg_length, their_leg)?;
         others.push((build, find(&human, SPEEDS[FREE], None)?, bands));
     }
-    let (people, sideways) = (curves::people(human.dimensions.leg_length, their_leg)?, sideways::people()?);
-    let last: &[Band] = others.last().map_or(&[], |(_, _, bands): &(Build, Found, Vec<Band>)| bands);
-    let bounds = bounds::measure([&people[0], last], &sideways.0)?;
     Ok(Results {
         machine: crate::bench::machine(),
-        people,
-        sideways,
-        bounds,
+        people: curves::people(human.dimensions.leg_length, their_leg)?,
+        sideways: sideways::people()?,
         near,
         planar: (planar.seconds, planar.steps, planar.root.1),
         man,
@@ -150,23 +144,16 @@ fn planar_costs() -> WalkCosts {
 
 /// Solves the walk of a figure at a dimensionless speed, from the first guess or from the solution of a similar walk.
 fn find(human: &Human, speed: f64, near: Option<&Found>) -> Result<Found, String> {
-    let costs = if is_planar(human) { planar_costs() } else { WalkCosts::default() };
-    find_with(human, speed, near, &costs)
-}
-
-fn is_planar(human: &Human) -> bool {
-    human.model.coordinate("pelvis_list").is_none()
-}
-
-/// As [`find`], with given costs.
-fn find_with(human: &Human, speed: f64, near: Option<&Found>, costs: &WalkCosts) -> Result<Found, String> {
     let mut gait = Gait::named("free").map_err(|e| e.to_string())?;
     gait.pace.speed = Some(Speed::Dimensionless(speed));
     let leg_length = human.dimensions.leg_length;
     let walk = Walk::new(&gait, leg_length, &mut Findings::default()).map_err(|e| e.to_string())?;
-    let soles = if is_planar(human) { human.soles.clone() } else { soles_with_width(human) };
+    let planar = human.model.coordinate("pelvis_list").is_none();
+    let soles = if planar { human.soles.clone() } else { soles_with_width(human) };
     let clock = ThreadTime::now();
-    let problem = WalkProblem::new(human, &soles, HuntCrossley::SOFT_SHOES, &walk, costs).map_err(|e| e.to_string())?;
+    let costs = if planar { planar_costs() } else { WalkCosts::default() };
+    let problem =
+        WalkProblem::new(human, &soles, HuntCrossley::SOFT_SHOES, &walk, &costs).map_err(|e| e.to_string())?;
     let solution: Solution = match near {
         Some(known) => problem.solve_near(&known.problem, &known.unknowns),
         None => problem.solve(problem.stages()),

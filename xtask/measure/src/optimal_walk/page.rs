@@ -39,13 +39,12 @@ pub(super) fn text(results: &Results) -> Result<String, String> {
     let _ = write!(text, "\n## A second laboratory, free walking\n\n{}", second(&results.man[FREE])?);
     let _ = write!(text, "\n## Sideways force\n\n{}", sideways(results));
     let _ = write!(text, "\n## Other figures, free walking\n\n{}", others(results));
-    let _ = write!(text, "\n## What bounds the missed rows\n\n{}", results.bounds.text());
     let _ = write!(text, "\n## Time\n\n{}", time(results));
     let _ = write!(text, "\n## Predicted walks\n\n{}", super::prediction::section(&results.people)?);
     Ok(text)
 }
 
-pub(super) fn cell(line: &Criterion) -> String {
+fn cell(line: &Criterion) -> String {
     if line.met { line.result.clone() } else { format!("{} **missed**", line.result) }
 }
 
