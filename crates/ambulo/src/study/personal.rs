@@ -5,7 +5,6 @@ use crate::analysis::activity::ActivityKind;
 use crate::analysis::{ComparedAnalyses, compared_stances};
 use crate::ground::predict::{ErrorSample, OtherPerson, PersonalErrors, StanceErrors};
 use crate::model::{BySide, Side};
-use crate::numerics::median;
 
 /// Why trials give no calibration. Trials are counted from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -73,7 +72,6 @@ pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, Calibration
     let mut samples: BySide<[Vec<ErrorSample>; 5]> = BySide { right: Default::default(), left: Default::default() };
     let mut stances = BySide { right: 0, left: 0 };
     let mut first: Option<PersonalErrors> = None;
-    let mut masses = Vec::new();
     for (trial, outcome) in trials.iter().enumerate() {
         let PredictedGround { prediction, measured, coverage, .. } =
             outcome.prediction.as_ref().ok_or(CalibrationError::NoPlates { trial })?;
@@ -96,7 +94,6 @@ pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, Calibration
             errors: BySide { right: StanceErrors::default(), left: StanceErrors::default() },
         });
         person.check(model).map_err(|error| CalibrationError::OtherPerson { trial, error })?;
-        masses.push(model.mass());
         let weight_n = measured.mass.kg * model.gravity().norm();
         for stance in compared.iter().filter(|stance| !stance.samples.is_empty()) {
             stances[stance.side] += 1;
@@ -106,5 +103,5 @@ pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, Calibration
     }
     let person = first.ok_or(CalibrationError::NoTrial)?;
     let errors = BySide::from_fn(|side: Side| StanceErrors::through(&samples[side]));
-    Ok(PersonalErrors { mass_kg: median(masses).unwrap_or(person.mass_kg), stances, errors, ..person })
+    Ok(PersonalErrors { stances, errors, ..person })
 }

@@ -91,7 +91,7 @@ pub(super) fn loads(
 impl EstimateInputs<'_> {
     /// Adds the mean errors of walking, and those of the person, to an estimate; returns that of the centre of pressure [m].
     fn take_errors_off(&self, stance: &Stance, phase: f64, estimates: &mut [Estimate; 6]) -> Vec3 {
-        if stance.gait != GaitType::Walk {
+        if !repeats(stance) {
             return Vec3::zeros();
         }
         let (side, errors) = (stance.side, &self.parameters.errors);
@@ -107,10 +107,15 @@ impl EstimateInputs<'_> {
     /// Share of the variance of the errors that remains for this person.
     fn remaining(&self, stance: &Stance) -> f64 {
         match self.person {
-            Some(person) if stance.gait == GaitType::Walk => person.remaining(stance.side),
+            Some(person) if repeats(stance) => person.remaining(stance.side),
             _ => 1.0,
         }
     }
+}
+
+/// Whether the mean errors are those of a stance: they were learned in walking that strikes with the heel.
+fn repeats(stance: &Stance) -> bool {
+    stance.gait == GaitType::Walk && stance.heel_down_s.is_none()
 }
 
 /// Value and variance of a component.
