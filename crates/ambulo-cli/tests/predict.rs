@@ -286,7 +286,10 @@ fn a_person_is_calibrated_on_plates_and_only_that_person_is_predicted_with_it() 
     bench.run(&calibrate).refused(&["person.toml", "--force"]);
     let forces = |more: &[&str]| {
         ran(bench.run(&[&["forces", walk][..], &body, &["--predict", "--keep", "report"], more].concat()));
-        bench.json("out/summary.json")["comparison"]["feet"][0]["vertical"]["rmse_bw"].as_f64().unwrap()
+        let summary = bench.json("out/summary.json");
+        let rule = summary["ground"]["rule"].as_str().unwrap();
+        assert_eq!(rule.contains("calibrated for the person"), !more.is_empty(), "{rule}");
+        summary["comparison"]["feet"][0]["vertical"]["rmse_bw"].as_f64().unwrap()
     };
     let (before, after) = (forces(&[]), forces(&["--person", "person.toml"]));
     assert!(after < 0.7 * before, "{before} -> {after}");

@@ -53,6 +53,8 @@ use unilateral::enforce_unilateral_contact;
 const LEAST_GRAVITY: f64 = 0.1;
 /// How forces are divided between the feet in double support.
 const RULE: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness)";
+/// The same with the calibration of a person.
+const RULE_OF_PERSON: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness), calibrated for the person on force plates";
 
 /// Predicted ground reaction forces with standard deviations.
 #[derive(Debug, Clone, PartialEq)]
@@ -285,7 +287,8 @@ pub fn predict(
         BodyForces::on_ground(body, &foot.force, &moment, up, &foot.height)
     });
     let ground = GroundForces { bodies: ground.collect() };
-    Ok(Prediction { ground, deviations, footfalls, total, rule: RULE })
+    let rule = if settings.person.is_some() { RULE_OF_PERSON } else { RULE };
+    Ok(Prediction { ground, deviations, footfalls, total, rule })
 }
 
 /// Mass, size and gravity of a model.
