@@ -45,8 +45,7 @@ pub(super) fn center_path(
         Some(shank) => share(shank.dot(&along).atan2(shank.dot(&up)), parameters.center_lean),
         None => stance.elapsed_share(time),
     };
-    let is_on_forefoot = stance.heel_down_s.is_some_and(|heel_down_s| time <= heel_down_s);
-    let share = if is_on_forefoot { share.max(share_of_ball(place, up)) } else { share };
+    let share = if stance.is_on_forefoot(time) { share.max(share_of_ball(place, up)) } else { share };
     let path = back + (front - back) * share + outwards * (parameters.center_outwards * body_scale.height_m);
     level(path) + up * stance.height_m
 }

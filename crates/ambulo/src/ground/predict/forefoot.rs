@@ -15,6 +15,15 @@ pub(super) fn heel_down(places: &[FootPlace], up: Vec3) -> Option<usize> {
     (first > 0).then_some(first)
 }
 
+/// A place on the sole, moved forward to the part of it that touches the ground: behind that part nothing carries while the heel is up.
+pub(super) fn on_touching_part(place: &FootPlace, center: Vec3, up: Vec3) -> Vec3 {
+    let [rear, ball, _] = place.sole;
+    let level = |v: Vec3| v - up * v.dot(&up);
+    let along = level(ball - rear).try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec3::zeros);
+    let rearmost = rear + (ball - rear) * share_of_ball(place, up);
+    center + along * (rearmost - center).dot(&along).max(0.0)
+}
+
 /// How far in front the centre of pressure must at least be because the heel is up: 0 at the heel, 1 under the ball.
 pub(super) fn share_of_ball(place: &FootPlace, up: Vec3) -> f64 {
     let [rear, ball, _] = place.sole;

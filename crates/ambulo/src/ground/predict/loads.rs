@@ -3,6 +3,7 @@
 use super::FootDeviation;
 use super::deviation_calibration::scaling_at;
 use super::expected::Expectation;
+use super::forefoot::on_touching_part;
 use super::geometry::nearest_on_sole;
 use super::normal_equations::Solution;
 use super::samples::{ComponentSample, EstimateInputs, frames_of, sample};
@@ -63,8 +64,11 @@ pub(super) fn loads(
                 // δ × F = T for a centre of pressure at distance δ from its expected path.
                 None => {
                     let moved = (axes[0] * about_right.value - axes[2] * about_forward.value) / vertical;
-                    let sole = &inputs.geometry.feet[side][frame].sole;
-                    nearest_on_sole(sole, inputs.half_widths[side], at.center + moved + center_error, axes[1])
+                    let place = &inputs.geometry.feet[side][frame];
+                    let expected = at.center + moved + center_error;
+                    let center = nearest_on_sole(&place.sole, inputs.half_widths[side], expected, axes[1]);
+                    let is_on_forefoot = stance.is_on_forefoot(inputs.grid.time(frame));
+                    if is_on_forefoot { on_touching_part(place, center, axes[1]) } else { center }
                 }
             };
             out.free_moment[frame] = about_up.value;

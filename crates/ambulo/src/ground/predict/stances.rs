@@ -77,6 +77,11 @@ impl Stance {
         self.end_s - self.start_s
     }
 
+    /// Whether the foot came down forefoot first and its heel is not down yet.
+    pub(super) fn is_on_forefoot(&self, time: f64) -> bool {
+        self.heel_down_s.is_some_and(|heel_down_s| time <= heel_down_s)
+    }
+
     /// Elapsed share of the stance.
     pub(super) fn elapsed_share(&self, time: f64) -> f64 {
         ((time - self.start_s) / self.duration_s()).clamp(0.0, 1.0)
