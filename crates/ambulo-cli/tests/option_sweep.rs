@@ -201,11 +201,13 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     for name in ["model", "output", "figure", "filter", "json"] {
         assert!(names("forces").iter().all(|known| known != name), "{name}");
     }
-    // A verb with its first numeric option needs a sweep below; numbers of `tune` are tried in tune.rs, because an accepted one takes seconds.
+    // A verb with its first numeric option needs a sweep below; numbers of `tune` are tried in tune.rs, because an accepted one takes seconds, those
+    // of `calibrate` are some of `forces`.
     let command = Args::command();
     let verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
-    assert_eq!(swept, ["forces", "walk", "sweep", "simulate", "tune", "compare"]);
+    assert_eq!(swept, ["forces", "calibrate", "walk", "sweep", "simulate", "tune", "compare"]);
+    assert!(names("calibrate").iter().all(|name| names("forces").contains(name)));
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn a_tracked_motion_agrees_with_its_forces_and_is_compared_with_plates() {
     );
     let residual = summary["residual"]["force_rms_bw"].as_f64().unwrap();
     assert!(
-        residual < 1e-3 && summary["tracking"]["residual_peak"].as_f64().unwrap() < 5e-3,
+        residual < 1.2e-3 && summary["tracking"]["residual_peak"].as_f64().unwrap() < 5e-3,
         "{}",
         summary["residual"]
     );
@@ -296,7 +296,9 @@ fn a_person_is_calibrated_on_plates_and_only_that_person_is_predicted_with_it() 
     bench.edit("person.toml", "mass_kg = 7", "mass_kg = 6");
     let other = [&["forces", walk][..], &body, &["--predict", "--person", "person.toml"]].concat();
     bench.run(&other).refused(&[walk, "mass", "ambulo calibrate"]);
-    bench.run(&["calibrate", "demo/input/walk.trc", "--mass", "75", "--force"]).refused(&["walk.trc", "plates"]);
+    bench
+        .run(&["calibrate", "demo/input/walk.trc", "--mass", "75", "--force", "--quiet"])
+        .refused(&["walk.trc", "plates"]);
     bench.write("person.toml", "mass_kg = 3");
     bench.run(&other).refused(&["person.toml", "stances"]);
 }
