@@ -12,7 +12,7 @@
 //! Three kinds of pushes are never the same: those by which candidates of a generation are compared (new ones in every generation), those by
 //! which the best mean of all generations is chosen, and those of the report ([`PushUse`]).
 //!
-//! The maps of the time steps are computed once: those of another impedance follow from them exactly (module `linear`), so a candidate costs
+//! The maps of the time steps are computed once: those of another impedance follow from them (module `linear`), so a candidate costs
 //! its Riccati equation and its trials.
 
 mod gain;
@@ -67,7 +67,7 @@ mod tests {
         let apart: f64 = found.iter().zip(&expected).map(|(a, b)| (a - b).powi(2)).sum();
         let size: f64 = expected.iter().map(|x| x * x).sum();
         println!("gains of other maps differ by {:.2e} of their size", (apart / size).sqrt());
-        assert!(apart <= 2e-3_f64.powi(2) * size, "{found:?} instead of {expected:?}");
+        assert!(apart <= 5e-3_f64.powi(2) * size, "{found:?} instead of {expected:?}");
 
         // The settings at the origin of the search are those of the scene with the digits that are written; others are within bounds and cost their
         // distance.
