@@ -69,7 +69,7 @@ pub(crate) struct ForcesArgs {
     /// Predict the ground forces from the motion even if they were measured, and compare both [default without measured forces].
     #[arg(long, conflicts_with = "no_ground")]
     pub(crate) predict: bool,
-    /// What force plates showed about the predicted forces of this person (.toml, written by `ambulo calibrate`).
+    /// Predict the ground forces as with --predict, corrected by the calibration of this person (.toml, written by `ambulo calibrate`).
     #[arg(long, value_name = "FILE", conflicts_with = "no_ground")]
     pub(crate) person: Option<PathBuf>,
     /// Change the motion until feet on soft ground alone supply its external forces, near the recorded motion and the predicted forces (docs/OPTIMAL.md). Measured forces are only compared with the result.
@@ -159,7 +159,7 @@ impl ForcesArgs {
 #[derive(Debug, Clone, ClapArgs)]
 #[command(after_help = "Example (after `ambulo demo -o demo`, which writes these files):
   ambulo calibrate demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 -o person.toml
-  ambulo forces demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 --predict --person person.toml -o out
+  ambulo forces demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 --person person.toml -o out
 
 Errors of predicted ground forces are personal and repeat. The trials, of one person walking over force plates with each foot on a plate of
 its own, are predicted and compared with the plates; FILE has the mean difference over the stance for each foot, and the size of the person, by

@@ -124,7 +124,7 @@ def forces(
     earth : tuple of three floats, optional
         Sensors: angles about the fixed axes x, y and z [deg] that turn their earth to the axes of the model.
     person : str, path-like or bytes, optional
-        What force plates showed about the predicted forces of this person (``.toml``), written by ``ambulo calibrate``.
+        Calibration of this person (``.toml``, written by ``ambulo calibrate``): ground forces are predicted and corrected by it.
     predict : bool, optional
         Predict the ground forces even if they were measured, and compare both.
     track : bool, optional

@@ -307,7 +307,8 @@ fn settings(args: &ForcesArgs, tracked: Option<TrackedTasks>) -> Result<Settings
         comparison_filter: of_forces.unwrap_or(defaults.comparison_filter),
         window: Window { from_s: args.from, to_s: args.to },
         rate_hz: args.rate,
-        ground: match (args.no_ground, args.predict, args.track) {
+        // A calibration corrects predicted forces alone, so it asks for them.
+        ground: match (args.no_ground, args.predict || args.person.is_some(), args.track) {
             (true, _, _) => GroundSettings::NoContact,
             (false, _, true) => GroundSettings::Tracked,
             (false, true, false) => GroundSettings::Predicted,

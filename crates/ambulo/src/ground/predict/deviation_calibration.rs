@@ -4,7 +4,7 @@
 //!
 //! The estimate assumes independent evidence and exact models; k and the floor correct its deviation, component by component, by the
 //! errors relative to force plates. For forces they depend on the elapsed share of the stance, because the strike is known worst: one pair for
-//! each fifth, linear between their middles. Leave-one-out across subjects, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
+//! each fifth, linear between their middles. Fitted to people whose laboratory was left out, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
 
 /// Factor k and floor for the standard deviation of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]

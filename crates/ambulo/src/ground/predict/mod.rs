@@ -129,7 +129,7 @@ pub struct PredictSettings {
     pub prescribed: Prescribed,
     /// Standard deviations of prior and evidence.
     pub parameters: FittedParameters,
-    /// What plates have shown about the person.
+    /// Calibration of the person by trials on force plates.
     pub person: Option<PersonalErrors>,
 }
 

@@ -1,4 +1,4 @@
-//! What force plates have shown about the estimate for one person: a shifted prior for the person's other trials.
+//! Calibration of the estimate for one person by trials on force plates, for the person's other trials.
 //!
 //! Errors of the estimate are personal and repeat: segments with other masses than in the table, an own way to strike. The mean error of a few
 //! stances on plates, weighted by what they can be trusted ([`super::stance_errors`]), is taken off the estimate of the same foot; with stances
