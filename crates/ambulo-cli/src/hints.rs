@@ -115,7 +115,7 @@ fn of_prediction(error: &PredictError) -> Option<&'static str> {
         }
         PredictError::NoGravity { .. } => Some("`--no-ground` computes a motion without contact"),
         PredictError::TooLarge { .. } => Some(RANGE),
-        PredictError::OtherPerson(_) => {
+        PredictError::OtherPerson(_) | PredictError::OtherEstimator { .. } => {
             Some("`ambulo calibrate` makes the file of `--person` from trials of this person")
         }
         _ => None,

@@ -67,7 +67,8 @@ fn pushed(mut stream: Stream, frames: &[Vec<f64>]) -> Vec<StreamFrame> {
 }
 
 fn whole(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -> Prediction {
-    predict(model, trajectory, soles, &PredictSettings::default(), &mut Findings::default()).unwrap()
+    let settings = PredictSettings { motion_filter: Some(LowPass::MOTION), ..PredictSettings::default() };
+    predict(model, trajectory, soles, &settings, &mut Findings::default()).unwrap()
 }
 
 /// Root mean square along x, y, z.
@@ -333,7 +334,9 @@ fn recordings_are_streamed_nearly_as_well_as_they_are_predicted_whole() {
         let all: Vec<String> = forces.iter().map(cells).chain(centers.iter().map(pair)).collect();
         println!("| {name} | {} |", all.join(" | "));
         let [apart, of_stream, of_batch] = forces;
-        assert!(apart.x < 3.0 && apart.y < 8.0 && apart.z < 3.0, "{name}: {apart}");
+        // In running the last steps of a stream are determined less well: what the filter of the motion took is added without the frames to come.
+        let most_up = if name.ends_with("run") { 11.0 } else { 6.0 };
+        assert!(apart.x < 3.0 && apart.y < most_up && apart.z < 3.0, "{name}: {apart}");
         assert!(!of_stream.y.is_finite() || of_stream.y < of_batch.y + 4.0, "{name}: {of_stream} {of_batch}");
         for (mean, forces) in means.iter_mut().zip(forces) {
             *mean += forces / trials.len() as f64;

@@ -1,10 +1,14 @@
 //! Movements that do not repeat: a squat, a jump, and standing up from a chair. Their code is that of docs/OPTIMAL.md.
 
-use ambulo::kinematics::{Posture, body_motion};
+use ambulo::dynamics::{Workspace, inverse_with_residual};
+use ambulo::findings::Findings;
+use ambulo::ground::predict::{PredictSettings, predict};
+use ambulo::kinematics::{Posture, Trajectory, body_motion};
 use ambulo::model::Movement::{self, AnkleDorsiflexion, HipFlexion, KneeFlexion, PelvisUp};
-use ambulo::model::Side;
 use ambulo::model::anthropometry::{Build, ContactSphere, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
+use ambulo::model::{BySide, Side};
+use ambulo::motion::TimeGrid;
 use ambulo::optimal::{Bound, EffortCosts, Key, MovementError, MovementProblem, MovementSettings, Quantity};
 use ambulo::optimal::{Sample, Solution};
 use ambulo::spatial::Vec3;
@@ -237,4 +241,63 @@ fn keys_out_of_order_are_refused() {
     ] {
         assert_eq!(build(&times).unwrap().to_string(), expected);
     }
+}
+
+/// The motion of a solution at 100 Hz, its exact centre of pressure along the way [m] and the torques of both ankles [N.m].
+fn motion_with_truth(solution: &Solution) -> (Trajectory, Vec<f64>, [Vec<f64>; 2]) {
+    let problem = solution.problem();
+    let step_s = 0.01;
+    let grid = TimeGrid { start_s: 0.0, step_s, frames: (problem.duration_s / step_s) as usize + 1 };
+    let samples = solution.samples(&(0..grid.frames).map(|i| grid.time(i)).collect::<Vec<_>>()).unwrap();
+    let column = |k: usize| std::array::from_fn(|part| samples.iter().map(|s| s.posture[part][k]).collect());
+    let columns = (0..problem.model.coordinates().len()).map(column).collect();
+    let center = |sample: &Sample| {
+        let moment: f64 = sample.contacts.iter().map(|contact| contact.place.x * contact.force.y).sum();
+        moment / ground(solution, sample).y
+    };
+    let ankles = ["ankle_angle_r", "ankle_angle_l"].map(|name| {
+        let id = problem.model.coordinate(name).unwrap().index();
+        samples.iter().map(|s| s.forces[id]).collect()
+    });
+    (Trajectory::new(&problem.model, grid, columns).unwrap(), samples.iter().map(center).collect(), ankles)
+}
+
+#[test]
+fn predicted_forces_of_a_squat_have_its_centre_of_pressure_and_its_ankle_moment() {
+    let human = man();
+    for (depth, lowest_s) in [(0.65, 1.0), (0.8, 1.2)] {
+        let solution = squat(&human, depth, lowest_s).unwrap();
+        let (trajectory, truth, ankles) = motion_with_truth(&solution);
+        let model = &solution.problem().model;
+        let soles = BySide::from_fn(|side| human.sole(side));
+        let settings = PredictSettings::default();
+        let predicted = predict(model, &trajectory, &soles, &settings, &mut Findings::default()).unwrap();
+        let loads = predicted.ground.loads();
+        let found = inverse_with_residual(&mut Workspace::new(model), &trajectory, &loads);
+        // The first and the last 0.2 s are within the filter's length of the ends.
+        let judged = 20..truth.len() - 20;
+        let off: Vec<f64> = judged
+            .clone()
+            .map(|i| {
+                let feet = &predicted.ground.bodies;
+                let load: f64 = feet.iter().map(|foot| foot.force[i].y).sum();
+                let center: f64 = feet.iter().map(|foot| foot.force[i].y * foot.center_of_pressure[i].x).sum();
+                center / load - truth[i]
+            })
+            .collect();
+        let rms_mm = 1e3 * (off.iter().map(|x| x * x).sum::<f64>() / off.len() as f64).sqrt();
+        let id = model.coordinate("ankle_angle_r").unwrap().index();
+        let own: Vec<f64> = judged.clone().map(|i| found.generalized[id][i]).collect();
+        let r = correlation(&own, &ankles[0][judged]);
+        println!("squat to {depth} of leg length: centre of pressure {rms_mm:.1} mm, ankle moment r {r:.3}");
+        assert!(rms_mm < 25.0 && r > 0.9, "{rms_mm} mm, r {r}");
+    }
+}
+
+fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
+    let (ma, mb) = (mean(a), mean(b));
+    let product =
+        |x: &[f64], mx: f64, y: &[f64], my: f64| -> f64 { x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum() };
+    product(a, ma, b, mb) / (product(a, ma, a, ma) * product(b, mb, b, mb)).sqrt()
 }

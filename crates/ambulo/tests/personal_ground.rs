@@ -9,7 +9,7 @@
 
 use crate::shared_data::data;
 use ambulo::findings::Findings;
-use ambulo::ground::predict::{PersonalErrors, PredictSettings, StanceErrors, trusted};
+use ambulo::ground::predict::{FittedParameters, PersonalErrors, PredictSettings, StanceErrors, trusted};
 use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::study::{
@@ -70,6 +70,10 @@ fn a_trial_on_plates_corrects_the_other_trials_of_the_person() {
     let refused = predicted(&second, Some(heavier)).unwrap_err().to_string();
     assert!(refused.contains("mass") && refused.contains("5 %"), "{refused}");
 
+    let older = PersonalErrors { estimator: person.estimator ^ 1, ..person.clone() };
+    let refused = predicted(&second, Some(older)).unwrap_err().to_string();
+    assert!(refused.contains("another estimate"), "{refused}");
+
     let mut without_plates = raw.clone();
     without_plates.prediction.as_mut().unwrap().measured = None;
     let mut without_stance = raw.clone();
@@ -104,6 +108,7 @@ fn what_is_added_is_the_mean_error_times_its_trust() {
         leg_length_m: stature.leg_length_m,
         stances: ambulo::model::BySide { right: 3, left: 0 },
         errors: ambulo::model::BySide { right: curves, left: StanceErrors::default() },
+        estimator: FittedParameters::default().fingerprint(),
     };
     let (without, with) = (ground(None), ground(Some(person)));
     let weight = model.mass() * model.gravity().norm();

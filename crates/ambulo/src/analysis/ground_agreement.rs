@@ -20,7 +20,7 @@ use super::recording::{Analysis, Mass};
 use super::walking_direction::WalkingDirection;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::phases::contacts_from_events;
-use crate::ground::predict::{ErrorSample, FootDeviation, Prediction, outwards_sign};
+use crate::ground::predict::{ErrorSample, FootDeviation, Prediction, outwards_sign, strike_descents};
 use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet};
 use crate::model::{Model, Movement, Side};
 use crate::motion::{ForceRecording, TimeGrid, Window};
@@ -218,6 +218,8 @@ pub struct ComparedStance {
     pub side: Side,
     /// From foot strike to foot off [s].
     pub span_s: [f64; 2],
+    /// Descent of the mass centre at its strike ([`strike_descents`]).
+    pub strike_descent: f64,
     /// The frames in which the plate was loaded.
     pub samples: Vec<ComparedSample>,
 }
@@ -251,19 +253,20 @@ impl ComparedStance {
     #[must_use]
     pub fn errors(&self, weight_n: f64, stature_m: f64) -> [Vec<ErrorSample>; 5] {
         let mut all: [Vec<ErrorSample>; 5] = Default::default();
-        let outwards = outwards_sign(self.side);
+        let (outwards, descent) = (outwards_sign(self.side), self.strike_descent);
         for s in &self.samples {
             let phase = s.detected_phase;
             let [up, forward, sideways] = [0, 1, 2].map(|axis| (s.measured[axis] - s.predicted[axis]) / weight_n);
             let weight = 1.0 / self.samples.len() as f64;
             for (axis, error) in [forward, up, outwards * sideways].into_iter().enumerate() {
-                all[axis].push(ErrorSample { phase, error, weight });
+                all[axis].push(ErrorSample { phase, error, weight, descent });
             }
             let load = s.measured[0] / weight_n;
             if load > CENTER_LOAD_BW {
                 let [along, across] = s.center_off.map(|off| -off / stature_m);
-                all[3].push(ErrorSample { phase, error: along, weight: weight * load });
-                all[4].push(ErrorSample { phase, error: outwards * across, weight: weight * load });
+                let weight = weight * load;
+                all[3].push(ErrorSample { phase, error: along, weight, descent });
+                all[4].push(ErrorSample { phase, error: outwards * across, weight, descent });
             }
         }
         all
@@ -337,6 +340,7 @@ pub fn compared_stances(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverag
     let direction = WalkingDirection::of(model, &predicted.trajectory, &prediction.footfalls);
     let (found, truth) = (feet(model, &predicted.ground), feet(model, &measured.ground));
     let of = |list: &[(Side, Cow<'_, BodyForces>)], side: Side| list.iter().position(|(s, _)| *s == side);
+    let descents = strike_descents(model, &predicted.trajectory, &prediction.footfalls);
     let mut all = Vec::new();
     for side in Side::BOTH {
         let (Some(found_at), Some(truth_at)) = (of(&found, side), of(&truth, side)) else { continue };
@@ -348,20 +352,22 @@ pub fn compared_stances(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverag
             deviation: prediction.deviations.iter().find(|deviation| deviation.side == side),
         };
         for span_s in stances(coverage, side, grid) {
-            let detected_s = detected(&prediction.footfalls, side, span_s);
+            let detected = detected(&prediction.footfalls, side, span_s);
+            let detected_s = detected.map_or(span_s, |(_, span)| span);
             let samples = foot.samples([span_s, detected_s], direction.during(span_s));
-            all.push(ComparedStance { side, span_s, samples });
+            let strike_descent = detected.map_or(0.0, |(fall, _)| descents[fall]);
+            all.push(ComparedStance { side, span_s, strike_descent, samples });
         }
     }
     all
 }
 
-/// Strike and off from the motion of the stance that overlaps one on a plate most; those of the plate where none does.
-fn detected(footfalls: &Footfalls, side: Side, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
-    let spans = footfalls.of(side).map(|fall| [fall.strike_s.unwrap_or(from_s), fall.off_s.unwrap_or(to_s)]);
-    let overlap = |[a, b]: &[f64; 2]| b.min(to_s) - a.max(from_s);
-    let most = spans.max_by(|a, b| overlap(a).total_cmp(&overlap(b)));
-    most.filter(|span| overlap(span) > 0.0).unwrap_or([from_s, to_s])
+/// Index, strike and off of the stance from the motion that overlaps one on a plate most.
+fn detected(footfalls: &Footfalls, side: Side, [from_s, to_s]: [f64; 2]) -> Option<(usize, [f64; 2])> {
+    let own = footfalls.falls.iter().enumerate().filter(|(_, fall)| fall.side == side);
+    let spans = own.map(|(i, fall)| (i, [fall.strike_s.unwrap_or(from_s), fall.off_s.unwrap_or(to_s)]));
+    let overlap = |(_, [a, b]): &(usize, [f64; 2])| b.min(to_s) - a.max(from_s);
+    spans.max_by(|a, b| overlap(a).total_cmp(&overlap(b))).filter(|span| overlap(span) > 0.0)
 }
 
 /// Stances of a side that are long enough and lie entirely in the motion, with a tolerance of one frame.

@@ -73,7 +73,10 @@ pub(crate) fn predict_and_analyse(
     drop(motion);
     let prediction = match whole {
         Some(prediction) => prediction?,
-        None => predict(model, &trajectory, input.soles, input.settings, findings)?,
+        None => {
+            let passed = PredictSettings { motion_filter: settings.smoother.low_pass(), ..input.settings.clone() };
+            predict(model, &trajectory, input.soles, &passed, findings)?
+        }
     };
     progress.end(Stage::Prediction)?;
     with_plates(model, trajectory, prediction, plates, settings.instrumented, input, findings, progress)
@@ -104,7 +107,8 @@ fn prediction_of_whole_motion(
     if !(same_steps && is_inside) {
         return None;
     }
-    let found = predict(model, &whole, input.soles, input.settings, findings);
+    let passed = PredictSettings { motion_filter: settings.smoother.low_pass(), ..input.settings.clone() };
+    let found = predict(model, &whole, input.soles, &passed, findings);
     Some(found.map(|found| found.within(first..first + grid.frames, grid)).map_err(AnalysisError::from))
 }
 

@@ -27,13 +27,19 @@ pub enum Smoother {
 }
 
 impl Smoother {
+    /// The low-pass filter, if it is one.
+    #[must_use]
+    pub fn low_pass(self) -> Option<LowPass> {
+        match self {
+            Smoother::Butterworth(low_pass) => Some(low_pass),
+            Smoother::Off | Smoother::Spline => None,
+        }
+    }
+
     /// Cut-off frequency of a low-pass filter [Hz].
     #[must_use]
     pub fn cutoff_hz(self) -> Option<f64> {
-        match self {
-            Smoother::Butterworth(low_pass) => Some(low_pass.cutoff_hz),
-            Smoother::Off | Smoother::Spline => None,
-        }
+        self.low_pass().map(|low_pass| low_pass.cutoff_hz)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::outcome::{Outcome, PredictedGround};
 use crate::analysis::activity::ActivityKind;
 use crate::analysis::{ComparedAnalyses, compared_stances};
-use crate::ground::predict::{ErrorSample, OtherPerson, PersonalErrors, StanceErrors};
+use crate::ground::predict::{ErrorSample, FittedParameters, OtherPerson, PersonalErrors, StanceErrors};
 use crate::model::{BySide, Side};
 
 /// Why trials give no calibration. Trials are counted from 0.
@@ -64,7 +64,7 @@ impl CalibrationError {
 }
 
 /// Mean errors of the prediction over the stances of walking trials, computed with
-/// [`GroundSettings::Predicted`](super::GroundSettings::Predicted) and without a calibration.
+/// [`GroundSettings::Predicted`](super::GroundSettings::Predicted), the default parameters, and without a calibration.
 ///
 /// # Errors
 /// Trials without walking, plates or whole stances, or of different people.
@@ -92,6 +92,7 @@ pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, Calibration
             leg_length_m: stature.leg_length_m,
             stances: BySide { right: 0, left: 0 },
             errors: BySide { right: StanceErrors::default(), left: StanceErrors::default() },
+            estimator: FittedParameters::default().fingerprint(),
         });
         person.check(model).map_err(|error| CalibrationError::OtherPerson { trial, error })?;
         let weight_n = measured.mass.kg * model.gravity().norm();

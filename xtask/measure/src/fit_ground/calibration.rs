@@ -3,7 +3,7 @@
 //! Samples of a stance are not independent, so every stance and every subject has the same weight: shares are means over stances, then over
 //! subjects. For each floor the factor follows from the share; of these pairs the one with the narrowest band is used.
 
-use super::cases::{Case, Sample, StanceSamples, mean};
+use super::cases::{Case, OF_MISFIT, OF_SIDEWAYS, Sample, StanceSamples, mean};
 use super::numbers::three_digits;
 use ambulo::ground::predict::{DeviationCalibration, DeviationScaling, FittedParameters, scaling_at};
 use std::ops::Range;
@@ -39,9 +39,8 @@ impl Judged {
     /// Straight walks of these subjects, each predicted with its own parameters and the deviations of the equations unchanged.
     pub(super) fn new(cases: &[Case], subjects: &[&'static str], parameters: &[FittedParameters]) -> Judged {
         let own = |(subject, parameters): (&&'static str, &FittedParameters)| {
-            let raw = FittedParameters { calibration: DeviationCalibration::UNSCALED, ..*parameters };
             let straight = cases.iter().filter(|case| case.subject == *subject && case.is_straight());
-            (*subject, straight.flat_map(|case| case.samples(&raw)).collect())
+            (*subject, straight.flat_map(|case| case.samples(parameters)).collect())
         };
         Judged { subjects: subjects.iter().zip(parameters).map(own).collect() }
     }
@@ -71,6 +70,8 @@ impl Judged {
             force: std::array::from_fn(of_fifth),
             center: std::array::from_fn(|i| whole(3 + i)),
             free_moment: whole(5),
+            of_misfit: OF_MISFIT,
+            of_sideways: OF_SIDEWAYS,
         }
     }
 
@@ -99,7 +100,8 @@ pub(super) fn spread(calibration: &DeviationCalibration, component: usize) -> Fi
 /// Where nothing was predicted there is no band.
 fn half_width(sample: &Sample, spread: &Fifths) -> f64 {
     let scaling = scaling_at(spread, sample.phase);
-    if sample.deviation > 0.0 { BAND_90 * scaling.variance(sample.deviation.powi(2), sample.unit).sqrt() } else { 0.0 }
+    let variance = scaling.variance(sample.deviation.powi(2), sample.unit) + sample.of_trial.powi(2);
+    if sample.deviation > 0.0 { BAND_90 * variance.sqrt() } else { 0.0 }
 }
 
 fn band(subjects: &[Vec<Vec<Sample>>], spread: &Fifths) -> Band {
@@ -154,7 +156,13 @@ mod tests {
         let mut sample = |i: usize| {
             let deviation = 1.0 + (i % 7) as f64;
             let truth = (true_factor * deviation).hypot(floor);
-            Sample { phase: (i % 100) as f64 / 100.0, error: truth * random.normal(), deviation, unit: 1.0 }
+            Sample {
+                phase: (i % 100) as f64 / 100.0,
+                error: truth * random.normal(),
+                deviation,
+                unit: 1.0,
+                of_trial: 0.0,
+            }
         };
         (0..20).map(|_| (0..100).map(&mut sample).collect()).collect()
     }
@@ -179,7 +187,7 @@ mod tests {
 
     #[test]
     fn where_nothing_was_predicted_nothing_is_held() {
-        let sample = Sample { phase: 0.5, error: 0.1, deviation: 0.0, unit: 1.0 };
+        let sample = Sample { phase: 0.5, error: 0.1, deviation: 0.0, unit: 1.0, of_trial: 1.0 };
         assert!(half_width(&sample, &[DeviationScaling { factor: 5.0, floor: 9.0 }; 5]).abs() < 1e-12);
     }
 }

@@ -7,8 +7,10 @@ use ambulo::analysis::{
 };
 use ambulo::findings::Findings;
 use ambulo::ground::predict::{
-    ErrorSample, FittedParameters, PredictSettings, Prediction, Prescribed, StanceCurve, StanceErrors, predict,
+    DeviationCalibration, DeviationScaling, Ends, ErrorSample, ErrorsByDescent, FittedParameters, PredictSettings,
+    Prediction, Prescribed, StanceCurve, StanceErrors, predict,
 };
+use ambulo::motion::filter::LowPass;
 use ambulo::study::{Outcome, PredictedGround};
 use std::path::Path;
 
@@ -42,6 +44,21 @@ pub(super) const COMPONENTS: [&str; 6] = [
 /// Components that are not evaluated for subjects without markers on the trunk.
 pub(super) const NEEDS_TRUNK: [usize; 2] = [2, 4];
 
+/// Nothing of the estimated deviations, only what the trial itself shows.
+const OF_TRIAL_ALONE: DeviationCalibration = {
+    const NOTHING: DeviationScaling = DeviationScaling { factor: 0.0, floor: 0.0 };
+    DeviationCalibration {
+        force: [[NOTHING; 5]; 3],
+        center: [NOTHING; 2],
+        free_moment: NOTHING,
+        of_misfit: OF_MISFIT,
+        of_sideways: OF_SIDEWAYS,
+    }
+};
+/// Shares of a trial's misfit and of its sideways force in the deviation ([`DeviationCalibration`] says how they were chosen).
+pub(super) const OF_MISFIT: f64 = 0.5;
+pub(super) const OF_SIDEWAYS: f64 = 0.1;
+
 /// One component in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sample {
@@ -53,6 +70,8 @@ pub(super) struct Sample {
     pub(super) deviation: f64,
     /// A floor of 1 in the unit of the error.
     pub(super) unit: f64,
+    /// Standard deviation that the trial itself shows, which is added in squares.
+    pub(super) of_trial: f64,
 }
 
 /// Samples of a stance, component by component.
@@ -96,7 +115,12 @@ pub(super) fn subjects(cases: &[Case]) -> Vec<&'static str> {
 
 impl Case {
     fn predict(&self, parameters: &FittedParameters) -> Option<Prediction> {
-        let settings = PredictSettings { prescribed: self.prescribed.clone(), parameters: *parameters, person: None };
+        let settings = PredictSettings {
+            prescribed: self.prescribed.clone(),
+            parameters: *parameters,
+            person: None,
+            motion_filter: Some(LowPass::MOTION),
+        };
         let Outcome { body, person, .. } = &self.outcome;
         predict(body, &self.measured.trajectory, &person.soles, &settings, &mut Findings::default()).ok()
     }
@@ -148,22 +172,27 @@ impl Case {
 
     /// Errors against plates with their deviations, stance by stance.
     pub(super) fn samples(&self, parameters: &FittedParameters) -> Vec<StanceSamples> {
-        self.stances(parameters).iter().map(|stance| self.of_stance(stance)).collect()
+        let with = |calibration| self.stances(&FittedParameters { calibration, ..*parameters });
+        let of_trial = with(OF_TRIAL_ALONE);
+        let pairs = with(DeviationCalibration::UNSCALED);
+        pairs.iter().zip(&of_trial).map(|(stance, of_trial)| self.of_stance(stance, of_trial)).collect()
     }
 
-    fn of_stance(&self, stance: &ComparedStance) -> StanceSamples {
+    /// `of_trial` is the same stance with the standard deviations that the trial itself shows.
+    fn of_stance(&self, stance: &ComparedStance, of_trial: &ComparedStance) -> StanceSamples {
         let [weight, _] = self.size();
         let mut out = StanceSamples::default();
-        for s in &stance.samples {
-            let [up, forward, sideways] = [0, 1, 2].map(|k| (s.predicted[k] - s.measured[k], s.deviation[k], weight));
-            let [along, across] = [0, 1].map(|k| (s.center_off[k], s.center_deviation[k], 1.0));
-            let free_moment = (s.free_moment_off, s.free_moment_deviation, weight);
+        for (s, of_trial) in stance.samples.iter().zip(&of_trial.samples) {
+            let [up, forward, sideways] =
+                [0, 1, 2].map(|k| (s.predicted[k] - s.measured[k], s.deviation[k], weight, of_trial.deviation[k]));
+            let [along, across] = [0, 1].map(|k| (s.center_off[k], s.center_deviation[k], 1.0, 0.0));
+            let free_moment = (s.free_moment_off, s.free_moment_deviation, weight, 0.0);
             let parts = [forward, up, sideways, along, across, free_moment];
-            for (c, (error, deviation, unit)) in parts.into_iter().enumerate() {
+            for (c, (error, deviation, unit, of_trial)) in parts.into_iter().enumerate() {
                 let counts = c < 3 || s.measured[0] > CENTER_LOAD_BW * weight;
                 let judged = self.group != Group::NoTrunk || !NEEDS_TRUNK.contains(&c);
                 if counts && judged && error.is_finite() {
-                    out[c].push(Sample { phase: s.detected_phase, error, deviation, unit });
+                    out[c].push(Sample { phase: s.detected_phase, error, deviation, unit, of_trial });
                 }
             }
         }
@@ -171,12 +200,33 @@ impl Case {
     }
 }
 
-/// Mean errors of the estimate with these parameters on the straight walks of some subjects: of the sideways force and of the centre of
-/// pressure along the way, the only components whose mean error on the others is also that of a subject or a laboratory left out.
-pub(super) fn mean_errors(cases: &[Case], subjects: &[&str], parameters: &FittedParameters) -> StanceErrors {
+/// Mean errors of the estimate with these parameters on some subjects: of the force forward and up with their change with the descent at the strike,
+/// from all walks with markers on the trunk; of the sideways force and of the centre of pressure along the way from the straight ones. The mean error of
+/// the centre of pressure across is not that of a subject or a laboratory left out.
+pub(super) fn mean_errors(cases: &[Case], subjects: &[&str], parameters: &FittedParameters) -> ErrorsByDescent {
+    let rounded = |curve: StanceCurve| StanceCurve(curve.0.map(|value| (1e5 * value).round() / 1e5));
+    let all = error_samples(cases, subjects, parameters, |group| group != Group::NoTrunk);
+    let [forward, up] = [0, 1].map(|axis| StanceCurve::through_by_descent(&all[axis]).map(rounded));
+    let straight = error_samples(cases, subjects, parameters, |group| group == Group::Walking);
+    let outwards = rounded(StanceCurve::through(&straight[2], Ends::Zero));
+    let along = rounded(StanceCurve::through(&straight[3], Ends::Free));
+    let center = [along, StanceCurve::NONE];
+    ErrorsByDescent {
+        usual: StanceErrors { force: [forward[0], up[0], outwards], center },
+        by_descent: [forward[1], up[1]],
+    }
+}
+
+/// Errors of all stances in some kinds of trial, in the order of [`StanceErrors`]; every subject has the same weight.
+fn error_samples(
+    cases: &[Case],
+    subjects: &[&str],
+    parameters: &FittedParameters,
+    counts: impl Fn(Group) -> bool,
+) -> [Vec<ErrorSample>; 5] {
     let mut all: [Vec<ErrorSample>; 5] = Default::default();
     for subject in subjects {
-        let own = cases.iter().filter(|case| case.subject == *subject && case.group == Group::Walking);
+        let own = cases.iter().filter(|case| case.subject == *subject && counts(case.group));
         let stances: Vec<[Vec<ErrorSample>; 5]> = own
             .flat_map(|case| {
                 let [weight_n, stature_m] = case.size();
@@ -190,10 +240,7 @@ pub(super) fn mean_errors(cases: &[Case], subjects: &[&str], parameters: &Fitted
             }
         }
     }
-    let errors = StanceErrors::through(&all);
-    let none = StanceCurve::NONE;
-    let rounded = |curve: StanceCurve| StanceCurve(curve.0.map(|value| (1e5 * value).round() / 1e5));
-    StanceErrors { force: [none, none, rounded(errors.force[2])], center: [rounded(errors.center[0]), none] }
+    all
 }
 
 /// The laboratory of a subject.

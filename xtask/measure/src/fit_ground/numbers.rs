@@ -1,6 +1,6 @@
 //! The fitted parameters with their plausible ranges, mapped to the unit cube.
 
-use ambulo::ground::predict::{DeviationCalibration, FittedParameters, StanceErrors};
+use ambulo::ground::predict::{DeviationCalibration, ErrorsByDescent, FittedParameters};
 
 /// A fitted number.
 #[derive(Debug, Clone, Copy)]
@@ -66,7 +66,7 @@ impl Number {
 /// Parameters at a point of the unit cube, with the estimator's own standard deviations.
 pub(super) fn parameters(place: &[f64]) -> FittedParameters {
     let mut parameters = FittedParameters {
-        errors: StanceErrors::default(),
+        errors: ErrorsByDescent::default(),
         calibration: DeviationCalibration::UNSCALED,
         ..FittedParameters::default()
     };

@@ -5,7 +5,7 @@ use super::cases::COMPONENTS;
 use super::numbers::{NUMBERS, Number};
 use super::{Fit, Fold, Order, Outcome};
 use crate::table::Table;
-use ambulo::ground::predict::{DeviationScaling, FittedParameters, KNOTS};
+use ambulo::ground::predict::{DeviationScaling, FittedParameters, KNOTS, StanceCurve};
 
 /// Components of a force in the order of the figures.
 const FORCES: [&str; 3] = ["up", "forward", "sideways"];
@@ -123,29 +123,44 @@ fn figures(outcome: &Outcome) -> String {
     table.text()
 }
 
+/// A column of the table of mean errors.
+struct MeanError {
+    name: &'static str,
+    curve: fn(&FittedParameters) -> &StanceCurve,
+}
+
+const MEAN_ERRORS: [MeanError; 6] = [
+    MeanError { name: "force up [%BW]", curve: |fit| &fit.errors.usual.force[1] },
+    MeanError { name: "and for each unit of descent", curve: |fit| &fit.errors.by_descent[1] },
+    MeanError { name: "force forward [%BW]", curve: |fit| &fit.errors.usual.force[0] },
+    MeanError { name: "and for each unit of descent", curve: |fit| &fit.errors.by_descent[0] },
+    MeanError { name: "force outwards [%BW]", curve: |fit| &fit.errors.usual.force[2] },
+    MeanError { name: "centre along [% stature]", curve: |fit| &fit.errors.usual.center[0] },
+];
+
 fn errors(outcome: &Outcome) -> String {
-    let mut table = Table::new(&[
-        "share of the stance",
-        "force outwards [%BW]",
-        "left out, least",
-        "most",
-        "centre along [% stature]",
-        "left out, least",
-        "most",
-    ]);
+    let mut head = vec!["share of the stance"];
+    head.extend(MEAN_ERRORS.iter().flat_map(|error| [error.name, "left out"]));
+    let mut table = Table::new(&head);
     for (k, knot) in KNOTS.iter().enumerate() {
-        let values = |of: fn(&FittedParameters, usize) -> f64| {
-            let folds = outcome.folds.iter().flat_map(|fold| &fold.parameters[1..]).map(|fit| 100.0 * of(fit, k));
-            let (low, high) = folds.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-            [100.0 * of(&outcome.parameters, k), low, high].map(|x| number(x, 2))
+        let range = |error: &MeanError| {
+            let folds = outcome.folds.iter().flat_map(|fold| &fold.parameters[1..]).map(|fit| (error.curve)(fit).0[k]);
+            folds.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
         };
-        let [force, force_low, force_high] = values(|fit, k| fit.errors.force[2].0[k]);
-        let [center, center_low, center_high] = values(|fit, k| fit.errors.center[0].0[k]);
-        table.row([number(*knot, 2), force, force_low, force_high, center, center_low, center_high]);
+        let percent = |x: f64| number(100.0 * x, 2);
+        let cell = |column: usize| match column.checked_sub(1).map(|column| (&MEAN_ERRORS[column / 2], column % 2)) {
+            None => number(*knot, 2),
+            Some((error, 0)) => percent((error.curve)(&outcome.parameters).0[k]),
+            Some((error, _)) => {
+                let (low, high) = range(error);
+                format!("{} to {}", percent(low), percent(high))
+            }
+        };
+        table.row::<{ 1 + 2 * MEAN_ERRORS.len() }>(std::array::from_fn(cell));
     }
     format!(
-        "{}\nMeasured minus estimated, mean over the straight walks of the subjects, each subject counted once. The other components have no mean \
-         error that also a person and a laboratory left out has.\n",
+        "{}\nMeasured minus estimated, mean over the subjects, each subject counted once: up and forward over all walks with markers on the trunk, outwards and \
+         along over the straight ones. The descent is that of the mass centre at the strike, 0 as usual, 0.85 at most (`ambulo::ground::predict::strike_descents`).\n",
         table.text()
     )
 }

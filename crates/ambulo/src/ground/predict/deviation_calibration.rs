@@ -1,10 +1,15 @@
 //! Calibrates the standard deviations of the prediction with measured errors.
 //!
-//!   σ² = (k σ_estimate)² + floor²
+//!   σ² = (k σ_estimate)² + floor² + (a m)² + (b F_side)²
 //!
 //! The estimate assumes independent evidence and exact models; k and the floor correct its deviation, component by component, by the
 //! errors relative to force plates. For forces they depend on the elapsed share of the stance, because the strike is known worst: one pair for
 //! each fifth, linear between their middles. Fitted to people whose laboratory was left out, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
+//!
+//! The last two terms come from the trial itself. m is what the estimate leaves of the force that the motion requires, low-passed, rms over the
+//! stance ([`super::misfit`]): motion that contradicts itself, for want of markers or because it is fast, gives larger errors. F_side is the sideways force, for the force
+//! forward and sideways: in a turn both depend on the direction of the foot's path. a and b were chosen by the likelihood of the errors of all
+//! people, among 0, 0.3, 0.5, 0.8 and 0, 0.06, 0.1, 0.14.
 
 /// Factor k and floor for the standard deviation of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +53,10 @@ pub struct DeviationCalibration {
     pub center: [DeviationScaling; 2],
     /// Free moment.
     pub free_moment: DeviationScaling,
+    /// a: share of what the estimate leaves of the required force in a stance.
+    pub of_misfit: f64,
+    /// b: share of the sideways force, forward and sideways.
+    pub of_sideways: f64,
 }
 
 impl DeviationCalibration {
@@ -56,8 +65,19 @@ impl DeviationCalibration {
         force: [[DeviationScaling::UNSCALED; 5]; 3],
         center: [DeviationScaling::UNSCALED; 2],
         free_moment: DeviationScaling::UNSCALED,
+        of_misfit: 0.0,
+        of_sideways: 0.0,
     };
+
+    /// Variance of the force forward (0), up (1) or sideways (2) that the trial itself shows [N²]: `misfit` is m along this axis, `sideways` F_side [N].
+    pub(super) fn of_trial(&self, axis: usize, misfit: f64, sideways: f64) -> f64 {
+        let of_sideways = if axis == UP { 0.0 } else { self.of_sideways };
+        (self.of_misfit * misfit).powi(2) + (of_sideways * sideways).powi(2)
+    }
 }
+
+/// Index of the upward force.
+const UP: usize = 1;
 
 impl Default for DeviationCalibration {
     fn default() -> DeviationCalibration {
@@ -76,6 +96,14 @@ mod tests {
             let found = scaling_at(&fifths, phase);
             assert!((found.factor - factor).abs() < 1e-12 && (found.floor - 1.0).abs() < 1e-12, "{phase}: {found:?}");
         }
+    }
+
+    #[test]
+    fn what_the_trial_leaves_and_a_sideways_force_are_added_in_squares_not_up_for_the_latter() {
+        let calibration = DeviationCalibration { of_misfit: 0.5, of_sideways: 0.1, ..DeviationCalibration::UNSCALED };
+        let found = [0, 1, 2].map(|axis| calibration.of_trial(axis, 6.0, -40.0));
+        assert_eq!(found, [25.0, 9.0, 25.0]);
+        assert!(DeviationCalibration::UNSCALED.of_trial(0, 6.0, 40.0).abs() < 1e-12);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Parameters of the estimate: standard deviations and lengths, dimensionless or in seconds.
 
 use super::deviation_calibration::{DeviationCalibration, DeviationScaling};
-use super::stance_errors::{StanceCurve, StanceErrors};
+use super::stance_errors::{ErrorsByDescent, StanceCurve, StanceErrors};
 
 /// Fitted parameters of the estimate, from recordings with force plates by `cargo xtask fit-ground`; docs/measured/GROUND_FIT.md has
 /// their leave-one-out errors and sensitivities.
@@ -35,27 +35,37 @@ pub struct FittedParameters {
     /// Lateral distance of the centre of pressure from the middle of the foot [stature].
     pub center_outwards: f64,
     /// Mean errors of the estimate in walking, which are taken off.
-    pub errors: StanceErrors,
+    pub errors: ErrorsByDescent,
     /// Calibration of the standard deviations with measured errors.
     pub calibration: DeviationCalibration,
+}
+
+impl FittedParameters {
+    /// A number that tells these parameters from others: FNV-1a of their digits.
+    #[must_use]
+    pub fn fingerprint(&self) -> u64 {
+        const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+        const PRIME: u64 = 0x0100_0000_01b3;
+        format!("{self:?}").bytes().fold(BASIS, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
+    }
 }
 
 impl Default for FittedParameters {
     fn default() -> FittedParameters {
         FittedParameters {
-            bandwidth_hz: 7.32,
-            force_noise: [0.023, 0.0213, 0.0184],
-            moment_noise: [0.0111, 0.00887, 0.0225],
-            spread: [0.785, 0.778],
-            sideways_spread: 0.0442,
-            sideways_lever: 0.616,
-            strike_push: 0.0444,
-            detail: [0.406, 0.332, 0.454],
-            center_spread: [0.0141, 0.0133],
-            free_moment_spread: 0.00286,
-            center_lean: [0.0904, 0.125],
-            center_ends: [0.0166, 0.403],
-            center_outwards: 0.000559,
+            bandwidth_hz: 7.62,
+            force_noise: [0.0203, 0.0239, 0.018],
+            moment_noise: [0.0132, 0.011, 0.0145],
+            spread: [0.742, 0.809],
+            sideways_spread: 0.0427,
+            sideways_lever: 0.627,
+            strike_push: 0.0374,
+            detail: [0.408, 0.4, 0.418],
+            center_spread: [0.0127, 0.0104],
+            free_moment_spread: 0.0037,
+            center_lean: [0.0832, 0.127],
+            center_ends: [0.0144, 0.431],
+            center_outwards: 0.00282,
             errors: ERRORS,
             calibration: CALIBRATION,
         }
@@ -63,21 +73,39 @@ impl Default for FittedParameters {
 }
 
 /// The mean errors that people and laboratories left out have, too.
-const ERRORS: StanceErrors = StanceErrors {
-    force: [
-        StanceCurve::NONE,
-        StanceCurve::NONE,
+const ERRORS: ErrorsByDescent = ErrorsByDescent {
+    usual: StanceErrors {
+        force: [
+            StanceCurve([
+                0.0, 0.00424, 0.00349, -0.00038, -0.00253, 0.00358, 0.00531, -0.00169, -0.00319, -0.00161, -0.00415,
+                -0.00115, 0.01123, -0.00427, -0.0,
+            ]),
+            StanceCurve([
+                0.0, -0.01417, -0.01072, -0.0049, 0.00205, -0.00018, 0.00254, 0.00526, 0.00538, -0.0181, -0.00552,
+                0.01293, -0.00017, -0.01225, 0.0,
+            ]),
+            StanceCurve([
+                0.0, 0.01102, 0.02073, 0.01821, -0.0002, -0.0032, -0.00308, -0.00376, 0.00298, 0.00393, 0.00566,
+                0.00268, 0.00481, 0.00917, -0.0,
+            ]),
+        ],
+        center: [
+            StanceCurve([
+                -0.00101, -0.00495, -0.00591, -0.00378, -0.00298, -0.00833, -0.01073, -0.00099, 0.00242, -0.00077,
+                -0.00851, -0.00928, -0.00241, 0.00466, 0.003,
+            ]),
+            StanceCurve::NONE,
+        ],
+    },
+    by_descent: [
         StanceCurve([
-            0.00023, 0.00708, 0.01609, 0.0168, -0.00189, -0.00484, -0.00424, -0.0048, 0.00184, 0.00125, 0.00337,
-            -0.00017, 0.00105, 0.00711, -0.00331,
+            0.0, 0.06188, 0.09082, 0.06122, 0.02289, -0.00408, -0.03522, -0.01089, 0.00326, 0.00956, -0.01702,
+            -0.05134, -0.02801, 0.00744, 0.0,
         ]),
-    ],
-    center: [
         StanceCurve([
-            -0.00081, -0.00404, -0.00473, -0.00244, -0.00158, -0.00749, -0.01096, -0.00014, 0.00344, 2e-05, -0.00772,
-            -0.00745, -0.00029, 0.00668, 0.00427,
+            0.0, -0.16254, -0.24906, -0.17144, -0.12418, -0.13146, 0.02458, 0.0216, -0.00628, -0.04288, 0.02838,
+            0.06395, 0.05238, 0.14545, 0.0,
         ]),
-        StanceCurve::NONE,
     ],
 };
 
@@ -85,27 +113,29 @@ const ERRORS: StanceErrors = StanceErrors {
 const CALIBRATION: DeviationCalibration = DeviationCalibration {
     force: [
         [
-            DeviationScaling { factor: 1.35, floor: 0.0113 },
-            DeviationScaling { factor: 0.405, floor: 0.0143 },
-            DeviationScaling { factor: 0.918, floor: 0.0109 },
-            DeviationScaling { factor: 1.32, floor: 0.00569 },
-            DeviationScaling { factor: 1.46, floor: 0.00558 },
+            DeviationScaling { factor: 0.954, floor: 0.0127 },
+            DeviationScaling { factor: 0.459, floor: 0.0 },
+            DeviationScaling { factor: 0.344, floor: 0.0 },
+            DeviationScaling { factor: 0.926, floor: 0.0104 },
+            DeviationScaling { factor: 1.23, floor: 0.00534 },
         ],
         [
-            DeviationScaling { factor: 2.82, floor: 0.0453 },
-            DeviationScaling { factor: 1.62, floor: 0.0313 },
-            DeviationScaling { factor: 1.63, floor: 0.0168 },
-            DeviationScaling { factor: 1.61, floor: 0.0358 },
-            DeviationScaling { factor: 1.25, floor: 0.0681 },
+            DeviationScaling { factor: 2.26, floor: 0.0559 },
+            DeviationScaling { factor: 0.3, floor: 0.0326 },
+            DeviationScaling { factor: 1.68, floor: 0.0027 },
+            DeviationScaling { factor: 1.6, floor: 0.027 },
+            DeviationScaling { factor: 1.6, floor: 0.0423 },
         ],
         [
-            DeviationScaling { factor: 1.62, floor: 0.00164 },
-            DeviationScaling { factor: 1.58, floor: 0.0 },
-            DeviationScaling { factor: 0.471, floor: 0.00418 },
-            DeviationScaling { factor: 1.88, floor: 0.00146 },
-            DeviationScaling { factor: 0.832, floor: 0.00439 },
+            DeviationScaling { factor: 0.5, floor: 0.0146 },
+            DeviationScaling { factor: 1.05, floor: 0.00375 },
+            DeviationScaling { factor: 0.3, floor: 0.0 },
+            DeviationScaling { factor: 1.0, floor: 0.01 },
+            DeviationScaling { factor: 0.556, floor: 0.00266 },
         ],
     ],
-    center: [DeviationScaling { factor: 1.23, floor: 0.00572 }, DeviationScaling { factor: 0.876, floor: 0.00269 }],
-    free_moment: DeviationScaling { factor: 0.923, floor: 0.00256 },
+    center: [DeviationScaling { factor: 0.614, floor: 0.0133 }, DeviationScaling { factor: 0.71, floor: 0.00482 }],
+    free_moment: DeviationScaling { factor: 0.684, floor: 0.0025 },
+    of_misfit: 0.5,
+    of_sideways: 0.1,
 };

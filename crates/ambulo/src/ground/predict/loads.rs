@@ -8,14 +8,14 @@ use super::geometry::nearest_on_sole;
 use super::normal_equations::Solution;
 use super::samples::{ComponentSample, EstimateInputs, frames_of, sample};
 use super::stances::{GaitType, Stance};
-use super::unknowns::{Curve, Unknowns};
+use super::unknowns::Curve;
 use crate::model::Side;
 use crate::spatial::Vec3;
 
 /// Smallest vertical force by which a moment is divided to get the centre of pressure [body weights].
 const LEAST_LOAD: f64 = 0.05;
 
-/// Deviations were calibrated on walks; errors of the one available run are about three times larger (docs/measured/VALIDATION.md).
+/// Deviations were calibrated on walks; errors of the one available run are larger by this factor (docs/measured/VALIDATION.md).
 const RUN_DEVIATION: f64 = 3.0;
 
 /// Loads of one foot, one entry per frame.
@@ -30,13 +30,43 @@ pub(super) struct FootLoads {
     pub(super) deviation: FootDeviation,
 }
 
-/// Loads of one foot in every frame; zero in swing.
+/// The estimate of a stance in one frame.
+#[derive(Debug, Clone)]
+pub(super) struct FrameEstimate {
+    /// Expected centre of pressure [m].
+    center: Vec3,
+    /// In the order of [`super::expected::Component::ALL`].
+    parts: [Estimate; 6],
+}
+
+impl FrameEstimate {
+    /// The force [N].
+    pub(super) fn force(&self, [forward, up, right]: [Vec3; 3]) -> Vec3 {
+        forward * self.parts[0].value + up * self.parts[1].value + right * self.parts[2].value
+    }
+}
+
+/// The estimate of a stance in each of its frames ([`frames_of`]).
+pub(super) fn stance_estimates(
+    inputs: &EstimateInputs<'_>,
+    expectation: &Expectation<'_>,
+    curves: &[Curve; 6],
+    solution: &Solution,
+) -> Vec<FrameEstimate> {
+    let of_frame = |frame: usize| {
+        let at = sample(inputs, expectation, curves, frame);
+        let parts = std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
+        FrameEstimate { center: at.center, parts }
+    };
+    frames_of(inputs, expectation.stance).map(of_frame).collect()
+}
+
+/// Loads of one foot in every frame; zero in swing. Estimates and misfits have one entry per stance.
 pub(super) fn loads(
     side: Side,
     inputs: &EstimateInputs<'_>,
-    expectations: &[Expectation<'_>],
-    unknowns: &Unknowns,
-    solution: &Solution,
+    estimates: &[Vec<FrameEstimate>],
+    misfits: &[[f64; 3]],
 ) -> FootLoads {
     let frames = inputs.grid.frames;
     let zeros = || vec![Vec3::zeros(); frames];
@@ -47,16 +77,14 @@ pub(super) fn loads(
         height: vec![0.0; frames],
         deviation: FootDeviation { side, force: zeros(), center: zeros(), free_moment: vec![0.0; frames] },
     };
-    for (expectation, curves) in expectations.iter().zip(&unknowns.curves).filter(|(e, _)| e.stance.side == side) {
-        let stance = expectation.stance;
-        for frame in frames_of(inputs, stance) {
-            let at = sample(inputs, expectation, curves, frame);
-            let mut estimates: [Estimate; 6] =
-                std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
+    let own = inputs.stances.iter().zip(estimates).zip(misfits).filter(|((stance, _), _)| stance.side == side);
+    for ((stance, estimates), misfit) in own {
+        for (frame, at) in frames_of(inputs, stance).zip(estimates) {
+            let mut parts = at.parts.clone();
             let phase = stance.elapsed_share(inputs.grid.time(frame));
-            let center_error = inputs.take_errors_off(stance, phase, &mut estimates);
-            let [forward, up, right, about_forward, about_up, about_right] = estimates;
-            let axes = [stance.forward, inputs.body_scale.up, stance.right];
+            let center_error = inputs.take_errors_off(stance, phase, &mut parts);
+            let [forward, up, right, about_forward, about_up, about_right] = parts;
+            let axes = stance.axes(inputs.body_scale.up);
             let vertical = up.value.max(LEAST_LOAD * inputs.body_scale.weight_n);
             out.force[frame] = axes[0] * forward.value + axes[1] * up.value + axes[2] * right.value;
             out.center[frame] = match inputs.prescribed.center_at(side, frame) {
@@ -79,7 +107,8 @@ pub(super) fn loads(
             let weight = inputs.body_scale.weight_n;
             let calibration = &inputs.parameters.calibration;
             let spread = |axis: usize, of: &Estimate| {
-                remaining * scaling_at(&calibration.force[axis], phase).variance(of.variance, weight)
+                let scaled = scaling_at(&calibration.force[axis], phase).variance(of.variance, weight);
+                remaining * (scaled + calibration.of_trial(axis, misfit[axis], right.value))
             };
             deviation.force[frame] =
                 rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;
@@ -100,7 +129,7 @@ impl EstimateInputs<'_> {
         }
         let (side, errors) = (stance.side, &self.parameters.errors);
         let own = self.person.map_or(([0.0; 3], [0.0; 2]), |p| (p.force(side, phase), p.center(side, phase)));
-        let (force, center) = (errors.force(side, phase), errors.center(side, phase));
+        let (force, center) = (errors.force(side, phase, stance.descent), errors.usual.center(side, phase));
         for (of, error) in estimates.iter_mut().zip((0..3).map(|axis| force[axis] + own.0[axis])) {
             of.value += error * self.body_scale.weight_n;
         }
@@ -117,12 +146,13 @@ impl EstimateInputs<'_> {
     }
 }
 
-/// Whether the mean errors are those of a stance: they were learned in walking that strikes with the heel.
+/// Whether the mean errors are those of a stance: they were learned in walking on even ground that strikes with the heel.
 fn repeats(stance: &Stance) -> bool {
-    stance.gait == GaitType::Walk && stance.heel_down_s.is_none()
+    stance.gait == GaitType::Walk && stance.heel_down_s.is_none() && !stance.on_stairs
 }
 
 /// Value and variance of a component.
+#[derive(Debug, Clone)]
 struct Estimate {
     value: f64,
     variance: f64,

@@ -9,12 +9,13 @@
 mod center_path;
 mod deviation_calibration;
 mod estimate;
+mod evidence_filter;
 mod expected;
 mod fitted_parameters;
 mod forefoot;
-mod gaussian_filter;
 mod geometry;
 mod loads;
+mod misfit;
 mod normal_equations;
 mod personal;
 mod prescribed;
@@ -22,6 +23,7 @@ mod samples;
 mod stance_curves;
 mod stance_errors;
 mod stances;
+mod strike_descent;
 mod total;
 mod unilateral;
 mod unknowns;
@@ -34,6 +36,7 @@ use crate::kinematics::Trajectory;
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
+use crate::motion::filter::LowPass;
 use crate::spatial::{Vec3, Wrench};
 pub use deviation_calibration::{ByFifth, DeviationCalibration, DeviationScaling, scaling_at};
 use estimate::estimate;
@@ -43,9 +46,12 @@ pub use personal::{OtherPerson, PersonalErrors};
 pub use prescribed::Prescribed;
 use samples::EstimateInputs;
 use stance_curves::StanceCurves;
-pub use stance_errors::{ErrorSample, KNOTS, REPEATS, StanceCurve, StanceErrors, outwards_sign, trusted};
+pub use stance_errors::{
+    Ends, ErrorSample, ErrorsByDescent, KNOTS, REPEATS, StanceCurve, StanceErrors, outwards_sign, trusted,
+};
 use stances::{BodyScale, stances};
 use std::ops::Range;
+pub use strike_descent::strike_descents;
 pub use total::total_wrench;
 use unilateral::enforce_unilateral_contact;
 
@@ -131,6 +137,8 @@ pub struct PredictSettings {
     pub parameters: FittedParameters,
     /// Calibration of the person by trials on force plates.
     pub person: Option<PersonalErrors>,
+    /// The low-pass filter that the motion has passed; `None` if it was not filtered.
+    pub motion_filter: Option<LowPass>,
 }
 
 /// Why forces cannot be predicted.
@@ -172,6 +180,16 @@ pub enum PredictError {
     /// A calibration of somebody else.
     #[error(transparent)]
     OtherPerson(#[from] OtherPerson),
+    /// A calibration whose errors are those of another estimate.
+    #[error(
+        "the calibration of the person has the errors of another estimate ({found:016x}); expected those of this one ({expected:016x})"
+    )]
+    OtherEstimator {
+        /// Fingerprint of its parameters.
+        found: u64,
+        /// Fingerprint of the parameters in use.
+        expected: u64,
+    },
     /// Built-in curves that cannot be read.
     #[error("the built-in normative curves cannot be read: {message}")]
     Curves {
@@ -261,7 +279,13 @@ pub fn predict(
     };
     let total = settings.prescribed.total(total_wrench(model, trajectory));
     let body_scale = body_scale(model)?;
-    settings.person.as_ref().map_or(Ok(()), |person| person.check(model))?;
+    if let Some(person) = &settings.person {
+        person.check(model)?;
+        let (found, expected) = (person.estimator, settings.parameters.fingerprint());
+        if found != expected {
+            return Err(PredictError::OtherEstimator { found, expected });
+        }
+    }
     let curves = StanceCurves::built_in().map_err(|e| PredictError::Curves { message: e.to_string() })?;
     let geometry = Geometry::new(model, trajectory, &soles);
     let stances = stances(&footfalls, trajectory.grid(), &geometry, &body_scale, curves);
@@ -275,6 +299,7 @@ pub fn predict(
         parameters: &settings.parameters,
         prescribed: &settings.prescribed,
         person: settings.person.as_ref(),
+        motion_filter: settings.motion_filter,
     };
     let mut feet = estimate(&inputs, curves)?;
     let up = body_scale.up;

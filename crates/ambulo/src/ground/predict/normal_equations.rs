@@ -1,11 +1,11 @@
 //! The normal equations of the estimate, from prior and evidence.
 
 use super::PredictError;
+use super::evidence_filter::EvidenceFilters;
 use super::expected::Expectation;
-use super::gaussian_filter::GaussianFilter;
-use super::samples::{EstimateInputs, StanceSamples, frames_of};
+use super::samples::{EstimateInputs, StanceSample, StanceSamples, frames_of};
 use super::stances::Stance;
-use super::unknowns::Unknowns;
+use super::unknowns::{Curve, Unknowns};
 use crate::numerics::BandMatrix;
 use crate::spatial::{Vec3, Wrench};
 
@@ -30,7 +30,7 @@ pub(super) struct NormalEquations<'a> {
     pub(super) unknowns: &'a Unknowns,
     /// One entry per stance.
     pub(super) expectations: &'a [Expectation<'a>],
-    pub(super) filter: &'a GaussianFilter,
+    pub(super) filters: &'a EvidenceFilters,
 }
 
 /// Six equations of a frame: forces and moments along three axes.
@@ -40,12 +40,36 @@ struct Rows {
     coefficients: [Vec<f64>; 6],
 }
 
+impl Rows {
+    /// Adds the wrench of a stance in one frame, with a weight: some rows of its mean and of the influence of its unknowns. `first` is the unknown of
+    /// the first coefficient.
+    fn add(
+        &mut self,
+        chosen: &[usize],
+        sample: &StanceSample,
+        curves: &[Curve; 6],
+        axes: &[Vec3; 3],
+        weight: f64,
+        first: usize,
+    ) {
+        let expected = along(&sample.expected, axes);
+        chosen.iter().for_each(|&row| self.rest[row] -= weight * expected[row]);
+        for (part, curve) in sample.parts.iter().zip(curves) {
+            let slopes = along(&part.unit, axes).map(|x| x * part.deviation * weight);
+            let (k, values) = part.active;
+            for (number, value) in curve.numbers[k..].iter().zip(values) {
+                chosen.iter().for_each(|&row| self.coefficients[row][number - first] += slopes[row] * value);
+            }
+        }
+    }
+}
+
 impl NormalEquations<'_> {
     /// # Errors
     /// Equations that are too large, or have no solution (which happens only with numbers that are not finite).
     pub(super) fn solve(&self) -> Result<Solution, PredictError> {
         let grid = self.inputs.grid;
-        let stride = self.filter.stride;
+        let stride = self.filters.gaussian.stride;
         let every = stride * ((OBSERVED_EVERY_S / grid.step_s / stride as f64).round() as usize).max(1);
         let instants = || (0..grid.frames).step_by(every);
         let ranges: Vec<Option<[usize; 2]>> = instants().map(|frame| self.range(grid.time(frame))).collect();
@@ -86,7 +110,7 @@ impl NormalEquations<'_> {
 
     /// Lowest and highest index of the unknowns that influence the filtered wrench at a time.
     fn range(&self, time: f64) -> Option<[usize; 2]> {
-        let reach = self.filter.reach_s(self.inputs.grid);
+        let reach = self.filters.longest().reach_s(self.inputs.grid);
         let [from, to] = [time - reach, time + reach];
         let near = self.inputs.stances.iter().zip(&self.unknowns.curves);
         let near = near.filter(|(stance, _)| stance.end_s >= from && stance.start_s <= to);
@@ -99,12 +123,12 @@ impl NormalEquations<'_> {
         let apart = |s: &Stance| (s.start_s - time).max(time - s.end_s);
         let nearest = self.inputs.stances.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
         let up = self.inputs.body_scale.up;
-        nearest.map_or([Vec3::x(), up, Vec3::z()], |s| [s.forward, up, s.right])
+        nearest.map_or([Vec3::x(), up, Vec3::z()], |s| s.axes(up))
     }
 
     /// Samples the stances within the filter around a frame, and forgets the others: a long recording has many.
     fn sample_near(&self, frame: usize, samples: &mut [Option<StanceSamples>]) {
-        let reach = self.filter.reach_frames();
+        let reach = self.filters.longest().reach_frames();
         let (from, to) = (frame.saturating_sub(reach), frame + reach);
         let stances = self.expectations.iter().zip(&self.unknowns.curves);
         for (samples, (expectation, curves)) in samples.iter_mut().zip(stances) {
@@ -112,7 +136,7 @@ impl NormalEquations<'_> {
             if frames.start > to || frames.end <= from {
                 *samples = None;
             } else if samples.is_none() {
-                *samples = Some(StanceSamples::new(self.inputs, expectation, curves, self.filter.stride));
+                *samples = Some(StanceSamples::new(self.inputs, expectation, curves, self.filters.gaussian.stride));
             }
         }
     }
@@ -125,30 +149,29 @@ impl NormalEquations<'_> {
             row.resize(count, 0.0);
         }
         let axes = self.axes(grid.time(frame));
-        let mut rest = Wrench::ZERO;
-        for (tap, weight) in self.filter.around(frame, grid.frames) {
-            add(&mut rest, &self.inputs.about_mass_center(tap), weight);
-            for (samples, curves) in samples.iter().zip(&self.unknowns.curves) {
-                let Some(sample) = samples.as_ref().and_then(|samples| samples.at(tap)) else { continue };
-                add(&mut rest, &sample.expected, -weight);
-                for (part, curve) in sample.parts.iter().zip(curves) {
-                    let slopes = along(&part.unit, &axes).map(|x| x * part.deviation * weight);
-                    let (k, values) = part.active;
-                    for (number, value) in curve.numbers[k..].iter().zip(values) {
-                        for (row, slope) in rows.coefficients.iter_mut().zip(slopes) {
-                            row[number - first] += slope * value;
-                        }
+        let mut required = Wrench::ZERO;
+        for (tap, weight) in self.filters.gaussian.around(frame, grid.frames) {
+            add(&mut required, &self.inputs.about_mass_center(tap), weight);
+        }
+        rows.rest = along(&required, &axes);
+        for (filter, passing) in self.filters.estimated() {
+            let near = samples.iter().zip(&self.unknowns.curves).zip(self.inputs.stances);
+            let near = near.filter_map(|((samples, curves), stance)| Some((samples.as_ref()?, curves, stance)));
+            for (samples, curves, stance) in near {
+                let passing = passing(stance.gait);
+                for (tap, weight) in filter.around(frame, grid.frames).filter(|_| !passing.is_empty()) {
+                    if let Some(sample) = samples.at(tap) {
+                        rows.add(passing, sample, curves, &axes, weight, first);
                     }
                 }
             }
         }
-        rows.rest = along(&rest, &axes);
     }
 
     /// Standard deviations of the six equations at a time [N, N.m].
     fn noise(&self, time: f64) -> [f64; 6] {
         let EstimateInputs { grid, body_scale, parameters, .. } = *self.inputs;
-        let reach = self.filter.reach_s(grid);
+        let reach = self.filters.gaussian.reach_s(grid);
         let at_end = time - grid.start_s < reach || grid.end_s() - time < reach;
         let scale = body_scale.weight_n * if at_end { AT_THE_ENDS } else { 1.0 };
         std::array::from_fn(|row| match row {

@@ -28,6 +28,8 @@ pub struct PersonalErrors {
     pub stances: BySide<usize>,
     /// Measured minus estimated, mean over these stances.
     pub errors: BySide<StanceErrors>,
+    /// Of which estimate: [`FittedParameters::fingerprint`](super::FittedParameters::fingerprint).
+    pub estimator: u64,
 }
 
 /// A person that is not the calibrated one.
@@ -97,8 +99,8 @@ impl PersonalErrors {
         let mut text = format!(
             "# What force plates have shown about the ground forces that are predicted for a person: docs/GROUND_FORCES.md.\n\
              # Measured minus predicted over the stance: forces in body weights, centre of pressure in statures.\n\
-             mass_kg = {:.4}\nstature_m = {:.4}\nleg_length_m = {:.4}\nstances = [{}, {}] # right, left\n",
-            self.mass_kg, self.stature_m, self.leg_length_m, self.stances.right, self.stances.left
+             mass_kg = {:.4}\nstature_m = {:.4}\nleg_length_m = {:.4}\nstances = [{}, {}] # right, left\nestimator = \"{:016x}\"\n",
+            self.mass_kg, self.stature_m, self.leg_length_m, self.stances.right, self.stances.left, self.estimator
         );
         for (side, errors) in self.errors.iter() {
             let _ = write!(text, "\n[{side}]\n");
@@ -119,7 +121,7 @@ impl PersonalErrors {
         let source = Source::new(text, DOCUMENT);
         let parsed = source.parse()?;
         let root = Table::root(&source, &parsed);
-        root.only(&[&["mass_kg", "stature_m", "leg_length_m", "stances", "right", "left"]])?;
+        root.only(&[&["mass_kg", "stature_m", "leg_length_m", "stances", "estimator", "right", "left"]])?;
         let size = |key: &str, what: &str| root.need(key, what)?.above_zero();
         let count = "stances of the right and the left foot";
         let stances = root.need("stances", count)?;
@@ -127,6 +129,9 @@ impl PersonalErrors {
         if ![right, left].iter().all(|n| (0.0..1e6).contains(n) && n.fract() == 0.0) || right + left < 1.0 {
             return Err(stances.wrong("two whole numbers, one of them at least 1"));
         }
+        let of_estimator = root.need("estimator", "the estimate whose errors these are, 16 hexadecimal digits")?;
+        let estimator =
+            u64::from_str_radix(of_estimator.text()?, 16).map_err(|_| of_estimator.wrong("16 hexadecimal digits"))?;
         let foot = |side: &str| -> Result<StanceErrors, TomlError> {
             let table = root.need(side, "the curves of this foot")?.table("the curves of this foot")?;
             table.only(&[&KEYS])?;
@@ -145,6 +150,7 @@ impl PersonalErrors {
             leg_length_m: size("leg_length_m", "the length of a leg [m]")?,
             stances: BySide { right: right as usize, left: left as usize },
             errors: BySide { right: foot("right")?, left: foot("left")? },
+            estimator,
         })
     }
 }
@@ -164,6 +170,7 @@ mod tests {
             leg_length_m: 0.91,
             stances: BySide { right: 2, left: 0 },
             errors: BySide { right: errors, left: StanceErrors::default() },
+            estimator: 0x00ab_cdef_0123_4567,
         }
     }
 
@@ -183,6 +190,7 @@ mod tests {
             ("up = [0.000000, ", "up = [", "15"),
             ("[left]", "[middle]", "middle"),
             ("outwards = ", "sideways = ", "sideways"),
+            ("estimator = \"00ab", "estimator = \"none", "hexadecimal"),
         ] {
             let error = PersonalErrors::from_toml(&text.replacen(from, to, 1)).unwrap_err().to_string();
             assert!(error.contains(expected), "{expected}: {error}");

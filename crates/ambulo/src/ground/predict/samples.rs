@@ -11,6 +11,7 @@ use super::unknowns::{ActiveSplines, Curve};
 use super::zero_moment_point::{share_along_soles, zero_moment_point};
 use crate::model::BySide;
 use crate::motion::TimeGrid;
+use crate::motion::filter::LowPass;
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
@@ -27,6 +28,8 @@ pub(super) struct EstimateInputs<'a> {
     pub(super) parameters: &'a FittedParameters,
     pub(super) prescribed: &'a Prescribed,
     pub(super) person: Option<&'a PersonalErrors>,
+    /// The filter that the motion has passed.
+    pub(super) motion_filter: Option<LowPass>,
 }
 
 impl EstimateInputs<'_> {
@@ -137,7 +140,7 @@ pub(super) fn sample(
     let center = inputs.expected_center(stance, frame);
     let lever = inputs.geometry.center[frame] - center;
     let arm = -lever;
-    let axes = [stance.forward, inputs.body_scale.up, stance.right];
+    let axes = stance.axes(inputs.body_scale.up);
     let means = expectation.all(time, lever);
     let mut expected = Wrench::ZERO;
     let parts = std::array::from_fn(|c| {

@@ -3,6 +3,7 @@
 use super::forefoot::heel_down;
 use super::geometry::Geometry;
 use super::stance_curves::{AtSpeed, StanceCurves};
+use super::strike_descent::{CenterVelocity, Strike, descents};
 use crate::ground::footfalls::{Footfall, Footfalls};
 use crate::model::Side;
 use crate::motion::TimeGrid;
@@ -13,6 +14,8 @@ use crate::spatial::Vec3;
 const USUAL_STANCE: f64 = 2.1;
 /// A longer stance is standing, not a step, in √(L/g): in very slow walking (V* = 0.17) it is 68 % of a cycle of 5.9.
 const LONGEST_STEP: f64 = 6.0;
+/// Steps of stairs differ by more than this [m]: half the rise of a usual step, as in docs/ACTIVITY.md.
+const LEAST_RISE_M: f64 = 0.08;
 /// Below this share of √(g L) the body stands still.
 const UNDER_WAY: f64 = 0.08;
 
@@ -44,6 +47,10 @@ pub(super) struct Stance {
     pub(super) gait: GaitType,
     /// Until when the foot stands on its forefoot alone after a strike with the forefoot; `None` after a strike with the heel [s].
     pub(super) heel_down_s: Option<f64>,
+    /// Whether the stance before or after it is on another step of stairs.
+    pub(super) on_stairs: bool,
+    /// How much more than usual the mass centre descends at the strike ([`super::strike_descent`]).
+    pub(super) descent: f64,
     /// Time [s] and phase of strike, other foot's off, other foot's strike, and off.
     knots: Vec<[f64; 2]>,
 }
@@ -73,6 +80,11 @@ impl BodyScale {
 }
 
 impl Stance {
+    /// Forward, up, right.
+    pub(super) fn axes(&self, up: Vec3) -> [Vec3; 3] {
+        [self.forward, up, self.right]
+    }
+
     pub(super) fn duration_s(&self) -> f64 {
         self.end_s - self.start_s
     }
@@ -122,6 +134,16 @@ pub(super) fn stances(
         out.push(stance(fall, [*start_s, *end_s], &others, grid, geometry, body_scale, curves));
     }
     out.sort_by(|a, b| a.start_s.total_cmp(&b.start_s));
+    let strikes: Vec<Strike> =
+        out.iter().map(|stance| Strike { time_s: Some(stance.start_s), height_m: stance.height_m }).collect();
+    let center = CenterVelocity { grid, velocity: &geometry.velocity };
+    let found = descents(&strikes, center, body_scale.up, body_scale.leg_speed_m_s);
+    out.iter_mut().zip(found).for_each(|(stance, descent)| stance.descent = descent);
+    let rises: Vec<bool> =
+        out.windows(2).map(|pair| (pair[1].height_m - pair[0].height_m).abs() > LEAST_RISE_M).collect();
+    for (i, stance) in out.iter_mut().enumerate() {
+        stance.on_stairs = rises.get(i).is_some_and(|rise| *rise) || (i > 0 && rises[i - 1]);
+    }
     out
 }
 
@@ -199,6 +221,8 @@ fn stance(
             .strike_s
             .and_then(|_| heel_down(&geometry.feet[fall.side][first..=last], body_scale.up))
             .map(|frames| grid.time(first + frames)),
+        on_stairs: false,
+        descent: 0.0,
         knots,
     }
 }
@@ -224,6 +248,8 @@ impl Stance {
             speed: 0.4,
             gait: GaitType::Walk,
             heel_down_s,
+            on_stairs: false,
+            descent: 0.0,
             knots: vec![[start_s, 0.0], [end_s, 1.0]],
         }
     }

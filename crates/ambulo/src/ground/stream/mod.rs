@@ -210,7 +210,12 @@ impl Stream {
         self.step_timing.update(&footfalls);
         self.step_timing.extrapolate(&mut footfalls, trajectory.grid());
         let prescribed = Prescribed { footfalls: Some(footfalls), ..Prescribed::default() };
-        let settings = PredictSettings { prescribed, parameters: self.parameters, person: None };
+        let settings = PredictSettings {
+            prescribed,
+            parameters: self.parameters,
+            person: None,
+            motion_filter: self.smoother.low_pass(),
+        };
         let prediction = predict(&self.model, &trajectory, &self.soles, &settings, &mut findings)?;
         self.findings = findings;
         Ok(Some((trajectory, prediction)))
