@@ -13,7 +13,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<Completion> {
     let page = page(&args.page)?;
     // The browser may run in another folder.
     let page = page.canonicalize().unwrap_or(page);
-    let opened = has_screen() && open::that_detached(&page).is_ok();
+    let opened = has_screen() && open(&page);
     printer::view(&page, opened, args.print)?;
     Ok(Completion::Passed)
 }
@@ -40,6 +40,18 @@ fn page(path: &Path) -> Result<PathBuf> {
         ),
         _ => bail!("{shown}: this is not a page; expected a result folder or .html"),
     }
+}
+
+/// Opens a page in the browser; returns whether one was found.
+#[cfg(not(target_family = "wasm"))]
+fn open(page: &Path) -> bool {
+    open::that_detached(page).is_ok()
+}
+
+/// Inside a browser there is none to start.
+#[cfg(target_family = "wasm")]
+fn open(_: &Path) -> bool {
+    false
 }
 
 /// Whether a browser could show a page. On Linux without a display, a text browser would open in the terminal.
