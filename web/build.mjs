@@ -1,0 +1,114 @@
+// Builds the page into a folder that any static host can serve: `node web/build.mjs PROGRAM.wasm FOLDER`. The tools are those of viewer/.
+//
+// Every file but three has a hash of its content in its name, so a browser never mixes two versions: index.html, the manifest and the
+// service worker keep theirs.
+import { createHash } from "node:crypto";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, extname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const data = join(here, "../crates/ambulo-report/data/report");
+const { build } = createRequire(join(here, "../viewer/package.json"))("esbuild");
+
+const [program, folder] = process.argv.slice(2);
+if (!folder) {
+  throw new Error("usage: node web/build.mjs PROGRAM.wasm FOLDER");
+}
+
+/** Files of the page by name. */
+const files = new Map();
+
+/** Adds a file under a name with its hash; returns the name. */
+function add(name, content) {
+  const hash = createHash("sha256").update(content).digest("hex").slice(0, 12);
+  const end = extname(name);
+  const full = `${name.slice(0, name.length - end.length)}-${hash}${end}`;
+  files.set(full, content);
+  return full;
+}
+
+/** One script with the sources that it imports; `define` gives its constants. */
+async function script(entry, define = {}, format = "iife") {
+  const result = await build({
+    absWorkingDir: here,
+    entryPoints: [`src/${entry}.ts`],
+    write: false,
+    bundle: true,
+    minify: true,
+    format,
+    target: ["es2022"],
+    define: Object.fromEntries(Object.entries(define).map(([name, value]) => [name, JSON.stringify(value)])),
+  });
+  return Buffer.from(result.outputFiles[0].contents);
+}
+
+/** The colours of the report page. */
+function colours() {
+  const style = JSON.parse(readFileSync(join(data, "style.json"), "utf8"));
+  const names = { paper: style.paper, text: style.text, quiet: style.quiet, accent: style.right, bad: style.infeasible, control: style.quiet };
+  const rules = (key) =>
+    `:root{${Object.entries(names)
+      .map(([name, colour]) => `--${name}:${colour[key]}`)
+      .join(";")}}`;
+  return `${rules("color")}\n@media (prefers-color-scheme: dark){${rules("dark")}}\n`;
+}
+
+/** What the page may do until the program is loaded; engine.ts forbids the rest then. The report's own script is known by its hash. */
+function policy() {
+  const report = createHash("sha256").update(readFileSync(join(data, "viewer.js"))).digest("base64");
+  return [
+    "default-src 'none'",
+    `script-src 'self' 'wasm-unsafe-eval' 'sha256-${report}'`,
+    "style-src 'self' 'unsafe-inline'",
+    "img-src 'self' data: blob:",
+    "font-src data:",
+    "connect-src 'self'",
+    "manifest-src 'self'",
+    "worker-src 'self' blob:",
+    "frame-src blob:",
+    "form-action 'none'",
+    "base-uri 'none'",
+  ].join("; ");
+}
+
+const icon = add("icon.svg", readFileSync(join(here, "icon.svg")));
+const manifest = {
+  name: "Ambulo",
+  description: "Motion in, forces out: computed in the browser.",
+  start_url: "./",
+  display: "standalone",
+  background_color: "#ffffff",
+  icons: [{ src: icon, sizes: "any", type: "image/svg+xml" }],
+};
+files.set("manifest.webmanifest", JSON.stringify(manifest));
+const names = {
+  PROGRAM: add("ambulo.wasm", readFileSync(program)),
+  WORKER: add("worker.js", await script("worker")),
+  OFFLINE: "offline.js",
+};
+const places = {
+  policy: policy(),
+  icon,
+  manifest: "manifest.webmanifest",
+  style: add("style.css", colours() + readFileSync(join(here, "src/style.css"), "utf8")),
+  script: add("main.js", await script("main", names, "esm")),
+};
+const html = readFileSync(join(here, "index.html"), "utf8").replace(/\{(\w+)\}/g, (_, name) => places[name]);
+files.set("index.html", html);
+const version = createHash("sha256").update([...files.keys()].join()).update(html).digest("hex").slice(0, 12);
+const kept = ["./", ...files.keys()];
+files.set("offline.js", await script("offline", { CACHE: `ambulo-${version}`, FILES: kept }));
+
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+let bytes = 0;
+for (const [name, content] of files) {
+  writeFileSync(join(folder, name), content);
+  const packed = gzipSync(content, { level: 9 }).length;
+  bytes += packed;
+  console.log(`${name}: ${(packed / 1e3).toFixed(1)} kB compressed`);
+}
+console.log(`${folder}: ${files.size} files, ${(bytes / 1e6).toFixed(2)} MB compressed`);

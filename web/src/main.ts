@@ -1,0 +1,285 @@
+// The page: takes files, runs the command in a worker, shows the report and saves what was computed.
+
+import { Engine, forbidConnections, Stopped } from "./engine";
+import { commandLine, type Dropped, type Named, ROLES, type Role, type Stated, withRoles, wordsFor } from "./files";
+import type { Ended, Files } from "./wasi";
+import { zip } from "./zip";
+
+/** Names of the files that this page loads, given by build.mjs. */
+declare const PROGRAM: string;
+declare const WORKER: string;
+declare const OFFLINE: string;
+
+/** The folder in which the command writes its results. */
+const OUT = "out/";
+const REPORT = "report.html";
+const DEMO = ["demo", "-o", "out"];
+/** Only so much may the report do; it cannot reach this page. */
+const SANDBOX = "allow-scripts allow-downloads allow-modals allow-popups";
+
+/** A result that is shown and can be saved. */
+interface Shown {
+  /** For the names of saved files. */
+  name: string;
+  report: Uint8Array | undefined;
+  /** Files of the result folder. */
+  files: Files;
+}
+
+function byId<T extends HTMLElement = HTMLElement>(id: string): T {
+  const found = document.getElementById(id);
+  if (!found) {
+    throw new Error(`no element ${id}`);
+  }
+  return found as T;
+}
+
+const field = (id: string): HTMLInputElement => byId<HTMLInputElement>(id);
+const control = (id: string): HTMLButtonElement => byId<HTMLButtonElement>(id);
+
+/** The page's state. */
+class Page {
+  private engine: Engine | undefined;
+  private files: Dropped[] = [];
+  /** Roles that the visitor chose, by file. */
+  private readonly chosen = new Map<string, Role>();
+  private shown: Shown | undefined;
+  private running = false;
+
+  constructor() {
+    field("files").addEventListener("change", () => {
+      this.add([...(field("files").files ?? [])]);
+      field("files").value = "";
+    });
+    this.takeDrops();
+    for (const id of ["mass", "height", "more"]) {
+      field(id).addEventListener("input", () => this.refresh());
+    }
+    byId("options").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.compute();
+    });
+    control("demo").addEventListener("click", () => this.demo());
+    control("stop").addEventListener("click", () => this.engine?.stop());
+    control("toggle").addEventListener("click", () => this.open(byId("input").classList.contains("closed")));
+    control("save-report").addEventListener("click", () => this.saveReport());
+    control("save-all").addEventListener("click", () => this.saveAll());
+  }
+
+  /** Loads the program, forbids connections, and shows the demo. */
+  async start(): Promise<void> {
+    const [module, script] = await Promise.all([program(), fetch(WORKER).then((answer) => answer.text())]);
+    keepOffline();
+    forbidConnections(document);
+    this.engine = new Engine(module, script);
+    this.refresh();
+    if (this.files.length === 0) {
+      await this.demo();
+    }
+  }
+
+  private takeDrops(): void {
+    const over = (is: boolean) => (event: DragEvent) => {
+      event.preventDefault();
+      document.body.classList.toggle("over", is);
+    };
+    document.addEventListener("dragover", over(true));
+    document.addEventListener("dragleave", over(false));
+    document.addEventListener("drop", (event) => {
+      over(false)(event);
+      this.add([...(event.dataTransfer?.files ?? [])]);
+    });
+  }
+
+  private async add(dropped: File[]): Promise<void> {
+    const read = await Promise.all(
+      dropped.map(async (file): Promise<Named> => {
+        return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
+      }),
+    );
+    const others = this.files.filter(({ name }) => read.every((file) => file.name !== name));
+    await this.take([...others, ...read]);
+    this.open(true);
+  }
+
+  /** Takes these files in place of earlier ones. */
+  private async take(files: Named[]): Promise<void> {
+    const guessed = await withRoles(files, (file) => this.walks(file));
+    this.files = guessed.map((file) => ({ ...file, role: this.chosen.get(file.name) ?? file.role }));
+    this.list();
+    this.refresh();
+  }
+
+  /** Whether a foot strikes or leaves the ground in a recording. What cannot be told is left to the computation. */
+  private async walks({ name, bytes }: Named): Promise<boolean> {
+    if (!this.engine) {
+      return true;
+    }
+    const { code, printed } = await this.engine.run(["events", name, "--json"], new Map([[name, bytes]]));
+    if (code !== 0) {
+      return true;
+    }
+    const { events } = JSON.parse(printed) as { events: { source: string }[] };
+    return events.some(({ source }) => source !== "file");
+  }
+
+  private list(): void {
+    const rows = this.files.map((file) => {
+      const select = document.createElement("select");
+      select.setAttribute("aria-label", `${file.name} is`);
+      select.append(...Object.entries(ROLES).map(([role, words]) => new Option(words, role, false, role === file.role)));
+      select.addEventListener("change", () => {
+        file.role = select.value as Role;
+        this.chosen.set(file.name, file.role);
+        this.refresh();
+      });
+      const remove = document.createElement("button");
+      remove.type = "button";
+      remove.textContent = "Remove";
+      remove.setAttribute("aria-label", `Remove ${file.name}`);
+      remove.addEventListener("click", () => {
+        this.chosen.delete(file.name);
+        this.take(this.files.filter((other) => other !== file));
+        field("files").focus();
+      });
+      const name = document.createElement("span");
+      name.className = "name";
+      name.textContent = file.name;
+      const row = document.createElement("li");
+      row.append(name, select, remove);
+      return row;
+    });
+    byId("list").replaceChildren(...rows);
+  }
+
+  private stated(): Stated {
+    return { mass: field("mass").value, height: field("height").value, more: field("more").value };
+  }
+
+  private refresh(): void {
+    const ready = this.engine !== undefined && !this.running;
+    control("compute").disabled = !ready || this.files.length === 0;
+    control("demo").disabled = !ready;
+    control("stop").hidden = !this.running;
+    control("save-report").disabled = this.running || !this.shown?.report;
+    control("save-all").disabled = this.running || !this.shown;
+    byId("line").textContent = commandLine(this.files.length === 0 ? DEMO : wordsFor(this.files, this.stated()));
+  }
+
+  /** Opens or closes the input, which shares a narrow screen with the result. */
+  private open(is: boolean): void {
+    byId("input").classList.toggle("closed", !is);
+    control("toggle").setAttribute("aria-expanded", String(is));
+  }
+
+  private async demo(): Promise<void> {
+    await this.run(DEMO, new Map(), "demo");
+  }
+
+  private async compute(): Promise<void> {
+    const used = this.files.filter(({ role }) => role !== "unused");
+    const main = used.find(({ role }) => role === "recording") ?? used[0];
+    const files = new Map(used.map(({ name, bytes }) => [name, bytes]));
+    await this.run(wordsFor(used, this.stated()), files, main?.name.replace(/\.[^.]*$/, "") ?? "result");
+  }
+
+  private async run(words: string[], files: Files, name: string): Promise<void> {
+    if (!this.engine || this.running) {
+      return;
+    }
+    this.running = true;
+    const start = performance.now();
+    this.say(`Computing: ${commandLine(words)} ...`);
+    this.refresh();
+    try {
+      const ended = await this.engine.run(words, files);
+      this.running = false;
+      this.show(ended, name, (performance.now() - start) / 1000);
+    } catch (thrown) {
+      this.running = false;
+      this.fail(
+        thrown instanceof Stopped ? "Stopped. The result before is unchanged." : `The program ended early: ${thrown}`,
+      );
+    }
+    this.refresh();
+  }
+
+  private show({ code, printed, complained, files }: Ended, name: string, seconds: number): void {
+    const written = [...files].filter(([path]) => path.startsWith(OUT));
+    const report = written.find(([path]) => path.endsWith(REPORT))?.[1];
+    byId("said").hidden = false;
+    byId("printed").textContent = `${complained}${printed}`.trim();
+    if (code > 1 || written.length === 0) {
+      this.fail(complained.trim() || printed.trim() || `exit code ${code}`);
+      return;
+    }
+    byId("error").hidden = true;
+    this.shown = { name, report, files: new Map(written.map(([path, bytes]) => [path.slice(OUT.length), bytes])) };
+    byId("page").replaceChildren(...(report ? [frame(report, name)] : []));
+    this.say(`${name}: computed in ${seconds.toFixed(1)} s, ${written.length} files.`);
+    this.open(false);
+    document.documentElement.dataset["shown"] = name;
+  }
+
+  private fail(message: string): void {
+    const error = byId("error");
+    error.hidden = false;
+    error.textContent = message;
+    this.say(this.shown ? `Nothing was computed. Below is still: ${this.shown.name}.` : "Nothing was computed.");
+    this.open(false);
+  }
+
+  private say(text: string): void {
+    byId("status").textContent = text;
+  }
+
+  private saveReport(): void {
+    if (this.shown?.report) {
+      save(new Blob([this.shown.report as Uint8Array<ArrayBuffer>], { type: "text/html" }), `${this.shown.name}.html`);
+    }
+  }
+
+  private async saveAll(): Promise<void> {
+    if (this.shown) {
+      save(await zip(this.shown.files), `${this.shown.name}.zip`);
+    }
+  }
+}
+
+/** The program; it compiles while it is loaded, where the host names its type. */
+async function program(): Promise<WebAssembly.Module> {
+  const answer = await fetch(PROGRAM);
+  if (!answer.ok) {
+    throw new Error(`${PROGRAM}: ${answer.status} ${answer.statusText}`);
+  }
+  const isNamed = answer.headers.get("Content-Type") === "application/wasm";
+  return isNamed ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
+}
+
+/** Keeps all files of this page in the browser. Without that, or in a private window, it works with a connection only. */
+function keepOffline(): void {
+  if ("serviceWorker" in navigator) {
+    navigator.serviceWorker.register(OFFLINE).catch(() => {});
+  }
+}
+
+function frame(report: Uint8Array, name: string): HTMLIFrameElement {
+  const made = document.createElement("iframe");
+  made.title = `Report: ${name}`;
+  made.setAttribute("sandbox", SANDBOX);
+  made.src = URL.createObjectURL(new Blob([report as Uint8Array<ArrayBuffer>], { type: "text/html" }));
+  made.addEventListener("load", () => URL.revokeObjectURL(made.src), { once: true });
+  return made;
+}
+
+function save(content: Blob, name: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(content);
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+new Page().start().catch((reason) => {
+  byId("status").textContent = `The program could not be loaded: ${reason}`;
+});
