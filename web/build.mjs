@@ -48,7 +48,14 @@ async function script(entry, define = {}, format = "iife") {
 /** The colours of the report page. */
 function colours() {
   const style = JSON.parse(readFileSync(join(data, "style.json"), "utf8"));
-  const names = { paper: style.paper, text: style.text, quiet: style.quiet, accent: style.right, bad: style.infeasible, control: style.quiet };
+  const names = {
+    paper: style.paper,
+    text: style.text,
+    quiet: style.quiet,
+    accent: style.right,
+    bad: style.infeasible,
+    control: style.quiet,
+  };
   const rules = (key) =>
     `:root{${Object.entries(names)
       .map(([name, colour]) => `--${name}:${colour[key]}`)
@@ -58,7 +65,9 @@ function colours() {
 
 /** What the page may do until the program is loaded; engine.ts forbids the rest then. The report's own script is known by its hash. */
 function policy() {
-  const report = createHash("sha256").update(readFileSync(join(data, "viewer.js"))).digest("base64");
+  const report = createHash("sha256")
+    .update(readFileSync(join(data, "viewer.js")))
+    .digest("base64");
   return [
     "default-src 'none'",
     `script-src 'self' 'wasm-unsafe-eval' 'sha256-${report}'`,
@@ -98,7 +107,11 @@ const places = {
 };
 const html = readFileSync(join(here, "index.html"), "utf8").replace(/\{(\w+)\}/g, (_, name) => places[name]);
 files.set("index.html", html);
-const version = createHash("sha256").update([...files.keys()].join()).update(html).digest("hex").slice(0, 12);
+const version = createHash("sha256")
+  .update([...files.keys()].join())
+  .update(html)
+  .digest("hex")
+  .slice(0, 12);
 const kept = ["./", ...files.keys()];
 files.set("offline.js", await script("offline", { CACHE: `ambulo-${version}`, FILES: kept }));
 
@@ -109,6 +122,6 @@ for (const [name, content] of files) {
   writeFileSync(join(folder, name), content);
   const packed = gzipSync(content, { level: 9 }).length;
   bytes += packed;
-  console.log(`${name}: ${(packed / 1e3).toFixed(1)} kB compressed`);
+  process.stdout.write(`${name}: ${(packed / 1e3).toFixed(1)} kB compressed\n`);
 }
-console.log(`${folder}: ${files.size} files, ${(bytes / 1e6).toFixed(2)} MB compressed`);
+process.stdout.write(`${folder}: ${files.size} files, ${(bytes / 1e6).toFixed(2)} MB compressed\n`);

@@ -4,6 +4,8 @@ import { after } from "node:test";
 import { pathToFileURL } from "node:url";
 import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
 
+export type { BrowserContextOptions, Page };
+
 /** Folder of the result folders and their pages, made by run.mjs. */
 export const PAGES = process.env["PAGES"] ?? "";
 export const SHOTS = process.env["SHOTS"] ?? "";
@@ -17,7 +19,8 @@ const ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-s
 
 let running: Promise<Browser> | null = null;
 
-function browser(): Promise<Browser> {
+/** The browser, which is started when it is first needed. */
+export function browser(): Promise<Browser> {
   const executablePath = process.env["CHROMIUM"] ?? CHROMIUM.find((path) => existsSync(path));
   if (!executablePath) {
     throw new Error("Chromium was not found: install it, or set CHROMIUM to its path");

@@ -1,7 +1,7 @@
-// Compiles tests/*.test.ts and runs them with node's test runner.
+// Compiles tests/*.test.ts, also those of the page in web/, and runs them with node's test runner.
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readdirSync, rmSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
@@ -9,10 +9,15 @@ const here = dirname(fileURLToPath(import.meta.url));
 const out = join(here, "../out/tests");
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
-const tests = readdirSync(here).filter((name) => name.endsWith(".test.ts"));
+const testsIn = (folder) =>
+  readdirSync(folder)
+    .filter((name) => name.endsWith(".test.ts"))
+    .map((name) => join(folder, name));
+const tests = [here, join(here, "../../web/tests/unit")].flatMap(testsIn);
 await build({
-  entryPoints: tests.map((name) => join(here, name)),
+  entryPoints: tests,
   outdir: out,
+  entryNames: "[name]",
   outExtension: { ".js": ".mjs" },
   bundle: true,
   platform: "node",
@@ -21,5 +26,5 @@ await build({
   sourcemap: "inline",
   loader: { ".css": "empty" },
 });
-const files = tests.map((name) => join(out, name.replace(/\.ts$/, ".mjs")));
-process.exitCode = spawnSync(process.execPath, ["--test", ...files], { stdio: "inherit" }).status ?? 1;
+const compiled = tests.map((path) => join(out, basename(path).replace(/\.ts$/, ".mjs")));
+process.exitCode = spawnSync(process.execPath, ["--test", ...compiled], { stdio: "inherit" }).status ?? 1;

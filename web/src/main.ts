@@ -15,7 +15,10 @@ const OUT = "out/";
 const REPORT = "report.html";
 const DEMO = ["demo", "-o", "out"];
 /** Only so much may the report do; it cannot reach this page. */
-const SANDBOX = "allow-scripts allow-downloads allow-modals allow-popups";
+const SANDBOX = "allow-scripts allow-downloads allow-modals";
+
+/** A browser has begun to save a file after so long. */
+const SAVING_MS = 10_000;
 
 /** A result that is shown and can be saved. */
 interface Shown {
@@ -127,7 +130,9 @@ class Page {
     const rows = this.files.map((file) => {
       const select = document.createElement("select");
       select.setAttribute("aria-label", `${file.name} is`);
-      select.append(...Object.entries(ROLES).map(([role, words]) => new Option(words, role, false, role === file.role)));
+      select.append(
+        ...Object.entries(ROLES).map(([role, words]) => new Option(words, role, false, role === file.role)),
+      );
       select.addEventListener("change", () => {
         file.role = select.value as Role;
         this.chosen.set(file.name, file.role);
@@ -208,7 +213,7 @@ class Page {
     const written = [...files].filter(([path]) => path.startsWith(OUT));
     const report = written.find(([path]) => path.endsWith(REPORT))?.[1];
     byId("said").hidden = false;
-    byId("printed").textContent = `${complained}${printed}`.trim();
+    byId<HTMLTextAreaElement>("printed").value = `${complained}${printed}`.trim();
     if (code > 1 || written.length === 0) {
       this.fail(complained.trim() || printed.trim() || `exit code ${code}`);
       return;
@@ -277,7 +282,7 @@ function save(content: Blob, name: string): void {
   link.href = URL.createObjectURL(content);
   link.download = name;
   link.click();
-  URL.revokeObjectURL(link.href);
+  setTimeout(() => URL.revokeObjectURL(link.href), SAVING_MS);
 }
 
 new Page().start().catch((reason) => {

@@ -216,7 +216,11 @@ class Command {
     return {
       args_sizes_get: (count: number, size: number) => {
         this.view().setUint32(count, this.words.length, true);
-        this.view().setUint32(size, this.words.map((word) => word.length).reduce((a, b) => a + b, 0), true);
+        this.view().setUint32(
+          size,
+          this.words.map((word) => word.length).reduce((a, b) => a + b, 0),
+          true,
+        );
       },
       args_get: (pointers: number, text: number) => {
         let at = text;

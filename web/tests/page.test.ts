@@ -1,0 +1,362 @@
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, type TestContext, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { closeBrowser, type Page } from "../../viewer/e2e/page";
+import { difference, native } from "./results";
+import { compute, host, saved, shown, visit } from "./site";
+import { unzip } from "./unit/archive";
+
+// The tests are compiled to viewer/out/web.
+const REPOSITORY = fileURLToPath(new URL("../../..", import.meta.url));
+const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const RECORDING = join(REPOSITORY, "crates/ambulo-cli/tests/recording");
+const CHILDREN = join(process.env["AMBULO_DATA"] ?? join(REPOSITORY, "../shared"), "data/biomechzoo-HC032A");
+const SHOTS = process.env["SHOTS"] ?? "";
+const DESKTOP = { width: 1280, height: 800 };
+const PHONE = { width: 390, height: 844 };
+/** The largest difference from the program's numbers. */
+const SAME = 1e-9;
+/** Times that a visitor should wait at most [s]. */
+const DEMO_S = 2;
+const RECORDING_S = 3;
+/** The whole page, compressed [bytes]. */
+const LARGEST = 6e6;
+
+/** Files of the demo, written by the program. */
+let demo = "";
+
+before(() => {
+  demo = mkdtempSync(join(tmpdir(), "ambulo-demo-"));
+  for (const [name, content] of native(["demo", "-o", "out"]).files) {
+    if (name.startsWith("input/")) {
+      writeFileSync(join(demo, name.slice("input/".length)), content);
+    }
+  }
+});
+
+after(() => rmSync(demo, { recursive: true, force: true }));
+after(closeBrowser);
+
+/** Compares the files that the page saves with those of the program; the report is drawn from the same numbers. */
+async function isSame(
+  context: TestContext,
+  page: Page,
+  words: string[],
+  inputs: string[],
+  limit = SAME,
+): Promise<void> {
+  const { content } = await saved(page, "#save-all");
+  const found = unzip(content);
+  const expected = native(words, inputs).files;
+  assert.deepEqual([...found.keys()].sort(), [...expected.keys()].sort());
+  const texts = [...expected.keys()].filter((name) => name !== "report.html" && !name.endsWith(".c3d"));
+  let [largest, count, of] = [0, 0, 0];
+  for (const name of texts) {
+    const one = difference(name, found.get(name) ?? Buffer.of(), expected.get(name) ?? Buffer.of());
+    assert.ok(one.largest <= limit, `${name}: numbers differ by ${one.largest}`);
+    largest = Math.max(largest, one.largest);
+    count += one.count;
+    of += one.of;
+  }
+  context.diagnostic(`${count} of ${of} numbers differ from the program's, by at most ${largest.toExponential(1)}`);
+}
+
+test("the demo is shown at once and is the program's", async (context) => {
+  const times: number[] = [];
+  for (let visitor = 0; visitor < 3; visitor++) {
+    const start = performance.now();
+    await visit(async ({ page, complaints }) => {
+      await shown(page, "demo");
+      times.push((performance.now() - start) / 1000);
+      assert.deepEqual(complaints, []);
+      if (visitor === 0) {
+        await isSame(context, page, ["demo", "-o", "out"], []);
+      }
+    });
+  }
+  const best = Math.min(...times);
+  context.diagnostic(`first result of the demo after ${best.toFixed(2)} s, best of ${times.length}`);
+  assert.ok(best <= DEMO_S, `${best} s`);
+});
+
+test("the page is small", async (context) => {
+  await visit(async ({ page, host }) => {
+    await shown(page, "demo");
+    const { gzipSync } = await import("node:zlib");
+    const loaded = [...new Set(host.requests)].filter((path) => path !== "/plain");
+    const sizes = loaded.map((path) => {
+      const file = join(process.env["SITE"] ?? "", path === "/" ? "index.html" : path);
+      return existsSync(file) ? gzipSync(readFileSync(file), { level: 9 }).length : 0;
+    });
+    const size = sizes.reduce((a, b) => a + b, 0);
+    context.diagnostic(`${(size / 1e6).toFixed(2)} MB compressed`);
+    assert.ok(size > 1e6 && size <= LARGEST, `${size} bytes`);
+  });
+});
+
+test("every kind of file gives the program's results", async (context) => {
+  const at = (...names: string[]): string[] => names.map((name) => join(demo, name));
+  const cases: [name: string, inputs: string[], words: string[]][] = [
+    ["walk", at("standing.c3d", "walk.c3d"), ["walk.c3d", "--static", "standing.c3d"]],
+    ["walk", at("walk.trc", "figure.osim"), ["walk.trc", "--model", "figure.osim"]],
+    ["walk", at("walk.bvh"), ["walk.bvh"]],
+    [
+      "walk",
+      ["walk.mot", "figure.osim", "walk_grf.mot", "walk_grf.xml"].map((name) => join(RECORDING, name)),
+      ["walk.mot", "--model", "figure.osim", "--loads", "walk_grf.xml"],
+    ],
+  ];
+  for (const [name, inputs, words] of cases) {
+    await visit(async ({ page, complaints }) => {
+      await shown(page, "demo");
+      await compute(page, inputs);
+      await shown(page, name);
+      context.diagnostic((await page.textContent("#line")) ?? "");
+      assert.equal(await page.textContent("#line"), `ambulo forces ${words.join(" ")} -o out`);
+      await isSame(context, page, ["forces", ...words, "-o", "out"], inputs);
+      assert.deepEqual(complaints, []);
+    });
+  }
+});
+
+test("HC032A03: dropped files are told apart, and the result is the program's", async (context) => {
+  if (!existsSync(CHILDREN)) {
+    context.skip("no data");
+    return;
+  }
+  const [walk, standing] = ["HC032A03.c3d", "HC032A01.c3d"].map((name) => join(CHILDREN, name)) as [string, string];
+  await visit(async ({ page }) => {
+    await shown(page, "demo");
+    await page.setInputFiles("#files", [walk]);
+    await page.waitForSelector("#compute:enabled");
+    const start = performance.now();
+    await page.click("#compute");
+    await shown(page, "HC032A03");
+    const seconds = (performance.now() - start) / 1000;
+    context.diagnostic(`HC032A03 is shown after ${seconds.toFixed(2)} s`);
+    assert.ok(seconds <= RECORDING_S, `${seconds} s`);
+    await isSame(context, page, ["forces", "HC032A03.c3d", "-o", "out"], [walk]);
+    await compute(page, [standing]);
+    await page.waitForFunction(() => document.querySelector("#line")?.textContent?.includes("--static"));
+    assert.equal(await page.textContent("#line"), "ambulo forces HC032A03.c3d --static HC032A01.c3d -o out");
+  });
+});
+
+test("an error is the program's text, and the page goes on", async () => {
+  const broken = join(demo, "broken.trc");
+  writeFileSync(broken, readFileSync(join(demo, "walk.trc"), "utf8").replace("Units", "Ells"));
+  await visit(async ({ page }) => {
+    await shown(page, "demo");
+    await compute(page, [broken]);
+    await page.waitForSelector("#error:not([hidden])");
+    const { complained } = native(["forces", "broken.trc", "-o", "out"], [broken]);
+    assert.match(complained, /^error: broken\.trc/);
+    assert.equal(await page.textContent("#error"), complained.trim());
+    await page.fill("#more", "--nonsense");
+    await page.press("#more", "Enter");
+    await page.waitForFunction(() => document.querySelector("#error")?.textContent?.includes("--nonsense"));
+    await page.click("#demo");
+    await page.waitForSelector("#error", { state: "hidden" });
+  });
+});
+
+/** Tries every way to send something; `address` is a place that would notice. */
+async function leak(address: string): Promise<void> {
+  const ignore = (): void => {};
+  const tries: (() => unknown)[] = [
+    () => fetch(`${address}fetch`).catch(ignore),
+    () => fetch(`${address}post`, { method: "POST", mode: "no-cors", body: "secret" }).catch(ignore),
+    () => {
+      const request = new XMLHttpRequest();
+      request.open("GET", `${address}xhr`);
+      request.send();
+    },
+    () => new WebSocket(`${address.replace("http", "ws")}socket`),
+    () => new EventSource(`${address}events`),
+    () => (self as unknown as { importScripts(address: string): void }).importScripts(`${address}worker-script`),
+    () => navigator.sendBeacon(`${address}beacon`, "secret"),
+    () => {
+      new Image().src = `${address}image`;
+    },
+    ...[
+      ["script", "src"],
+      ["iframe", "src"],
+      ["video", "src"],
+      ["object", "data"],
+    ].map(([name, key]) => () => {
+      const element = document.createElement(name as string);
+      element.setAttribute(key as string, `${address}${name}`);
+      document.body.append(element);
+    }),
+    ...["stylesheet", "prefetch", "preload", "preconnect", "manifest"].map((relation) => () => {
+      const link = document.createElement("link");
+      [link.rel, link.as, link.href] = [relation, "image", `${address}${relation}`];
+      document.head.append(link);
+    }),
+    () => {
+      const form = document.createElement("form");
+      [form.action, form.method, form.target] = [`${address}form`, "get", "elsewhere"];
+      const frame = document.createElement("iframe");
+      frame.name = "elsewhere";
+      document.body.append(frame, form);
+      form.submit();
+    },
+    () => import(`${address}module`).catch(ignore),
+  ];
+  for (const one of tries) {
+    try {
+      await one();
+    } catch {
+      // Refused; what matters is what arrives.
+    }
+  }
+  await new Promise((done) => setTimeout(done, 500));
+}
+
+test("nothing leaves the computer: page, worker and report cannot connect to any place", async () => {
+  const other = await host("");
+  await visit(async ({ page, host }) => {
+    await shown(page, "demo");
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    const [worker] = page.workers().filter((worker) => worker.url().startsWith("blob:"));
+    const report = page.frames().find((frame) => frame.url().startsWith("blob:"));
+    assert.ok(worker && report, "worker and report");
+    for (const target of [other, host]) {
+      const before = target.requests.length;
+      for (const place of [page, worker, report]) {
+        await place.evaluate(leak as never, `${target.address}leak/` as never);
+      }
+      assert.deepEqual(target.requests.slice(before), []);
+    }
+    // The same attempts arrive from a page without a policy.
+    await page.goto(`${other.address}plain`);
+    await page.evaluate(leak, `${other.address}leak/`);
+    const arrived = other.requests.filter((path) => path.startsWith("/leak/"));
+    assert.ok(arrived.length >= 12, `only ${arrived.join(" ")}`);
+  });
+  other.close();
+});
+
+test("the report is saved as one file that needs nothing else", async () => {
+  await visit(async ({ page }) => {
+    await shown(page, "demo");
+    const { name, content } = await saved(page, "#save-report");
+    assert.equal(name, "demo.html");
+    const path = join(demo, name);
+    writeFileSync(path, content);
+    const requests: string[] = [];
+    page.on("request", (request) => requests.push(request.url()));
+    await page.goto(`file://${path}`);
+    await page.waitForFunction(() => document.documentElement.dataset["ready"] === "true");
+    assert.deepEqual(
+      requests.filter((address) => !/^(file|blob|data):/.test(address)),
+      [],
+    );
+    assert.match((await page.textContent("h1")) ?? "", /free/);
+  });
+});
+
+test("works without a connection after the first visit", async () => {
+  await visit(async ({ page, host }) => {
+    await shown(page, "demo");
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    host.close();
+    await page.reload();
+    await shown(page, "demo");
+    await compute(page, [join(demo, "walk.bvh")]);
+    await shown(page, "walk");
+  });
+});
+
+test("a long computation can be stopped, and the page goes on", async () => {
+  await visit(async ({ page }) => {
+    await shown(page, "demo");
+    await page.fill("#more", "--duration 1000000 --step 0.0001");
+    await compute(page, [join(REPOSITORY, "examples/pendulum.toml")]);
+    await page.click("#stop");
+    await page.waitForFunction(() => document.querySelector("#error")?.textContent?.startsWith("Stopped"));
+    await page.fill("#more", "");
+    await page.click("#compute");
+    await shown(page, "pendulum");
+  });
+});
+
+test("the keyboard alone is enough", async () => {
+  await visit(async ({ page }) => {
+    await shown(page, "demo");
+    await page.setInputFiles("#files", [join(demo, "walk.bvh")]);
+    await page.waitForSelector("#compute:enabled");
+    await page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
+    const reached: string[] = [];
+    for (let presses = 0; presses < 14; presses++) {
+      await page.keyboard.press("Tab");
+      reached.push(await page.evaluate(() => document.activeElement?.id || document.activeElement?.tagName || ""));
+    }
+    const order = ["files", "SELECT", "mass", "height", "more", "compute", "demo", "save-report", "save-all"];
+    assert.deepEqual(
+      reached.filter((id) => order.includes(id)),
+      order,
+    );
+    await page.focus("#compute");
+    await page.keyboard.press("Enter");
+    await shown(page, "walk");
+    await page.keyboard.press("Home");
+    await page.focus(".skip");
+    await page.keyboard.press("Enter");
+    assert.equal(await page.evaluate(() => document.activeElement?.id), "result");
+  });
+});
+
+test("a file name is text, never markup", async () => {
+  const name = "<img src=x onerror=alert(1)>.bvh";
+  const path = join(demo, name);
+  writeFileSync(path, readFileSync(join(demo, "walk.bvh")));
+  await visit(async ({ page, complaints }) => {
+    await shown(page, "demo");
+    await compute(page, [path]);
+    await shown(page, name.replace(".bvh", ""));
+    assert.equal(await page.textContent("#list .name"), name);
+    assert.equal(await page.locator("img").count(), 0);
+    assert.deepEqual(complaints, []);
+  });
+});
+
+interface Finding {
+  id: string;
+  impact: string;
+  nodes: { target: string[]; failureSummary: string }[];
+}
+
+for (const colorScheme of ["light", "dark"] as const) {
+  for (const [device, viewport] of Object.entries({ desktop: DESKTOP, phone: PHONE })) {
+    test(`${device}, ${colorScheme}: accessible, and not wider than the window`, async () => {
+      await visit(
+        async ({ page }) => {
+          await shown(page, "demo");
+          mkdirSync(SHOTS, { recursive: true });
+          await page.waitForTimeout(500);
+          await page.screenshot({ path: join(SHOTS, `web-${device}-${colorScheme}.png`) });
+          await page.setInputFiles("#files", [join(demo, "walk.bvh"), join(demo, "figure.osim")]);
+          await page.waitForSelector("#list li");
+          await page.evaluate(() => document.querySelector("details")?.setAttribute("open", ""));
+          await page.screenshot({ path: join(SHOTS, `web-${device}-${colorScheme}-files.png`) });
+          const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+          assert.ok(wide <= viewport.width, `${wide} wide`);
+          // Playwright passes the script past the policy of the page.
+          await page.evaluate(AXE);
+          const findings = await page.evaluate(async () => {
+            const { axe } = window as unknown as { axe: { run(options: object): Promise<{ violations: Finding[] }> } };
+            return (await axe.run({ iframes: false })).violations;
+          });
+          const words = findings.map(({ id, nodes }) => `${id}: ${nodes.map((n) => n.failureSummary).join("; ")}`);
+          assert.deepEqual(words, []);
+        },
+        { viewport, colorScheme },
+      );
+    });
+  }
+}

@@ -1,0 +1,34 @@
+// Tests the page in Chromium: `node web/tests/run.mjs SITE [NAME]`. SITE is a folder that build.mjs has written. AMBULO names the program
+// whose results the page's are compared with, CHROMIUM the browser, SHOTS a folder for screenshots.
+import { spawnSync } from "node:child_process";
+import { mkdirSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const viewer = join(here, "../../viewer");
+const { build } = createRequire(join(viewer, "package.json"))("esbuild");
+const [site, only] = process.argv.slice(2);
+if (!site) {
+  throw new Error("usage: node web/tests/run.mjs SITE [NAME]");
+}
+// The tests import packages of viewer/.
+const out = join(viewer, "out/web");
+mkdirSync(out, { recursive: true });
+await build({
+  entryPoints: [join(here, "page.test.ts")],
+  outfile: join(out, "page.mjs"),
+  bundle: true,
+  packages: "external",
+  platform: "node",
+  format: "esm",
+  target: "node18",
+  sourcemap: "inline",
+});
+const pattern = only ? ["--test-name-pattern", only] : [];
+const run = spawnSync(process.execPath, ["--test", "--test-reporter=spec", ...pattern, join(out, "page.mjs")], {
+  stdio: "inherit",
+  env: { ...process.env, SITE: resolve(site), SHOTS: process.env.SHOTS ?? join(out, "shots") },
+});
+process.exitCode = run.status ?? 1;
