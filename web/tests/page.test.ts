@@ -18,8 +18,17 @@ const CHILDREN = join(process.env["AMBULO_DATA"] ?? join(REPOSITORY, "../shared"
 const SHOTS = process.env["SHOTS"] ?? "";
 const DESKTOP = { width: 1280, height: 800 };
 const PHONE = { width: 390, height: 844 };
-/** The largest difference from the program's numbers. */
-const SAME = 1e-9;
+/** The largest difference of a number from the program's, by file; the last row is for all others. */
+type Limits = readonly (readonly [file: RegExp, limit: number])[];
+const SAME: Limits = [[/./, 1e-9]];
+/**
+ * The same where a motion was fitted to markers. The fit ends when its steps are small, so a last bit of the browser's sine can move its end
+ * by that much; the rotation of a straight forearm is hardly determined by the markers [deg].
+ */
+const FITTED: Limits = [
+  [/^(kinematics\.mot|cycles\.csv)$/, 1e-3],
+  [/./, 1e-6],
+];
 /** Times that a visitor should wait at most [s]. */
 const DEMO_S = 2;
 const RECORDING_S = 3;
@@ -47,22 +56,24 @@ async function isSame(
   page: Page,
   words: string[],
   inputs: string[],
-  limit = SAME,
+  limits: Limits,
 ): Promise<void> {
   const { content } = await saved(page, "#save-all");
   const found = unzip(content);
   const expected = native(words, inputs).files;
   assert.deepEqual([...found.keys()].sort(), [...expected.keys()].sort());
-  const texts = [...expected.keys()].filter((name) => name !== "report.html" && !name.endsWith(".c3d"));
-  let [largest, count, of] = [0, 0, 0];
-  for (const name of texts) {
-    const one = difference(name, found.get(name) ?? Buffer.of(), expected.get(name) ?? Buffer.of());
-    assert.ok(one.largest <= limit, `${name}: numbers differ by ${one.largest}`);
-    largest = Math.max(largest, one.largest);
-    count += one.count;
-    of += one.of;
+  const worst = limits.map(() => 0);
+  for (const [name, bytes] of expected) {
+    if (name === "report.html" || name.endsWith(".c3d")) {
+      continue;
+    }
+    const off = difference(name, found.get(name) ?? Buffer.of(), bytes);
+    const row = limits.findIndex(([file]) => file.test(name));
+    assert.ok(off <= (limits[row]?.[1] ?? 0), `${name}: a number differs by ${off}`);
+    worst[row] = Math.max(worst[row] ?? 0, off);
   }
-  context.diagnostic(`${count} of ${of} numbers differ from the program's, by at most ${largest.toExponential(1)}`);
+  const said = worst.map((off, row) => `${off.toExponential(1)} (limit ${limits[row]?.[1].toExponential(0)})`);
+  context.diagnostic(`${expected.size} files, numbers differ from the program's by at most ${said.join("; ")}`);
 }
 
 test("the demo is shown at once and is the program's", async (context) => {
@@ -74,7 +85,7 @@ test("the demo is shown at once and is the program's", async (context) => {
       times.push((performance.now() - start) / 1000);
       assert.deepEqual(complaints, []);
       if (visitor === 0) {
-        await isSame(context, page, ["demo", "-o", "out"], []);
+        await isSame(context, page, ["demo", "-o", "out"], [], SAME);
       }
     });
   }
@@ -100,24 +111,20 @@ test("the page is small", async (context) => {
 
 test("every kind of file gives the program's results", async (context) => {
   const at = (...names: string[]): string[] => names.map((name) => join(demo, name));
-  const cases: [name: string, inputs: string[], words: string[]][] = [
-    ["walk", at("standing.c3d", "walk.c3d"), ["walk.c3d", "--static", "standing.c3d"]],
-    ["walk", at("walk.trc", "figure.osim"), ["walk.trc", "--model", "figure.osim"]],
-    ["walk", at("walk.bvh"), ["walk.bvh"]],
-    [
-      "walk",
-      ["walk.mot", "figure.osim", "walk_grf.mot", "walk_grf.xml"].map((name) => join(RECORDING, name)),
-      ["walk.mot", "--model", "figure.osim", "--loads", "walk_grf.xml"],
-    ],
+  const recorded = ["walk.mot", "figure.osim", "walk_grf.mot", "walk_grf.xml"].map((name) => join(RECORDING, name));
+  const cases: [inputs: string[], words: string, limits: Limits][] = [
+    [at("standing.c3d", "walk.c3d"), "walk.c3d --static standing.c3d --mass 75", FITTED],
+    [at("walk.trc", "figure.osim"), "walk.trc --model figure.osim --mass 75", FITTED],
+    [at("walk.bvh"), "walk.bvh --mass 75", FITTED],
+    [recorded, "walk.mot --model figure.osim --loads walk_grf.xml --mass 75", SAME],
   ];
-  for (const [name, inputs, words] of cases) {
+  for (const [inputs, words, limits] of cases) {
     await visit(async ({ page, complaints }) => {
       await shown(page, "demo");
-      await compute(page, inputs);
-      await shown(page, name);
-      context.diagnostic((await page.textContent("#line")) ?? "");
-      assert.equal(await page.textContent("#line"), `ambulo forces ${words.join(" ")} -o out`);
-      await isSame(context, page, ["forces", ...words, "-o", "out"], inputs);
+      await compute(page, inputs, "75");
+      await shown(page, "walk");
+      assert.equal(await page.textContent("#line"), `ambulo forces ${words} -o out`);
+      await isSame(context, page, ["forces", ...words.split(" "), "-o", "out"], inputs, limits);
       assert.deepEqual(complaints, []);
     });
   }
@@ -139,7 +146,7 @@ test("HC032A03: dropped files are told apart, and the result is the program's", 
     const seconds = (performance.now() - start) / 1000;
     context.diagnostic(`HC032A03 is shown after ${seconds.toFixed(2)} s`);
     assert.ok(seconds <= RECORDING_S, `${seconds} s`);
-    await isSame(context, page, ["forces", "HC032A03.c3d", "-o", "out"], [walk]);
+    await isSame(context, page, ["forces", "HC032A03.c3d", "-o", "out"], [walk], FITTED);
     await compute(page, [standing]);
     await page.waitForFunction(() => document.querySelector("#line")?.textContent?.includes("--static"));
     assert.equal(await page.textContent("#line"), "ambulo forces HC032A03.c3d --static HC032A01.c3d -o out");
@@ -267,7 +274,7 @@ test("works without a connection after the first visit", async () => {
     host.close();
     await page.reload();
     await shown(page, "demo");
-    await compute(page, [join(demo, "walk.bvh")]);
+    await compute(page, [join(demo, "walk.bvh")], "75");
     await shown(page, "walk");
   });
 });
@@ -275,13 +282,12 @@ test("works without a connection after the first visit", async () => {
 test("a long computation can be stopped, and the page goes on", async () => {
   await visit(async ({ page }) => {
     await shown(page, "demo");
-    await page.fill("#more", "--duration 1000000 --step 0.0001");
-    await compute(page, [join(REPOSITORY, "examples/pendulum.toml")]);
+    await page.fill("#more", "--duration 60");
+    await compute(page, [join(REPOSITORY, "examples/pile.toml")]);
     await page.click("#stop");
     await page.waitForFunction(() => document.querySelector("#error")?.textContent?.startsWith("Stopped"));
-    await page.fill("#more", "");
-    await page.click("#compute");
-    await shown(page, "pendulum");
+    await page.click("#demo");
+    await page.waitForSelector("#error", { state: "hidden" });
   });
 });
 
@@ -290,7 +296,8 @@ test("the keyboard alone is enough", async () => {
     await shown(page, "demo");
     await page.setInputFiles("#files", [join(demo, "walk.bvh")]);
     await page.waitForSelector("#compute:enabled");
-    await page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
+    await page.fill("#mass", "75");
+    await page.click("h1");
     const reached: string[] = [];
     for (let presses = 0; presses < 14; presses++) {
       await page.keyboard.press("Tab");
@@ -304,7 +311,6 @@ test("the keyboard alone is enough", async () => {
     await page.focus("#compute");
     await page.keyboard.press("Enter");
     await shown(page, "walk");
-    await page.keyboard.press("Home");
     await page.focus(".skip");
     await page.keyboard.press("Enter");
     assert.equal(await page.evaluate(() => document.activeElement?.id), "result");
@@ -317,7 +323,7 @@ test("a file name is text, never markup", async () => {
   writeFileSync(path, readFileSync(join(demo, "walk.bvh")));
   await visit(async ({ page, complaints }) => {
     await shown(page, "demo");
-    await compute(page, [path]);
+    await compute(page, [path], "75");
     await shown(page, name.replace(".bvh", ""));
     assert.equal(await page.textContent("#list .name"), name);
     assert.equal(await page.locator("img").count(), 0);

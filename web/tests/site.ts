@@ -83,8 +83,9 @@ export async function shown(page: Page, name: string): Promise<string> {
   return (await page.textContent("#status")) ?? "";
 }
 
-/** Gives the page files and computes. */
-export async function compute(page: Page, paths: string[]): Promise<void> {
+/** Gives the page files and a body mass [kg], and computes. */
+export async function compute(page: Page, paths: string[], mass = ""): Promise<void> {
+  await page.fill("#mass", mass);
   await page.setInputFiles("#files", paths);
   await page.waitForFunction((count) => document.querySelectorAll("#list li").length >= count, paths.length);
   await page.click("#compute");

@@ -3,8 +3,7 @@
 //! The steps are plain commands of cargo (in the dev profile), of this program and, in `viewer/`, of npm, so you can repeat a failed step alone. A step whose program or target is not installed is skipped with a message; where `CI` is set, that is a failure.
 
 use crate::python::interpreter;
-use crate::workspace;
-use std::path::{Path, PathBuf};
+use crate::{web, workspace};
 use std::process::Command;
 use std::time::Instant;
 
@@ -13,7 +12,7 @@ use std::time::Instant;
 enum Tool {
     /// In the root of the workspace.
     Cargo,
-    /// The same, for the target `WASM`.
+    /// The same, for the target of the browser.
     CargoForWasm,
     /// In `viewer/`.
     Npm,
@@ -33,9 +32,6 @@ struct Step {
     /// What to do when it fails.
     hint: &'static str,
 }
-
-/// The 32-bit target that the library is built for, so that it can run in a browser.
-const WASM: &str = "wasm32-unknown-unknown";
 
 const STEPS: [Step; 12] = [
     Step {
@@ -98,10 +94,9 @@ const STEPS: [Step; 12] = [
     Step {
         name: "32-bit target",
         tool: Tool::CargoForWasm,
-        arguments: &["build", "--package", "ambulo", "--target", WASM, "--locked"],
-        // Unoptimised: the build is only to succeed.
-        variable: Some(("CARGO_PROFILE_DEV_OPT_LEVEL", "0")),
-        hint: "the library has to build where `usize` has 32 bits and without a file system, clock or threads",
+        arguments: &["check", "--package", "ambulo-cli", "--bin", "ambulo", "--target", web::TARGET, "--locked"],
+        variable: None,
+        hint: "the command has to compile where `usize` has 32 bits, for the page in the browser (`cargo xtask web`)",
     },
     Step {
         name: "viewer's packages",
@@ -210,12 +205,6 @@ fn all_present(lacking: &[Option<&str>]) -> Result<(), String> {
     ))
 }
 
-/// Whether the compiler has the standard library of the target `WASM`.
-fn has_wasm_target() -> bool {
-    let output = Command::new("rustc").args(["--print", "target-libdir", "--target", WASM]).output();
-    output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir())
-}
-
 /// Whether there is a Python that makes virtual environments and reads TOML.
 fn has_venv() -> bool {
     let mut python = Command::new(interpreter());
@@ -229,9 +218,7 @@ impl Tool {
             |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
         match self {
             Tool::Cargo | Tool::Xtask => None,
-            Tool::CargoForWasm => {
-                (!has_wasm_target()).then_some("the target wasm32-unknown-unknown (`rustup target add`)")
-            }
+            Tool::CargoForWasm => (!web::has_target()).then_some("the target wasm32-wasip1 (`rustup target add`)"),
             Tool::Python => (!has_venv()).then_some("Python 3.11 or later with venv"),
             Tool::Npm => ["npm", "chromium"].into_iter().find(|name| !starts(name)),
         }
@@ -251,16 +238,11 @@ impl Tool {
             Tool::Xtask | Tool::Python => Command::new(std::env::current_exe().unwrap_or_else(|_| "xtask".into())),
             Tool::Npm => {
                 let mut command = Command::new("npm");
-                command.current_dir(workspace::root().join("viewer")).env("AMBULO", debug_program());
+                command.current_dir(workspace::root().join("viewer")).env("AMBULO", workspace::debug_program());
                 command
             }
         }
     }
-}
-
-/// The `ambulo` command that the tests' step has built.
-fn debug_program() -> PathBuf {
-    workspace::target().join("debug").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX))
 }
 
 fn run_step(step: &Step) -> Result<(), String> {

@@ -12,6 +12,7 @@ mod measured;
 mod mutants;
 mod python;
 mod sweep;
+mod web;
 mod workspace;
 
 use std::process::ExitCode;
@@ -28,6 +29,7 @@ usage: cargo xtask <command>
                     [--resume: those not yet run] [--retry: survivors again] [--page: only the page]
   python            make a wheel of the Python package from the module that `cargo test` has compiled, and test it in a bare environment
                     [--measure: build the wheel for users with maturin and print its size and times]
+  web               build the page that computes in the browser into target/web  [--test: and test it in Chromium]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
@@ -63,7 +65,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 7] = ["check", "house", "build-time", "measured", "mutants", "python", "sweep"];
+const OWN: [&str; 8] = ["check", "house", "build-time", "measured", "mutants", "python", "web", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
 const MEASUREMENTS: [&str; 21] = [
@@ -103,6 +105,7 @@ fn main() -> ExitCode {
         ("measured", _) => measured::run(rest),
         ("mutants", _) => mutants::run(rest),
         ("python", _) => python::run(rest),
+        ("web", _) => web::run(rest),
         ("sweep", []) => sweep::run(),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),

@@ -27,6 +27,11 @@ pub(crate) fn target() -> PathBuf {
     here.parent().and_then(Path::parent).map_or_else(|| root().join("target"), Path::to_path_buf)
 }
 
+/// The `ambulo` command that `cargo build` and `cargo test` have compiled.
+pub(crate) fn debug_program() -> PathBuf {
+    target().join("debug").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX))
+}
+
 /// Unpacks a revision (a commit, a tag or a branch) into a folder. Its files are as old as the unpacking, so that cargo compiles them.
 pub(crate) fn unpack(name: &str, folder: &Path) -> Result<(), String> {
     let mut archive = Command::new("git");

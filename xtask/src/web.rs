@@ -1,0 +1,62 @@
+//! The page that computes in the browser: `cargo xtask web [--test]`.
+//!
+//! Builds the `ambulo` command for WebAssembly with WASI and the page around it into `target/web`, ready for any static host, and prints the size
+//! of its files. With `--test`, tests it in Chromium (`web/tests/page.test.ts`) and compares its results with those of the command.
+
+use crate::workspace;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The target of the compiler.
+pub(crate) const TARGET: &str = "wasm32-wasip1";
+/// As much as the first thread of a program usually has; the linker's default is an eighth of it.
+const STACK: &str = "link-arg=-zstack-size=8388608";
+
+pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    let tested = match words {
+        [] => false,
+        [option] if option == "--test" => true,
+        _ => return Err("usage: cargo xtask web [--test]".to_owned()),
+    };
+    if !has_target() {
+        return Err(format!("the target {TARGET} is not installed\nhint: `rustup target add {TARGET}` installs it"));
+    }
+    let viewer = workspace::root().join("viewer");
+    if !viewer.join("node_modules").is_dir() {
+        let mut packages = Command::new("npm");
+        finish(packages.current_dir(&viewer).args(["ci", "--no-audit", "--no-fund"]))?;
+    }
+    let mut command = workspace::cargo();
+    command.args(["rustc", "--locked", "--package", "ambulo-cli", "--bin", "ambulo", "--profile", "web"]);
+    finish(command.args(["--target", TARGET, "--", "-C", STACK]))?;
+    let site = workspace::target().join("web");
+    let program = workspace::target().join(TARGET).join("web/ambulo.wasm");
+    finish(node("build.mjs").arg(program).arg(&site))?;
+    if tested { test(&site) } else { Ok(()) }
+}
+
+/// Whether the compiler has the standard library of the target.
+pub(crate) fn has_target() -> bool {
+    let output = Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]).output();
+    output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir())
+}
+
+/// Tests the page; the command that it is compared with is built as for other tests.
+fn test(site: &Path) -> Result<(), String> {
+    finish(workspace::cargo().args(["build", "--locked", "--package", "ambulo-cli"]))?;
+    finish(node("tests/run.mjs").arg(site).env("AMBULO", workspace::debug_program()))
+}
+
+/// Node with a script of `web/`.
+fn node(script: &str) -> Command {
+    let path: PathBuf = workspace::root().join("web").join(script);
+    let mut command = Command::new("node");
+    command.arg(path);
+    command
+}
+
+fn finish(command: &mut Command) -> Result<(), String> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let status = command.status().map_err(|e| format!("{program}: cannot start: {e}"))?;
+    if status.success() { Ok(()) } else { Err(format!("{program} failed ({status}), see above")) }
+}
