@@ -165,6 +165,11 @@ export function wordsFor(files: readonly Dropped[], { mass, height, more }: Stat
   return ["forces", ...names("recording"), ...options, ...size, ...end];
 }
 
+/** The words of the command for a walk with these options and values. */
+export function wordsOfWalk(options: readonly (readonly [option: string, value: string])[]): string[] {
+  return ["walk", ...options.flatMap(([option, value]) => [`--${option}`, value]), "-o", "out"];
+}
+
 /** A command line as it is typed in a shell. */
 export function commandLine(words: readonly string[]): string {
   const quoted = words.map((word) => (/^[\w./\\+=:@%,~-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`));

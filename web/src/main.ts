@@ -2,6 +2,7 @@
 
 import { Engine, forbidConnections, Stopped } from "./engine";
 import { commandLine, type Dropped, type Named, ROLES, type Role, type Stated, withRoles, wordsFor } from "./files";
+import { Sliders } from "./sliders";
 import type { Ended, Files } from "./wasi";
 import { zip } from "./zip";
 
@@ -13,6 +14,7 @@ declare const OFFLINE: string;
 /** The folder in which the command writes its results. */
 const OUT = "out/";
 const REPORT = "report.html";
+const SUMMARY = "summary.json";
 const DEMO = ["demo", "-o", "out"];
 /** Only so much may the report do; it cannot reach this page. */
 const SANDBOX = "allow-scripts allow-downloads allow-modals";
@@ -48,6 +50,9 @@ class Page {
   private readonly chosen = new Map<string, Role>();
   private shown: Shown | undefined;
   private running = false;
+  /** A walk that was asked for while another command runs. */
+  private next: string[] | undefined;
+  private readonly sliders = new Sliders(byId<HTMLFormElement>("walk"), (words) => this.walk(words));
 
   constructor() {
     field("files").addEventListener("change", () => {
@@ -166,6 +171,9 @@ class Page {
     control("compute").disabled = !ready || this.files.length === 0;
     control("demo").disabled = !ready;
     control("stop").hidden = !this.running;
+    for (const slider of byId("walk").querySelectorAll<HTMLInputElement | HTMLButtonElement>("input, button")) {
+      slider.disabled = this.engine === undefined;
+    }
     control("save-report").disabled = this.running || !this.shown?.report;
     control("save-all").disabled = this.running || !this.shown;
     byId("line").textContent = commandLine(this.files.length === 0 ? DEMO : wordsFor(this.files, this.stated()));
@@ -179,6 +187,16 @@ class Page {
 
   private async demo(): Promise<void> {
     await this.run(DEMO, new Map(), "demo");
+  }
+
+  /** A walk without files; the one before is given up. */
+  private async walk(words: string[]): Promise<void> {
+    if (this.running) {
+      this.next = words;
+      this.engine?.stop();
+      return;
+    }
+    await this.run(words, new Map(), "walk");
   }
 
   private async compute(): Promise<void> {
@@ -202,11 +220,18 @@ class Page {
       this.show(ended, name, (performance.now() - start) / 1000);
     } catch (thrown) {
       this.running = false;
-      this.fail(
-        thrown instanceof Stopped ? "Stopped. The result before is unchanged." : `The program ended early: ${thrown}`,
-      );
+      if (!this.next) {
+        this.fail(
+          thrown instanceof Stopped ? "Stopped. The result before is unchanged." : `The program ended early: ${thrown}`,
+        );
+      }
     }
     this.refresh();
+    if (this.next) {
+      const words = this.next;
+      this.next = undefined;
+      await this.walk(words);
+    }
   }
 
   private show({ code, printed, complained, files }: Ended, name: string, seconds: number): void {
@@ -221,6 +246,10 @@ class Page {
     byId("error").hidden = true;
     this.shown = { name, report, files: new Map(written.map(([path, bytes]) => [path.slice(OUT.length), bytes])) };
     byId("page").replaceChildren(...(report ? [frame(report, name)] : []));
+    const summary = this.shown.files.get(SUMMARY);
+    if (summary) {
+      this.sliders.take(JSON.parse(new TextDecoder().decode(summary)));
+    }
     this.say(`${name}: computed in ${seconds.toFixed(1)} s, ${written.length} files.`);
     this.open(false);
     document.documentElement.dataset["shown"] = name;

@@ -1,0 +1,90 @@
+// Sliders for a walk without files. They start at the values of the demo walk, so no default is written twice; only those that were moved become
+// options of the command.
+
+import { wordsOfWalk } from "./files";
+
+/** A slider, the option that it sets, and where a summary has its value. */
+interface Slider {
+  option: string;
+  unit: string;
+  digits: number;
+  valueIn(summary: Summary): number | undefined;
+}
+
+/** What is read of `summary.json`. */
+interface Summary {
+  mass_kg?: number;
+  height_m?: number;
+  walk?: { speed_asked_m_s: number; step_length_m: number } | null;
+}
+
+const SLIDERS: Slider[] = [
+  { option: "speed", unit: "m/s", digits: 2, valueIn: ({ walk }) => walk?.speed_asked_m_s },
+  { option: "step-length", unit: "m", digits: 2, valueIn: ({ walk }) => walk?.step_length_m },
+  { option: "height", unit: "m", digits: 2, valueIn: ({ height_m }) => height_m },
+  { option: "mass", unit: "kg", digits: 0, valueIn: ({ mass_kg }) => mass_kg },
+  { option: "slope", unit: "%", digits: 0, valueIn: () => undefined },
+];
+
+/** After so long without a further move, a slider is at rest [ms]. */
+const REST_MS = 300;
+
+/** The sliders of the page. */
+export class Sliders {
+  private readonly moved = new Set<string>();
+  private timer = 0;
+
+  /** `compute` is called with the words of the command when a slider is released. */
+  constructor(
+    private readonly form: HTMLFormElement,
+    private readonly compute: (words: string[]) => void,
+  ) {
+    for (const slider of SLIDERS) {
+      const input = this.input(slider);
+      input.addEventListener("input", () => {
+        this.moved.add(slider.option);
+        this.label(slider);
+      });
+      input.addEventListener("change", () => {
+        clearTimeout(this.timer);
+        this.timer = setTimeout(() => this.compute(this.words()), REST_MS) as unknown as number;
+      });
+      this.label(slider);
+    }
+    form.addEventListener("reset", () => {
+      this.moved.clear();
+      // The form puts its own values in after this event.
+      setTimeout(() => this.compute(this.words()));
+    });
+  }
+
+  /** Shows the values of a walk that was computed, where the visitor did not set any. */
+  take(summary: Summary): void {
+    for (const slider of summary.walk ? SLIDERS : []) {
+      const value = slider.valueIn(summary);
+      if (value !== undefined && !this.moved.has(slider.option)) {
+        this.input(slider).value = String(value);
+      }
+      this.label(slider);
+    }
+  }
+
+  private words(): string[] {
+    const moved = SLIDERS.filter(({ option }) => this.moved.has(option));
+    return wordsOfWalk(moved.map((slider) => [slider.option, this.input(slider).value]));
+  }
+
+  private input({ option }: Slider): HTMLInputElement {
+    return this.form.elements.namedItem(option) as HTMLInputElement;
+  }
+
+  private label(slider: Slider): void {
+    const input = this.input(slider);
+    const text = `${Number(input.value).toFixed(slider.digits)} ${slider.unit}`;
+    input.setAttribute("aria-valuetext", text);
+    const shown = input.parentElement?.querySelector("span");
+    if (shown) {
+      shown.textContent = text;
+    }
+  }
+}
