@@ -16,6 +16,8 @@ const OUT = "out/";
 const REPORT = "report.html";
 const SUMMARY = "summary.json";
 const DEMO = ["demo", "-o", "out"];
+/** Enough to show the demo; all of its files are made when they are saved. */
+const ONLY_REPORT = ["--keep", "report"];
 /** Only so much may the report do; it cannot reach this page. */
 const SANDBOX = "allow-scripts allow-downloads allow-modals";
 
@@ -29,6 +31,8 @@ interface Shown {
   report: Uint8Array | undefined;
   /** Files of the result folder. */
   files: Files;
+  /** Words of the command that makes all files, if these are not all. */
+  all: string[] | undefined;
 }
 
 function byId<T extends HTMLElement = HTMLElement>(id: string): T {
@@ -186,7 +190,7 @@ class Page {
   }
 
   private async demo(): Promise<void> {
-    await this.run(DEMO, new Map(), "demo");
+    await this.run([...DEMO, ...ONLY_REPORT], new Map(), "demo", DEMO);
   }
 
   /** A walk without files; the one before is given up. */
@@ -206,7 +210,7 @@ class Page {
     await this.run(wordsFor(used, this.stated()), files, main?.name.replace(/\.[^.]*$/, "") ?? "result");
   }
 
-  private async run(words: string[], files: Files, name: string): Promise<void> {
+  private async run(words: string[], files: Files, name: string, all?: string[]): Promise<void> {
     if (!this.engine || this.running) {
       return;
     }
@@ -217,7 +221,7 @@ class Page {
     try {
       const ended = await this.engine.run(words, files);
       this.running = false;
-      this.show(ended, name, (performance.now() - start) / 1000);
+      this.show(ended, { name, all }, (performance.now() - start) / 1000);
     } catch (thrown) {
       this.running = false;
       if (!this.next) {
@@ -234,25 +238,32 @@ class Page {
     }
   }
 
-  private show({ code, printed, complained, files }: Ended, name: string, seconds: number): void {
-    const written = [...files].filter(([path]) => path.startsWith(OUT));
-    const report = written.find(([path]) => path.endsWith(REPORT))?.[1];
+  private show(ended: Ended, { name, all }: Pick<Shown, "name" | "all">, seconds: number): void {
+    const { code, printed, complained } = ended;
+    const files = results(ended);
+    const report = [...files].find(([path]) => path.endsWith(REPORT))?.[1];
     byId("said").hidden = false;
     byId<HTMLTextAreaElement>("printed").value = `${complained}${printed}`.trim();
-    if (code > 1 || written.length === 0) {
+    if (code > 1 || files.size === 0) {
       this.fail(complained.trim() || printed.trim() || `exit code ${code}`);
       return;
     }
     byId("error").hidden = true;
-    this.shown = { name, report, files: new Map(written.map(([path, bytes]) => [path.slice(OUT.length), bytes])) };
-    byId("page").replaceChildren(...(report ? [frame(report, name)] : []));
-    const summary = this.shown.files.get(SUMMARY);
+    this.shown = { name, report, files, all };
+    const isShown = (): void => {
+      performance.mark("shown");
+      document.documentElement.dataset["shown"] = name;
+    };
+    byId("page").replaceChildren(...(report ? [frame(report, name, isShown)] : []));
+    if (!report) {
+      isShown();
+    }
+    const summary = files.get(SUMMARY);
     if (summary) {
       this.sliders.take(JSON.parse(new TextDecoder().decode(summary)));
     }
-    this.say(`${name}: computed in ${seconds.toFixed(1)} s, ${written.length} files.`);
+    this.say(`${name}: computed in ${seconds.toFixed(1)} s.`);
     this.open(false);
-    document.documentElement.dataset["shown"] = name;
   }
 
   private fail(message: string): void {
@@ -274,10 +285,22 @@ class Page {
   }
 
   private async saveAll(): Promise<void> {
-    if (this.shown) {
-      save(await zip(this.shown.files), `${this.shown.name}.zip`);
+    if (!this.shown || !this.engine) {
+      return;
     }
+    const { name, all } = this.shown;
+    if (all) {
+      this.shown.files = results(await this.engine.run(all, new Map()));
+      this.shown.all = undefined;
+    }
+    save(await zip(this.shown.files), `${name}.zip`);
   }
+}
+
+/** The files that a command wrote, by their names in its folder. */
+function results({ files }: Ended): Files {
+  const written = [...files].filter(([path]) => path.startsWith(OUT));
+  return new Map(written.map(([path, bytes]) => [path.slice(OUT.length), bytes]));
 }
 
 /** The program; it compiles while it is loaded, where the host names its type. */
@@ -297,12 +320,17 @@ function keepOffline(): void {
   }
 }
 
-function frame(report: Uint8Array, name: string): HTMLIFrameElement {
+/** The report in a frame; `loaded` is called when it is drawn. */
+function frame(report: Uint8Array, name: string, loaded: () => void): HTMLIFrameElement {
   const made = document.createElement("iframe");
   made.title = `Report: ${name}`;
   made.setAttribute("sandbox", SANDBOX);
   made.src = URL.createObjectURL(new Blob([report as Uint8Array<ArrayBuffer>], { type: "text/html" }));
-  made.addEventListener("load", () => URL.revokeObjectURL(made.src), { once: true });
+  const ready = (): void => {
+    URL.revokeObjectURL(made.src);
+    loaded();
+  };
+  made.addEventListener("load", ready, { once: true });
   return made;
 }
 

@@ -81,10 +81,10 @@ async function isSame(
 test("the demo is shown at once and is the program's", async (context) => {
   const times: number[] = [];
   for (let visitor = 0; visitor < 3; visitor++) {
-    const start = performance.now();
     await visit(async ({ page, complaints }) => {
       await shown(page, "demo");
-      times.push((performance.now() - start) / 1000);
+      // Since the visitor opened the page.
+      times.push(await page.evaluate(() => (performance.getEntriesByName("shown")[0]?.startTime ?? Number.NaN) / 1000));
       assert.deepEqual(complaints, []);
       if (visitor === 0) {
         await isSame(context, page, ["demo", "-o", "out"], [], SAME);
