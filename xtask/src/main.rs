@@ -29,7 +29,7 @@ usage: cargo xtask <command>
                     [--resume: those not yet run] [--retry: survivors again] [--page: only the page]
   python            make a wheel of the Python package from the module that `cargo test` has compiled, and test it in a bare environment
                     [--measure: build the wheel for users with maturin and print its size and times]
-  web               build the page that computes in the browser into target/web  [--test: and test it in Chromium]
+  web               build the page that computes in the browser into target/page  [--test: and test it in Chromium]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]

@@ -1,6 +1,6 @@
 //! The page that computes in the browser: `cargo xtask web [--test]`.
 //!
-//! Builds the `ambulo` command for WebAssembly with WASI and the page around it into `target/web`, ready for any static host, and prints the size
+//! Builds the `ambulo` command for WebAssembly with WASI and the page around it into `target/page`, ready for any static host, and prints the size
 //! of its files. With `--test`, tests it in Chromium (`web/tests/page.test.ts`) and compares its results with those of the command.
 
 use crate::workspace;
@@ -29,7 +29,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let mut command = workspace::cargo();
     command.args(["rustc", "--locked", "--package", "ambulo-cli", "--bin", "ambulo", "--profile", "web"]);
     finish(command.args(["--target", TARGET, "--", "-C", STACK]))?;
-    let site = workspace::target().join("web");
+    // Not `web`: that is the folder in which cargo keeps the build scripts of the profile.
+    let site = workspace::target().join("page");
     let program = workspace::target().join(TARGET).join("web/ambulo.wasm");
     finish(node("build.mjs").arg(program).arg(&site))?;
     if tested { test(&site) } else { Ok(()) }
