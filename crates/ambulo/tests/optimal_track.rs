@@ -114,8 +114,7 @@ fn tracking_recovers_the_forces_of_a_walk_with_errors() {
 #[test]
 fn feet_on_the_ground_supply_all_external_forces_of_a_tracked_motion() {
     let (before, after, motion) = &*AT_REST;
-    // At the instants of the problem no force remains; between them, in the frames, it is that small in the mean.
-    assert_eq!(motion.solution.unbalanced(NO_ROOT_FORCE), None);
+    // In the mean; the largest one, at a strike, is limited below.
     assert!(motion.residual.0 <= NO_ROOT_FORCE, "{:?}", motion.residual);
     // Inverse dynamics of the results, which knows nothing of the solver, agrees.
     let [was, is] = [before, after].map(|analysis| analysis.residual.unwrap());
