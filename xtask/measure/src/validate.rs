@@ -4,7 +4,6 @@
 //! prediction. The tables are printed; `target/validation.json` has the same numbers; with `--write` the page goes to
 //! docs/measured/VALIDATION.md. A failed criterion is listed as missed and is not an error.
 
-mod means;
 mod page;
 mod personal;
 pub(crate) mod recording;
@@ -59,16 +58,16 @@ fn json(trials: &[Trial], commit: &str) -> Value {
     let trial = |trial: &Trial| {
         let known = trial.budget.iter().map(|(source, agreement)| json!({ "known": source, "agreement": agreement }));
         json!({
-            "recording": trial.label,
-            "subject": trial.subject,
-            "group": trial.group.word(),
-            "mass_source": trial.mass_source,
-            "rule": trial.rule,
+            "recording": trial.judged.name,
+            "subject": trial.judged.person,
+            "group": trial.judged.kind,
+            "mass_source": trial.mass_source(),
+            "rule": trial.judged.rule,
             "frames": trial.frames,
             "predict_us_per_frame": trial.microseconds,
             "peaks_off": trial.peaks_off,
             "flight_s": trial.flight_s,
-            "agreement": trial.agreement,
+            "agreement": trial.judged.agreement,
             "budget": known.collect::<Vec<_>>(),
         })
     };

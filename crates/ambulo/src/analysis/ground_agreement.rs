@@ -248,6 +248,19 @@ pub struct ComparedSample {
 }
 
 impl ComparedStance {
+    /// Agreement of this stance alone; `None` without a loaded frame. `weight_n` is the body weight [N].
+    #[must_use]
+    pub fn agreement(&self, weight_n: f64) -> Option<FootAgreement> {
+        foot(self.side, weight_n, &[self])
+    }
+
+    /// The samples in a fifth of the time of the stance by the plates, counted from 0.
+    #[must_use]
+    pub fn fifth(&self, fifth: usize) -> ComparedStance {
+        let is_inside = |s: &&ComparedSample| ((5.0 * s.phase) as usize).min(4) == fifth;
+        ComparedStance { samples: self.samples.iter().filter(is_inside).copied().collect(), ..*self }
+    }
+
     /// Errors over the stance as detected, in the order of [`StanceErrors`](crate::ground::predict::StanceErrors): forces in body weights, centres of pressure in statures, sideways
     /// is outwards. The samples of a component have a weight of 1 together, those of a centre of pressure more where the foot is loaded.
     #[must_use]

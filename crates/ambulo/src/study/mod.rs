@@ -34,6 +34,7 @@ mod settings;
 mod size;
 mod source;
 mod tracked;
+pub mod validation;
 mod weighing;
 
 pub use crate::analysis::{ModelProtocol, Stage, Stopped};

@@ -1,12 +1,12 @@
 //! The page: tables that read as text and as Markdown.
 
-use super::means::{COMPONENTS, Figure, JOINTS, component, held_in_fifth, over_subjects};
 use super::personal::{self, Calibrated};
 use super::recording::Group;
 use super::tracking::{self, Tracked};
 use super::trial::Trial;
 use crate::table::Table;
 use ambulo::analysis::GroundAgreement;
+use ambulo::study::validation::{self, Component, DEFINITIONS, Figure, JudgedTrial, LegJoint, number, over_persons};
 
 /// A criterion for a mean over subjects.
 struct Criterion {
@@ -19,39 +19,44 @@ struct Criterion {
 
 /// The whole page.
 pub(super) fn text(trials: &[Trial], calibrated: &[Calibrated]) -> String {
-    let rule = trials.first().map_or("", |trial| trial.rule);
+    let rule = trials.first().map_or("", |trial| trial.judged.rule);
     let head = format!(
         "# Predicted compared with measured ground forces\n\n\
          Every recording with plates in the development data goes through the library as `ambulo forces --predict` takes it: \
          events and everything else from motion alone, the motion low-passed at 6 Hz (order 3, both ways), the plates at 20 Hz \
-         (order 2, both ways). Rule in double support: {rule}. Failed criteria are listed as missed.\n\n\
-         Per foot over its whole stances on plates (vertical above 20 N); RMSE in % of body weight, rRMSE over the mean of the two \
-         ranges, Pearson's r. All but the runs took part in fitting the estimator: [GROUND_FIT.md](GROUND_FIT.md) has the figures of people \
-         and laboratories left out, which are those that strangers get. Fore-aft is along the walking direction, in turns that of the pelvis in that stance. Centres of \
-         pressure where the plate carries more than 5 % of body weight. Moments of a leg over the instrumented window \
-         and over its whole stances. Means: feet, then trials, then subjects; a subject with several files counts once.\n"
+         (order 2, both ways). Rule in double support: {rule}. Failed criteria are listed as missed. The tables are those of \
+         `ambulo validate`, which judges any folder of recordings.\n\n\
+         {DEFINITIONS}\n\n\
+         All but the runs took part in fitting the estimator: [GROUND_FIT.md](GROUND_FIT.md) has the figures of people \
+         and laboratories left out, which are those that strangers get.\n"
     );
+    let judged: Vec<&JudgedTrial> = trials.iter().map(|trial| &trial.judged).collect();
     let tracked: Vec<&Tracked> = trials.iter().filter_map(|trial| trial.tracked.as_ref()).collect();
+    let own = |title: &str, table: String| format!("## {title}\n\n{table}");
     let sections = [
-        ("Criteria", criteria(trials)),
-        ("Means of each kind of trial", kinds(trials)),
-        ("Share inside the 90 % band in each fifth of the stance", fifths(trials)),
-        ("With a calibration on another trial of the person", personal::section(calibrated)),
-        ("Forces of each foot", forces(trials)),
-        ("Centres of pressure", centers(trials)),
-        ("Sagittal moments: RMSE [N.m/kg], r", moments(trials)),
-        ("Foot strikes and foot offs", events(trials)),
-        ("Vertical peaks and flight", peaks(trials)),
-        ("Error budget: each source replaced by its measured value", budget(trials)),
-        ("Tracking by feet on soft ground, next to the prediction", tracking::section(&tracked)),
-        ("Time of a prediction from a trajectory", times(trials)),
+        own("Criteria", criteria(trials)),
+        validation::kind_means(&judged).markdown(),
+        validation::share_by_fifth(&judged).markdown(),
+        validation::rmse_by_fifth(&judged).markdown(),
+        own("With a calibration on another trial of the person", personal::section(calibrated)),
+        validation::person_means(&judged).markdown(),
+        validation::each_trial(&judged).markdown(),
+        validation::forces(&judged).markdown(),
+        validation::centers(&judged).markdown(),
+        validation::moments(&judged).markdown(),
+        validation::events(&judged).markdown(),
+        own("Vertical peaks and flight", peaks(trials)),
+        own("Error budget: each source replaced by its measured value", budget(trials)),
+        own("Tracking by feet on soft ground, next to the prediction", tracking::section(&tracked)),
+        own("Time of a prediction from a trajectory", times(trials)),
     ];
-    sections.into_iter().fold(head, |page, (title, table)| format!("{page}\n## {title}\n\n{table}"))
+    sections.into_iter().fold(head, |page, section| format!("{page}\n{section}"))
 }
 
-/// A number, or a dash.
-pub(super) fn number(x: f64, digits: usize) -> String {
-    if x.is_finite() { format!("{x:.digits$}") } else { "-".to_owned() }
+/// Mean over people of a figure of their trials of a group.
+fn over_group(trials: &[Trial], group: Group, of: impl Fn(&Trial) -> f64) -> f64 {
+    let own = trials.iter().filter(|trial| trial.judged.kind == group.word());
+    over_persons(own.map(|trial| (trial.judged.person.as_str(), of(trial))))
 }
 
 fn criteria(trials: &[Trial]) -> String {
@@ -72,201 +77,52 @@ fn criteria(trials: &[Trial]) -> String {
 }
 
 fn all_criteria(trials: &[Trial]) -> Vec<Criterion> {
-    let mean = |group, figure: Figure| over_subjects(trials, group, |trial| figure.of(&trial.agreement));
+    let mean = |group, figure: Figure| over_group(trials, group, |trial| figure.of(&trial.judged.agreement));
     let walking = |figure| mean(Group::Walking, figure);
     let mut list = Vec::new();
     let mut add = |what: String, result: f64, allowed, digits| list.push(Criterion { what, result, allowed, digits });
     let of_forces = [(4.5, 4.2, 0.985), (2.0, 5.8, 0.986), (1.1, 12.0, 0.92)];
-    for (k, (rmse, relative, r)) in of_forces.into_iter().enumerate() {
-        let name = COMPONENTS[k];
-        add(format!("{name}, RMSE %BW"), walking(Figure::Force(k)), [None, Some(rmse)], 2);
-        add(format!("{name}, rRMSE %"), walking(Figure::Relative(k)), [None, Some(relative)], 1);
-        add(format!("{name}, r"), walking(Figure::Correlation(k)), [Some(r), None], 3);
+    for (of, (rmse, relative, r)) in Component::ALL.into_iter().zip(of_forces) {
+        let name = of.word();
+        add(format!("{name}, RMSE %BW"), walking(Figure::Rmse(of)), [None, Some(rmse)], 2);
+        add(format!("{name}, rRMSE %"), walking(Figure::Relative(of)), [None, Some(relative)], 1);
+        add(format!("{name}, r"), walking(Figure::Correlation(of)), [Some(r), None], 3);
     }
-    for (k, (name, most)) in [("fore-aft", 12.0), ("lateral", 7.0)].into_iter().enumerate() {
+    for (name, figure, most) in [("fore-aft", Figure::CenterAlong, 12.0), ("lateral", Figure::CenterAcross, 7.0)] {
         let what = format!("centre of pressure {name}, force-weighted RMS mm");
-        add(what, walking(Figure::Center(k)), [None, Some(most)], 1);
+        add(what, walking(figure), [None, Some(most)], 1);
     }
-    for (joint, most) in [0.16, 0.11, 0.10].into_iter().enumerate() {
-        let name = JOINTS[joint].0;
-        add(format!("{name} moment, RMSE N.m/kg"), walking(Figure::Moment(joint)), [None, Some(most)], 3);
+    for (joint, most) in LegJoint::ALL.into_iter().zip([0.16, 0.11, 0.10]) {
+        let what = format!("{} moment, RMSE N.m/kg", joint.word());
+        add(what, walking(Figure::Moment(joint)), [None, Some(most)], 3);
     }
-    for (joint, least) in [0.93, 0.93, 0.98].into_iter().enumerate() {
-        add(
-            format!("{} moment, r", JOINTS[joint].0),
-            walking(Figure::MomentCorrelation(joint)),
-            [Some(least), None],
-            3,
-        );
+    for (joint, least) in LegJoint::ALL.into_iter().zip([0.93, 0.93, 0.98]) {
+        let what = format!("{} moment, r", joint.word());
+        add(what, walking(Figure::MomentCorrelation(joint)), [Some(least), None], 3);
     }
     add("events, mean absolute error ms".to_owned(), walking(Figure::Events), [None, Some(15.0)], 1);
-    for (k, name) in COMPONENTS.into_iter().enumerate() {
-        add(format!("{name}, samples in the 90 % band %"), walking(Figure::Band(k)), [Some(85.0), Some(95.0)], 1);
-        add(format!("{name}, half-width of the band / RMSE"), walking(Figure::Width(k)), [None, Some(2.2)], 2);
+    for of in Component::ALL {
+        let name = of.word();
+        add(format!("{name}, samples in the 90 % band %"), walking(Figure::InBand(of)), [Some(85.0), Some(95.0)], 1);
+        add(format!("{name}, half-width of the band / RMSE"), walking(Figure::BandWidth(of)), [None, Some(2.2)], 2);
     }
-    add("turns: vertical, RMSE %BW".to_owned(), mean(Group::Turning, Figure::Force(0)), [None, Some(5.5)], 2);
-    add("turns: lateral, r".to_owned(), mean(Group::Turning, Figure::Correlation(2)), [Some(0.95), None], 3);
-    add(
-        "fast walking: vertical, RMSE %BW".to_owned(),
-        mean(Group::FastWalking, Figure::Force(0)),
-        [None, Some(8.0)],
-        2,
-    );
-    add("running: vertical, RMSE %BW".to_owned(), mean(Group::Running, Figure::Force(0)), [None, Some(12.0)], 2);
-    add("running: vertical, rRMSE %".to_owned(), mean(Group::Running, Figure::Relative(0)), [None, Some(5.5)], 1);
-    let peaks = trials.iter().filter(|trial| trial.group == Group::Running).flat_map(|trial| &trial.peaks_off);
+    let vertical = Figure::Rmse(Component::Vertical);
+    for (what, group, most) in
+        [("turns", Group::Turning, 5.5), ("fast walking", Group::FastWalking, 8.0), ("running", Group::Running, 12.0)]
+    {
+        add(format!("{what}: vertical, RMSE %BW"), mean(group, vertical), [None, Some(most)], 2);
+    }
+    let lateral = mean(Group::Turning, Figure::Correlation(Component::Lateral));
+    add("turns: lateral, r".to_owned(), lateral, [Some(0.95), None], 3);
+    let relative = mean(Group::Running, Figure::Relative(Component::Vertical));
+    add("running: vertical, rRMSE %".to_owned(), relative, [None, Some(5.5)], 1);
+    let peaks =
+        trials.iter().filter(|trial| trial.judged.kind == Group::Running.word()).flat_map(|trial| &trial.peaks_off);
     let worst = peaks.map(|(_, _, off)| 100.0 * off.abs()).fold(0.0, f64::max);
     add("running: vertical peak of the worst stance off by %".to_owned(), worst, [None, Some(5.0)], 1);
     let slowest = trials.iter().map(|trial| trial.microseconds).fold(0.0, f64::max);
     add("prediction, microseconds a frame, slowest recording".to_owned(), slowest, [None, Some(20.0)], 1);
     list
-}
-
-/// Every kind of trial that there is, in the order of the recordings.
-fn groups(trials: &[Trial]) -> Vec<Group> {
-    let mut all = Vec::new();
-    for trial in trials {
-        if !all.contains(&trial.group) {
-            all.push(trial.group);
-        }
-    }
-    all
-}
-
-fn kinds(trials: &[Trial]) -> String {
-    let mut table = Table::new(&["kind", "component", "RMSE %BW", "rRMSE %", "r", "in band %", "band/RMSE"]);
-    for group in groups(trials) {
-        for (k, name) in COMPONENTS.into_iter().enumerate() {
-            let mean = |figure: Figure, digits| {
-                number(over_subjects(trials, group, |trial| figure.of(&trial.agreement)), digits)
-            };
-            table.row([
-                group.word().to_owned(),
-                name.to_owned(),
-                mean(Figure::Force(k), 2),
-                mean(Figure::Relative(k), 1),
-                mean(Figure::Correlation(k), 3),
-                mean(Figure::Band(k), 1),
-                mean(Figure::Width(k), 2),
-            ]);
-        }
-    }
-    table.text()
-}
-
-fn fifths(trials: &[Trial]) -> String {
-    let mut table = Table::new(&["kind", "component", "1st", "2nd", "3rd", "4th", "5th"]);
-    for group in groups(trials) {
-        for (k, name) in COMPONENTS.into_iter().enumerate() {
-            let held = |fifth| number(100.0 * over_subjects(trials, group, |t| held_in_fifth(t, k, fifth)), 0);
-            let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(held);
-            table.row([group.word().to_owned(), name.to_owned(), a, b, c, d, e]);
-        }
-    }
-    table.text()
-}
-
-fn forces(trials: &[Trial]) -> String {
-    let mut table = Table::new(&[
-        "recording",
-        "group",
-        "foot",
-        "stances",
-        "component",
-        "RMSE %BW",
-        "rRMSE %",
-        "r",
-        "in band %",
-        "band/RMSE",
-    ]);
-    for trial in trials {
-        for foot in &trial.agreement.feet {
-            for (k, name) in COMPONENTS.into_iter().enumerate() {
-                let force = component(foot, k);
-                table.row([
-                    trial.label.to_owned(),
-                    trial.group.word().to_owned(),
-                    foot.side.letter().to_owned(),
-                    foot.stances_s.len().to_string(),
-                    name.to_owned(),
-                    number(100.0 * force.rmse_bw, 2),
-                    number(100.0 * force.rrmse, 1),
-                    number(force.r, 3),
-                    number(100.0 * force.band.holds, 1),
-                    number(force.band.half_width_over_rmse, 2),
-                ]);
-            }
-        }
-    }
-    table.text()
-}
-
-fn centers(trials: &[Trial]) -> String {
-    let mut table = Table::new(&[
-        "recording",
-        "foot",
-        "fore-aft mm",
-        "fore-aft weighted",
-        "lateral mm",
-        "lateral weighted",
-        "samples",
-        "without",
-    ]);
-    for trial in trials {
-        for foot in &trial.agreement.feet {
-            let center = &foot.center_of_pressure;
-            table.row([
-                trial.label.to_owned(),
-                foot.side.letter().to_owned(),
-                number(center.fore_aft_mm, 1),
-                number(center.fore_aft_weighted_mm, 1),
-                number(center.lateral_mm, 1),
-                number(center.lateral_weighted_mm, 1),
-                center.samples.to_string(),
-                center.missing.to_string(),
-            ]);
-        }
-    }
-    table.text()
-}
-
-fn moments(trials: &[Trial]) -> String {
-    let mut table = Table::new(&["recording", "leg", "hip", "r", "knee", "r", "ankle", "r"]);
-    for trial in trials {
-        for side in ["r", "l"] {
-            let of = |joint: usize| {
-                let name = format!("{}_{side}_moment", JOINTS[joint].1);
-                let found = trial.agreement.moments.iter().find(|m| m.quantity == name);
-                found.map_or([f64::NAN; 2], |m| [m.rmse_nm_kg, m.r])
-            };
-            let [[hip, hip_r], [knee, knee_r], [ankle, ankle_r]] = [of(0), of(1), of(2)];
-            if [hip, knee, ankle].iter().any(|x| x.is_finite()) {
-                let n = |x| number(x, 3);
-                let cells = [n(hip), n(hip_r), n(knee), n(knee_r), n(ankle), n(ankle_r)];
-                let [a, b, c, d, e, f] = cells;
-                table.row([trial.label.to_owned(), side.to_owned(), a, b, c, d, e, f]);
-            }
-        }
-    }
-    table.text()
-}
-
-fn events(trials: &[Trial]) -> String {
-    let mut table = Table::new(&["recording", "kind", "pairs", "missed", "extra", "mean error ms", "bias ms"]);
-    for trial in trials {
-        for event in &trial.agreement.events {
-            table.row([
-                trial.label.to_owned(),
-                event.kind.word().to_owned(),
-                event.pairs.to_string(),
-                event.missed.to_string(),
-                event.extra.to_string(),
-                number(event.mean_absolute_ms, 1),
-                number(event.bias_ms, 1),
-            ]);
-        }
-    }
-    table.text()
 }
 
 fn peaks(trials: &[Trial]) -> String {
@@ -276,8 +132,8 @@ fn peaks(trials: &[Trial]) -> String {
             trial.peaks_off.iter().map(|(side, _, off)| format!("{side} {:+.1}", 100.0 * off)).collect();
         let [found, truth] = trial.flight_s;
         let peaks = peaks.join(" ");
-        let source = trial.mass_source.to_owned();
-        table.row([trial.label.to_owned(), peaks, number(found, 2), number(truth, 2), source]);
+        let source = trial.mass_source().to_owned();
+        table.row([trial.judged.name.clone(), peaks, number(found, 2), number(truth, 2), source]);
     }
     table.text()
 }
@@ -296,19 +152,19 @@ fn budget(trials: &[Trial]) -> String {
     ]);
     let mut row = |name: &str, of: &dyn Fn(&Trial) -> Option<&GroundAgreement>| {
         let mean = |figure: Figure, digits| {
-            let of = |trial| of(trial).map_or(f64::NAN, |agreement| figure.of(agreement));
-            number(over_subjects(trials, Group::Walking, of), digits)
+            let of = |trial: &Trial| of(trial).map_or(f64::NAN, |agreement| figure.of(agreement));
+            number(over_group(trials, Group::Walking, of), digits)
         };
         table.row([
             name.to_owned(),
-            mean(Figure::Force(0), 2),
-            mean(Figure::Force(1), 2),
-            mean(Figure::Force(2), 2),
-            mean(Figure::Center(0), 1),
-            mean(Figure::Center(1), 1),
-            mean(Figure::Moment(0), 3),
-            mean(Figure::Moment(1), 3),
-            mean(Figure::Moment(2), 3),
+            mean(Figure::Rmse(Component::Vertical), 2),
+            mean(Figure::Rmse(Component::ForeAft), 2),
+            mean(Figure::Rmse(Component::Lateral), 2),
+            mean(Figure::CenterAlong, 1),
+            mean(Figure::CenterAcross, 1),
+            mean(Figure::Moment(LegJoint::Hip), 3),
+            mean(Figure::Moment(LegJoint::Knee), 3),
+            mean(Figure::Moment(LegJoint::Ankle), 3),
         ]);
     };
     let mut sources: Vec<&str> = Vec::new();
@@ -330,7 +186,7 @@ fn budget(trials: &[Trial]) -> String {
 fn times(trials: &[Trial]) -> String {
     let mut table = Table::new(&["recording", "frames", "microseconds a frame"]);
     for trial in trials {
-        table.row([trial.label.to_owned(), trial.frames.to_string(), number(trial.microseconds, 1)]);
+        table.row([trial.judged.name.clone(), trial.frames.to_string(), number(trial.microseconds, 1)]);
     }
     format!("{}\nThe best of five runs, on whatever machine wrote this page.\n", table.text())
 }

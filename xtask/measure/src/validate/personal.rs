@@ -1,23 +1,22 @@
 //! What a calibration on one trial of a person changes in the other trials of that person.
 
-use super::means::{Figure, mean};
-use super::page::number;
 use super::recording::{Group, Recording};
 use crate::table::Table;
 use ambulo::analysis::GroundAgreement;
 use ambulo::ground::predict::{PersonalErrors, Prescribed};
+use ambulo::study::validation::{Component, Figure, LegJoint, mean, number};
 use ambulo::study::{Outcome, Source, personal_errors};
 use std::path::Path;
 
 /// The figures of the table, with their headings and digits.
 const COLUMNS: [(&str, Figure, usize); 7] = [
-    ("vertical %BW", Figure::Force(0), 2),
-    ("fore-aft %BW", Figure::Force(1), 2),
-    ("lateral %BW", Figure::Force(2), 2),
-    ("CoP fore-aft mm", Figure::Center(0), 1),
-    ("hip N.m/kg", Figure::Moment(0), 3),
-    ("knee", Figure::Moment(1), 3),
-    ("ankle", Figure::Moment(2), 3),
+    ("vertical %BW", Figure::Rmse(Component::Vertical), 2),
+    ("fore-aft %BW", Figure::Rmse(Component::ForeAft), 2),
+    ("lateral %BW", Figure::Rmse(Component::Lateral), 2),
+    ("CoP fore-aft mm", Figure::CenterAlong, 1),
+    ("hip N.m/kg", Figure::Moment(LegJoint::Hip), 3),
+    ("knee", Figure::Moment(LegJoint::Knee), 3),
+    ("ankle", Figure::Moment(LegJoint::Ankle), 3),
 ];
 
 /// Agreement without and with a calibration, for a person and a kind of pair.
@@ -78,8 +77,7 @@ pub(super) fn section(all: &[Calibrated]) -> String {
     };
     let mut row = |head: [String; 4], word: &str, values: [f64; 7], digits: Option<usize>| {
         let cells = COLUMNS.iter().zip(values).map(|((.., own), value)| number(value, digits.unwrap_or(*own)));
-        let mut cells = head.into_iter().chain([word.to_owned()]).chain(cells);
-        table.row::<12>(std::array::from_fn(|_| cells.next().unwrap_or_default()));
+        table.row(head.into_iter().chain([word.to_owned()]).chain(cells));
     };
     let mut kinds: Vec<[Group; 2]> = Vec::new();
     for one in all {

@@ -1,14 +1,12 @@
 //! Tracking by feet on soft ground, next to the prediction and the plates.
 
-use super::means::Figure;
-use super::page::number;
 use super::recording::Recording;
 use crate::table::Table;
 use ambulo::analysis::{ComparedAnalyses, GroundAgreement, ground_agreement, track};
 use ambulo::optimal::TrackSettings;
+use ambulo::study::validation::{Figure, SUMMARY, mean, number, summary_cells};
 use ambulo::study::{Outcome, PredictedGround};
 use cpu_time::ThreadTime;
-use std::array;
 
 /// People on whose recordings the weights of tracking were set.
 const WEIGHTS_SET_ON: [&str; 6] = ["gait2392", "rajagopal-walk", "rajagopal-run", "HC032A", "HC002D", "PiG"];
@@ -64,30 +62,9 @@ impl Tracked {
     }
 }
 
-/// The figures of the table, with their headings and digits.
-const COLUMNS: [(&str, Figure, usize); 11] = [
-    ("vertical %BW", Figure::Force(0), 2),
-    ("r", Figure::Correlation(0), 3),
-    ("fore-aft %BW", Figure::Force(1), 2),
-    ("r", Figure::Correlation(1), 3),
-    ("lateral %BW", Figure::Force(2), 2),
-    ("r", Figure::Correlation(2), 3),
-    ("CoP fore-aft mm", Figure::Center(0), 1),
-    ("CoP lateral mm", Figure::Center(1), 1),
-    ("hip N.m/kg", Figure::Moment(0), 3),
-    ("knee", Figure::Moment(1), 3),
-    ("ankle", Figure::Moment(2), 3),
-];
-
 /// Cells of a row: recording, group, whether weights were set on it, origin of the forces, and the figures.
-fn row(head: [&str; 4], numbers: impl Fn(Figure) -> f64) -> [String; 4 + COLUMNS.len()] {
-    array::from_fn(|k| match head.get(k) {
-        Some(word) => (*word).to_owned(),
-        None => {
-            let (_, figure, digits) = COLUMNS[k - head.len()];
-            number(numbers(figure), digits)
-        }
-    })
+fn row(head: [&str; 4], of: impl Fn(Figure) -> f64) -> impl Iterator<Item = String> {
+    head.map(str::to_owned).into_iter().chain(summary_cells(of))
 }
 
 fn word(is_known: bool) -> &'static str {
@@ -97,7 +74,7 @@ fn word(is_known: bool) -> &'static str {
 /// The section of the page.
 pub(super) fn section(all: &[&Tracked]) -> String {
     let head = ["recording", "group", "weights set on it", "forces from"].into_iter();
-    let mut table = Table::new(&head.chain(COLUMNS.iter().map(|(name, ..)| *name)).collect::<Vec<_>>());
+    let mut table = Table::new(&head.chain(SUMMARY.map(|(name, ..)| name)).collect::<Vec<_>>());
     for one in all {
         let head = |from| [one.label, one.group, word(one.is_known), from];
         table.row(row(head("prediction"), |figure| figure.of(&one.predicted)));
@@ -109,8 +86,8 @@ pub(super) fn section(all: &[&Tracked]) -> String {
         let solved: Vec<_> =
             walking.filter_map(|one| Some([&one.predicted, &one.found.as_ref().ok()?.agreement])).collect();
         for (k, from) in ["prediction", "tracking"].into_iter().enumerate() {
-            let mean = |figure: Figure| solved.iter().map(|pair| figure.of(pair[k])).sum::<f64>() / solved.len() as f64;
-            table.row(row(["mean over recordings", "walking", word(is_known), from], mean));
+            let of = |figure: Figure| mean(solved.iter().map(|pair| figure.of(pair[k])));
+            table.row(row(["mean over recordings", "walking", word(is_known), from], of));
         }
     }
     format!(

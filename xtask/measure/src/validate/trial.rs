@@ -1,10 +1,8 @@
 //! One recording: its prediction compared with measured forces, also with each source of error replaced by its measured value.
 
-use super::recording::{Group, Recording};
+use super::recording::Recording;
 use super::tracking::Tracked;
-use ambulo::analysis::{
-    Analysis, ComparedAnalyses, ComparedStance, GroundAgreement, MassSource, PlateCoverage, compared_stances,
-};
+use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PlateCoverage};
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
 use ambulo::ground::predict::{PredictSettings, Prescribed, predict};
@@ -12,6 +10,7 @@ use ambulo::ground::{BodyForces, feet};
 use ambulo::model::{BySide, Side};
 use ambulo::motion::{TimeGrid, Window};
 use ambulo::spatial::{Vec3, Wrench};
+use ambulo::study::validation::JudgedTrial;
 use ambulo::study::{Outcome, PredictedGround, Source};
 use std::borrow::Cow;
 use std::time::Instant;
@@ -21,11 +20,8 @@ const LOADED_N: f64 = 20.0;
 
 /// Results of a recording.
 pub(super) struct Trial {
-    pub(super) label: &'static str,
-    pub(super) subject: &'static str,
-    pub(super) group: Group,
-    pub(super) mass_source: &'static str,
-    pub(super) rule: &'static str,
+    /// Agreement of the prediction with the plates; its kind is the group of the recording.
+    pub(super) judged: JudgedTrial,
     pub(super) frames: usize,
     /// Time of the prediction alone, per frame [µs].
     pub(super) microseconds: f64,
@@ -33,9 +29,6 @@ pub(super) struct Trial {
     pub(super) peaks_off: Vec<(&'static str, f64, f64)>,
     /// Time without a loaded foot in the instrumented window: predicted, measured [s].
     pub(super) flight_s: [f64; 2],
-    pub(super) agreement: GroundAgreement,
-    /// The whole stances, predicted and measured.
-    pub(super) stances: Vec<ComparedStance>,
     /// The agreement in the instrumented window with one source of error replaced: name, agreement.
     pub(super) budget: Vec<(&'static str, GroundAgreement)>,
     /// Tracking of the same motion.
@@ -45,38 +38,35 @@ pub(super) struct Trial {
 impl Trial {
     pub(super) fn run(recording: &Recording, source: &Source) -> Result<Trial, String> {
         let outcome = recording.predict(source, Prescribed::default())?;
-        let PredictedGround { prediction, measured, coverage, agreement, .. } =
+        let judged = JudgedTrial::of(recording.label, recording.subject, &outcome, &Findings::default());
+        let judged = JudgedTrial { kind: recording.group.word().to_owned(), ..judged.map_err(|e| e.to_string())? };
+        let PredictedGround { prediction, measured, coverage, .. } =
             outcome.prediction.as_ref().ok_or("nothing was predicted")?;
         let (measured, seen) = measured.as_ref().zip(coverage.as_ref()).ok_or("no plates")?;
-        let agreement = agreement.clone().ok_or("plates saw no foot in full")?;
-        let (model, predicted) = (&outcome.body, &outcome.analysis);
-        let stances = compared_stances(&ComparedAnalyses { model, predicted, prediction, measured }, seen);
-        let judged = inside_window(seen);
+        let window = inside_window(seen);
         let mut budget = Vec::new();
-        budget.extend(outcome.agreement_over(&judged).map(|agreement| ("nothing", agreement)));
+        budget.extend(outcome.agreement_over(&window).map(|agreement| ("nothing", agreement)));
         for (name, prescribed) in truths(&outcome, &prediction.footfalls, measured, seen) {
             let again = recording.predict(source, prescribed)?;
-            budget.extend(again.agreement_over(&judged).map(|agreement| (name, agreement)));
+            budget.extend(again.agreement_over(&window).map(|agreement| (name, agreement)));
         }
         Ok(Trial {
-            label: recording.label,
-            subject: recording.subject,
-            group: recording.group,
-            mass_source: match measured.mass.source {
-                MassSource::Plates => "plates",
-                MassSource::Standing => "standing",
-                MassSource::Model => "stated",
-            },
-            rule: prediction.rule,
             frames: outcome.analysis.trajectory.grid().frames,
             microseconds: microseconds(&outcome)?,
             peaks_off: peaks_off(&outcome, measured, seen),
             flight_s: [&outcome.analysis, measured].map(|analysis| flight_s(&outcome, analysis, seen)),
-            tracked: Tracked::new(recording, &outcome, &agreement),
-            agreement,
-            stances,
+            tracked: Tracked::new(recording, &outcome, &judged.agreement),
+            judged,
             budget,
         })
+    }
+
+    pub(super) fn mass_source(&self) -> &'static str {
+        match self.judged.mass.source {
+            MassSource::Plates => "plates",
+            MassSource::Standing => "standing",
+            MassSource::Model => "stated",
+        }
     }
 }
 
