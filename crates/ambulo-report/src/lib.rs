@@ -14,6 +14,7 @@ mod scene_shapes;
 mod stage;
 pub mod style;
 mod sweep;
+mod validation;
 
 pub use clinical_file::clinical_file;
 pub use exchange::{
@@ -27,3 +28,4 @@ pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;
 pub use scene_shapes::scene_shapes;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
+pub use validation::{ListedTrial, listed_section, validation_files};

@@ -129,6 +129,14 @@ pub(crate) struct ForcesArgs {
 }
 
 impl ForcesArgs {
+    /// The options of `ambulo forces RECORDING --predict`.
+    pub(crate) fn predicting(recording: &Path) -> Result<ForcesArgs, clap::Error> {
+        let command = ForcesArgs::augment_args(clap::Command::new("forces"));
+        // The name follows after `--`, because it may look like an option.
+        let words = [OsStr::new("forces"), OsStr::new("--predict"), OsStr::new("--"), recording.as_os_str()];
+        ForcesArgs::from_arg_matches(&command.try_get_matches_from(words)?)
+    }
+
     /// The recording; without one the name is empty.
     pub(crate) fn recording(&self) -> &Path {
         self.input.as_deref().unwrap_or(Path::new(""))
@@ -185,10 +193,8 @@ pub(crate) struct CalibrateArgs {
 impl CalibrateArgs {
     /// The options by which a trial is predicted.
     pub(crate) fn of_trial(&self, trial: &Path) -> Result<ForcesArgs, clap::Error> {
-        let command = ForcesArgs::augment_args(clap::Command::new("forces"));
-        let words = [OsStr::new("forces"), trial.as_os_str()];
-        let defaults = ForcesArgs::from_arg_matches(&command.try_get_matches_from(words)?)?;
-        Ok(ForcesArgs { model: self.model.clone(), subject: self.subject.clone(), predict: true, ..defaults })
+        let defaults = ForcesArgs::predicting(trial)?;
+        Ok(ForcesArgs { model: self.model.clone(), subject: self.subject.clone(), ..defaults })
     }
 }
 

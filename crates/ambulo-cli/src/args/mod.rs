@@ -4,6 +4,7 @@ mod exchange;
 mod forces;
 mod report;
 mod tools;
+mod validate;
 mod values;
 mod walk;
 
@@ -11,6 +12,7 @@ pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Adjusted, CalibrateArgs, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
+pub(crate) use validate::{TrialFiles, ValidateArgs};
 pub(crate) use values::{Cutoff, EarthTurn, FootColumns, ForceCutoff, HeadingAxis, PlateFoot, TimedValue, Values};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
 
@@ -30,6 +32,8 @@ pub(crate) enum Command {
     Forces(Box<ForcesArgs>),
     /// Calibrate the predicted ground forces of a person with trials on force plates, for `forces --person`.
     Calibrate(Box<CalibrateArgs>),
+    /// Judge predicted ground forces on a folder of recordings with force plates: per trial, person and activity, on one page.
+    Validate(ValidateArgs),
     /// Synthesise a walk at any speed and in any style; same outputs as `forces`, no file needed.
     Walk(Box<WalkArgs>),
     /// Compute walks at many speeds, of many bodies, on slopes and with loads: one table, and a page with envelopes.

@@ -18,6 +18,7 @@ pub(crate) mod simulate;
 mod stopwatch;
 pub(crate) mod sweep;
 pub(crate) mod tune;
+pub(crate) mod validate;
 pub(crate) mod view;
 pub(crate) mod walk;
 

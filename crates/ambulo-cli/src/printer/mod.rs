@@ -13,6 +13,7 @@ mod subject;
 mod sweep;
 mod tools;
 mod tune;
+mod validate;
 
 pub(crate) use calibrate::calibrate;
 pub(crate) use forces::forces;
@@ -22,6 +23,7 @@ pub(crate) use simulate::simulate;
 pub(crate) use sweep::sweep;
 pub(crate) use tools::{ComparedColumn, EventSource, SourceAgreement, compare, convert, events, info};
 pub(crate) use tune::{TunedGains, tune, tuning};
+pub(crate) use validate::{found_trials, validate};
 
 use crate::args::PrintArgs;
 use crate::hints;
@@ -62,6 +64,7 @@ pub(crate) fn guide() -> Result<()> {
   ambulo forces WALK.c3d --static STANDING.c3d               joint moments, powers, ground forces from markers and force plates
   ambulo forces MOTION.trc --mass 70                         the same without force plates: predicted ground forces
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    the same from coordinates of an OpenSim model
+  ambulo validate DIR                                        judge predicted ground forces on a folder of trials on plates
   ambulo simulate SCENE.toml                                 simulate a scene
   ambulo tune SCENE.toml                                     tune the gains of a figure that walks by its own torques
   ambulo reproduce -o paper                                  recompute the claims of the 1997 paper

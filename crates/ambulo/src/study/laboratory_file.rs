@@ -4,10 +4,11 @@ use crate::analysis::LaboratoryRecording;
 use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
-    Event, MarkerError, MarkerRecording, RecordedMotion, RecordedMotionError, SegmentPoseError, SubjectParameters,
-    events_from_c3d, events_from_mvnx, markers_from_table, markers_from_trc, motion_from_c3d, segment_poses_from_mvnx,
-    subject_from_c3d,
+    Event, MarkerError, MarkerPath, MarkerRecording, RecordedMotion, RecordedMotionError, SegmentPoseError,
+    SubjectParameters, events_from_c3d, events_from_mvnx, markers_from_table, markers_from_trc, motion_from_c3d,
+    segment_poses_from_mvnx, subject_from_c3d,
 };
+use crate::spatial::Vec3;
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::mvnx::Mvnx;
 use ambulo_formats::table::Table;
@@ -52,7 +53,27 @@ pub enum LaboratoryFileError {
     },
 }
 
+/// Markers of a person who stands still stay this close to their mean position, root mean square [m]: sway is 1 to 2 cm.
+const STILL_M: f64 = 0.05;
+/// The share of the markers that do; others may be lost, or mistaken for each other.
+const STILL_SHARE: f64 = 0.75;
+
 impl LaboratoryFile {
+    /// Whether the person stands, sits or lies still: three quarters of the markers stay within 5 cm of their mean position. Markers alone
+    /// decide, so that a standing trial is found before there is a body.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        let spread_m = |path: &MarkerPath| {
+            let seen = || path.positions.iter().filter(|position| position.iter().all(|x| x.is_finite()));
+            let count = seen().count().max(1) as f64;
+            let mean = seen().sum::<Vec3>() / count;
+            (seen().count() > 0).then(|| (seen().map(|p| (p - mean).norm_squared()).sum::<f64>() / count).sqrt())
+        };
+        let spreads: Vec<f64> = self.recording.markers.markers.iter().filter_map(spread_m).collect();
+        let still = spreads.iter().filter(|spread| **spread < STILL_M).count();
+        !spreads.is_empty() && still as f64 >= STILL_SHARE * spreads.len() as f64
+    }
+
     /// From the bytes of a C3D; `label` names the file in findings. Bytes that are not borrowed are dropped as soon as they are decoded.
     ///
     /// # Errors

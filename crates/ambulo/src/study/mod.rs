@@ -34,6 +34,7 @@ mod settings;
 mod size;
 mod source;
 mod tracked;
+mod trial_list;
 pub mod validation;
 mod weighing;
 
@@ -56,3 +57,4 @@ pub use source::{
     AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse,
     Recording, SensorBody, SensorSource, Source,
 };
+pub use trial_list::{StatedTrial, TrialList};

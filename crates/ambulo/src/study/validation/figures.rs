@@ -64,6 +64,15 @@ impl Component {
         }
     }
 
+    /// Its place in the forces of a [`ComparedSample`](crate::analysis::ComparedSample).
+    pub(super) fn axis(self) -> usize {
+        match self {
+            Component::Vertical => 0,
+            Component::ForeAft => 1,
+            Component::Lateral => 2,
+        }
+    }
+
     /// Its agreement in that of a foot.
     #[must_use]
     pub fn of(self, foot: &FootAgreement) -> ForceAgreement {

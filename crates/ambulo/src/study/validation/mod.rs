@@ -21,12 +21,14 @@
 //! Pinned by: tests/validation.rs
 
 mod figures;
+mod phase_errors;
 mod stance_rows;
 mod tables;
 mod text_table;
 mod trial;
 
 pub use figures::{Component, Figure, LegJoint, kinds, mean, over_kind, over_persons, persons};
+pub use phase_errors::{PhaseError, phase_errors};
 pub use stance_rows::{StanceRow, stance_rows};
 pub use tables::{
     DEFINITIONS, SUMMARY, Section, centers, each_trial, events, forces, kind_means, moments, number, person_means,

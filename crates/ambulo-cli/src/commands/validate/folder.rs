@@ -1,0 +1,90 @@
+//! The files of a folder and of the folders in it.
+
+use crate::files::ending;
+use crate::record::Record;
+use anyhow::{Context, Result, bail};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// More folders inside each other are a mistake, such as a link to the root of a disk.
+const DEEPEST: usize = 32;
+/// Endings of the files that may be a part of a trial.
+const ENDINGS: [&str; 5] = ["c3d", "trc", "mot", "sto", "osim"];
+
+/// A file that may be a part of a trial.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct FoundFile {
+    pub(super) path: PathBuf,
+    /// Its path from the folder of all trials, with `/`.
+    pub(super) name: String,
+    /// The same of its own folder; empty for the folder of all trials.
+    pub(super) folder: String,
+}
+
+impl FoundFile {
+    pub(super) fn ending(&self) -> String {
+        ending(&self.path)
+    }
+
+    /// The name without folder and ending, in lower case.
+    pub(super) fn stem(&self) -> String {
+        self.path.file_stem().unwrap_or_default().to_string_lossy().to_lowercase()
+    }
+}
+
+/// All files that may be parts of trials, in the order of their names. Hidden files and folders are left out, and result folders of this
+/// program, whose motion is not a recording.
+pub(super) fn files_in(root: &Path) -> Result<Vec<FoundFile>> {
+    let shown = root.display();
+    if root.is_file() {
+        bail!(
+            "{shown}: this is a file; expected a folder with recordings. hint: `ambulo forces {shown} --predict` judges one trial"
+        );
+    }
+    if !root.is_dir() {
+        bail!("{shown}: there is no such folder; expected a folder with recordings");
+    }
+    let mut found = Vec::new();
+    collect(root, "", DEEPEST, &mut BTreeSet::new(), &mut found)?;
+    Ok(found)
+}
+
+fn collect(
+    folder: &Path,
+    name: &str,
+    deeper: usize,
+    visited: &mut BTreeSet<PathBuf>,
+    found: &mut Vec<FoundFile>,
+) -> Result<()> {
+    let cannot = || format!("{}: this folder cannot be read", folder.display());
+    // A link may lead back to a folder around it.
+    let is_new = visited.insert(folder.canonicalize().with_context(cannot)?);
+    if !is_new || Record::of_folder(folder).is_some() {
+        return Ok(());
+    }
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder).with_context(cannot)? {
+        names.push(entry.with_context(cannot)?.file_name());
+    }
+    names.sort();
+    for own in names {
+        let (path, shown) = (folder.join(&own), own.to_string_lossy().into_owned());
+        if shown.starts_with('.') {
+            continue;
+        }
+        let below = if name.is_empty() { shown } else { format!("{name}/{shown}") };
+        if path.is_dir() {
+            if deeper == 0 {
+                bail!(
+                    "{}: found more than {DEEPEST} folders inside each other. Does a link lead to the folder of a disk?",
+                    path.display()
+                );
+            }
+            collect(&path, &below, deeper - 1, visited, found)?;
+        } else if path.is_file() && ENDINGS.contains(&ending(&path).as_str()) {
+            found.push(FoundFile { path, name: below, folder: name.to_owned() });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,301 @@
+//! Which files are trials, and which other files belong to each.
+//!
+//! | file | is |
+//! |---|---|
+//! | `.c3d` with force plates | a trial |
+//! | `.c3d` without plates, `.trc`, `.mot`, `.sto` with a table of ground forces beside it | a trial |
+//! | `.c3d`, `.trc` in which the person stands still | the standing trial of the trials in its folder |
+//! | `.mot`, `.sto` with a word of [`FORCES`] in its name | a table of ground forces |
+//! | the only `.osim` of a folder | the model of the `.trc`, `.mot` and `.sto` in it |
+//!
+//! A table of ground forces lies beside a recording if both have the same words in their names, apart from [`FORCES`] and [`RECORDINGS`]. A
+//! recording with the words of another one of its folder is the same trial in another form, and only the first form is judged.
+
+use super::folder::FoundFile;
+use crate::args::{TrialFiles, ValidateArgs};
+use crate::caller::Caller;
+use crate::commands::forces::markers::parse_laboratory_file;
+use crate::commands::side_by_side::side_by_side;
+use crate::files;
+use ambulo::findings::Findings;
+use ambulo::study::{StatedTrial, TrialList};
+use anyhow::{Context, Result, bail};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// The list of what a laboratory states, in the folder of all trials.
+pub(super) const LIST: &str = "trials.toml";
+/// Words in the names of tables of ground forces.
+const FORCES: [&str; 4] = ["grf", "force", "forces", "plates"];
+/// Words in the names of recordings that say only what kind of recording it is.
+const RECORDINGS: [&str; 10] =
+    ["ground", "reaction", "marker", "markers", "motion", "capture", "mocap", "ik", "kinematics", "coordinates"];
+/// Words in the names of standing trials, of which the first one with such a name is preferred.
+const STANDING: [&str; 4] = ["static", "stand", "calib", "pose"];
+
+/// A trial with the files that belong to it.
+#[derive(Debug, Clone)]
+pub(super) struct PlannedTrial {
+    /// Path of the recording from the folder of all trials.
+    pub(super) name: String,
+    pub(super) person: String,
+    /// The kind that the laboratory states.
+    pub(super) kind: Option<String>,
+    pub(super) files: TrialFiles,
+    /// Why it cannot be read.
+    pub(super) broken: Option<String>,
+}
+
+/// Trials, and files that are none.
+#[derive(Debug, Default)]
+pub(super) struct Plan {
+    pub(super) trials: Vec<PlannedTrial>,
+    /// Recordings that are not judged, each with the reason.
+    pub(super) others: Vec<(String, String)>,
+    /// Every file that was read.
+    pub(super) read: Vec<PathBuf>,
+}
+
+/// What a recording is by its content.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Content {
+    /// With force plates.
+    Plates,
+    /// The person stands still.
+    Still,
+    /// Without forces.
+    Motion,
+    Broken(String),
+}
+
+/// Finds trials and what belongs to them.
+pub(super) fn plan(args: &ValidateArgs, found: &[FoundFile], threads: usize) -> Result<Plan> {
+    let list_path = args.folder.join(LIST);
+    let list = read_list(&list_path, found)?;
+    let mut plan = Plan { read: list_path.is_file().then_some(list_path).into_iter().collect(), ..Plan::default() };
+    let recordings: Vec<(&FoundFile, StatedTrial)> =
+        (found.iter().filter(|file| is_recording(file))).map(|file| (file, list.of(&file.name))).collect();
+    let contents = side_by_side(recordings.len(), threads, |k| content(recordings[k].0, &recordings[k].1));
+    let folders = Folders::new(found, &recordings, &contents, &args.folder);
+    let mut taken = BTreeSet::new();
+    // C3D before TRC before coordinates.
+    let mut order: Vec<usize> = (0..recordings.len()).collect();
+    order.sort_by_key(|&k| (&recordings[k].0.folder, form(recordings[k].0), k));
+    for k in order {
+        let (file, stated) = &recordings[k];
+        plan.read.push(file.path.clone());
+        match folders.trial(file, stated, &contents[k], &mut taken) {
+            Ok(trial) => plan.trials.push(trial),
+            Err(reason) => plan.others.push((file.name.clone(), reason)),
+        }
+    }
+    plan.trials.sort_by(|a, b| a.name.cmp(&b.name));
+    plan.others.sort();
+    size_of_one_person(args, &mut plan)?;
+    Ok(plan)
+}
+
+/// Reads `trials.toml`, if there is one, and checks the files that it names.
+fn read_list(path: &Path, found: &[FoundFile]) -> Result<TrialList> {
+    if !path.is_file() {
+        return Ok(TrialList::default());
+    }
+    let shown = || path.display().to_string();
+    let text = String::from_utf8(files::read(path)?).with_context(shown)?;
+    let list = TrialList::from_toml(&text).with_context(shown)?;
+    list.check_files(found.iter().map(|file| file.name.as_str())).with_context(shown)?;
+    let root = path.parent().unwrap_or(Path::new(""));
+    for file in found {
+        let stated = list.of(&file.name);
+        if let Some(missing) = stated.paths().find(|named| !root.join(named).is_file()) {
+            bail!(
+                "{}: names `{missing}` for {}; there is no such file. hint: paths are relative to the folder of {LIST}",
+                path.display(),
+                file.name
+            );
+        }
+    }
+    Ok(list)
+}
+
+/// Whether a file may be a recording of motion.
+fn is_recording(file: &FoundFile) -> bool {
+    match file.ending().as_str() {
+        "c3d" | "trc" => true,
+        "mot" | "sto" => !is_force_table(file),
+        _ => false,
+    }
+}
+
+fn is_force_table(file: &FoundFile) -> bool {
+    matches!(file.ending().as_str(), "mot" | "sto") && words(file).any(|word| FORCES.contains(&word.as_str()))
+}
+
+fn is_of_markers(file: &FoundFile) -> bool {
+    matches!(file.ending().as_str(), "c3d" | "trc")
+}
+
+/// Forms of one recording, the preferred one first.
+fn form(file: &FoundFile) -> usize {
+    ["c3d", "trc", "mot", "sto"].iter().position(|ending| *ending == file.ending()).unwrap_or(usize::MAX)
+}
+
+/// The words of a name: letters and digits that stand together.
+fn words(file: &FoundFile) -> impl Iterator<Item = String> {
+    let stem = file.stem();
+    let words: Vec<String> =
+        stem.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).map(str::to_owned).collect();
+    words.into_iter()
+}
+
+/// The words that say which trial it is.
+fn own_words(file: &FoundFile) -> BTreeSet<String> {
+    words(file).filter(|word| !FORCES.contains(&word.as_str()) && !RECORDINGS.contains(&word.as_str())).collect()
+}
+
+fn content(file: &FoundFile, stated: &StatedTrial) -> Content {
+    if stated.excluded.is_some() || !is_of_markers(file) {
+        return Content::Motion;
+    }
+    let read = files::read_input(&Caller::default(), &file.path)
+        .and_then(|bytes| parse_laboratory_file(bytes, &file.path, &mut Findings::default()));
+    match read {
+        Err(error) => Content::Broken(format!("{error:#}")),
+        Ok(recording) if recording.is_still() => Content::Still,
+        Ok(recording) if recording.recording.plates.is_empty() => Content::Motion,
+        Ok(_) => Content::Plates,
+    }
+}
+
+/// What lies beside each other.
+struct Folders<'a> {
+    /// Name of the folder of all trials.
+    root: String,
+    root_path: &'a Path,
+    forces: BTreeMap<(&'a str, BTreeSet<String>), &'a FoundFile>,
+    models: BTreeMap<&'a str, Vec<&'a FoundFile>>,
+    standing: BTreeMap<&'a str, &'a FoundFile>,
+}
+
+impl<'a> Folders<'a> {
+    fn new(
+        found: &'a [FoundFile],
+        recordings: &[(&'a FoundFile, StatedTrial)],
+        contents: &[Content],
+        root_path: &'a Path,
+    ) -> Folders<'a> {
+        let canonical = root_path.canonicalize().unwrap_or_else(|_| root_path.to_owned());
+        let mut folders = Folders {
+            root: files::last(&canonical),
+            root_path,
+            forces: BTreeMap::new(),
+            models: BTreeMap::new(),
+            standing: BTreeMap::new(),
+        };
+        for file in found {
+            if is_force_table(file) {
+                folders.forces.entry((&file.folder, own_words(file))).or_insert(file);
+            } else if file.ending() == "osim" {
+                folders.models.entry(&file.folder).or_default().push(file);
+            }
+        }
+        let is_named = |file: &FoundFile| STANDING.iter().any(|word| file.stem().contains(word));
+        for ((file, _), _) in recordings.iter().zip(contents).filter(|(_, content)| **content == Content::Still) {
+            let chosen = folders.standing.entry(&file.folder).or_insert(file);
+            if !is_named(chosen) && is_named(file) {
+                *chosen = file;
+            }
+        }
+        folders
+    }
+
+    /// The trial of a recording, or why it is none.
+    fn trial(
+        &self,
+        file: &FoundFile,
+        stated: &StatedTrial,
+        content: &Content,
+        taken: &mut BTreeSet<(String, BTreeSet<String>)>,
+    ) -> Result<PlannedTrial, String> {
+        if let Some(reason) = &stated.excluded {
+            return Err(format!("excluded: {reason}"));
+        }
+        let path = |named: &String| self.root_path.join(named);
+        let key = (file.folder.clone(), own_words(file));
+        let beside = || self.forces.get(&(key.0.as_str(), key.1.clone())).map(|table| table.path.clone());
+        let grf = match content {
+            Content::Still => return Err(self.use_of_standing(file)),
+            Content::Plates => None,
+            Content::Broken(_) if file.ending() == "c3d" => None,
+            Content::Motion | Content::Broken(_) => match stated.forces.as_ref().map(path).or_else(beside) {
+                Some(table) => Some(table),
+                None if stated.loads.is_some() => None,
+                None => {
+                    return Err(
+                        "no measured ground forces: no force plates, and no table of forces beside it".to_owned()
+                    );
+                }
+            },
+        };
+        if !taken.insert(key) && content != &Content::Plates {
+            return Err("the same trial as another recording with this name".to_owned());
+        }
+        let model = stated.model.as_ref().map(path).or_else(|| self.model_of(file));
+        let standing = self.standing.get(file.folder.as_str()).filter(|_| model.is_none() && is_of_markers(file));
+        Ok(PlannedTrial {
+            name: file.name.clone(),
+            person: stated.person.clone().unwrap_or_else(|| self.person(file)),
+            kind: stated.kind.clone(),
+            broken: if let Content::Broken(reason) = content { Some(reason.clone()) } else { None },
+            files: TrialFiles {
+                recording: file.path.clone(),
+                standing: stated.standing.as_ref().map(path).or_else(|| standing.map(|standing| standing.path.clone())),
+                model,
+                grf: stated.forces.as_ref().map(path).or(grf),
+                loads: stated.loads.as_ref().map(path),
+                mass: stated.mass_kg,
+                height: stated.height_m,
+            },
+        })
+    }
+
+    fn use_of_standing(&self, file: &FoundFile) -> String {
+        match self.standing.get(file.folder.as_str()) {
+            Some(chosen) if *chosen == file => "the person stands still: the standing trial of this folder".to_owned(),
+            chosen => {
+                let name = chosen.map_or("", |chosen| &chosen.name);
+                format!("the person stands still; the standing trial of this folder is {name}")
+            }
+        }
+    }
+
+    /// The only model beside a recording that is not a C3D.
+    fn model_of(&self, file: &FoundFile) -> Option<PathBuf> {
+        match self.models.get(file.folder.as_str()).map(Vec::as_slice) {
+            Some([only]) if file.ending() != "c3d" => Some(only.path.clone()),
+            _ => None,
+        }
+    }
+
+    fn person(&self, file: &FoundFile) -> String {
+        if file.folder.is_empty() { self.root.clone() } else { file.folder.clone() }
+    }
+}
+
+/// Takes `--mass` and `--height` for trials of which nothing else is stated.
+fn size_of_one_person(args: &ValidateArgs, plan: &mut Plan) -> Result<()> {
+    let persons: BTreeSet<&str> = plan.trials.iter().map(|trial| trial.person.as_str()).collect();
+    let given = [("--mass", args.mass.is_some()), ("--height", args.height.is_some())];
+    if let (2.., Some((option, _))) = (persons.len(), given.iter().find(|(_, given)| *given)) {
+        bail!(
+            "{option}: found the trials of {} persons in {}; expected those of one. hint: state the size of each person in {LIST} (docs/VALIDATE.md)",
+            persons.len(),
+            args.folder.display()
+        );
+    }
+    for trial in &mut plan.trials {
+        trial.files.mass = trial.files.mass.or(args.mass);
+        trial.files.height = trial.files.height.or(args.height);
+    }
+    Ok(())
+}

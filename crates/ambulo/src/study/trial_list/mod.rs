@@ -1,0 +1,187 @@
+//! What a laboratory states about the files of a folder of trials (`trials.toml`).
+//!
+//! Entries `[[trial]]` have a pattern of file names and what is true of these files. Where several entries fit a file, the last one that
+//! states something counts. Paths are relative to the folder of the list, with `/`.
+//! Pinned by: its own tests
+
+mod pattern;
+
+use crate::toml_reader::{Place, Source, Table, TomlError};
+use pattern::Pattern;
+
+const DOCUMENT: &str = "docs/VALIDATE.md";
+const KEYS: [&str; 10] = ["files", "person", "kind", "static", "mass", "height", "model", "grf", "loads", "exclude"];
+
+/// The list.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TrialList {
+    entries: Vec<Entry>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Entry {
+    files: Pattern,
+    place: Place,
+    stated: StatedTrial,
+}
+
+/// What is stated about a file; what is not is found by itself.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StatedTrial {
+    /// Whose trial it is.
+    pub person: Option<String>,
+    /// The kind of trial in tables, in place of the recognised one.
+    pub kind: Option<String>,
+    /// The standing trial of the person.
+    pub standing: Option<String>,
+    /// Body mass [kg].
+    pub mass_kg: Option<f64>,
+    /// Stature [m].
+    pub height_m: Option<f64>,
+    /// The model of the body.
+    pub model: Option<String>,
+    /// The table of measured ground forces.
+    pub forces: Option<String>,
+    /// External loads: which columns act on which body.
+    pub loads: Option<String>,
+    /// Why the file is left out.
+    pub excluded: Option<String>,
+}
+
+impl StatedTrial {
+    /// The paths to other files.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        [&self.standing, &self.model, &self.forces, &self.loads].into_iter().flatten().map(String::as_str)
+    }
+
+    fn replaced_by(self, later: &StatedTrial) -> StatedTrial {
+        let text = |later: &Option<String>, earlier: Option<String>| later.clone().or(earlier);
+        StatedTrial {
+            person: text(&later.person, self.person),
+            kind: text(&later.kind, self.kind),
+            standing: text(&later.standing, self.standing),
+            mass_kg: later.mass_kg.or(self.mass_kg),
+            height_m: later.height_m.or(self.height_m),
+            model: text(&later.model, self.model),
+            forces: text(&later.forces, self.forces),
+            loads: text(&later.loads, self.loads),
+            excluded: text(&later.excluded, self.excluded),
+        }
+    }
+}
+
+impl TrialList {
+    /// From the text of a file.
+    ///
+    /// # Errors
+    /// Text that is not TOML; keys that are unknown or missing; values of another kind.
+    pub fn from_toml(text: &str) -> Result<TrialList, TomlError> {
+        let source = Source::new(text, DOCUMENT);
+        let parsed = source.parse()?;
+        let root = Table::root(&source, &parsed);
+        root.only(&[&["trial"]])?;
+        let entries = root.tables("trial")?.iter().map(entry).collect::<Result<_, _>>()?;
+        Ok(TrialList { entries })
+    }
+
+    /// What is stated about a file.
+    #[must_use]
+    pub fn of(&self, path: &str) -> StatedTrial {
+        let own = self.entries.iter().filter(|entry| entry.files.matches(path));
+        own.fold(StatedTrial::default(), |stated, entry| stated.replaced_by(&entry.stated))
+    }
+
+    /// Checks that every entry fits at least one of the files.
+    ///
+    /// # Errors
+    /// The first entry that fits none.
+    pub fn check_files<'p>(&self, paths: impl Iterator<Item = &'p str> + Clone) -> Result<(), TomlError> {
+        let fits_none = |entry: &&Entry| !paths.clone().any(|path| entry.files.matches(path));
+        self.entries.iter().find(fits_none).map_or(Ok(()), |entry| {
+            let message = format!("found no file `{}`; expected the path of at least one recording", entry.files);
+            Err(entry
+                .place
+                .error(message)
+                .hint("paths are relative to the folder of this list; `*` is any part of a name, `**` any folders"))
+        })
+    }
+}
+
+fn entry(table: &Table<'_>) -> Result<Entry, TomlError> {
+    table.only(&[&KEYS])?;
+    let files = table.need("files", "the path of a file, or a pattern such as \"person1/*.c3d\"")?;
+    let text = |key: &str| table.get(key).map(|value| value.filled_text()).transpose();
+    let size = |key: &str| table.get(key).map(|value| value.above_zero()).transpose();
+    Ok(Entry {
+        place: files.place(),
+        files: Pattern::new(&files.filled_text()?),
+        stated: StatedTrial {
+            person: text("person")?,
+            kind: text("kind")?,
+            standing: text("static")?,
+            mass_kg: size("mass")?,
+            height_m: size("height")?,
+            model: text("model")?,
+            forces: text("grf")?,
+            loads: text("loads")?,
+            excluded: text("exclude")?,
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIST: &str = "
+        [[trial]]
+        files = \"ann/*\"
+        person = \"Ann\"
+        mass = 61.5
+        static = \"ann/still.c3d\"
+        [[trial]]
+        files = \"ann/late/**\"
+        mass = 62
+        exclude = \"partial hits\"
+    ";
+
+    #[test]
+    fn the_last_statement_about_a_file_counts() {
+        let list = TrialList::from_toml(LIST).unwrap();
+        assert_eq!(list.of("ben/walk.c3d"), StatedTrial::default());
+        let walk = list.of("ann/walk.c3d");
+        assert_eq!((walk.person.as_deref(), walk.mass_kg), (Some("Ann"), Some(61.5)));
+        assert_eq!(walk.paths().collect::<Vec<_>>(), ["ann/still.c3d"]);
+        let late = list.of("ann/late/walk.c3d");
+        assert_eq!((late.person, late.mass_kg, late.excluded.as_deref()), (None, Some(62.0), Some("partial hits")));
+        let both =
+            TrialList::from_toml("[[trial]]\nfiles='*'\nmass=1\nheight=2\n[[trial]]\nfiles='a'\nmass=3").unwrap();
+        assert_eq!((both.of("a").mass_kg, both.of("a").height_m), (Some(3.0), Some(2.0)));
+    }
+
+    #[test]
+    fn an_entry_that_fits_no_file_is_named_with_its_line() {
+        let list = TrialList::from_toml(LIST).unwrap();
+        list.check_files(["ann/a.c3d", "ann/late/b.c3d"].into_iter()).unwrap();
+        let error = list.check_files(["ann/a.c3d"].into_iter()).unwrap_err().to_string();
+        assert!(error.contains("line 8") && error.contains("`ann/late/**`"), "{error}");
+    }
+
+    #[test]
+    fn a_mistake_is_named_with_its_place_and_what_was_expected() {
+        for (text, expected) in [
+            ("[[trial]]\nmass = 60", "`files`"),
+            ("[[trial]]\nfiles = \"\"", "not empty"),
+            ("[[trial]]\nfiles = \"*\"\nmass = -1", "above zero"),
+            ("[[trial]]\nfiles = \"*\"\nmas = 60", "did you mean `mass`"),
+            ("[[trial]]\nfiles = \"*\"\nstatic = 3", "a text in quotes"),
+            ("[[trials]]\nfiles = \"*\"", "`trial`"),
+            ("trial = 3", "[[trial]]"),
+            ("[[trial", "not TOML"),
+        ] {
+            let error = TrialList::from_toml(text).unwrap_err().to_string();
+            assert!(error.starts_with("line ") && error.contains(expected), "{text}: {error}");
+        }
+        assert_eq!(TrialList::from_toml("").unwrap(), TrialList::default());
+    }
+}

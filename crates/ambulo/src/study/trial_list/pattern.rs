@@ -1,0 +1,112 @@
+//! Patterns of paths: `?` is one letter, `*` any part of a name, `**` any part of a path, `**/` any folders or none.
+
+use std::fmt;
+
+/// A pattern.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Pattern {
+    text: String,
+    parts: Vec<Part>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Letter(char),
+    AnyLetter,
+    Name,
+    Path,
+    Folders,
+}
+
+impl fmt::Display for Pattern {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl Pattern {
+    pub(super) fn new(text: &str) -> Pattern {
+        let (mut parts, mut rest) = (Vec::new(), text);
+        while let Some(letter) = rest.chars().next() {
+            let known = [("**/", Part::Folders), ("**", Part::Path), ("*", Part::Name), ("?", Part::AnyLetter)];
+            let found = known.into_iter().find(|(sign, _)| rest.starts_with(sign));
+            let (length, part) =
+                found.map_or((letter.len_utf8(), Part::Letter(letter)), |(sign, part)| (sign.len(), part));
+            parts.push(part);
+            rest = &rest[length..];
+        }
+        Pattern { text: text.to_owned(), parts }
+    }
+
+    /// Whether a whole path fits. All places of the pattern that the letters so far can have reached are followed together, so that no pattern
+    /// takes longer than its length times that of the path.
+    pub(super) fn matches(&self, path: &str) -> bool {
+        let mut reached = vec![false; self.parts.len() + 1];
+        self.reach(&mut reached, 0);
+        for letter in path.chars() {
+            let mut next = vec![false; reached.len()];
+            for (place, part) in self.parts.iter().enumerate().filter(|(place, _)| reached[*place]) {
+                match part {
+                    Part::Letter(own) if *own == letter => self.reach(&mut next, place + 1),
+                    Part::AnyLetter if letter != '/' => self.reach(&mut next, place + 1),
+                    Part::Name if letter != '/' => self.reach(&mut next, place),
+                    Part::Path => self.reach(&mut next, place),
+                    Part::Folders => {
+                        if letter == '/' {
+                            self.reach(&mut next, place + 1);
+                        }
+                        next[place] = true;
+                    }
+                    _ => {}
+                }
+            }
+            reached = next;
+        }
+        reached[self.parts.len()]
+    }
+
+    /// Marks a place, and those behind parts that may be empty.
+    fn reach(&self, reached: &mut [bool], mut place: usize) {
+        let may_be_empty = |part: &Part| matches!(part, Part::Name | Part::Path | Part::Folders);
+        // Places behind one that was reached before are marked already.
+        while !std::mem::replace(&mut reached[place], true) && self.parts.get(place).is_some_and(may_be_empty) {
+            place += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Pattern;
+
+    #[test]
+    fn a_star_stays_in_its_folder_and_two_stars_do_not() {
+        for (pattern, path, fits) in [
+            ("a.c3d", "a.c3d", true),
+            ("a.c3d", "ab.c3d", false),
+            ("*.c3d", "walk 1.c3d", true),
+            ("*.c3d", "x/walk.c3d", false),
+            ("x/*", "x/walk.c3d", true),
+            ("x/*", "x/y/walk.c3d", false),
+            ("x/**", "x/y/walk.c3d", true),
+            ("**/*.c3d", "walk.c3d", true),
+            ("**/*.c3d", "x/y/walk.c3d", true),
+            ("**/y/*.c3d", "x/y/walk.c3d", true),
+            ("**/y/*.c3d", "xy/walk.c3d", false),
+            ("walk?.c3d", "walk7.c3d", true),
+            ("walk?.c3d", "walk.c3d", false),
+            ("w*k*", "walk", true),
+            ("\u{e4}*", "\u{e4}b", true),
+            ("", "", true),
+            ("", "a", false),
+        ] {
+            assert_eq!(Pattern::new(pattern).matches(path), fits, "{pattern} {path}");
+        }
+    }
+
+    #[test]
+    fn no_pattern_takes_long() {
+        assert!(!Pattern::new(&"*a".repeat(2000)).matches(&"a".repeat(1000)));
+        assert!(Pattern::new(&"*".repeat(3001)).matches("a"));
+    }
+}
