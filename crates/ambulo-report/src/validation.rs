@@ -5,6 +5,7 @@
 
 use super::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, FigureError, PALE};
 use super::html::{Document, escaped};
+use ambulo::study::QualityState;
 use ambulo::study::validation::{
     self, Component, DEFINITIONS, Figure, JudgedTrial, LegJoint, PhaseError, Section, TextTable, kinds, mean,
     over_kind, persons, phase_errors, stance_rows,
@@ -93,9 +94,16 @@ impl Report<'_> {
     fn lead(&self) -> String {
         let Report { listed, judged, .. } = self;
         let rule = judged.first().map_or("", |trial| trial.rule);
+        let of_quality = |state: QualityState| judged.iter().filter(|trial| trial.quality == state).count();
+        let (doubtful, bad) = (of_quality(QualityState::Doubtful), of_quality(QualityState::Bad));
+        let data = match doubtful + bad {
+            0 => String::new(),
+            _ => format!(" {doubtful} of them have doubtful data and {bad} bad data; they count in all means."),
+        };
         format!(
-            "{} of {} trials of {} persons were judged. Every trial was predicted as by `ambulo forces --predict`: events and everything else from \
-             motion alone, the motion low-passed at 6 Hz, the plates at 20 Hz. Rule in double support: {rule}.",
+            "{} of {} trials of {} persons were judged.{data} Every trial was predicted as by `ambulo forces --predict`: events and everything else \
+             from motion alone, the motion low-passed at 6 Hz, the plates at 20 Hz; body mass as stated, else as the plates show it. Rule in double \
+             support: {rule}.",
             judged.len(),
             listed.len(),
             persons(judged).len(),
@@ -105,47 +113,59 @@ impl Report<'_> {
     /// The tables behind the figures, in order.
     fn sections(&self) -> Vec<Section> {
         let judged = self.judged;
-        let mut sections = vec![
+        vec![
             validation::kind_means(judged),
             validation::rmse_by_fifth(judged),
             validation::share_by_fifth(judged),
+            validation::method_means(judged),
             validation::person_means(judged),
             validation::each_trial(judged),
-        ];
-        sections.extend(self.not_judged());
-        sections.extend([
             validation::forces(judged),
             validation::centers(judged),
             validation::moments(judged),
             validation::events(judged),
             data_section(judged),
             listed_section(self.listed),
-        ]);
-        sections
+        ]
     }
 
-    /// Trials with errors, and recordings that are no trials.
-    fn not_judged(&self) -> Option<Section> {
-        let mut table = TextTable::new(&["file", "why"]);
-        for trial in self.listed {
-            if let Some(error) = &trial.error {
-                table.row([trial.name.clone(), error.clone()]);
-            }
+    /// Trials with errors, and recordings that are no trials, each with the reason.
+    fn not_judged(&self) -> Vec<(&str, &str)> {
+        let errors = self.listed.iter().filter_map(|trial| Some((trial.name.as_str(), trial.error.as_deref()?)));
+        errors.chain(self.others.iter().map(|(name, why)| (name.as_str(), why.as_str()))).collect()
+    }
+
+    /// What to do about errors; empty without any.
+    fn remedy(&self) -> &'static str {
+        if self.listed.iter().all(|trial| trial.error.is_none()) {
+            return "";
         }
-        let errors = table.rows().len();
-        for (name, why) in self.others {
-            table.row([name.clone(), why.clone()]);
-        }
-        let note = match errors {
-            0 => String::new(),
-            _ => "What an error asks for as `--mass KG` or `--static FILE` is stated as `mass = KG` or `static = \"FILE\"` in trials.toml.".to_owned(),
-        };
-        (!table.rows().is_empty()).then_some(Section { title: "Not judged", table, note })
+        "What an error asks for as `--mass KG` or `--static FILE` is stated as `mass = KG` or `static = \"FILE\"` in trials.toml."
     }
 
     fn markdown(&self) -> String {
         let head = format!("# {}\n\n{}\n\n{DEFINITIONS}\n", self.title, self.lead());
-        self.sections().iter().fold(head, |page, section| format!("{page}\n{}", section.markdown()))
+        let mut page = self.sections().iter().fold(head, |page, section| format!("{page}\n{}", section.markdown()));
+        let others = self.not_judged();
+        if !others.is_empty() {
+            page += "\n## Not judged\n\n";
+            others.iter().for_each(|(name, why)| _ = writeln!(page, "- {name}: {}", why.replace(['\n', '\r'], " ")));
+            let _ = writeln!(page, "\n{}", self.remedy());
+        }
+        page
+    }
+
+    /// The list of what was not judged, as HTML.
+    fn not_judged_html(&self) -> String {
+        let others = self.not_judged();
+        if others.is_empty() {
+            return String::new();
+        }
+        let mut html = String::from("<h2>Not judged</h2>\n<ul>\n");
+        for (name, why) in others {
+            let _ = writeln!(html, "<li><b>{}</b>: {}</li>", escaped(name), code(why));
+        }
+        format!("{html}</ul>\n<p class=\"soft\">{}</p>\n", code(self.remedy()))
     }
 
     fn page(&self) -> Result<String, FigureError> {
@@ -164,12 +184,13 @@ impl Report<'_> {
 <p class="soft">From foot strike (0 %) to foot off (100 %), each person once. Where the predicted standard deviation is as large as the RMSE, the bands
 of the prediction are right; where it is smaller, they are too narrow.</p>
 {figure}
-{tables}</main>"#,
+{tables}{not_judged}</main>"#,
             title = escaped(self.title),
             lead = code(&self.lead()),
             definitions = code(DEFINITIONS),
             version = env!("CARGO_PKG_VERSION"),
             figure = self.figure()?,
+            not_judged = self.not_judged_html(),
         );
         // On a narrow screen, figures scroll: their letters would be too small.
         let style = format!("{STYLE}\n.picture svg {{ min-width: 46rem; }}");

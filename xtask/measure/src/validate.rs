@@ -61,7 +61,7 @@ fn json(trials: &[Trial], commit: &str) -> Value {
             "recording": trial.judged.name,
             "subject": trial.judged.person,
             "group": trial.judged.kind,
-            "mass_source": trial.mass_source(),
+            "mass_source": trial.judged.mass.source.word(),
             "rule": trial.judged.rule,
             "frames": trial.frames,
             "predict_us_per_frame": trial.microseconds,

@@ -36,6 +36,9 @@ pub(crate) struct ValidateArgs {
     /// The marker set: a name from docs/MARKERS.md or a .toml [default: recognised from the marker names].
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) markers: Option<String>,
+    /// Judge tracking as well (`ambulo forces --track`): one to three seconds per trial.
+    #[arg(long)]
+    pub(crate) track: bool,
     /// Only print which files are judged, with what, and which are not.
     #[arg(long)]
     pub(crate) dry_run: bool,

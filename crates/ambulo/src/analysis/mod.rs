@@ -1,6 +1,7 @@
 //! Analysis of a motion and its forces: events, gait cycles, peaks, residuals, feasibility, and agreement of curves.
 
 pub mod activity;
+mod baseline;
 mod comparison;
 mod cycles;
 mod event_agreement;
@@ -22,6 +23,7 @@ mod tracked;
 mod walking_direction;
 mod weighing;
 
+pub use baseline::with_baseline;
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle, over_cycle_of};
 pub use event_agreement::{EventAgreement, event_agreement};

@@ -38,6 +38,7 @@ pub(super) fn text(trials: &[Trial], calibrated: &[Calibrated]) -> String {
         validation::kind_means(&judged).markdown(),
         validation::share_by_fifth(&judged).markdown(),
         validation::rmse_by_fifth(&judged).markdown(),
+        validation::method_means(&judged).markdown(),
         own("With a calibration on another trial of the person", personal::section(calibrated)),
         validation::person_means(&judged).markdown(),
         validation::each_trial(&judged).markdown(),
@@ -132,7 +133,7 @@ fn peaks(trials: &[Trial]) -> String {
             trial.peaks_off.iter().map(|(side, _, off)| format!("{side} {:+.1}", 100.0 * off)).collect();
         let [found, truth] = trial.flight_s;
         let peaks = peaks.join(" ");
-        let source = trial.mass_source().to_owned();
+        let source = trial.judged.mass.source.word().to_owned();
         table.row([trial.judged.name.clone(), peaks, number(found, 2), number(truth, 2), source]);
     }
     table.text()

@@ -2,7 +2,7 @@
 
 use super::recording::Recording;
 use super::tracking::Tracked;
-use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PlateCoverage};
+use ambulo::analysis::{Analysis, GroundAgreement, PlateCoverage};
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
 use ambulo::ground::predict::{PredictSettings, Prescribed, predict};
@@ -10,7 +10,7 @@ use ambulo::ground::{BodyForces, feet};
 use ambulo::model::{BySide, Side};
 use ambulo::motion::{TimeGrid, Window};
 use ambulo::spatial::{Vec3, Wrench};
-use ambulo::study::validation::JudgedTrial;
+use ambulo::study::validation::{JudgedTrial, Method};
 use ambulo::study::{Outcome, PredictedGround, Source};
 use std::borrow::Cow;
 use std::time::Instant;
@@ -39,7 +39,7 @@ impl Trial {
     pub(super) fn run(recording: &Recording, source: &Source) -> Result<Trial, String> {
         let outcome = recording.predict(source, Prescribed::default())?;
         let judged = JudgedTrial::of(recording.label, recording.subject, &outcome, &Findings::default());
-        let judged = JudgedTrial { kind: recording.group.word().to_owned(), ..judged.map_err(|e| e.to_string())? };
+        let mut judged = JudgedTrial { kind: recording.group.word().to_owned(), ..judged.map_err(|e| e.to_string())? };
         let PredictedGround { prediction, measured, coverage, .. } =
             outcome.prediction.as_ref().ok_or("nothing was predicted")?;
         let (measured, seen) = measured.as_ref().zip(coverage.as_ref()).ok_or("no plates")?;
@@ -50,23 +50,18 @@ impl Trial {
             let again = recording.predict(source, prescribed)?;
             budget.extend(again.agreement_over(&window).map(|agreement| (name, agreement)));
         }
+        let tracked = Tracked::new(recording, &outcome, &judged.agreement);
+        let solved = tracked.as_ref().and_then(|tracked| tracked.found.as_ref().ok());
+        judged.others.extend(solved.map(|found| (Method::Tracking, found.agreement.clone())));
         Ok(Trial {
             frames: outcome.analysis.trajectory.grid().frames,
             microseconds: microseconds(&outcome)?,
             peaks_off: peaks_off(&outcome, measured, seen),
             flight_s: [&outcome.analysis, measured].map(|analysis| flight_s(&outcome, analysis, seen)),
-            tracked: Tracked::new(recording, &outcome, &judged.agreement),
+            tracked,
             judged,
             budget,
         })
-    }
-
-    pub(super) fn mass_source(&self) -> &'static str {
-        match self.judged.mass.source {
-            MassSource::Plates => "plates",
-            MassSource::Standing => "standing",
-            MassSource::Model => "stated",
-        }
     }
 }
 

@@ -17,7 +17,7 @@ use anyhow::{Error, Result, bail};
 use plan::{LIST, Plan, PlannedTrial};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Reasons that an error quotes.
@@ -65,7 +65,8 @@ fn judged(args: &ValidateArgs, plan: &Plan, threads: usize) -> Vec<Result<Judged
             // The row has the name of the file.
             let shown = trial.files.recording.display().to_string();
             let message = message.strip_prefix(&format!("{shown}: ")).unwrap_or(&message).to_owned();
-            hint.map_or(message.clone(), |hint| format!("{message}. hint: {hint}"))
+            let sentence = message.trim_end().trim_end_matches('.').to_owned();
+            hint.map_or(sentence.clone(), |hint| format!("{sentence}. hint: {hint}"))
         });
         let count = done.fetch_add(1, Ordering::Relaxed) + 1;
         printer::progress(&format!("{count} of {}: {}", plan.trials.len(), trial.name), args.print);
@@ -83,12 +84,15 @@ fn judge(args: &ValidateArgs, trial: &PlannedTrial) -> Result<JudgedTrial> {
     if let Some(kind) = &trial.kind {
         judged.kind.clone_from(kind);
     }
+    if args.track {
+        judged.judge_tracking(&run.outcome);
+    }
     Ok(judged)
 }
 
 fn listed(trial: &PlannedTrial, root: &Path) -> ListedTrial {
     let name = |path: &Path| path.strip_prefix(root).unwrap_or(path).display().to_string().replace('\\', "/");
-    let of = |path: &Option<std::path::PathBuf>| path.as_deref().map(name);
+    let of = |path: &Option<PathBuf>| path.as_deref().map(name);
     let files = &trial.files;
     ListedTrial {
         name: trial.name.clone(),
@@ -125,7 +129,7 @@ fn none_judged(args: &ValidateArgs, listed: &[ListedTrial]) -> String {
 }
 
 /// Every file that was read; none of them is overwritten.
-fn inputs(plan: &Plan) -> Vec<std::path::PathBuf> {
+fn inputs(plan: &Plan) -> Vec<PathBuf> {
     let of_trial = |trial: &PlannedTrial| {
         let files = trial.files.clone();
         [files.standing, files.model, files.grf, files.loads].into_iter().flatten()

@@ -21,6 +21,7 @@
 //! Pinned by: tests/validation.rs
 
 mod figures;
+mod methods;
 mod phase_errors;
 mod stance_rows;
 mod tables;
@@ -28,11 +29,12 @@ mod text_table;
 mod trial;
 
 pub use figures::{Component, Figure, LegJoint, kinds, mean, over_kind, over_persons, persons};
+pub use methods::Method;
 pub use phase_errors::{PhaseError, phase_errors};
 pub use stance_rows::{StanceRow, stance_rows};
 pub use tables::{
-    DEFINITIONS, SUMMARY, Section, centers, each_trial, events, forces, kind_means, moments, number, person_means,
-    rmse_by_fifth, share_by_fifth, summary_cells,
+    DEFINITIONS, SUMMARY, Section, centers, each_trial, events, forces, kind_means, method_means, moments, number,
+    person_means, rmse_by_fifth, share_by_fifth, summary_cells,
 };
 pub use text_table::TextTable;
 pub use trial::{FAST_WALKING, JudgedTrial, NotJudged, TrialKind};

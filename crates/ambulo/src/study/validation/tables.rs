@@ -1,6 +1,7 @@
 //! Tables of judged trials.
 
 use super::figures::{Component, Figure, LegJoint, kinds, mean, over_kind, persons};
+use super::methods::Method;
 use super::text_table::TextTable;
 use super::trial::JudgedTrial;
 use crate::analysis::{FootAgreement, ForceAgreement};
@@ -99,6 +100,37 @@ pub fn kind_means(trials: &[&JudgedTrial]) -> Section {
     Section { title: "Means of each kind of trial", table, note: String::new() }
 }
 
+/// Means of each kind of trial by each method.
+#[must_use]
+pub fn method_means(trials: &[&JudgedTrial]) -> Section {
+    // Strikes and offs are the same for all of them.
+    let columns = || SUMMARY.into_iter().filter(|(_, figure, _)| *figure != Figure::Events);
+    let names: Vec<&str> = ["kind", "method", "trials"].into_iter().chain(columns().map(|(name, ..)| name)).collect();
+    let mut table = TextTable::new(&names);
+    for kind in kinds(trials) {
+        for method in Method::ALL {
+            let own: Vec<&JudgedTrial> = trials
+                .iter()
+                .filter(|trial| trial.kind == kind && trial.of_method(method).is_some())
+                .copied()
+                .collect();
+            if own.is_empty() {
+                continue;
+            }
+            let mean = |figure: Figure| {
+                over_kind(&own, kind, |trial| trial.of_method(method).map_or(f64::NAN, |found| figure.of(found)))
+            };
+            let cells = columns().map(|(_, figure, digits)| number(mean(figure), digits));
+            table.row([kind.to_owned(), method.words().to_owned(), own.len().to_string()].into_iter().chain(cells));
+        }
+    }
+    let note = "Foot height: the weight, divided by exp(-height of the foot / 8 cm), as monomech 0.15.24 does; it has no horizontal force. Smooth \
+                transition: the total force by Newton's law; in double support the trailing foot's force fades along fixed curves (Ren, Jones, \
+                Howard 2008). Both use the stances that the prediction detects. Tracking: a motion near the recorded one that feet on soft ground \
+                make, where one was found. Prediction: this program's.";
+    Section { title: "Methods side by side", table, note: note.to_owned() }
+}
+
 /// Means of each person's trials of a kind.
 #[must_use]
 pub fn person_means(trials: &[&JudgedTrial]) -> Section {
@@ -117,12 +149,14 @@ pub fn person_means(trials: &[&JudgedTrial]) -> Section {
 /// One row per trial.
 #[must_use]
 pub fn each_trial(trials: &[&JudgedTrial]) -> Section {
-    let mut table = summary_table(&["trial", "person", "kind", "stances"]);
+    let mut table = summary_table(&["trial", "person", "kind", "data", "stances"]);
     for trial in trials {
-        let head = [trial.name.clone(), trial.person.clone(), trial.kind.clone(), trial.stances.len().to_string()];
-        table.row(head.into_iter().chain(summary_cells(|figure| figure.of(&trial.agreement))));
+        let words = [&trial.name, &trial.person, &trial.kind].map(String::clone);
+        let head = words.into_iter().chain([trial.quality.word().to_owned(), trial.stances.len().to_string()]);
+        table.row(head.chain(summary_cells(|figure| figure.of(&trial.agreement))));
     }
-    Section { title: "Each trial", table, note: String::new() }
+    let note = "Data: whether recording, body and measured forces fit together (`quality` in docs/QUALITY.md); errors of doubtful and bad data may be those of the data.";
+    Section { title: "Each trial", table, note: note.to_owned() }
 }
 
 /// Share of the samples inside the 90 % band in each fifth of the stance.

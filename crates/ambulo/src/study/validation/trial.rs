@@ -2,6 +2,7 @@
 
 use super::super::outcome::{Outcome, PredictedGround};
 use super::super::quality::QualityState;
+use super::methods::{self, Method};
 use crate::analysis::activity::ActivityKind;
 use crate::analysis::{ComparedAnalyses, ComparedStance, GroundAgreement, Mass, compared_stances};
 use crate::findings::{Code, Findings};
@@ -44,6 +45,8 @@ pub struct JudgedTrial {
     pub agreement: GroundAgreement,
     /// The whole stances on plates, predicted and measured.
     pub stances: Vec<ComparedStance>,
+    /// Agreement of other methods: the simple rules, and tracking if it was asked for and found a motion.
+    pub others: Vec<(Method, GroundAgreement)>,
 }
 
 /// Why force plates cannot judge a trial.
@@ -107,6 +110,21 @@ impl JudgedTrial {
             rule: prediction.rule,
             agreement,
             stances: stances.into_iter().filter(|stance| !stance.samples.is_empty()).collect(),
+            others: methods::baselines(outcome),
         })
+    }
+
+    /// Judges tracking as well, which takes about a second per trial; `outcome` is that of the trial.
+    pub fn judge_tracking(&mut self, outcome: &Outcome) {
+        self.others.extend(methods::tracking(outcome));
+    }
+
+    /// Agreement of a method; `None` where it was not judged.
+    #[must_use]
+    pub fn of_method(&self, method: Method) -> Option<&GroundAgreement> {
+        match method {
+            Method::Prediction => Some(&self.agreement),
+            _ => self.others.iter().find(|(other, _)| *other == method).map(|(_, agreement)| agreement),
+        }
     }
 }
