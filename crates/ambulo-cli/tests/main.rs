@@ -42,5 +42,6 @@ mod summary_schema;
 mod sweep;
 mod tune;
 mod tutorials;
+mod validate;
 mod verdict;
 mod walk;

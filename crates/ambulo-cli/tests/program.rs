@@ -28,8 +28,10 @@ fn without_arguments_the_command_prints_a_guide() {
 #[test]
 fn the_help_of_every_command_has_an_example() {
     let bench = Workbench::empty("help");
-    for verb in ["demo", "walk", "forces", "simulate", "tune", "report", "view", "info", "convert", "events", "compare"]
-    {
+    for verb in [
+        "demo", "walk", "forces", "validate", "simulate", "tune", "report", "view", "info", "convert", "events",
+        "compare",
+    ] {
         let run = bench.run(&[verb, "--help"]).done();
         let example = run.stdout.split("Example").nth(1).unwrap_or_default();
         assert!(example.contains(&format!("ambulo {verb}")), "{}", run.stdout);
