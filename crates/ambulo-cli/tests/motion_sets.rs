@@ -126,6 +126,12 @@ fn trials_of_a_subject_are_listed_and_computed_one_by_one_or_all() {
     assert_eq!(summary["input"]["motion"], "subject.b3d, trial 1");
     assert_eq!(summary["ground"]["source"], "measured");
     assert_eq!(bench.json("all/2-no_plates/summary.json")["ground"]["source"], "predicted");
+    std::fs::create_dir(bench.folder.join("set")).unwrap();
+    bench.write("set/subject.b3d", bench.read("subject.b3d"));
+    let run = bench.run(&["validate", "set", "-o", "judged"]).done();
+    let none = "subject.b3d, trial 002 (no plates): ";
+    assert!(run.stdout.contains("1 of 2 trials; persons 1") && run.stdout.contains(none), "{}", run.stdout);
+    assert!(bench.text("judged/means.csv").contains("\ntrial,\"subject.b3d, trial 001 (walk/1)\",subject,walk,"));
     // The same motion and forces from the demo's tables.
     cut(&bench, "demo/input/walk.mot", "walk.mot");
     cut(&bench, "demo/input/walk_grf.mot", "walk_grf.mot");

@@ -40,7 +40,7 @@ fn rows(text: &str) -> Vec<Vec<&str>> {
 fn a_laboratory_judges_its_own_plates_and_a_broken_trial_is_a_row() {
     let Some(bench) = laboratory("validate") else { return };
     let run = bench.run(&["validate", "lab", "-o", "out"]).done();
-    assert!(run.stdout.contains("2 of 3 trials, of 2 persons") && run.stdout.contains("cut.c3d"), "{}", run.stdout);
+    assert!(run.stdout.contains("2 of 3 trials; persons 2") && run.stdout.contains("cut.c3d"), "{}", run.stdout);
     let written = ["means.csv", "stances.csv", "summary.json", "validation.html", "validation.md"];
     assert_eq!(bench.names("out"), written);
     let stances = bench.text("out/stances.csv");
@@ -70,7 +70,7 @@ fn a_laboratory_judges_its_own_plates_and_a_broken_trial_is_a_row() {
 fn the_numbers_are_those_of_the_command_forces(bench: &Workbench, means: &str) {
     let [walk, still] = ["HC032A03.c3d", "HC032A01.c3d"].map(|name| format!("lab/biomechzoo-HC032A/{name}"));
     bench.run(&["forces", &walk, "--static", &still, "--predict", "--keep", "summary", "-o", "one", "--quiet"]).done();
-    let feet = bench.json("one/summary.json")["prediction"]["agreement"]["feet"].clone();
+    let feet = bench.json("one/summary.json")["comparison"]["feet"].clone();
     let rmse: Vec<f64> = feet.as_array().unwrap().iter().map(|f| f["vertical"]["rmse_bw"].as_f64().unwrap()).collect();
     let expected = 100.0 * rmse.iter().sum::<f64>() / rmse.len() as f64;
     let row = means.lines().find(|line| line.starts_with("trial,biomechzoo-HC032A/HC032A03")).unwrap();
@@ -169,6 +169,8 @@ fn folders_without_trials_are_refused() {
     fs::create_dir_all(bench.folder.join("empty")).unwrap();
     bench.write("file.c3d", "no recording");
     bench.run(&["validate", "empty"]).refused(&["empty: found no trial", "force plates"]);
+    bench.run(&["demo", "--keep", "summary", "-o", "demo", "--quiet"]).done();
+    bench.run(&["validate", "demo"]).refused(&["demo: this folder has results", "input"]);
     bench.run(&["validate", "nowhere"]).refused(&["nowhere: there is no such folder"]);
     bench.run(&["validate", "file.c3d"]).refused(&["this is a file", "ambulo forces"]);
     fs::rename(bench.folder.join("file.c3d"), bench.folder.join("empty/file.c3d")).unwrap();

@@ -29,9 +29,11 @@ pub struct ListedTrial {
     pub person: String,
     /// The standing trial.
     pub standing: Option<String>,
-    /// The model; `None` for the built-in body.
+    /// Whether it is a trial of a `.b3d`, which has a model and forces of its own.
+    pub is_subject: bool,
+    /// The model; `None` for the built-in body, or the one of the file.
     pub model: Option<String>,
-    /// The table of measured forces; `None` for the force plates of the recording.
+    /// The table of measured forces; `None` for those in the recording.
     pub forces: Option<String>,
     /// The stated body mass [kg].
     pub mass_kg: Option<f64>,
@@ -52,8 +54,8 @@ pub fn listed_section(listed: &[ListedTrial]) -> Section {
             trial.name.clone(),
             trial.person.clone(),
             trial.standing.clone().unwrap_or_else(|| "-".to_owned()),
-            trial.model.clone().unwrap_or_else(|| "built-in".to_owned()),
-            trial.forces.clone().unwrap_or_else(|| "its plates".to_owned()),
+            trial.model.clone().unwrap_or_else(|| if trial.is_subject { "its own" } else { "built-in" }.to_owned()),
+            trial.forces.clone().unwrap_or_else(|| if trial.is_subject { "the file" } else { "its plates" }.to_owned()),
             stated(trial.mass_kg),
             stated(trial.height_m),
         ]);
@@ -101,7 +103,7 @@ impl Report<'_> {
             _ => format!(" {doubtful} of them have doubtful data and {bad} bad data; they count in all means."),
         };
         format!(
-            "{} of {} trials of {} persons were judged.{data} Every trial was predicted as by `ambulo forces --predict`: events and everything else \
+            "{} of {} trials were judged (persons: {}).{data} Every trial was predicted as by `ambulo forces --predict`: events and everything else \
              from motion alone, the motion low-passed at 6 Hz, the plates at 20 Hz; body mass as stated, else as the plates show it. Rule in double \
              support: {rule}.",
             judged.len(),
@@ -140,7 +142,7 @@ impl Report<'_> {
         if self.listed.iter().all(|trial| trial.error.is_none()) {
             return "";
         }
-        "What an error asks for as `--mass KG` or `--static FILE` is stated as `mass = KG` or `static = \"FILE\"` in trials.toml."
+        "An option that an error asks for, such as `--mass KG` or `--model FILE`, is a key of trials.toml: `mass = KG`, `model = \"FILE\"`."
     }
 
     fn markdown(&self) -> String {
@@ -193,7 +195,7 @@ of the prediction are right; where it is smaller, they are too narrow.</p>
             not_judged = self.not_judged_html(),
         );
         // On a narrow screen, figures scroll: their letters would be too small.
-        let style = format!("{STYLE}\n.picture svg {{ min-width: 46rem; }}");
+        let style = format!("{STYLE}\n.picture svg {{ min-width: 46rem; }}\ntbody th {{ white-space: nowrap; }}");
         Ok(Document { title: self.title, policy: POLICY, style: &style, body: &body }.html())
     }
 

@@ -14,8 +14,8 @@ use std::path::PathBuf;
 Predicts the ground forces of every recording with force plates in DIR and its folders, as `ambulo forces --predict`, and compares them with the
 plates. A folder with recordings is a person. A recording in which the person stands still is the standing trial of the others in its folder.
 Markers (.c3d, .trc) and coordinates (.mot, .sto) without plates have the table of ground forces that has the same name but for words such as
-`grf`: walk1.trc, walk1_grf.mot. The only model (.osim) of a folder is that of its .trc, .mot and .sto. trials.toml in DIR states what differs:
-person, kind, static, mass, height, model, grf, loads, exclude (docs/VALIDATE.md). --dry-run prints what was found.
+`grf`: walk1.trc, walk1_grf.mot. The only model (.osim) of a folder is that of its .trc, .mot and .sto. A .b3d is a person with its trials.
+trials.toml in DIR states what differs: person, kind, static, mass, height, model, grf, loads, exclude (docs/VALIDATE.md). --dry-run prints what was found.
 
 Files written to OUT: validation.html (open it with `ambulo view OUT/validation.html`), validation.md (the same tables), stances.csv (each
 stance), means.csv (each trial, person and kind of trial), summary.json. A trial that cannot be judged is listed with its error. Exit code: 0 if
@@ -58,6 +58,8 @@ pub(crate) struct ValidateArgs {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct TrialFiles {
     pub(crate) recording: PathBuf,
+    /// The number of the trial in a .b3d.
+    pub(crate) trial: Option<String>,
     pub(crate) standing: Option<PathBuf>,
     pub(crate) model: Option<PathBuf>,
     pub(crate) grf: Option<PathBuf>,
@@ -70,8 +72,10 @@ impl ValidateArgs {
     /// The options by which a trial is predicted.
     pub(crate) fn of_trial(&self, files: &TrialFiles) -> Result<ForcesArgs, clap::Error> {
         let defaults = ForcesArgs::predicting(&files.recording)?;
-        let coordinates = crate::files::ending(&files.recording);
-        let is_built_in = files.model.is_none() && !matches!(coordinates.as_str(), "mot" | "sto");
+        let has_markers = ["c3d", "trc"]
+            .iter()
+            .any(|known| files.recording.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known)));
+        let is_built_in = files.model.is_none() && has_markers;
         let subject = SubjectArgs {
             still: files.standing.clone(),
             mass: files.mass,
@@ -80,7 +84,7 @@ impl ValidateArgs {
             markers: self.markers.clone().filter(|_| is_built_in),
             ..defaults.subject
         };
-        let (model, grf, loads) = (files.model.clone(), files.grf.clone(), files.loads.clone());
-        Ok(ForcesArgs { subject, model, grf, loads, ..defaults })
+        let TrialFiles { trial, model, grf, loads, .. } = files.clone();
+        Ok(ForcesArgs { subject, trial, model, grf, loads, ..defaults })
     }
 }

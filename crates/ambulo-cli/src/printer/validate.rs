@@ -41,12 +41,8 @@ pub(crate) fn validate(
         return print_line(&serde_json::to_string_pretty(summary)?);
     }
     let judged: Vec<&JudgedTrial> = judged.iter().collect();
-    print_line(&format!(
-        "  judged    {} of {} trials, of {} persons",
-        judged.len(),
-        listed.len(),
-        persons(&judged).len()
-    ))?;
+    let count = persons(&judged).len();
+    print_line(&format!("  judged    {} of {} trials; persons {count}", judged.len(), listed.len()))?;
     let failed = || listed.iter().filter_map(|trial| Some((&trial.name, trial.error.as_ref()?)));
     let shown = if print.verbose { usize::MAX } else { SHOWN };
     for (name, why) in failed().take(shown) {

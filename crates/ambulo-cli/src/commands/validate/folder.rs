@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// More folders inside each other are a mistake, such as a link to the root of a disk.
 const DEEPEST: usize = 32;
 /// Endings of the files that may be a part of a trial.
-const ENDINGS: [&str; 5] = ["c3d", "trc", "mot", "sto", "osim"];
+const ENDINGS: [&str; 6] = ["c3d", "trc", "mot", "sto", "b3d", "osim"];
 
 /// A file that may be a part of a trial.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,6 +44,11 @@ pub(super) fn files_in(root: &Path) -> Result<Vec<FoundFile>> {
     }
     if !root.is_dir() {
         bail!("{shown}: there is no such folder; expected a folder with recordings");
+    }
+    if Record::of_folder(root).is_some() {
+        bail!(
+            "{shown}: this folder has results of Ambulo; expected a folder with recordings. hint: the recordings of `ambulo demo` are in its folder input"
+        );
     }
     let mut found = Vec::new();
     collect(root, "", DEEPEST, &mut BTreeSet::new(), &mut found)?;

@@ -98,6 +98,7 @@ fn listed(trial: &PlannedTrial, root: &Path) -> ListedTrial {
         name: trial.name.clone(),
         person: trial.person.clone(),
         standing: of(&files.standing),
+        is_subject: files.trial.is_some(),
         model: of(&files.model),
         forces: of(&files.grf).or_else(|| of(&files.loads)),
         mass_kg: files.mass,

@@ -6,6 +6,7 @@
 //! | `.c3d` without plates, `.trc`, `.mot`, `.sto` with a table of ground forces beside it | a trial |
 //! | `.c3d`, `.trc` in which the person stands still | the standing trial of the trials in its folder |
 //! | `.mot`, `.sto` with a word of [`FORCES`] in its name | a table of ground forces |
+//! | `.b3d` | a person with trials |
 //! | the only `.osim` of a folder | the model of the `.trc`, `.mot` and `.sto` in it |
 //!
 //! A table of ground forces lies beside a recording if both have the same words in their names, apart from [`FORCES`] and [`RECORDINGS`]. A
@@ -15,6 +16,7 @@ use super::folder::FoundFile;
 use crate::args::{TrialFiles, ValidateArgs};
 use crate::caller::Caller;
 use crate::commands::forces::markers::parse_laboratory_file;
+use crate::commands::forces::subject::read_header;
 use crate::commands::side_by_side::side_by_side;
 use crate::files;
 use ambulo::findings::Findings;
@@ -68,6 +70,16 @@ enum Content {
     Broken(String),
 }
 
+impl Content {
+    /// Why a recording without forces is no trial.
+    fn without_forces(&self) -> String {
+        match self {
+            Content::Broken(reason) => reason.clone(),
+            _ => "no measured ground forces: no force plates, and no table of forces beside it".to_owned(),
+        }
+    }
+}
+
 /// Finds trials and what belongs to them.
 pub(super) fn plan(args: &ValidateArgs, found: &[FoundFile], threads: usize) -> Result<Plan> {
     let list_path = args.folder.join(LIST);
@@ -89,10 +101,52 @@ pub(super) fn plan(args: &ValidateArgs, found: &[FoundFile], threads: usize) -> 
             Err(reason) => plan.others.push((file.name.clone(), reason)),
         }
     }
+    for file in found.iter().filter(|file| file.ending() == "b3d") {
+        plan.add_subject(file, &list.of(&file.name), &args.folder);
+    }
     plan.trials.sort_by(|a, b| a.name.cmp(&b.name));
     plan.others.sort();
     size_of_one_person(args, &mut plan)?;
     Ok(plan)
+}
+
+impl Plan {
+    /// Adds the trials of a subject of AddBiomechanics.
+    fn add_subject(&mut self, file: &FoundFile, stated: &StatedTrial, root: &Path) {
+        self.read.push(file.path.clone());
+        if let Some(reason) = &stated.excluded {
+            self.others.push((file.name.clone(), excluded(reason)));
+            return;
+        }
+        let ending = format!(".{}", file.path.extension().unwrap_or_default().to_string_lossy());
+        let own = file.name.strip_suffix(&ending).unwrap_or(&file.name);
+        let trial = |name: String, number: Option<usize>, broken: Option<String>| PlannedTrial {
+            name,
+            person: stated.person.clone().unwrap_or_else(|| own.to_owned()),
+            kind: stated.kind.clone(),
+            broken,
+            files: TrialFiles {
+                recording: file.path.clone(),
+                trial: number.map(|number| number.to_string()),
+                model: stated.model.as_ref().map(|model| root.join(model)),
+                mass: stated.mass_kg,
+                height: stated.height_m,
+                ..TrialFiles::default()
+            },
+        };
+        match read_header(&Caller::default(), &file.path) {
+            Err(error) => self.trials.push(trial(file.name.clone(), None, Some(format!("{error:#}")))),
+            Ok(header) => {
+                self.trials.extend(header.trials.iter().enumerate().map(|(k, own)| {
+                    trial(format!("{}, trial {:03} ({})", file.name, k + 1, own.name), Some(k + 1), None)
+                }))
+            }
+        }
+    }
+}
+
+fn excluded(reason: &str) -> String {
+    format!("excluded: {reason}")
 }
 
 /// Reads `trials.toml`, if there is one, and checks the files that it names.
@@ -218,7 +272,7 @@ impl<'a> Folders<'a> {
         taken: &mut BTreeSet<(String, BTreeSet<String>)>,
     ) -> Result<PlannedTrial, String> {
         if let Some(reason) = &stated.excluded {
-            return Err(format!("excluded: {reason}"));
+            return Err(excluded(reason));
         }
         let path = |named: &String| self.root_path.join(named);
         let key = (file.folder.clone(), own_words(file));
@@ -230,11 +284,7 @@ impl<'a> Folders<'a> {
             Content::Motion | Content::Broken(_) => match stated.forces.as_ref().map(path).or_else(beside) {
                 Some(table) => Some(table),
                 None if stated.loads.is_some() => None,
-                None => {
-                    return Err(
-                        "no measured ground forces: no force plates, and no table of forces beside it".to_owned()
-                    );
-                }
+                None => return Err(content.without_forces()),
             },
         };
         if !taken.insert(key) && content != &Content::Plates {
@@ -249,6 +299,7 @@ impl<'a> Folders<'a> {
             broken: if let Content::Broken(reason) = content { Some(reason.clone()) } else { None },
             files: TrialFiles {
                 recording: file.path.clone(),
+                trial: None,
                 standing: stated.standing.as_ref().map(path).or_else(|| standing.map(|standing| standing.path.clone())),
                 model,
                 grf: stated.forces.as_ref().map(path).or(grf),

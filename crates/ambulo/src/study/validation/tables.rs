@@ -126,8 +126,8 @@ pub fn method_means(trials: &[&JudgedTrial]) -> Section {
     }
     let note = "Foot height: the weight, divided by exp(-height of the foot / 8 cm), as monomech 0.15.24 does; it has no horizontal force. Smooth \
                 transition: the total force by Newton's law; in double support the trailing foot's force fades along fixed curves (Ren, Jones, \
-                Howard 2008). Both use the stances that the prediction detects. Tracking: a motion near the recorded one that feet on soft ground \
-                make, where one was found. Prediction: this program's.";
+                Howard 2008), between the strikes and offs that the prediction detects. Tracking: a motion near the recorded one that feet on soft \
+                ground make, where one was found. Prediction: this program's.";
     Section { title: "Methods side by side", table, note: note.to_owned() }
 }
 
