@@ -27,6 +27,7 @@ fn laboratory(name: &str) -> Option<Workbench> {
     }
     let walk = bench.read("lab/biomechzoo-HC032A/HC032A03.c3d");
     bench.write("lab/biomechzoo-HC032A/cut.c3d", &walk[..600]);
+    bench.write("lab/biomechzoo-HC032A/cut.trc", "PathFileType\t4");
     fs::copy(data.join("opensim-rajagopal-walk/markers_walk.trc"), bench.folder.join("lab/markers_walk.trc")).unwrap();
     Some(bench)
 }

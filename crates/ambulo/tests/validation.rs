@@ -38,7 +38,12 @@ fn stance(off: [f64; 5]) -> ComparedStance {
             free_moment_deviation: 1.0,
         }
     };
-    ComparedStance { side: Side::Right, span_s: [0.0, 0.7], samples: (0..100).map(sample).collect() }
+    ComparedStance {
+        side: Side::Right,
+        span_s: [0.0, 0.7],
+        strike_descent: 0.0,
+        samples: (0..100).map(sample).collect(),
+    }
 }
 
 fn trial(person: &str, kind: &str, off: [f64; 5]) -> JudgedTrial {

@@ -156,7 +156,7 @@ fn errors(outcome: &Outcome) -> String {
                 format!("{} to {}", percent(low), percent(high))
             }
         };
-        table.row::<{ 1 + 2 * MEAN_ERRORS.len() }>(std::array::from_fn(cell));
+        table.row((0..=2 * MEAN_ERRORS.len()).map(cell));
     }
     format!(
         "{}\nMeasured minus estimated, mean over the subjects, each subject counted once: up and forward over all walks with markers on the trunk, outwards and \

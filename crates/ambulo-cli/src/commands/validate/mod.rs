@@ -62,10 +62,11 @@ fn judged(args: &ValidateArgs, plan: &Plan, threads: usize) -> Vec<Result<Judged
         let trial = &plan.trials[k];
         let found = judge(args, trial).map_err(|error| {
             let (message, hint) = printer::error_parts(&error);
+            let message = plan::relative(&message, &args.folder);
             // The row has the name of the file.
-            let shown = trial.files.recording.display().to_string();
-            let message = message.strip_prefix(&format!("{shown}: ")).unwrap_or(&message).to_owned();
-            let sentence = message.trim_end().trim_end_matches('.').to_owned();
+            let shown = plan::relative(&trial.files.recording.display().to_string(), &args.folder);
+            let own = message.strip_prefix(&shown).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(&message);
+            let sentence = own.trim_end().trim_end_matches('.').to_owned();
             hint.map_or(sentence.clone(), |hint| format!("{sentence}. hint: {hint}"))
         });
         let count = done.fetch_add(1, Ordering::Relaxed) + 1;

@@ -105,6 +105,7 @@ pub(super) fn plan(args: &ValidateArgs, found: &[FoundFile], threads: usize) -> 
         plan.add_subject(file, &list.of(&file.name), &args.folder);
     }
     plan.trials.sort_by(|a, b| a.name.cmp(&b.name));
+    plan.others.iter_mut().for_each(|(_, why)| *why = relative(why, &args.folder));
     plan.others.sort();
     size_of_one_person(args, &mut plan)?;
     Ok(plan)
@@ -143,6 +144,13 @@ impl Plan {
             }
         }
     }
+}
+
+/// A message with paths from the folder of all trials, so that it does not depend on where that is.
+pub(super) fn relative(message: &str, root: &Path) -> String {
+    let shown = root.join("").display().to_string();
+    // A short path, such as `./`, could be a part of another one.
+    if shown.len() > 2 { message.replace(&shown, "") } else { message.replacen(&shown, "", 1) }
 }
 
 fn excluded(reason: &str) -> String {
