@@ -103,7 +103,7 @@ impl Report<'_> {
             _ => format!(" {doubtful} of them have doubtful data and {bad} bad data; they count in all means."),
         };
         format!(
-            "{} of {} trials were judged (persons: {}).{data} Every trial was predicted as by `ambulo forces --predict`: events and everything else \
+            "{} of {} trials were judged (persons: {}).{data} Every trial was predicted without its force plates: events and everything else \
              from motion alone, the motion low-passed at 6 Hz, the plates at 20 Hz; body mass as stated, else as the plates show it. Rule in double \
              support: {rule}.",
             judged.len(),
@@ -142,7 +142,7 @@ impl Report<'_> {
         if self.listed.iter().all(|trial| trial.error.is_none()) {
             return "";
         }
-        "An option that an error asks for, such as `--mass KG` or `--model FILE`, is a key of trials.toml: `mass = KG`, `model = \"FILE\"`."
+        "What an error asks for, such as the mass or the model, is a key of trials.toml: `mass = KG`, `model = \"FILE\"`."
     }
 
     fn markdown(&self) -> String {
@@ -253,8 +253,7 @@ fn data_section(judged: &[&JudgedTrial]) -> Section {
             trial.quality.word().to_owned(),
         ]);
     }
-    let note =
-        "`ambulo forces TRIAL --predict` with the files of the trial says why data are doubtful or bad.".to_owned();
+    let note = "`ambulo forces` with the files of the trial says why data are doubtful or bad.".to_owned();
     Section { title: "Data of each trial", table, note }
 }
 
