@@ -83,7 +83,8 @@ function policy() {
   ].join("; ");
 }
 
-const icon = add("icon.svg", readFileSync(join(here, "icon.svg")));
+const drawing = readFileSync(join(here, "icon.svg"));
+const icon = add("icon.svg", drawing);
 const manifest = {
   name: "Ambulo",
   description: "Motion in, forces out: computed in the browser.",
@@ -100,7 +101,8 @@ const names = {
 };
 const places = {
   policy: policy(),
-  icon,
+  // Inside the page: the browser may ask for it only when connections are forbidden already.
+  icon: `data:image/svg+xml;base64,${drawing.toString("base64")}`,
   manifest: "manifest.webmanifest",
   style: add("style.css", colours() + readFileSync(join(here, "src/style.css"), "utf8")),
   script: add("main.js", await script("main", names, "esm")),
