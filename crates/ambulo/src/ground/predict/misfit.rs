@@ -1,4 +1,4 @@
-//! What the estimate leaves of the force that the motion requires: the rest of Newton's law after the low-pass filter.
+//! The difference between the estimated force of both feet and the force that the motion requires, after the low-pass filters.
 //!
 //!   m² = mean over a stance of (G ∗ (H ∗) Σ_feet F_i - G ∗ F_total)², along forward, up and right
 //!
@@ -12,7 +12,7 @@ use super::loads::FrameEstimate;
 use super::samples::{EstimateInputs, frames_of};
 use crate::spatial::Vec3;
 
-/// The rest of each stance forward, up and to the right [N].
+/// Root mean square of the difference in each stance, forward, up and to the right [N].
 pub(super) fn misfits(
     inputs: &EstimateInputs<'_>,
     estimates: &[Vec<FrameEstimate>],

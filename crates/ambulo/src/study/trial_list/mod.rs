@@ -25,7 +25,7 @@ struct Entry {
     stated: StatedTrial,
 }
 
-/// What is stated about a file; what is not is found by itself.
+/// What the list states about a file. What it does not state is found by the rules of docs/VALIDATE.md.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StatedTrial {
     /// Whose trial it is.
