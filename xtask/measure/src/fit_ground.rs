@@ -14,8 +14,8 @@ mod search;
 
 use crate::workspace;
 use ambulo::ground::predict::FittedParameters;
-use calibration::{Band, Judged};
-use cases::Case;
+use calibration::{Bands, Judged};
+use cases::{Case, Cases};
 use numbers::{NUMBERS, parameters, rounded};
 use std::fs;
 use std::time::Instant;
@@ -72,8 +72,16 @@ struct Fold {
     parameters: [FittedParameters; 3],
     costs: [f64; 3],
     figures: [[f64; 11]; 3],
-    /// Predicted with the laboratory left out: whole stances, then fifths; one entry per component.
-    bands: [[Option<Band>; 6]; 6],
+    /// Predicted with the laboratory left out.
+    bands: Bands,
+    /// The same without the markers above the pelvis; `None` where the subject has no walk with all markers.
+    without_trunk: Option<WithoutTrunk>,
+}
+
+/// Results of a subject whose markers above the pelvis were dropped, with the laboratory left out of the fit.
+struct WithoutTrunk {
+    figures: [f64; 11],
+    bands: Bands,
 }
 
 /// The results of the fit.
@@ -164,7 +172,8 @@ fn order(words: &[String]) -> Result<Order, String> {
     Ok(order)
 }
 
-fn outcome(cases: &[Case], order: &Order) -> Outcome {
+fn outcome(all: &Cases, order: &Order) -> Outcome {
+    let cases = &all.whole;
     let subjects = cases::subjects(cases);
     let laboratories: Vec<&'static str> = subjects.iter().map(|subject| cases::laboratory(cases, subject)).collect();
     let mut own = fitted(cases, &subjects, order, "all");
@@ -200,7 +209,6 @@ fn outcome(cases: &[Case], order: &Order) -> Outcome {
         let is_other = |other: &str| cases::laboratory(cases, other) != laboratories[i];
         let calibration = judged.calibration(is_other);
         let parameters = [own, persons[i], by_laboratory[i]].map(|fit| FittedParameters { calibration, ..fit });
-        let fifths = |k: usize| if k == 0 { 0..5 } else { k - 1..k };
         Fold {
             subject,
             importance: cases::importance(cases, subject),
@@ -208,7 +216,8 @@ fn outcome(cases: &[Case], order: &Order) -> Outcome {
             parameters,
             costs: parameters.map(|fit| cases::subject_cost(cases, subject, &fit)),
             figures: parameters.map(|fit| cases::figures(cases, subject, &fit)),
-            bands: std::array::from_fn(|k| std::array::from_fn(|c| judged.band(c, fifths(k), subject, &calibration))),
+            bands: judged.bands(subject, &calibration),
+            without_trunk: without_trunk(&all.without_trunk, subject, &parameters[Fit::LaboratoryLeftOut as usize]),
         }
     });
     Outcome {
@@ -219,6 +228,12 @@ fn outcome(cases: &[Case], order: &Order) -> Outcome {
         sensitivity: sensitivity.collect(),
         folds: folds.collect(),
     }
+}
+
+fn without_trunk(cases: &[Case], subject: &'static str, fit: &FittedParameters) -> Option<WithoutTrunk> {
+    cases.iter().find(|case| case.subject == subject)?;
+    let bands = Judged::new(cases, &[subject], &[*fit]).bands(subject, &fit.calibration);
+    Some(WithoutTrunk { figures: cases::figures(cases, subject, fit), bands })
 }
 
 /// Parameters fitted on some subjects from the middle of the ranges, rounded, with the mean errors that are then left.

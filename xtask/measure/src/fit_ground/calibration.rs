@@ -3,7 +3,7 @@
 //! Samples of a stance are not independent, so every stance and every subject has the same weight: shares are means over stances, then over
 //! subjects. For each floor the factor follows from the share; of these pairs the one with the narrowest band is used.
 
-use super::cases::{Case, OF_MISFIT, OF_SIDEWAYS, Sample, StanceSamples, mean};
+use super::cases::{Case, OF_CENTER_MISFIT, OF_MISFIT, OF_SIDEWAYS, Sample, StanceSamples, mean};
 use super::numbers::three_digits;
 use ambulo::ground::predict::{DeviationCalibration, DeviationScaling, FittedParameters, scaling_at};
 use std::ops::Range;
@@ -25,6 +25,9 @@ pub(super) struct Band {
     /// Mean half-width over the RMSE.
     pub(super) half_width_over_rmse: f64,
 }
+
+/// Bands of whole stances, then of fifths; one entry per component, `None` where the subject is not judged on it.
+pub(super) type Bands = [[Option<Band>; 6]; 6];
 
 /// Stances of subjects.
 pub(super) struct Judged {
@@ -71,12 +74,19 @@ impl Judged {
             center: std::array::from_fn(|i| whole(3 + i)),
             free_moment: whole(5),
             of_misfit: OF_MISFIT,
+            of_center_misfit: OF_CENTER_MISFIT,
             of_sideways: OF_SIDEWAYS,
         }
     }
 
+    /// Bands on a subject of whole stances and of each fifth.
+    pub(super) fn bands(&self, subject: &str, calibration: &DeviationCalibration) -> Bands {
+        let fifths = |k: usize| if k == 0 { 0..5 } else { k - 1..k };
+        std::array::from_fn(|k| std::array::from_fn(|c| self.band(c, fifths(k), subject, calibration)))
+    }
+
     /// How a band does on a subject within some fifths; `None` where the subject is not judged on that component.
-    pub(super) fn band(
+    fn band(
         &self,
         component: usize,
         fifths: Range<usize>,

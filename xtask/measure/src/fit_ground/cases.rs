@@ -11,7 +11,7 @@ use ambulo::ground::predict::{
     Prediction, Prescribed, StanceCurve, StanceErrors, predict,
 };
 use ambulo::motion::filter::LowPass;
-use ambulo::study::{Outcome, PredictedGround};
+use ambulo::study::{Outcome, PredictedGround, Source};
 use std::path::Path;
 
 /// Centres of pressure and free moments are used above this share of body weight.
@@ -52,11 +52,13 @@ const OF_TRIAL_ALONE: DeviationCalibration = {
         center: [NOTHING; 2],
         free_moment: NOTHING,
         of_misfit: OF_MISFIT,
+        of_center_misfit: OF_CENTER_MISFIT,
         of_sideways: OF_SIDEWAYS,
     }
 };
 /// Shares of a trial's misfit and of its sideways force in the deviation ([`DeviationCalibration`] says how they were chosen).
 pub(super) const OF_MISFIT: f64 = 0.5;
+pub(super) const OF_CENTER_MISFIT: f64 = 0.4;
 pub(super) const OF_SIDEWAYS: f64 = 0.1;
 
 /// One component in one frame.
@@ -77,27 +79,27 @@ pub(super) struct Sample {
 /// Samples of a stance, component by component.
 pub(super) type StanceSamples = [Vec<Sample>; 6];
 
+/// Recordings of walking, prepared.
+pub(super) struct Cases {
+    /// As they are.
+    pub(super) whole: Vec<Case>,
+    /// The straight walks with markers on the trunk once more, without their markers above the pelvis.
+    pub(super) without_trunk: Vec<Case>,
+}
+
 /// All walking recordings next to the workspace, without runs. `said` is called for each recording that is loaded.
-pub(super) fn load(data: &Path, said: &mut dyn FnMut(&str)) -> Result<Vec<Case>, String> {
-    let mut cases = Vec::new();
+pub(super) fn load(data: &Path, said: &mut dyn FnMut(&str)) -> Result<Cases, String> {
+    let mut cases = Cases { whole: Vec::new(), without_trunk: Vec::new() };
     let walks = |r: &Recording| r.group != Group::Running;
     for recording in recording::all().into_iter().filter(walks) {
         said(recording.label);
-        let case = recording.read(data).and_then(|source| {
-            let outcome = recording.predict(&source, Prescribed::default())?;
-            let PredictedGround { prediction, measured, coverage, .. } =
-                outcome.prediction.as_ref().ok_or("nothing was predicted")?;
-            Ok(Case {
-                subject: recording.subject,
-                laboratory: recording.laboratory,
-                group: recording.group,
-                prescribed: Prescribed { footfalls: Some(prediction.footfalls.clone()), ..Prescribed::default() },
-                measured: measured.clone().ok_or("no plates")?,
-                coverage: coverage.clone().ok_or("no plates")?,
-                outcome,
-            })
-        });
-        cases.push(case.map_err(|reason| format!("{}: {reason}", recording.label))?);
+        let failed = |reason| format!("{}: {reason}", recording.label);
+        let whole = recording.read(data).and_then(|source| Case::new(&recording, &source)).map_err(failed)?;
+        if recording.group == Group::Walking && recording.has_markers() {
+            let source = recording.read_without_trunk(data, &whole.outcome);
+            cases.without_trunk.push(source.and_then(|source| Case::new(&recording, &source)).map_err(failed)?);
+        }
+        cases.whole.push(whole);
     }
     Ok(cases)
 }
@@ -114,6 +116,21 @@ pub(super) fn subjects(cases: &[Case]) -> Vec<&'static str> {
 }
 
 impl Case {
+    fn new(recording: &Recording, source: &Source) -> Result<Case, String> {
+        let outcome = recording.predict(source, Prescribed::default())?;
+        let PredictedGround { prediction, measured, coverage, .. } =
+            outcome.prediction.as_ref().ok_or("nothing was predicted")?;
+        Ok(Case {
+            subject: recording.subject,
+            laboratory: recording.laboratory,
+            group: recording.group,
+            prescribed: Prescribed { footfalls: Some(prediction.footfalls.clone()), ..Prescribed::default() },
+            measured: measured.clone().ok_or("no plates")?,
+            coverage: coverage.clone().ok_or("no plates")?,
+            outcome,
+        })
+    }
+
     fn predict(&self, parameters: &FittedParameters) -> Option<Prediction> {
         let settings = PredictSettings {
             prescribed: self.prescribed.clone(),
@@ -185,7 +202,8 @@ impl Case {
         for (s, of_trial) in stance.samples.iter().zip(&of_trial.samples) {
             let [up, forward, sideways] =
                 [0, 1, 2].map(|k| (s.predicted[k] - s.measured[k], s.deviation[k], weight, of_trial.deviation[k]));
-            let [along, across] = [0, 1].map(|k| (s.center_off[k], s.center_deviation[k], 1.0, 0.0));
+            let [along, across] =
+                [0, 1].map(|k| (s.center_off[k], s.center_deviation[k], 1.0, of_trial.center_deviation[k]));
             let free_moment = (s.free_moment_off, s.free_moment_deviation, weight, 0.0);
             let parts = [forward, up, sideways, along, across, free_moment];
             for (c, (error, deviation, unit, of_trial)) in parts.into_iter().enumerate() {
@@ -273,12 +291,12 @@ pub(super) fn cost(cases: &[Case], subjects: &[&str], parameters: &FittedParamet
     sum / all().sum::<f64>()
 }
 
-/// Figures of a subject's straight walks: RMSE [% body weight], rRMSE [%] and r of upward, forward and sideways force, centre of
+/// Figures of a subject's straight walks, fast ones included: RMSE [% body weight], rRMSE [%] and r of upward, forward and sideways force, centre of
 /// pressure along and across [mm].
 pub(super) fn figures(cases: &[Case], subject: &str, parameters: &FittedParameters) -> [f64; 11] {
     let own: Vec<GroundAgreement> = cases
         .iter()
-        .filter(|case| case.subject == subject && case.is_straight())
+        .filter(|case| case.subject == subject && case.group != Group::Turning)
         .filter_map(|case| case.agreement(parameters))
         .collect();
     let of_foot = |foot: &FootAgreement| {

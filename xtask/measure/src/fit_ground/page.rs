@@ -1,9 +1,9 @@
 //! The page: tables that read as text and as Markdown.
 
-use super::calibration::{Band, spread};
+use super::calibration::{Band, Bands, spread};
 use super::cases::COMPONENTS;
 use super::numbers::{NUMBERS, Number};
-use super::{Fit, Fold, Order, Outcome};
+use super::{Fit, Fold, Order, Outcome, WithoutTrunk};
 use crate::table::Table;
 use ambulo::ground::predict::{DeviationScaling, FittedParameters, KNOTS, StanceCurve};
 
@@ -40,6 +40,7 @@ pub(super) fn text(order: &Order, outcome: &Outcome) -> String {
         ("Mean errors that are taken off", errors(outcome)),
         ("Standard deviations: factor and floor", spreads(outcome)),
         ("Bands of 90 %, laboratory left out: share held [%], half-width over RMSE", bands(outcome)),
+        ("The same walks without the markers above the pelvis", without_trunk(outcome)),
     ];
     sections.into_iter().fold(head, |page, (title, part)| format!("{page}\n## {title}\n\n{part}"))
 }
@@ -98,19 +99,8 @@ fn costs(outcome: &Outcome) -> String {
 }
 
 fn figures(outcome: &Outcome) -> String {
-    let mut head = vec!["subject".to_owned(), "fit".to_owned()];
-    head.extend(FORCES.iter().flat_map(|f| [format!("{f} RMSE [%BW]"), "rRMSE [%]".to_owned(), "r".to_owned()]));
-    head.extend(["centre along [mm]".to_owned(), "across [mm]".to_owned()]);
-    let mut table = Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
-    let row = |subject: &str, fit: Fit, values: &[f64; 11]| -> [String; 13] {
-        std::array::from_fn(|column| match column {
-            0 => subject.to_owned(),
-            1 => fit.word().to_owned(),
-            2..11 if column % 3 == 1 => number(values[column - 2], 3),
-            2..11 => number(values[column - 2], 2),
-            _ => number(values[column - 2], 1),
-        })
-    };
+    let mut table = figures_table();
+    let row = |subject: &str, fit: Fit, values: &[f64; 11]| figures_row([subject, fit.word()], values);
     for fold in &outcome.folds {
         if fold.figures[0][0].is_finite() {
             Fit::ALL.into_iter().for_each(|fit| table.row(row(fold.subject, fit, &fold.figures[fit as usize])));
@@ -121,6 +111,34 @@ fn figures(outcome: &Outcome) -> String {
         table.row(row("mean with markers on the trunk", fit, &std::array::from_fn(of)));
     }
     table.text()
+}
+
+fn figures_table() -> Table {
+    let mut head = vec!["subject".to_owned(), "fit".to_owned()];
+    head.extend(FORCES.iter().flat_map(|f| [format!("{f} RMSE [%BW]"), "rRMSE [%]".to_owned(), "r".to_owned()]));
+    head.extend(["centre along [mm]".to_owned(), "across [mm]".to_owned()]);
+    Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+fn figures_row(names: [&str; 2], values: &[f64; 11]) -> [String; 13] {
+    std::array::from_fn(|column| match column {
+        0 | 1 => names[column].to_owned(),
+        2..11 if column % 3 == 1 => number(values[column - 2], 3),
+        2..11 => number(values[column - 2], 2),
+        _ => number(values[column - 2], 1),
+    })
+}
+
+fn without_trunk(outcome: &Outcome) -> String {
+    let known: Vec<(&Fold, &WithoutTrunk)> =
+        outcome.folds.iter().filter_map(|fold| Some((fold, fold.without_trunk.as_ref()?))).collect();
+    let mut figures = figures_table();
+    let word = Fit::LaboratoryLeftOut.word();
+    known.iter().for_each(|(fold, found)| figures.row(figures_row([fold.subject, word], &found.figures)));
+    let of = |k: usize| super::cases::mean(known.iter().map(|(_, found)| found.figures[k]));
+    figures.row(figures_row(["mean", word], &std::array::from_fn(of)));
+    let bands: Vec<_> = known.iter().map(|(fold, found)| (fold.subject, &found.bands)).collect();
+    format!("{}\nBands of 90 %: share held [%], half-width over RMSE\n\n{}", figures.text(), bands_table(&bands))
 }
 
 /// A column of the table of mean errors.
@@ -212,12 +230,17 @@ fn spreads(outcome: &Outcome) -> String {
 }
 
 fn bands(outcome: &Outcome) -> String {
+    bands_table(&outcome.judged().map(|fold| (fold.subject, &fold.bands)).collect::<Vec<_>>())
+}
+
+/// Means of the bands of subjects.
+fn bands_table(subjects: &[(&str, &Bands)]) -> String {
     let mut table = Table::new(&["component", "part of the stance", "mean held", "width", "least held", "by"]);
     let parts = ["whole", "1st fifth", "2nd fifth", "3rd fifth", "4th fifth", "5th fifth"];
     for (c, component) in COMPONENTS.iter().enumerate() {
         for (k, part) in parts.iter().enumerate() {
-            let known: Vec<(&Fold, Band)> =
-                outcome.judged().filter_map(|fold| Some((fold, fold.bands[k][c]?))).collect();
+            let known: Vec<(&str, Band)> =
+                subjects.iter().filter_map(|(subject, bands)| Some((*subject, bands[k][c]?))).collect();
             let least = known.iter().min_by(|a, b| a.1.holds.total_cmp(&b.1.holds));
             table.row([
                 (*component).to_owned(),
@@ -225,7 +248,7 @@ fn bands(outcome: &Outcome) -> String {
                 number(100.0 * super::cases::mean(known.iter().map(|(_, band)| band.holds)), 0),
                 number(super::cases::mean(known.iter().map(|(_, band)| band.half_width_over_rmse)), 2),
                 number(least.map_or(f64::NAN, |(_, band)| 100.0 * band.holds), 0),
-                least.map_or("-", |(fold, _)| fold.subject).to_owned(),
+                least.map_or("-", |(subject, _)| subject).to_owned(),
             ]);
         }
     }

@@ -2,8 +2,8 @@
 
 use ambulo::findings::Findings;
 use ambulo::ground::predict::{PersonalErrors, PredictSettings, Prescribed};
-use ambulo::model::Model;
 use ambulo::model::anthropometry::SegmentTable;
+use ambulo::model::{BodyId, Marker, Model};
 use ambulo::motion::coordinates_from_table;
 use ambulo::study::{
     self, ForceTable, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Outcome, Settings,
@@ -298,26 +298,55 @@ impl Recording {
         matches!(self.kind, Kind::Markers { .. })
     }
 
+    /// Whether its motion comes from markers.
+    pub(crate) fn has_markers(&self) -> bool {
+        !matches!(self.kind, Kind::Coordinates { .. })
+    }
+
     /// Its files, read.
     pub(crate) fn read(&self, data: &Path) -> Result<Source, String> {
+        self.read_with(data, &|_| true)
+    }
+
+    /// Its files without the markers above the pelvis: those that the body of `whole` carries on trunk, head and arms.
+    pub(crate) fn read_without_trunk(&self, data: &Path, whole: &Outcome) -> Result<Source, String> {
+        let body = &whole.body;
+        let trunk = body.anatomy().trunk().ok_or("a body without a trunk")?;
+        let is_above = |mut id: BodyId| loop {
+            match body.bodies()[id.index()].joint.parent {
+                _ if id == trunk => break true,
+                Some(parent) => id = parent,
+                None => break false,
+            }
+        };
+        let above = |marker: &&Marker| marker.body.is_some_and(is_above);
+        let dropped = body.markers().iter().filter(above).map(|marker| marker.name.as_str()).collect::<Vec<_>>();
+        self.read_with(data, &|name| !dropped.contains(&name))
+    }
+
+    fn read_with(&self, data: &Path, stays: &dyn Fn(&str) -> bool) -> Result<Source, String> {
         let folder = data.join(self.folder);
         let file = |name: &str| {
             let path = folder.join(name);
             fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))
         };
         let findings = &mut Findings::default();
+        let keep = |file: &mut LaboratoryFile| file.recording.markers.markers.retain(|marker| stays(&marker.name));
         let source = match self.kind {
             Kind::Coordinates { motion, model } => coordinates(&file(model)?, &file(motion)?, findings)?,
             Kind::ModelMarkers { markers, model } => {
                 let model = Model::from_osim(&file(model)?, findings).map_err(|e| e.to_string())?;
-                let trial = laboratory_file(markers, &file(markers)?, findings)?;
+                let mut trial = laboratory_file(markers, &file(markers)?, findings)?;
+                keep(&mut trial);
                 let body = MarkerBody::Model { model, mass_kg: None, protocol: None };
                 Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() })
             }
             Kind::Markers { markers, standing, mass, height } => {
-                let trial = laboratory_file(markers, &file(markers)?, findings)?;
+                let mut trial = laboratory_file(markers, &file(markers)?, findings)?;
+                keep(&mut trial);
                 let read = |name: &str| laboratory_file(name, &file(name)?, &mut Findings::default());
-                let standing = standing.map(read).transpose()?;
+                let mut standing = standing.map(read).transpose()?;
+                standing.iter_mut().for_each(keep);
                 let table = SegmentTable::DeLevaMale;
                 let body = MarkerBody::BuiltIn { table, mass_kg: Some(mass), height_m: height, set: None };
                 Source::markers(MarkerSource { trial, standing, body, plates: Vec::new() })

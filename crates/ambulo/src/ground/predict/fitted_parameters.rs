@@ -134,8 +134,9 @@ const CALIBRATION: DeviationCalibration = DeviationCalibration {
             DeviationScaling { factor: 0.556, floor: 0.00266 },
         ],
     ],
-    center: [DeviationScaling { factor: 0.614, floor: 0.0133 }, DeviationScaling { factor: 0.71, floor: 0.00482 }],
+    center: [DeviationScaling { factor: 0.848, floor: 0.00444 }, DeviationScaling { factor: 0.596, floor: 0.00207 }],
     free_moment: DeviationScaling { factor: 0.684, floor: 0.0025 },
     of_misfit: 0.5,
+    of_center_misfit: 0.4,
     of_sideways: 0.1,
 };

@@ -5,12 +5,13 @@ use super::deviation_calibration::scaling_at;
 use super::expected::Expectation;
 use super::forefoot::on_touching_part;
 use super::geometry::nearest_on_sole;
+use super::misfit::Misfit;
 use super::normal_equations::Solution;
 use super::samples::{ComponentSample, EstimateInputs, frames_of, sample};
 use super::stances::{GaitType, Stance};
 use super::unknowns::Curve;
 use crate::model::Side;
-use crate::spatial::Vec3;
+use crate::spatial::{Vec3, Wrench};
 
 /// Smallest vertical force by which a moment is divided to get the centre of pressure [body weights].
 const LEAST_LOAD: f64 = 0.05;
@@ -34,15 +35,18 @@ pub(super) struct FootLoads {
 #[derive(Debug, Clone)]
 pub(super) struct FrameEstimate {
     /// Expected centre of pressure [m].
-    center: Vec3,
+    pub(super) center: Vec3,
     /// In the order of [`super::expected::Component::ALL`].
     parts: [Estimate; 6],
 }
 
 impl FrameEstimate {
-    /// The force [N].
-    pub(super) fn force(&self, [forward, up, right]: [Vec3; 3]) -> Vec3 {
-        forward * self.parts[0].value + up * self.parts[1].value + right * self.parts[2].value
+    /// The force [N] and its moment about a point [N.m].
+    pub(super) fn about(&self, point: Vec3, axes: [Vec3; 3]) -> Wrench {
+        let along =
+            |first: usize| axes.iter().zip(&self.parts[first..]).map(|(axis, part)| axis * part.value).sum::<Vec3>();
+        let force = along(0);
+        Wrench { force, moment: (self.center - point).cross(&force) + along(3) }
     }
 }
 
@@ -66,7 +70,7 @@ pub(super) fn loads(
     side: Side,
     inputs: &EstimateInputs<'_>,
     estimates: &[Vec<FrameEstimate>],
-    misfits: &[[f64; 3]],
+    misfits: &[Misfit],
 ) -> FootLoads {
     let frames = inputs.grid.frames;
     let zeros = || vec![Vec3::zeros(); frames];
@@ -108,12 +112,14 @@ pub(super) fn loads(
             let calibration = &inputs.parameters.calibration;
             let spread = |axis: usize, of: &Estimate| {
                 let scaled = scaling_at(&calibration.force[axis], phase).variance(of.variance, weight);
-                remaining * (scaled + calibration.of_trial(axis, misfit[axis], right.value))
+                remaining * (scaled + calibration.of_trial(axis, misfit.force[axis], right.value))
             };
             deviation.force[frame] =
                 rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;
-            let [along, across] = [(0, &about_right), (1, &about_forward)]
-                .map(|(axis, of)| remaining * calibration.center[axis].variance(of.variance / vertical.powi(2), 1.0));
+            let [along, across] = [(0, &about_right), (1, &about_forward)].map(|(axis, of)| {
+                let scaled = calibration.center[axis].variance(of.variance / vertical.powi(2), 1.0);
+                remaining * (scaled + (calibration.of_center_misfit * misfit.center[axis]).powi(2))
+            });
             deviation.center[frame] = rotated(axes, [along, 0.0, across]) * run_factor;
             deviation.free_moment[frame] = calibration.free_moment.variance(about_up.variance, weight).sqrt();
         }

@@ -1,50 +1,88 @@
-//! The difference between the estimated force of both feet and the force that the motion requires, after the low-pass filters.
+//! The difference between the estimated wrench of both feet and the wrench that the motion requires, after the low-pass filters.
 //!
-//!   m² = mean over a stance of (G ∗ (H ∗) Σ_feet F_i - G ∗ F_total)², along forward, up and right
+//!   w   = G ∗ (H ∗) Σ_feet (F_i, r_i × F_i + T_i) - G ∗ (F_total, M_total), moments about the mass centre
+//!   m_F = rms of the force of w along an axis over a stance
+//!   m_P = rms of (M_w - r × F_w) / weight over a stance: about the axis to the right along the foot, about forward across it
 //!
-//! | code      | symbol   | unit | meaning                                             |
-//! | `filters` | G, H     |      | filters of the evidence ([`super::evidence_filter`]) |
+//! | code      | symbol   | unit | meaning                                                 |
+//! | `filters` | G, H     |      | filters of the evidence ([`super::evidence_filter`])    |
+//! | `arm`     | r        | m    | from the mass centre to the expected centre of pressure |
 //!
-//! Noise that the estimate could explain is gone from it; what remains is motion that contradicts the shapes of forces of walking.
+//! Noise that the estimate could explain is gone from it; what remains is motion that contradicts the shapes of forces of walking: for want of
+//! markers (on the trunk, say), or because the body moves fast.
 
 use super::evidence_filter::{EvidenceFilter, EvidenceFilters};
 use super::loads::FrameEstimate;
 use super::samples::{EstimateInputs, frames_of};
-use crate::spatial::Vec3;
+use crate::spatial::Wrench;
 
-/// Root mean square of the difference in each stance, forward, up and to the right [N].
+/// Root mean square of the difference in a stance.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Misfit {
+    /// Forward, up and to the right [N].
+    pub(super) force: [f64; 3],
+    /// As a distance of the centre of pressure, along and across the foot [m].
+    pub(super) center: [f64; 2],
+}
+
+/// The misfit of each stance.
 pub(super) fn misfits(
     inputs: &EstimateInputs<'_>,
     estimates: &[Vec<FrameEstimate>],
     filters: &EvidenceFilters,
-) -> Vec<[f64; 3]> {
-    let required: Vec<Vec3> = inputs.total.iter().map(|total| total.force).collect();
-    let mut rest: Vec<Vec3> = low_passed(&required, &filters.gaussian).map(|force| -force).collect();
+) -> Vec<Misfit> {
+    let frames = inputs.grid.frames;
+    let required: Vec<Wrench> = (0..frames).map(|frame| inputs.about_mass_center(frame)).collect();
+    let mut rest = low_passed(&required, &filters.gaussian);
+    rest.iter_mut().for_each(|wrench| *wrench = Wrench { force: -wrench.force, moment: -wrench.moment });
     for (filter, passing) in filters.estimated() {
-        let mut estimated = vec![Vec3::zeros(); rest.len()];
+        let mut estimated = vec![Wrench::ZERO; frames];
         for (stance, estimates) in inputs.stances.iter().zip(estimates) {
             let axes = stance.axes(inputs.body_scale.up);
             for (frame, estimate) in frames_of(inputs, stance).zip(estimates) {
-                let force = estimate.force(axes);
-                let along = passing(stance.gait).iter().filter_map(|component| axes.get(*component));
-                estimated[frame] += along.map(|axis| axis * force.dot(axis)).sum::<Vec3>();
+                let Wrench { force, moment } = estimate.about(inputs.geometry.center[frame], axes);
+                for row in passing(stance.gait) {
+                    let axis = axes[row % 3];
+                    match row {
+                        0..3 => estimated[frame].force += axis * force.dot(&axis),
+                        _ => estimated[frame].moment += axis * moment.dot(&axis),
+                    }
+                }
             }
         }
-        rest.iter_mut().zip(low_passed(&estimated, filter)).for_each(|(rest, force)| *rest += force);
+        for (rest, of_feet) in rest.iter_mut().zip(low_passed(&estimated, filter)) {
+            *rest = Wrench { force: rest.force + of_feet.force, moment: rest.moment + of_feet.moment };
+        }
     }
-    let of_stance = |stance| {
-        let instants = || frames_of(inputs, stance);
-        let count = instants().count().max(1) as f64;
-        let squares = instants().fold([0.0; 3], |sum, frame| {
-            let along = stance.axes(inputs.body_scale.up).map(|axis| rest[frame].dot(&axis).powi(2));
-            std::array::from_fn(|axis| sum[axis] + along[axis])
-        });
-        squares.map(|square| (square / count).sqrt())
+    let of_stance = |(stance, estimates): (_, &Vec<FrameEstimate>)| {
+        let axes = super::stances::Stance::axes(stance, inputs.body_scale.up);
+        let mut squares = Misfit::default();
+        for (frame, estimate) in frames_of(inputs, stance).zip(estimates) {
+            let arm = estimate.center - inputs.geometry.center[frame];
+            let Wrench { force, moment } = rest[frame];
+            let about_center = (moment - arm.cross(&force)) / inputs.body_scale.weight_n;
+            squares.force.iter_mut().zip(axes).for_each(|(sum, axis)| *sum += force.dot(&axis).powi(2));
+            squares
+                .center
+                .iter_mut()
+                .zip([axes[2], axes[0]])
+                .for_each(|(sum, axis)| *sum += about_center.dot(&axis).powi(2));
+        }
+        let count = estimates.len().max(1) as f64;
+        Misfit {
+            force: squares.force.map(|square| (square / count).sqrt()),
+            center: squares.center.map(|square| (square / count).sqrt()),
+        }
     };
-    inputs.stances.iter().map(of_stance).collect()
+    inputs.stances.iter().zip(estimates).map(of_stance).collect()
 }
 
-fn low_passed<'a>(series: &'a [Vec3], filter: &'a EvidenceFilter) -> impl Iterator<Item = Vec3> + 'a {
-    let frames = series.len();
-    (0..frames).map(move |frame| filter.around(frame, frames).map(|(tap, weight)| series[tap] * weight).sum())
+fn low_passed(series: &[Wrench], filter: &EvidenceFilter) -> Vec<Wrench> {
+    let at = |frame| {
+        filter.around(frame, series.len()).fold(Wrench::ZERO, |sum, (tap, weight)| Wrench {
+            force: sum.force + series[tap].force * weight,
+            moment: sum.moment + series[tap].moment * weight,
+        })
+    };
+    (0..series.len()).map(at).collect()
 }
