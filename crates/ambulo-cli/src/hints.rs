@@ -40,6 +40,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         }
         Code::MassUnverified => "give `--mass KG` or, with markers, a standing trial on force plates (`--static`)",
         Code::GroundPredicted => "`--grf` reads measured forces, `--no-ground` computes a motion without contact",
+        Code::PredictionFeetSlide => "`--refit` holds loaded feet still",
         Code::SensorsHeading => "`--heading SENSOR:AXIS` names an axis that points forward",
         Code::SensorsUnrest => "`--static FILE` is the person standing still",
         Code::WalkNotConsistent => "`--mode paper` computes the unchanged gait",

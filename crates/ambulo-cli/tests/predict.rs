@@ -44,6 +44,24 @@ fn forces_are_predicted_where_none_were_measured() {
 }
 
 #[test]
+fn a_refit_says_what_it_changed_and_gained() {
+    let bench = Workbench::new("refit");
+    let run = ran(bench.run(&[&MOTION[..], &RAW[..2], &["--refit", "--verbose"]].concat()));
+    run.reports(&["note: the refit held loaded feet still: their soles slid at", "of body weight (rms)"]);
+    let refitted = bench.table("out/kinematics.mot");
+    ran(bench.run(&[&MOTION[..], &RAW[..2], &["-o", "as_given"]].concat()));
+    let given = bench.table("as_given/kinematics.mot");
+    let change = |name: &str| {
+        let [a, b] = [&refitted, &given].map(|table| table.column(name).unwrap());
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    assert!(change("hip_flexion_r") > 1e-3, "the legs were moved");
+    assert!(change("pelvis_ty") < 2e-3, "heights are kept: {}", change("pelvis_ty"));
+    let refused = bench.run(&[&MOTION[..], &["--refit", "--no-ground"]].concat());
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+}
+
+#[test]
 fn a_tracked_motion_agrees_with_its_forces_and_is_compared_with_plates() {
     let bench = Workbench::new("tracked");
     let run = ran(bench.run(&[&MOTION[..], &PLATES, &["--track"], &RAW[..2]].concat()));

@@ -100,6 +100,7 @@ mod plug_in_gait;
 mod prediction_checks;
 mod quality;
 mod recordings;
+mod refit;
 mod reproduction;
 mod residual_reduction;
 mod residual_reduction_synthetic;

@@ -7,6 +7,7 @@
 mod page;
 mod personal;
 pub(crate) mod recording;
+mod refit;
 mod tracking;
 pub(crate) mod trial;
 
@@ -33,7 +34,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         }
     }
     let commit = commit();
-    let page = page::text(&trials, &personal::calibrated(&recordings, &data)?);
+    let page = page::text(&trials, &personal::calibrated(&recordings, &data)?, &refit::refitted(&data)?);
     println!("{page}");
     workspace::save("target/validation.json", &format!("{:#}\n", json(&trials, &commit)))?;
     if write {

@@ -75,6 +75,9 @@ pub(crate) struct ForcesArgs {
     /// Change the motion until feet on soft ground alone supply its external forces, near the recorded motion and the predicted forces (docs/OPTIMAL.md). Measured forces are only compared with the result.
     #[arg(long, conflicts_with_all = ["no_ground", "predict", "consistent"])]
     pub(crate) track: bool,
+    /// Change the motion as little as needed so that loaded feet do not slide, before forces are computed (docs/GROUND_FORCES.md); a note says what it gained.
+    #[arg(long, conflicts_with = "no_ground")]
+    pub(crate) refit: bool,
     /// Compute without ground forces (a swinging leg, a flight); the residual force at the root then contains the whole weight.
     #[arg(long, conflicts_with_all = ["grf", "loads"])]
     pub(crate) no_ground: bool,

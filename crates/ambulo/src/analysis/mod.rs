@@ -48,7 +48,7 @@ pub use progress::{Stage, Stopped};
 pub use recording::{
     Analysis, AnalysisError, AnalysisSettings, ForceSource, Mass, MassSource, analyse, analyse_trajectory,
 };
-pub(crate) use recording::{analyse_measured, analyse_with_progress};
+pub(crate) use recording::{analyse_measured, analyse_with_progress, recorded_trajectory};
 pub use residual::{Residual, residual, residual_sizes, residual_within};
 pub use residual_reduction::{Adjustable, reduce_residual};
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};

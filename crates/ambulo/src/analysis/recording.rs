@@ -173,6 +173,20 @@ pub(crate) fn analyse_with_progress(
     analyse_measured(model, trajectory, plates, source, findings, progress)
 }
 
+/// The whole motion, smoothed and completed.
+///
+/// # Errors
+/// A motion that cannot be smoothed: see [`AnalysisError`].
+pub(crate) fn recorded_trajectory(
+    model: &Model,
+    motion: &Motion,
+    smoother: Smoother,
+) -> Result<Trajectory, AnalysisError> {
+    let (window, rate_hz) = (Window::default(), None);
+    let settings = AnalysisSettings { smoother, force_filter: None, window, rate_hz, instrumented: None };
+    trajectory_within(model, motion, &[], settings, window, &mut Findings::default())
+}
+
 /// Smooths and completes the motion inside a window; `plates` only serve the error message.
 pub(super) fn trajectory_within(
     model: &Model,

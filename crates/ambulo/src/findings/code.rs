@@ -485,6 +485,15 @@ codes! {
     PredictionPull "prediction.pull" Warning
         "The motion accelerates downwards faster than gravity, which no floor can cause."
         "Check unit and rate of the motion.";
+    PredictionFeetSlide "prediction.feet_slide" Warning
+        "Loaded feet slide on the floor, so that the forces predicted from the motion are worse than stated."
+        "Refit the motion, or correct the angles of the legs.";
+    RefitDone "refit.done" Note
+        "The motion was changed so that loaded feet do not slide; says by how much, and what was gained."
+        "Nothing to do.";
+    RefitNone "refit.none" Warning
+        "No foot rests on the floor, so that the refit changed nothing."
+        "Check axes and units of the motion, and that feet touch the ground.";
     PredictionUntested "prediction.untested" Warning
         "Ground forces were predicted for an activity on which the prediction was never compared with force plates."
         "Use force plates, or read ground forces and joint moments as estimates.";

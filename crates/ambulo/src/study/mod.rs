@@ -29,6 +29,7 @@ mod outcome;
 mod personal;
 mod prediction;
 mod quality;
+mod refit;
 mod run;
 mod settings;
 mod size;

@@ -7,6 +7,7 @@ use super::observation::{Observation, ObservedMotion, Origin};
 use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 use super::prediction::{Found, predicted, with_markers};
 use super::quality::{Measure, QualityEvidence, RecordedFaults, marker_fit_rms_m};
+use super::refit::refitted;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
 use super::tracked::tracked;
@@ -80,6 +81,7 @@ fn road(
     progress: &mut Progress<'_>,
 ) -> Result<Outcome, StudyError> {
     let (observed, motion) = source.observe(settings, findings, progress)?;
+    let motion = if settings.refit { refitted(&observed, motion, settings, findings) } else { motion };
     let device = device(&observed, findings)?;
     let recorded = recorded_faults(&observed.model, &motion);
     let processing = processing(&observed, recorded.is_none(), settings, findings);
@@ -107,6 +109,7 @@ fn road(
         force_origin,
     };
     let outcome = computed.judged(settings, findings);
+    report_sliding(&outcome, settings, findings);
     progress.end(Stage::Feasibility)?;
     Ok(outcome)
 }
@@ -268,6 +271,18 @@ fn without_faults_of_data(
         verdict.set_aside(|_| false, why);
     }
     verdict
+}
+
+/// Reports loaded feet that slide where forces were predicted; a refit may hold them.
+fn report_sliding(outcome: &Outcome, settings: &Settings, findings: &mut Findings) {
+    let is_predicted = matches!(outcome.force_origin, ForceOrigin::Predicted { .. });
+    let slides = outcome.verdict.fit.sliding_m_s.filter(|speed| Measure::Sliding.is_bad(*speed));
+    if let Some(speed) = slides.filter(|_| is_predicted && !settings.refit) {
+        let message = format!(
+            "soles that carry the body slide at {speed:.2} m/s or more for three quarters of the time: predicted forces and centres of pressure are worse than their deviations say"
+        );
+        findings.report(Code::PredictionFeetSlide, message);
+    }
 }
 
 /// Reports ground forces that are predicted for an activity without validation.

@@ -29,6 +29,8 @@ pub struct Settings {
     pub prediction: PredictSettings,
     /// How markers are fitted.
     pub marker_fit: FitSettings,
+    /// Whether a recorded motion is changed so that loaded feet do not slide ([`crate::ground::refit`]).
+    pub refit: bool,
     /// Residual reduction: what may change so that the motion agrees with the ground forces; `None` changes nothing.
     pub residual_reduction: Option<Adjustable>,
     /// The limits of a person, for the verdict.
@@ -68,6 +70,7 @@ impl Default for Settings {
             ground: GroundSettings::default(),
             prediction: PredictSettings::default(),
             marker_fit: FitSettings::default(),
+            refit: false,
             residual_reduction: None,
             thresholds: Thresholds::default(),
         }

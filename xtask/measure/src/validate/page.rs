@@ -2,6 +2,7 @@
 
 use super::personal::{self, Calibrated};
 use super::recording::Group;
+use super::refit::{self, Refitted};
 use super::tracking::{self, Tracked};
 use super::trial::Trial;
 use crate::table::Table;
@@ -18,7 +19,7 @@ struct Criterion {
 }
 
 /// The whole page.
-pub(super) fn text(trials: &[Trial], calibrated: &[Calibrated]) -> String {
+pub(super) fn text(trials: &[Trial], calibrated: &[Calibrated], refitted: &[Refitted]) -> String {
     let rule = trials.first().map_or("", |trial| trial.judged.rule);
     let head = format!(
         "# Predicted compared with measured ground forces\n\n\
@@ -40,6 +41,7 @@ pub(super) fn text(trials: &[Trial], calibrated: &[Calibrated]) -> String {
         validation::rmse_by_fifth(&judged).markdown(),
         validation::method_means(&judged).markdown(),
         own("With a calibration on another trial of the person", personal::section(calibrated)),
+        own("Given angles whose feet slide", refit::section(refitted)),
         validation::person_means(&judged).markdown(),
         validation::each_trial(&judged).markdown(),
         validation::forces(&judged).markdown(),

@@ -263,6 +263,16 @@ pub(crate) fn straight() -> Vec<Recording> {
     labelled(&STRAIGHT)
 }
 
+/// Angles that other programs fitted, with plates.
+pub(crate) fn given_angles() -> Vec<Recording> {
+    let of_markers = labelled(&["rajagopal-walk, markers"]).into_iter().map(|recording| Recording {
+        label: "rajagopal-walk, angles of OpenSim",
+        kind: Kind::Coordinates { motion: "ik_uniform_weights.mot", model: "subject_walk_scaled.osim" },
+        ..recording
+    });
+    labelled(&["gait2392, given angles"]).into_iter().chain(of_markers).collect()
+}
+
 /// Recordings by their labels.
 pub(crate) fn labelled(labels: &[&str]) -> Vec<Recording> {
     let all = all();

@@ -328,6 +328,7 @@ fn settings(args: &ForcesArgs, tracked: Option<TrackedTasks>) -> Result<Settings
             },
             ..defaults.marker_fit
         },
+        refit: args.refit,
         residual_reduction: args.consistent.map(|what| match what {
             Adjusted::Motion => Adjustable::Motion,
             Adjusted::Body => Adjustable::MotionAndBody,
