@@ -96,7 +96,7 @@ fn a_belt_carries_the_feet_along() {
     let walk = walk();
     let wrong = walk.with(&HIPS, |time| 0.04 * (TAU * 0.7 * time + 0.5).sin());
     let Walk { model, soles, .. } = &walk;
-    let wrong_walk = Walk { model: model.clone(), soles: soles.clone(), motion: wrong.clone() };
+    let wrong_walk = Walk { model: model.clone(), soles: *soles, motion: wrong.clone() };
     let on_belt = wrong_walk.with(&["pelvis_tx"], |time| -1.2 * time);
     let (overground, on_belt) = (walk.refitted(&wrong).unwrap(), walk.refitted(&on_belt).unwrap());
     for hip in HIPS {
