@@ -6,7 +6,6 @@ use super::refit::{self, Refitted};
 use super::tracking::{self, Tracked};
 use super::trial::Trial;
 use crate::table::Table;
-use ambulo::analysis::GroundAgreement;
 use ambulo::study::validation::{self, Component, DEFINITIONS, Figure, JudgedTrial, LegJoint, number, over_persons};
 
 /// A criterion for a mean over subjects.
@@ -141,47 +140,44 @@ fn peaks(trials: &[Trial]) -> String {
     table.text()
 }
 
+/// Figures of the error budget, with their headings and digits.
+const BUDGET: [(&str, Figure, usize); 10] = [
+    ("vertical %BW", Figure::Rmse(Component::Vertical), 2),
+    ("r", Figure::Correlation(Component::Vertical), 3),
+    ("fore-aft %BW", Figure::Rmse(Component::ForeAft), 2),
+    ("lateral %BW", Figure::Rmse(Component::Lateral), 2),
+    ("r", Figure::Correlation(Component::Lateral), 3),
+    ("CoP fore-aft mm", Figure::CenterAlong, 1),
+    ("CoP lateral mm", Figure::CenterAcross, 1),
+    ("hip", Figure::Moment(LegJoint::Hip), 3),
+    ("knee", Figure::Moment(LegJoint::Knee), 3),
+    ("ankle", Figure::Moment(LegJoint::Ankle), 3),
+];
+
 fn budget(trials: &[Trial]) -> String {
-    let mut table = Table::new(&[
-        "known",
-        "vertical %BW",
-        "fore-aft %BW",
-        "lateral %BW",
-        "CoP fore-aft mm",
-        "CoP lateral mm",
-        "hip",
-        "knee",
-        "ankle",
-    ]);
-    let mut row = |name: &str, of: &dyn Fn(&Trial) -> Option<&GroundAgreement>| {
-        let mean = |figure: Figure, digits| {
-            let of = |trial: &Trial| of(trial).map_or(f64::NAN, |agreement| figure.of(agreement));
-            number(over_group(trials, Group::Walking, of), digits)
-        };
-        table.row([
-            name.to_owned(),
-            mean(Figure::Rmse(Component::Vertical), 2),
-            mean(Figure::Rmse(Component::ForeAft), 2),
-            mean(Figure::Rmse(Component::Lateral), 2),
-            mean(Figure::CenterAlong, 1),
-            mean(Figure::CenterAcross, 1),
-            mean(Figure::Moment(LegJoint::Hip), 3),
-            mean(Figure::Moment(LegJoint::Knee), 3),
-            mean(Figure::Moment(LegJoint::Ankle), 3),
-        ]);
-    };
+    let head = ["kind", "known"].into_iter().chain(BUDGET.iter().map(|(name, ..)| *name));
+    let mut table = Table::new(&head.collect::<Vec<_>>());
     let mut sources: Vec<&str> = Vec::new();
     for (source, _) in trials.iter().flat_map(|trial| &trial.budget) {
         if !sources.contains(source) {
             sources.push(source);
         }
     }
-    for source in sources {
-        row(source, &|trial| trial.budget.iter().find(|(name, _)| *name == source).map(|(_, agreement)| agreement));
+    for group in [Group::Walking, Group::Turning, Group::FastWalking, Group::Running] {
+        for source in &sources {
+            let of =
+                |trial: &Trial| trial.budget.iter().find(|(name, _)| name == source).map(|(_, found)| found.clone());
+            let figures = BUDGET.map(|(_, figure, digits)| {
+                let mean = over_group(trials, group, |trial| of(trial).map_or(f64::NAN, |found| figure.of(&found)));
+                number(mean, digits)
+            });
+            table.row([group.word().to_owned(), (*source).to_owned()].into_iter().chain(figures));
+        }
     }
     format!(
-        "{}\nMeans over subjects, walking, over the part of the stances in which plates measured every foot: only there can every source \
-         be replaced. A known split is that of the vertical force; along the ground the rule divides. Moments in N.m/kg; centres of pressure are force-weighted.\n",
+        "{}\nMeans over subjects, over the part of the stances in which plates measured every foot: only there can every source \
+         be replaced. A known split is that of the vertical force; along the ground the rule divides, which bounds the forces fore-aft and lateral when everything \
+         else is known. Moments in N.m/kg; centres of pressure are force-weighted.\n",
         table.text()
     )
 }
