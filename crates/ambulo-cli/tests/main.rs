@@ -17,6 +17,7 @@ mod svg_reader;
 mod workbench;
 
 mod bad_input;
+mod batch;
 mod consistent;
 mod exchange;
 mod figures;

@@ -16,6 +16,7 @@
 //! | [`mvnx`] | motions of Xsens MVN `.mvnx`, versions 3 and 4 | yes | no |
 //! | [`npz`] | archives of NumPy arrays `.npz` | yes | yes |
 //! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600; `MarkerSet` XML | yes | yes; no |
+//! | `parquet` (with the feature of this name) | columns of Apache Parquet `.parquet` | yes | yes |
 //! | [`setup`] | OpenSim set-ups of scaling, inverse kinematics and inverse dynamics | yes | no |
 
 pub mod b3d;
@@ -27,6 +28,8 @@ pub mod external_loads;
 pub mod mvnx;
 pub mod npz;
 pub mod osim;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 pub mod setup;
 pub mod table;
 pub mod trc;

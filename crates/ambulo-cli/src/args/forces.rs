@@ -8,7 +8,7 @@ use super::{CheckArgs, PrintArgs, ReplaceArgs};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::study::Settings;
 use clap::{Args as ClapArgs, FromArgMatches, ValueEnum};
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, ClapArgs)]
@@ -132,11 +132,12 @@ pub(crate) struct ForcesArgs {
 }
 
 impl ForcesArgs {
-    /// The options of `ambulo forces RECORDING --predict`.
-    pub(crate) fn predicting(recording: &Path) -> Result<ForcesArgs, clap::Error> {
+    /// The options of `ambulo forces WORDS.. RECORDING`.
+    pub(crate) fn of(recording: &Path, words: &[OsString]) -> Result<ForcesArgs, clap::Error> {
         let command = ForcesArgs::augment_args(clap::Command::new("forces"));
         // The name follows after `--`, because it may look like an option.
-        let words = [OsStr::new("forces"), OsStr::new("--predict"), OsStr::new("--"), recording.as_os_str()];
+        let name = [OsStr::new("--"), recording.as_os_str()].into_iter().map(OsStr::to_owned);
+        let words = [OsString::from("forces")].into_iter().chain(words.iter().cloned()).chain(name);
         ForcesArgs::from_arg_matches(&command.try_get_matches_from(words)?)
     }
 
@@ -196,7 +197,7 @@ pub(crate) struct CalibrateArgs {
 impl CalibrateArgs {
     /// The options by which a trial is predicted.
     pub(crate) fn of_trial(&self, trial: &Path) -> Result<ForcesArgs, clap::Error> {
-        let defaults = ForcesArgs::predicting(trial)?;
+        let defaults = ForcesArgs::of(trial, &["--predict".into()])?;
         Ok(ForcesArgs { model: self.model.clone(), subject: self.subject.clone(), ..defaults })
     }
 }

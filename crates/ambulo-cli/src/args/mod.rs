@@ -1,18 +1,22 @@
 //! The command line: subcommands and their options.
 
+mod batch;
 mod exchange;
 mod forces;
 mod report;
 mod tools;
+mod trial_files;
 mod validate;
 mod values;
 mod walk;
 
+pub(crate) use batch::{BatchArgs, Shard};
 pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Adjusted, CalibrateArgs, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
-pub(crate) use validate::{TrialFiles, ValidateArgs};
+pub(crate) use trial_files::TrialFiles;
+pub(crate) use validate::ValidateArgs;
 pub(crate) use values::{Cutoff, EarthTurn, FootColumns, ForceCutoff, HeadingAxis, PlateFoot, TimedValue, Values};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
 
@@ -34,6 +38,8 @@ pub(crate) enum Command {
     Calibrate(Box<CalibrateArgs>),
     /// Judge predicted ground forces on a folder of recordings with force plates: per trial, person and activity, on one page.
     Validate(ValidateArgs),
+    /// Compute all recordings of a folder or a list into Parquet tables: in parallel, in shards, resumable after any interruption.
+    Batch(BatchArgs),
     /// Synthesise a walk at any speed and in any style; same outputs as `forces`, no file needed.
     Walk(Box<WalkArgs>),
     /// Compute walks at many speeds, of many bodies, on slopes and with loads: one table, and a page with envelopes.

@@ -1,6 +1,7 @@
 //! Options of `ambulo validate`.
 
 use super::forces::{ForcesArgs, SubjectArgs};
+use super::trial_files::TrialFiles;
 use super::values::number;
 use super::{PrintArgs, ReplaceArgs};
 use clap::Args as ClapArgs;
@@ -54,37 +55,19 @@ pub(crate) struct ValidateArgs {
     pub(crate) print: PrintArgs,
 }
 
-/// The files of a trial, and what is stated about its person.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct TrialFiles {
-    pub(crate) recording: PathBuf,
-    /// The number of the trial in a .b3d.
-    pub(crate) trial: Option<String>,
-    pub(crate) standing: Option<PathBuf>,
-    pub(crate) model: Option<PathBuf>,
-    pub(crate) grf: Option<PathBuf>,
-    pub(crate) loads: Option<PathBuf>,
-    pub(crate) mass: Option<f64>,
-    pub(crate) height: Option<f64>,
-}
-
 impl ValidateArgs {
     /// The options by which a trial is predicted.
     pub(crate) fn of_trial(&self, files: &TrialFiles) -> Result<ForcesArgs, clap::Error> {
-        let defaults = ForcesArgs::predicting(&files.recording)?;
+        let defaults = files.options(&["--predict".into()])?;
         let has_markers = ["c3d", "trc"]
             .iter()
             .any(|known| files.recording.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known)));
         let is_built_in = files.model.is_none() && has_markers;
         let subject = SubjectArgs {
-            still: files.standing.clone(),
-            mass: files.mass,
-            height: files.height,
             figure: if is_built_in { self.figure.clone() } else { defaults.subject.figure },
             markers: self.markers.clone().filter(|_| is_built_in),
             ..defaults.subject
         };
-        let TrialFiles { trial, model, grf, loads, .. } = files.clone();
-        Ok(ForcesArgs { subject, trial, model, grf, loads, ..defaults })
+        Ok(ForcesArgs { subject, ..defaults })
     }
 }

@@ -1,5 +1,6 @@
 //! The subcommands, one module each.
 
+pub(crate) mod batch;
 mod bids;
 pub(crate) mod calibrate;
 pub(crate) mod compare;
@@ -17,9 +18,11 @@ mod side_by_side;
 pub(crate) mod simulate;
 mod stopwatch;
 pub(crate) mod sweep;
+mod trials;
 pub(crate) mod tune;
 pub(crate) mod validate;
 pub(crate) mod view;
 pub(crate) mod walk;
 
 pub use results::Results;
+pub(crate) use trials::PlannedTrial;

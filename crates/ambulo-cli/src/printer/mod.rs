@@ -2,6 +2,7 @@
 
 #![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
+mod batch;
 mod calibrate;
 mod comparison;
 mod consistency;
@@ -15,6 +16,7 @@ mod tools;
 mod tune;
 mod validate;
 
+pub(crate) use batch::{BatchCounts, BatchRow, batch, batch_plan, batch_progress};
 pub(crate) use calibrate::calibrate;
 pub(crate) use forces::forces;
 pub(crate) use report::{report, view};

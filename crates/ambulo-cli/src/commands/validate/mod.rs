@@ -1,10 +1,8 @@
 //! `ambulo validate`: predicted ground forces judged by the force plates of a folder of recordings.
 
-mod folder;
-mod plan;
-
 use super::forces;
 use super::side_by_side::{processors, side_by_side};
+use super::trials::{LIST, Plan, PlannedTrial, Wanted, files_in, plan, sentence};
 use crate::args::ValidateArgs;
 use crate::caller::Caller;
 use crate::record::run_id;
@@ -14,7 +12,6 @@ use ambulo::study::validation::JudgedTrial;
 use ambulo_report::{ListedTrial, validation_files};
 use ambulo_results::summary_json;
 use anyhow::{Error, Result, bail};
-use plan::{LIST, Plan, PlannedTrial};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -25,7 +22,9 @@ const QUOTED: usize = 3;
 
 pub(crate) fn run(args: &ValidateArgs) -> Result<Completion> {
     let threads = args.jobs.map_or_else(processors, |jobs| jobs as usize);
-    let plan = plan::plan(args, &folder::files_in(&args.folder)?, threads)?;
+    let wanted = Wanted::MeasuredForces;
+    let mut plan = plan(&args.folder, wanted, &files_in(&args.folder, wanted)?, threads)?;
+    plan.take_size(&args.folder, args.mass, args.height)?;
     if plan.trials.is_empty() {
         bail!("{}", nothing_found(args, &plan));
     }
@@ -62,12 +61,7 @@ fn judged(args: &ValidateArgs, plan: &Plan, threads: usize) -> Vec<Result<Judged
         let trial = &plan.trials[k];
         let found = judge(args, trial).map_err(|error| {
             let (message, hint) = printer::error_parts(&error);
-            let message = plan::relative(&message, &args.folder);
-            // The row has the name of the file.
-            let shown = plan::relative(&trial.files.recording.display().to_string(), &args.folder);
-            let own = message.strip_prefix(&shown).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(&message);
-            let sentence = own.trim_end().trim_end_matches('.').to_owned();
-            hint.map_or(sentence.clone(), |hint| format!("{sentence}. hint: {hint}"))
+            sentence(&message, hint, &trial.files.recording, &args.folder)
         });
         let count = done.fetch_add(1, Ordering::Relaxed) + 1;
         printer::progress(&format!("{count} of {}: {}", plan.trials.len(), trial.name), args.print);

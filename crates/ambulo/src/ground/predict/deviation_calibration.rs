@@ -46,6 +46,15 @@ pub fn scaling_at(fifths: &ByFifth, phase: f64) -> DeviationScaling {
     DeviationScaling { factor: mix(|s| s.factor), floor: mix(|s| s.floor) }
 }
 
+/// What the estimate leaves of the required wrench, root mean square over a stance ([`super::misfit`]).
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Misfit {
+    /// Forward, up and to the right [N].
+    pub(super) force: [f64; 3],
+    /// As a distance of the centre of pressure, along and across the foot [m].
+    pub(super) center: [f64; 2],
+}
+
 /// Calibration of all components.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeviationCalibration {
@@ -74,10 +83,15 @@ impl DeviationCalibration {
         of_sideways: 0.0,
     };
 
-    /// Variance of the force forward (0), up (1) or sideways (2) that the trial itself shows [N²]: `misfit` is m along this axis, `sideways` F_side [N].
-    pub(super) fn of_trial(&self, axis: usize, misfit: f64, sideways: f64) -> f64 {
+    /// Variance of the force forward (0), up (1) or sideways (2) that the trial itself shows [N²]; `sideways` is F_side [N].
+    pub(super) fn of_trial(&self, axis: usize, misfit: &Misfit, sideways: f64) -> f64 {
         let of_sideways = if axis == UP { 0.0 } else { self.of_sideways };
-        (self.of_misfit * misfit).powi(2) + (of_sideways * sideways).powi(2)
+        (self.of_misfit * misfit.force[axis]).powi(2) + (of_sideways * sideways).powi(2)
+    }
+
+    /// The same of the centre of pressure along (0) or across the foot (1) [m²].
+    pub(super) fn center_of_trial(&self, axis: usize, misfit: &Misfit) -> f64 {
+        (self.of_center_misfit * misfit.center[axis]).powi(2)
     }
 }
 
@@ -105,10 +119,17 @@ mod tests {
 
     #[test]
     fn what_the_trial_leaves_and_a_sideways_force_are_added_in_squares_not_up_for_the_latter() {
-        let calibration = DeviationCalibration { of_misfit: 0.5, of_sideways: 0.1, ..DeviationCalibration::UNSCALED };
-        let found = [0, 1, 2].map(|axis| calibration.of_trial(axis, 6.0, -40.0));
+        let calibration = DeviationCalibration {
+            of_misfit: 0.5,
+            of_center_misfit: 0.4,
+            of_sideways: 0.1,
+            ..DeviationCalibration::UNSCALED
+        };
+        let misfit = Misfit { force: [6.0; 3], center: [0.01, 0.02] };
+        let found = [0, 1, 2].map(|axis| calibration.of_trial(axis, &misfit, -40.0));
         assert!(found.iter().zip([25.0, 9.0, 25.0]).all(|(a, b): (&f64, f64)| (a - b).abs() < 1e-12), "{found:?}");
-        assert!(DeviationCalibration::UNSCALED.of_trial(0, 6.0, 40.0).abs() < 1e-12);
+        assert!((calibration.center_of_trial(1, &misfit) - 0.008_f64.powi(2)).abs() < 1e-15);
+        assert!(DeviationCalibration::UNSCALED.of_trial(0, &misfit, 40.0).abs() < 1e-12);
     }
 
     #[test]

@@ -1,11 +1,10 @@
 //! Forces, centres of pressure and free moments of a foot in every frame from the estimate, with standard deviations.
 
 use super::FootDeviation;
-use super::deviation_calibration::scaling_at;
+use super::deviation_calibration::{Misfit, scaling_at};
 use super::expected::Expectation;
 use super::forefoot::on_touching_part;
 use super::geometry::nearest_on_sole;
-use super::misfit::Misfit;
 use super::normal_equations::Solution;
 use super::samples::{ComponentSample, EstimateInputs, frames_of, sample};
 use super::stances::{GaitType, Stance};
@@ -112,13 +111,13 @@ pub(super) fn loads(
             let calibration = &inputs.parameters.calibration;
             let spread = |axis: usize, of: &Estimate| {
                 let scaled = scaling_at(&calibration.force[axis], phase).variance(of.variance, weight);
-                remaining * (scaled + calibration.of_trial(axis, misfit.force[axis], right.value))
+                remaining * (scaled + calibration.of_trial(axis, misfit, right.value))
             };
             deviation.force[frame] =
                 rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;
             let [along, across] = [(0, &about_right), (1, &about_forward)].map(|(axis, of)| {
                 let scaled = calibration.center[axis].variance(of.variance / vertical.powi(2), 1.0);
-                remaining * (scaled + (calibration.of_center_misfit * misfit.center[axis]).powi(2))
+                remaining * (scaled + calibration.center_of_trial(axis, misfit))
             });
             deviation.center[frame] = rotated(axes, [along, 0.0, across]) * run_factor;
             deviation.free_moment[frame] = calibration.free_moment.variance(about_up.variance, weight).sqrt();

@@ -11,19 +11,12 @@
 //! Noise that the estimate could explain is gone from it; what remains is motion that contradicts the shapes of forces of walking: for want of
 //! markers (on the trunk, say), or because the body moves fast.
 
+use super::deviation_calibration::Misfit;
 use super::evidence_filter::{EvidenceFilter, EvidenceFilters};
 use super::loads::FrameEstimate;
 use super::samples::{EstimateInputs, frames_of};
+use super::stances::Stance;
 use crate::spatial::Wrench;
-
-/// Root mean square of the difference in a stance.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Misfit {
-    /// Forward, up and to the right [N].
-    pub(super) force: [f64; 3],
-    /// As a distance of the centre of pressure, along and across the foot [m].
-    pub(super) center: [f64; 2],
-}
 
 /// The misfit of each stance.
 pub(super) fn misfits(
@@ -54,8 +47,8 @@ pub(super) fn misfits(
             *rest = Wrench { force: rest.force + of_feet.force, moment: rest.moment + of_feet.moment };
         }
     }
-    let of_stance = |(stance, estimates): (_, &Vec<FrameEstimate>)| {
-        let axes = super::stances::Stance::axes(stance, inputs.body_scale.up);
+    let of_stance = |(stance, estimates): (&Stance, &Vec<FrameEstimate>)| {
+        let axes = stance.axes(inputs.body_scale.up);
         let mut squares = Misfit::default();
         for (frame, estimate) in frames_of(inputs, stance).zip(estimates) {
             let arm = estimate.center - inputs.geometry.center[frame];

@@ -1,5 +1,6 @@
 //! The files of a folder and of the folders in it.
 
+use super::Wanted;
 use crate::files::ending;
 use crate::record::Record;
 use anyhow::{Context, Result, bail};
@@ -9,13 +10,15 @@ use std::path::{Path, PathBuf};
 
 /// More folders inside each other are a mistake, such as a link to the root of a disk.
 const DEEPEST: usize = 32;
-/// Endings of the files that may be a part of a trial.
+/// Endings of the files that may be a part of a trial with force plates.
 const ENDINGS: [&str; 6] = ["c3d", "trc", "mot", "sto", "b3d", "osim"];
+/// Endings of other recordings of motion.
+const OF_MOTION: [&str; 3] = ["bvh", "npz", "mvnx"];
 
 /// A file that may be a part of a trial.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct FoundFile {
-    pub(super) path: PathBuf,
+pub(crate) struct FoundFile {
+    pub(crate) path: PathBuf,
     /// Its path from the folder of all trials, with `/`.
     pub(super) name: String,
     /// The same of its own folder; empty for the folder of all trials.
@@ -35,11 +38,11 @@ impl FoundFile {
 
 /// All files that may be parts of trials, in the order of their names. Hidden files and folders are left out, and result folders of this
 /// program, whose motion is not a recording.
-pub(super) fn files_in(root: &Path) -> Result<Vec<FoundFile>> {
+pub(crate) fn files_in(root: &Path, wanted: Wanted) -> Result<Vec<FoundFile>> {
     let shown = root.display();
     if root.is_file() {
         bail!(
-            "{shown}: this is a file; expected a folder with recordings. hint: `ambulo forces {shown} --predict` judges one trial"
+            "{shown}: this is a file; expected a folder with recordings. hint: `ambulo forces {shown}` computes one recording"
         );
     }
     if !root.is_dir() {
@@ -52,6 +55,11 @@ pub(super) fn files_in(root: &Path) -> Result<Vec<FoundFile>> {
     }
     let mut found = Vec::new();
     collect(root, "", DEEPEST, &mut BTreeSet::new(), &mut found)?;
+    let may_be = |file: &FoundFile| {
+        let ending = file.ending();
+        ENDINGS.contains(&ending.as_str()) || wanted == Wanted::Motion && OF_MOTION.contains(&ending.as_str())
+    };
+    found.retain(may_be);
     Ok(found)
 }
 
@@ -87,7 +95,7 @@ fn collect(
                 );
             }
             collect(&path, &below, deeper - 1, visited, found)?;
-        } else if path.is_file() && ENDINGS.contains(&ending(&path).as_str()) {
+        } else if path.is_file() {
             found.push(FoundFile { path, name: below, folder: name.to_owned() });
         }
     }

@@ -3,6 +3,7 @@
 //! | file | is |
 //! |---|---|
 //! | `.c3d` with force plates | a trial |
+//! | any recording of motion, where force plates are not asked for ([`Wanted`]) | a trial |
 //! | `.c3d` without plates, `.trc`, `.mot`, `.sto` with a table of ground forces beside it | a trial |
 //! | `.c3d`, `.trc` in which the person stands still | the standing trial of the trials in its folder |
 //! | `.mot`, `.sto` with a word of [`FORCES`] in its name | a table of ground forces |
@@ -12,8 +13,9 @@
 //! A table of ground forces lies beside a recording if both have the same words in their names, apart from [`FORCES`] and [`RECORDINGS`]. A
 //! recording with the words of another one of its folder is the same trial in another form, and only the first form is judged.
 
+use super::Wanted;
 use super::folder::FoundFile;
-use crate::args::{TrialFiles, ValidateArgs};
+use crate::args::TrialFiles;
 use crate::caller::Caller;
 use crate::commands::forces::markers::parse_laboratory_file;
 use crate::commands::forces::subject::read_header;
@@ -26,7 +28,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The list of what a laboratory states, in the folder of all trials.
-pub(super) const LIST: &str = "trials.toml";
+pub(crate) const LIST: &str = "trials.toml";
 /// Words in the names of tables of ground forces.
 const FORCES: [&str; 4] = ["grf", "force", "forces", "plates"];
 /// Words in the names of recordings that say only what kind of recording it is.
@@ -37,25 +39,25 @@ const STANDING: [&str; 4] = ["static", "stand", "calib", "pose"];
 
 /// A trial with the files that belong to it.
 #[derive(Debug, Clone)]
-pub(super) struct PlannedTrial {
+pub(crate) struct PlannedTrial {
     /// Path of the recording from the folder of all trials.
-    pub(super) name: String,
-    pub(super) person: String,
+    pub(crate) name: String,
+    pub(crate) person: String,
     /// The kind that the laboratory states.
-    pub(super) kind: Option<String>,
-    pub(super) files: TrialFiles,
+    pub(crate) kind: Option<String>,
+    pub(crate) files: TrialFiles,
     /// Why it cannot be read.
-    pub(super) broken: Option<String>,
+    pub(crate) broken: Option<String>,
 }
 
 /// Trials, and files that are none.
 #[derive(Debug, Default)]
-pub(super) struct Plan {
-    pub(super) trials: Vec<PlannedTrial>,
+pub(crate) struct Plan {
+    pub(crate) trials: Vec<PlannedTrial>,
     /// Recordings that are not judged, each with the reason.
-    pub(super) others: Vec<(String, String)>,
+    pub(crate) others: Vec<(String, String)>,
     /// Every file that was read.
-    pub(super) read: Vec<PathBuf>,
+    pub(crate) read: Vec<PathBuf>,
 }
 
 /// What a recording is by its content.
@@ -81,14 +83,14 @@ impl Content {
 }
 
 /// Finds trials and what belongs to them.
-pub(super) fn plan(args: &ValidateArgs, found: &[FoundFile], threads: usize) -> Result<Plan> {
-    let list_path = args.folder.join(LIST);
+pub(crate) fn plan(root: &Path, wanted: Wanted, found: &[FoundFile], threads: usize) -> Result<Plan> {
+    let list_path = root.join(LIST);
     let list = read_list(&list_path, found)?;
     let mut plan = Plan { read: list_path.is_file().then_some(list_path).into_iter().collect(), ..Plan::default() };
     let recordings: Vec<(&FoundFile, StatedTrial)> =
         (found.iter().filter(|file| is_recording(file))).map(|file| (file, list.of(&file.name))).collect();
     let contents = side_by_side(recordings.len(), threads, |k| content(recordings[k].0, &recordings[k].1));
-    let folders = Folders::new(found, &recordings, &contents, &args.folder);
+    let folders = Folders::new(found, &recordings, &contents, root, wanted);
     let mut taken = BTreeSet::new();
     // C3D before TRC before coordinates.
     let mut order: Vec<usize> = (0..recordings.len()).collect();
@@ -102,16 +104,42 @@ pub(super) fn plan(args: &ValidateArgs, found: &[FoundFile], threads: usize) -> 
         }
     }
     for file in found.iter().filter(|file| file.ending() == "b3d") {
-        plan.add_subject(file, &list.of(&file.name), &args.folder);
+        plan.add_subject(file, &list.of(&file.name), root);
     }
     plan.trials.sort_by(|a, b| a.name.cmp(&b.name));
-    plan.others.iter_mut().for_each(|(_, why)| *why = relative(why, &args.folder));
+    plan.others.iter_mut().for_each(|(_, why)| *why = relative(why, root));
     plan.others.sort();
-    size_of_one_person(args, &mut plan)?;
     Ok(plan)
 }
 
 impl Plan {
+    /// Takes a size that is stated on the command line for trials of which nothing else is stated; it is that of one person.
+    pub(crate) fn take_size(&mut self, source: &Path, mass: Option<f64>, height: Option<f64>) -> Result<()> {
+        let persons: BTreeSet<&str> = self.trials.iter().map(|trial| trial.person.as_str()).collect();
+        let given = [("--mass", mass.is_some()), ("--height", height.is_some())];
+        if let (2.., Some((option, _))) = (persons.len(), given.iter().find(|(_, given)| *given)) {
+            bail!(
+                "{option}: found the trials of {} persons in {}; expected those of one. hint: state the size of each person in {LIST} (docs/VALIDATE.md)",
+                persons.len(),
+                source.display()
+            );
+        }
+        for trial in &mut self.trials {
+            trial.files.mass = trial.files.mass.or(mass);
+            trial.files.height = trial.files.height.or(height);
+        }
+        Ok(())
+    }
+
+    /// The trials of a subject of AddBiomechanics.
+    pub(crate) fn of_subject(path: &Path) -> Result<Plan> {
+        let name = files::last(path);
+        let file = FoundFile { path: path.to_owned(), name, folder: String::new() };
+        let mut plan = Plan::default();
+        plan.add_subject(&file, &StatedTrial::default(), path.parent().unwrap_or(Path::new("")));
+        Ok(plan)
+    }
+
     /// Adds the trials of a subject of AddBiomechanics.
     fn add_subject(&mut self, file: &FoundFile, stated: &StatedTrial, root: &Path) {
         self.read.push(file.path.clone());
@@ -147,10 +175,19 @@ impl Plan {
 }
 
 /// A message with paths from the folder of all trials, so that it does not depend on where that is.
-pub(super) fn relative(message: &str, root: &Path) -> String {
+fn relative(message: &str, root: &Path) -> String {
     let shown = root.join("").display().to_string();
     // A short path, such as `./`, could be a part of another one.
     if shown.len() > 2 { message.replace(&shown, "") } else { message.replacen(&shown, "", 1) }
+}
+
+/// The error of a recording in a row that has the name of the recording.
+pub(crate) fn sentence(message: &str, hint: Option<String>, recording: &Path, root: &Path) -> String {
+    let message = relative(message, root);
+    let shown = relative(&recording.display().to_string(), root);
+    let own = message.strip_prefix(&shown).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(&message);
+    let sentence = own.trim_end().trim_end_matches('.').to_owned();
+    hint.map_or(sentence.clone(), |hint| format!("{sentence}. hint: {hint}"))
 }
 
 fn excluded(reason: &str) -> String {
@@ -185,6 +222,7 @@ fn is_recording(file: &FoundFile) -> bool {
     match file.ending().as_str() {
         "c3d" | "trc" => true,
         "mot" | "sto" => !is_force_table(file),
+        "bvh" | "npz" | "mvnx" => true,
         _ => false,
     }
 }
@@ -234,6 +272,7 @@ struct Folders<'a> {
     /// Name of the folder of all trials.
     root: String,
     root_path: &'a Path,
+    wanted: Wanted,
     forces: BTreeMap<(&'a str, BTreeSet<String>), &'a FoundFile>,
     models: BTreeMap<&'a str, Vec<&'a FoundFile>>,
     standing: BTreeMap<&'a str, &'a FoundFile>,
@@ -245,11 +284,13 @@ impl<'a> Folders<'a> {
         recordings: &[(&'a FoundFile, StatedTrial)],
         contents: &[Content],
         root_path: &'a Path,
+        wanted: Wanted,
     ) -> Folders<'a> {
         let canonical = root_path.canonicalize().unwrap_or_else(|_| root_path.to_owned());
         let mut folders = Folders {
             root: files::last(&canonical),
             root_path,
+            wanted,
             forces: BTreeMap::new(),
             models: BTreeMap::new(),
             standing: BTreeMap::new(),
@@ -291,7 +332,7 @@ impl<'a> Folders<'a> {
             Content::Broken(_) if file.ending() == "c3d" => None,
             Content::Motion | Content::Broken(_) => match stated.forces.as_ref().map(path).or_else(beside) {
                 Some(table) => Some(table),
-                None if stated.loads.is_some() => None,
+                None if stated.loads.is_some() || self.wanted == Wanted::Motion => None,
                 None => return Err(content.without_forces()),
             },
         };
@@ -339,22 +380,4 @@ impl<'a> Folders<'a> {
     fn person(&self, file: &FoundFile) -> String {
         if file.folder.is_empty() { self.root.clone() } else { file.folder.clone() }
     }
-}
-
-/// Takes `--mass` and `--height` for trials of which nothing else is stated.
-fn size_of_one_person(args: &ValidateArgs, plan: &mut Plan) -> Result<()> {
-    let persons: BTreeSet<&str> = plan.trials.iter().map(|trial| trial.person.as_str()).collect();
-    let given = [("--mass", args.mass.is_some()), ("--height", args.height.is_some())];
-    if let (2.., Some((option, _))) = (persons.len(), given.iter().find(|(_, given)| *given)) {
-        bail!(
-            "{option}: found the trials of {} persons in {}; expected those of one. hint: state the size of each person in {LIST} (docs/VALIDATE.md)",
-            persons.len(),
-            args.folder.display()
-        );
-    }
-    for trial in &mut plan.trials {
-        trial.files.mass = trial.files.mass.or(args.mass);
-        trial.files.height = trial.files.height.or(args.height);
-    }
-    Ok(())
 }

@@ -1,0 +1,86 @@
+//! Options of `ambulo batch`.
+
+use super::{CheckArgs, PrintArgs};
+use ambulo_results::Keep;
+use clap::Args as ClapArgs;
+use clap::builder::PossibleValuesParser;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+#[derive(Debug, Clone, ClapArgs)]
+#[command(after_help = "Example (after `ambulo demo -o demo`, which writes these files):
+  ambulo batch demo/input -o batch
+  ambulo batch demo/input -o batch --dry-run -- --predict
+
+SOURCE is a folder (every recording in it and in its folders is a trial; standing trials, models and tables of ground forces are found by the rules of
+docs/VALIDATE.md, and trials.toml states what differs), a list of trials (.csv or .jsonl, docs/BATCH.md), or a subject of AddBiomechanics (.b3d).
+Words after `--` are options of `ambulo forces` for every trial.
+
+Files written to DIR, for DuckDB, polars, pandas and Spark: trials/, frames/, cycles/, events/, each with one file for some trials. The file in trials/
+appears last and closes its part. A trial that cannot be computed is a row with its error. After an interruption --resume computes the parts that are
+not closed; the files are the same, byte for byte, as those of an unbroken run, whatever --jobs is. Exit code: 0 if any trial has results, 2 if none;
+with --check 1 if a trial has bad data or an infeasible motion.")]
+pub(crate) struct BatchArgs {
+    /// A folder with recordings, a list of trials (.csv, .jsonl) or a subject of AddBiomechanics (.b3d).
+    #[arg(value_name = "SOURCE")]
+    pub(crate) source: PathBuf,
+    /// Folder for the results: a new one, or with --resume that of an interrupted batch.
+    #[arg(short, long, value_name = "DIR", default_value = "batch")]
+    pub(crate) output: PathBuf,
+    /// Trials that are computed at the same time [default: the number of processors; 1 in a job of Slurm, PBS, LSF or Grid Engine].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) jobs: Option<u32>,
+    /// Compute only every n-th trial, beginning with number I, counted from 0: N machines share a batch.
+    #[arg(long, value_name = "I/N", default_value = "0/1", allow_hyphen_values = true)]
+    pub(crate) shard: Shard,
+    /// Continue an interrupted batch in its folder.
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Tables of frames that are written, cycles and events, separated by commas.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "kinematics,moments,powers,grf,grf_sd,cycles,events", value_parser = tables())]
+    pub(crate) keep: Vec<String>,
+    /// Trials in one file of each table.
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) part: u32,
+    /// Compute only the first trials.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) limit: Option<u32>,
+    /// Only print which trials were found, with which files.
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
+    #[command(flatten)]
+    pub(crate) print: PrintArgs,
+    /// Options of `ambulo forces` for every trial.
+    #[arg(last = true, value_name = "OPTIONS")]
+    pub(crate) options: Vec<OsString>,
+}
+
+/// Tables of a run that have a row per frame, cycles and events.
+fn tables() -> PossibleValuesParser {
+    let others = ["report", "figures", "tables", "model", "summary", "recording", "states", "times_and_distances"];
+    PossibleValuesParser::new(Keep::OF_RUNS.into_iter().filter(move |name| !others.contains(name)))
+}
+
+/// One of several shares of the trials.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Shard {
+    /// Counted from 0.
+    pub(crate) index: usize,
+    pub(crate) count: usize,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Shard, String> {
+        const MOST: usize = 1_000_000;
+        let expected = || format!("expected I/N with I from 0 to N - 1, such as 0/4, and N at most {MOST}");
+        let (index, count) = text.split_once('/').ok_or_else(expected)?;
+        let number = |text: &str| text.trim().parse::<usize>().map_err(|_| expected());
+        let shard = Shard { index: number(index)?, count: number(count)? };
+        if shard.index < shard.count && shard.count <= MOST { Ok(shard) } else { Err(expected()) }
+    }
+}

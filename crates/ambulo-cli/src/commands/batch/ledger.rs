@@ -1,0 +1,201 @@
+//! The folder of a batch: which parts are closed, and how a part is closed.
+//!
+//! | file | content |
+//! |---|---|
+//! | `batch.json` | what the batch is: version, number of shards, trials in a part, tables, options |
+//! | `frames/part-SSS-PPPPP.parquet`, `cycles/`, `events/` | tables of part P of shard S |
+//! | `trials/part-SSS-PPPPP.parquet` | the trials of the part; it appears last and closes the part |
+//!
+//! Each file is written beside its place, through to the disk, and appears by a rename. After a kill at any moment a part is closed or not there:
+//! what an interrupted run left of an open part is written again. A lock keeps two runs of one shard apart.
+
+use super::tables::PartTables;
+use crate::args::Shard;
+use crate::folder_lock::FolderLock;
+use crate::replacement::write_through;
+use ambulo_formats::parquet::{ColumnValues, ParquetTable};
+use anyhow::{Context, Result, bail};
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+const DESCRIPTION: &str = "batch.json";
+const TABLES: [&str; 4] = ["frames", "cycles", "events", TRIALS];
+const TRIALS: &str = "trials";
+/// Folder of the locks of the shards.
+const LOCKS: &str = ".shards";
+
+/// What a batch is. All shards, and every run that continues it, must agree.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Description {
+    /// Version of Ambulo.
+    pub(super) version: String,
+    /// Number of shards.
+    pub(super) shards: usize,
+    /// Trials in a part.
+    pub(super) part: usize,
+    /// Number of trials that are computed at most.
+    pub(super) limit: Option<u32>,
+    /// Tables that are kept.
+    pub(super) keep: Vec<String>,
+    /// Options of `ambulo forces`.
+    pub(super) options: Vec<String>,
+}
+
+/// The folder, while this process alone writes the parts of one shard.
+pub(super) struct Ledger {
+    folder: PathBuf,
+    shard: Shard,
+    _lock: FolderLock,
+}
+
+impl Ledger {
+    /// Takes the shard of a folder, new or, to continue, that of the same batch.
+    pub(super) fn open(folder: &Path, shard: Shard, description: &Description, resume: bool) -> Result<Ledger> {
+        let shown = folder.display();
+        if folder.is_file() {
+            bail!("{shown}: this is a file; expected a folder for the results");
+        }
+        let path = folder.join(DESCRIPTION);
+        let is_used = |folder: &Path| {
+            fs::read_dir(folder)
+                .is_ok_and(|mut entries| entries.any(|entry| entry.is_ok_and(|entry| entry.file_name() != LOCKS)))
+        };
+        if !path.exists() && is_used(folder) {
+            bail!(
+                "{shown}: this folder has other files; expected a new folder, or that of a batch. hint: choose another one with -o"
+            );
+        }
+        let Some(lock) = FolderLock::take(&folder.join(LOCKS).join(format!("{:03}", shard.index)))? else {
+            bail!(
+                "{shown}: another batch is writing shard {}/{} of this folder; expected one at a time. hint: wait until it has ended, or choose another folder with -o",
+                shard.index,
+                shard.count
+            );
+        };
+        let ledger = Ledger { folder: folder.to_owned(), shard, _lock: lock };
+        ledger.agree(&path, description)?;
+        for table in TABLES {
+            let place = folder.join(table);
+            fs::create_dir_all(&place)
+                .with_context(|| format!("{}: this folder cannot be created", place.display()))?;
+        }
+        if !resume && let Some(closed) = ledger.first_closed()? {
+            bail!(
+                "{shown}: shard {}/{} has results already ({closed}); expected none. hint: --resume continues this batch; or choose another folder with -o",
+                shard.index,
+                shard.count
+            );
+        }
+        Ok(ledger)
+    }
+
+    /// Writes the description, or compares it with the one that is there.
+    fn agree(&self, path: &Path, description: &Description) -> Result<()> {
+        let own = self.folder.join(format!(".{DESCRIPTION}-{:03}", self.shard.index));
+        let text = serde_json::to_string_pretty(description)? + "\n";
+        write_through(&own, text.as_bytes()).with_context(|| format!("{}: cannot be written", own.display()))?;
+        // Of several shards that begin at once one is the first.
+        let linked = fs::hard_link(&own, path);
+        let done = match linked {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
+            // A file system without links.
+            Err(_) if !path.exists() => fs::copy(&own, path).map(|_| ()),
+            other => other,
+        };
+        let _ = fs::remove_file(&own);
+        done.with_context(|| format!("{}: cannot be written", path.display()))?;
+        let found = fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+        let found: Description = serde_json::from_str(&found)
+            .with_context(|| format!("{}: this is not the description of a batch", path.display()))?;
+        match differences(&found, description).as_slice() {
+            [] => Ok(()),
+            all => bail!(
+                "{}: this folder has another batch: {}. hint: give the same options, or choose another folder with -o",
+                self.folder.display(),
+                all.join("; ")
+            ),
+        }
+    }
+
+    fn place(&self, table: &str, part: usize) -> PathBuf {
+        self.folder.join(table).join(format!("{}{part:05}.parquet", self.beginning()))
+    }
+
+    /// The beginning of the names of all files of this shard.
+    fn beginning(&self) -> String {
+        format!("part-{:03}-", self.shard.index)
+    }
+
+    fn first_closed(&self) -> Result<Option<String>> {
+        let folder = self.folder.join(TRIALS);
+        let entries = fs::read_dir(&folder).with_context(|| format!("{}: cannot be read", folder.display()))?;
+        let names = entries.filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()));
+        Ok(names.filter(|name| name.starts_with(&self.beginning())).min())
+    }
+
+    /// The table of trials of a closed part; `None` if the part is open.
+    ///
+    /// # Errors
+    /// A part of other trials: an input or the list has changed since.
+    pub(super) fn closed(&self, part: usize, keys: &[(&str, &str)]) -> Result<Option<ParquetTable>> {
+        let path = self.place(TRIALS, part);
+        let bytes = match fs::read(&path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            read => read.with_context(|| format!("{}: cannot be read", path.display()))?,
+        };
+        let table = ParquetTable::read(&bytes).with_context(|| path.display().to_string())?;
+        let Some(ColumnValues::Text(found)) = table.column("key") else {
+            bail!("{}: found no column `key`; expected the trials of a batch", path.display());
+        };
+        let differs =
+            keys.iter().enumerate().find(|(k, (_, key))| found.get(*k).and_then(|own| own.as_deref()) != Some(*key));
+        match differs {
+            None if found.len() == keys.len() => Ok(Some(table)),
+            None => bail!("{}: found {} trials; expected {}. {CHANGED}", path.display(), found.len(), keys.len()),
+            Some((_, (name, _))) => {
+                bail!("{}: `{name}` was computed from other files or is another trial. {CHANGED}", path.display())
+            }
+        }
+    }
+
+    /// Writes the tables of a part; the trials are last and close it.
+    pub(super) fn close(&self, part: usize, tables: &PartTables) -> Result<()> {
+        let PartTables { trials, frames, cycles, events } = tables;
+        for (name, table) in TABLES.into_iter().zip([frames, cycles, events, trials]) {
+            let path = self.place(name, part);
+            let new = path.with_extension("parquet.new");
+            let written = write_through(&new, &table.write()?).and_then(|()| fs::rename(&new, &path));
+            if let Err(error) = written {
+                let _ = fs::remove_file(&new);
+                return Err(error).with_context(|| {
+                    format!(
+                        "{}: cannot be written; the parts that are closed are kept. hint: --resume continues",
+                        path.display()
+                    )
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Why a closed part does not fit.
+const CHANGED: &str = "A recording, a file of it or the list has changed since. hint: choose another folder with -o";
+
+fn differences(found: &Description, expected: &Description) -> Vec<String> {
+    let mut all = Vec::new();
+    let mut compare = |what: &str, found: String, expected: String| {
+        if found != expected {
+            all.push(format!("{what}: found {found}, expected {expected}"));
+        }
+    };
+    compare("version", found.version.clone(), expected.version.clone());
+    compare("shards", found.shards.to_string(), expected.shards.to_string());
+    compare("--part", found.part.to_string(), expected.part.to_string());
+    compare("--limit", format!("{:?}", found.limit), format!("{:?}", expected.limit));
+    compare("--keep", found.keep.join(","), expected.keep.join(","));
+    compare("options after `--`", found.options.join(" "), expected.options.join(" "));
+    all
+}

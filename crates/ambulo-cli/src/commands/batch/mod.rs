@@ -1,0 +1,193 @@
+//! `ambulo batch`: all recordings of a folder or a list, computed into Parquet tables.
+
+mod ledger;
+mod tables;
+mod trial;
+
+use super::side_by_side::{processors, side_by_side};
+use super::trials::{Plan, PlannedTrial, Wanted, files_in, plan, planned_by};
+use crate::Completion;
+use crate::args::BatchArgs;
+use crate::files::ending;
+use crate::printer::{self, BatchCounts, BatchRow};
+use ambulo_formats::parquet::{ColumnValues, ParquetTable};
+use anyhow::{Result, bail};
+use ledger::{Description, Ledger};
+use std::env;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use tables::{Row, part_tables};
+use trial::{Key, Work};
+
+/// Variables that schedulers of clusters set in their jobs.
+const SCHEDULERS: [&str; 4] = ["SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "SGE_TASK_ID"];
+
+/// Reasons that an error quotes.
+const QUOTED: usize = 3;
+
+pub(crate) fn run(args: &BatchArgs) -> Result<Completion> {
+    let in_job = SCHEDULERS.iter().any(|name| env::var_os(name).is_some());
+    let threads = args.jobs.map_or_else(|| if in_job { 1 } else { processors() }, |jobs| jobs as usize);
+    let (root, plan) = planned(args, threads)?;
+    let work = Work { root, words: args.options.clone(), keep: args.keep.clone() };
+    let Some(first) = plan.trials.first() else { bail!("{}", nothing_found(args, &plan)) };
+    work.check(first)?;
+    let limit = args.limit.map_or(usize::MAX, |limit| limit as usize);
+    let own = plan.trials.iter().take(limit).skip(args.shard.index).step_by(args.shard.count);
+    let trials: Vec<&PlannedTrial> = own.collect();
+    if args.dry_run {
+        printer::batch_plan(&trials, &plan.others, args.print)?;
+        return Ok(Completion::Passed);
+    }
+    let ledger = Ledger::open(&args.output, args.shard, &description(args), args.resume)?;
+    let batch = Batch {
+        args,
+        work: &work,
+        threads,
+        ledger: &ledger,
+        begun: Instant::now(),
+        computed: AtomicUsize::new(0),
+        all: trials.len(),
+    };
+    let mut rows = Vec::with_capacity(trials.len());
+    for (number, part) in trials.chunks(args.part as usize).enumerate() {
+        rows.extend(batch.part(number, part)?);
+    }
+    let counts = BatchCounts::of(&rows);
+    if counts.computed == 0 && !rows.is_empty() {
+        bail!("{}", none_computed(args, &rows));
+    }
+    printer::batch(&rows, &counts, &args.output, args.check.check, args.print)?;
+    let is_refused = args.check.check && rows.iter().any(BatchRow::is_refused);
+    Ok(if is_refused { Completion::Failed } else { Completion::Passed })
+}
+
+/// The trials of the source, and the folder that their names begin at.
+fn planned(args: &BatchArgs, threads: usize) -> Result<(PathBuf, Plan)> {
+    let source = &args.source;
+    match ending(source).as_str() {
+        "csv" | "jsonl" if source.is_file() => {
+            let root = source.parent().unwrap_or(Path::new("")).to_owned();
+            Ok((root, planned_by(source)?))
+        }
+        "b3d" if source.is_file() => {
+            let root = source.parent().unwrap_or(Path::new("")).to_owned();
+            Ok((root, Plan::of_subject(source)?))
+        }
+        _ => {
+            let wanted = Wanted::Motion;
+            Ok((source.clone(), plan(source, wanted, &files_in(source, wanted)?, threads)?))
+        }
+    }
+}
+
+fn description(args: &BatchArgs) -> Description {
+    Description {
+        version: env!("AMBULO_VERSION").to_owned(),
+        shards: args.shard.count,
+        part: args.part as usize,
+        limit: args.limit,
+        keep: args.keep.clone(),
+        options: args.options.iter().map(|word| word.to_string_lossy().into_owned()).collect(),
+    }
+}
+
+fn nothing_found(args: &BatchArgs, plan: &Plan) -> String {
+    let shown = args.source.display();
+    let others: Vec<String> = plan.others.iter().take(QUOTED).map(|(name, why)| format!("{name}: {why}")).collect();
+    let others = if others.is_empty() { String::new() } else { format!(" ({})", others.join("; ")) };
+    format!(
+        "{shown}: found no trial{others}; expected recordings of motion: .c3d, .trc, .mot or .sto with a model, .bvh, .mvnx, .npz or .b3d. hint: `ambulo info FILE` describes a file; docs/BATCH.md has the rules"
+    )
+}
+
+fn none_computed(args: &BatchArgs, rows: &[BatchRow]) -> String {
+    let reasons: Vec<String> =
+        rows.iter().filter_map(|row| Some(format!("{}: {}", row.name, row.error.as_ref()?))).take(QUOTED).collect();
+    let (source, folder) = (args.source.display(), args.output.join("trials"));
+    format!(
+        "{source}: none of {} trials could be computed (all reasons are in {}); {}",
+        rows.len(),
+        folder.display(),
+        reasons.join("; ")
+    )
+}
+
+/// A batch that is being computed.
+struct Batch<'a> {
+    args: &'a BatchArgs,
+    work: &'a Work,
+    threads: usize,
+    ledger: &'a Ledger,
+    begun: Instant,
+    /// Trials that this run has computed.
+    computed: AtomicUsize,
+    /// Trials of this shard.
+    all: usize,
+}
+
+impl Batch<'_> {
+    /// Computes a part that is not closed, and returns the rows of its trials.
+    fn part(&self, number: usize, trials: &[&PlannedTrial]) -> Result<Vec<BatchRow>> {
+        let keys: Vec<Key> = side_by_side(trials.len(), self.threads, |k| self.work.key(trials[k]));
+        let named: Vec<(&str, &str)> =
+            trials.iter().zip(&keys).map(|(trial, key)| (trial.name.as_str(), key.hash.as_str())).collect();
+        if self.args.resume
+            && let Some(closed) = self.ledger.closed(number, &named)?
+        {
+            return Ok(rows_of(&closed));
+        }
+        let in_part = AtomicUsize::new(number * self.args.part as usize);
+        let found = side_by_side(trials.len(), self.threads, |k| {
+            let found = self.work.compute(trials[k]);
+            let computed = self.computed.fetch_add(1, Ordering::Relaxed) + 1;
+            self.say(computed, in_part.fetch_add(1, Ordering::Relaxed) + 1);
+            found
+        });
+        let rows: Vec<Row<'_>> =
+            trials.iter().zip(keys).zip(found).map(|((trial, key), found)| Row { trial, key, found }).collect();
+        let tables = part_tables(&rows, &about());
+        self.ledger.close(number, &tables)?;
+        Ok(rows_of(&tables.trials))
+    }
+
+    /// Says how many trials are done, at which rate, and how long the rest takes. This run has computed `computed` of the `done` ones.
+    fn say(&self, computed: usize, done: usize) {
+        let rate = computed as f64 / self.begun.elapsed().as_secs_f64().max(1e-9);
+        let left_s = self.all.saturating_sub(done) as f64 / rate;
+        printer::batch_progress(done, self.all, rate, left_s, self.args.print);
+    }
+}
+
+/// Texts that every table has.
+fn about() -> Vec<(String, String)> {
+    let text = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+    vec![
+        text("software", "Ambulo"),
+        text("version", env!("AMBULO_VERSION")),
+        text("axes", "x forward, y up, z right; m, s, N; angles in degrees"),
+        text("moments", "generalised forces of the coordinates [N.m, N], not per body mass"),
+        text("documentation", "docs/BATCH.md"),
+    ]
+}
+
+/// What is printed of the trials of a part.
+fn rows_of(trials: &ParquetTable) -> Vec<BatchRow> {
+    let text = |name: &str| match trials.column(name) {
+        Some(ColumnValues::Text(values)) => values.clone(),
+        _ => Vec::new(),
+    };
+    let names = text("trial");
+    let [errors, qualities, verdicts, quality_reasons, verdict_reasons] =
+        ["error", "quality", "verdict", "quality_reasons", "verdict_reasons"].map(text);
+    let at = |list: &[Option<String>], k: usize| list.get(k).cloned().flatten();
+    let row = |(k, name): (usize, &Option<String>)| BatchRow {
+        name: name.clone().unwrap_or_default(),
+        error: at(&errors, k),
+        quality: at(&qualities, k),
+        verdict: at(&verdicts, k),
+        reasons: [at(&quality_reasons, k), at(&verdict_reasons, k)].into_iter().flatten().collect(),
+    };
+    names.iter().enumerate().map(row).collect()
+}

@@ -1,0 +1,161 @@
+//! One trial of a batch: its key, and what was computed.
+
+use crate::args::ForcesArgs;
+use crate::caller::Caller;
+use crate::commands::forces;
+use crate::commands::trials::{PlannedTrial, sentence};
+use crate::printer;
+use crate::record::{hash, hash_of_file};
+use ambulo::analysis::Analysis;
+use ambulo::motion::Event;
+use ambulo_formats::table::Table;
+use ambulo_results::{CycleRow, Keep, cycle_rows, unit_of};
+use anyhow::{Context, Error, Result};
+use serde_json::Value;
+use std::ffi::OsString;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Tables whose columns would have the names of those of another table, and what is put before them.
+const PREFIXES: [(&str, &str); 2] = [("grf_measured.mot", "measured_"), ("clinical.csv", "clinical_")];
+
+/// What is computed for every trial of a batch.
+#[derive(Debug, Clone)]
+pub(super) struct Work {
+    /// The folder that names of trials begin at.
+    pub(super) root: PathBuf,
+    /// Options of `ambulo forces`.
+    pub(super) words: Vec<OsString>,
+    /// Tables that are kept.
+    pub(super) keep: Vec<String>,
+}
+
+/// The identity of a trial: what it is made of, wherever the files lie.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Key {
+    /// SHA-256 of version, options and the content of all files.
+    pub(super) hash: String,
+    /// File name and SHA-256 of each input.
+    pub(super) inputs: Vec<(String, String)>,
+}
+
+/// A trial that was computed.
+#[derive(Debug)]
+pub(super) struct Computed {
+    /// As in `summary.json`.
+    pub(super) summary: Value,
+    /// A row per frame.
+    pub(super) frames: Vec<FrameColumn>,
+    pub(super) cycles: Vec<CycleRow>,
+    pub(super) events: Vec<Event>,
+}
+
+/// A column of frames.
+#[derive(Debug)]
+pub(super) struct FrameColumn {
+    pub(super) name: String,
+    pub(super) unit: &'static str,
+    pub(super) values: Vec<f64>,
+}
+
+impl Work {
+    /// The options of a trial.
+    fn options(&self, trial: &PlannedTrial) -> Result<ForcesArgs> {
+        // The parser prints a usage line as well, which is that of another command.
+        trial.files.options(&self.words).map_err(|refused| {
+            let text = refused.render().to_string();
+            let first = text.lines().next().unwrap_or_default();
+            Error::msg(format!("options after `--`: {}", first.trim_start_matches("error: ")))
+        })
+    }
+
+    /// Checks the options without computing anything.
+    pub(super) fn check(&self, trial: &PlannedTrial) -> Result<ForcesArgs> {
+        let options = self.options(trial)?;
+        let defaults = ForcesArgs::of(&trial.files.recording, &[]).map_err(Error::from)?;
+        let chooses_folder = options.output != defaults.output || options.keep != defaults.keep;
+        if chooses_folder {
+            anyhow::bail!("options after `--`: a batch has its own -o and --keep. hint: give them before `--`");
+        }
+        Ok(options)
+    }
+
+    /// The key of a trial; files that cannot be read have no hash.
+    pub(super) fn key(&self, trial: &PlannedTrial) -> Key {
+        let files = &trial.files;
+        let of_words = self.words.iter().map(Path::new).filter(|path| path.is_file());
+        let named =
+            [&files.standing, &files.model, &files.grf, &files.loads].into_iter().flatten().map(PathBuf::as_path);
+        let all = std::iter::once(files.recording.as_path()).chain(named).chain(of_words);
+        let shown = |path: &Path| {
+            let path = path.strip_prefix(&self.root).unwrap_or(path);
+            path.display().to_string().replace('\\', "/")
+        };
+        let inputs: Vec<(String, String)> =
+            all.map(|path| (shown(path), hash_of_file(path).unwrap_or_default())).collect();
+        let mut text = format!("{}\n{:?}\n{:?}\n", env!("AMBULO_VERSION"), self.words, self.keep);
+        // Writing to memory does not fail.
+        let _ = write!(text, "{:?} {:?} {:?} {:?}", files.trial, files.mass, files.height, trial.broken);
+        for (name, hash) in &inputs {
+            let _ = write!(text, "\n{name} {hash}");
+        }
+        Key { hash: hash(text.as_bytes()), inputs }
+    }
+
+    /// Computes a trial; the error is a sentence.
+    pub(super) fn compute(&self, trial: &PlannedTrial) -> Result<Computed, String> {
+        let computed = match &trial.broken {
+            Some(reason) => Err(Error::msg(reason.clone())),
+            None => self.computed(trial),
+        };
+        computed.map_err(|error| {
+            let (message, hint) = printer::error_parts(&error);
+            sentence(&message, hint, &trial.files.recording, &self.root)
+        })
+    }
+
+    fn computed(&self, trial: &PlannedTrial) -> Result<Computed> {
+        let run = forces::compute(&self.options(trial)?, &Caller::default())?;
+        let keep = Keep::of_names(&self.keep);
+        let (files, mut summary) = run.tables_for(&keep)?;
+        let Analysis { events, .. } = &run.outcome.analysis;
+        let body = &run.outcome.body;
+        let mut frames = Vec::new();
+        for file in files.iter().filter(|file| keep.includes(&file.name)) {
+            let prefix = PREFIXES.iter().find(|(name, _)| *name == file.name).map_or("", |(_, prefix)| prefix);
+            if let Some(table) = file.table() {
+                let table = table.with_context(|| file.name.clone())?;
+                add_columns(&mut frames, &table, &file.name, prefix, &|column| unit_of(&file.name, column, Some(body)));
+            }
+        }
+        // The time of a computation is no result: the same batch has the same bytes.
+        summary.timing_ms.clear();
+        Ok(Computed {
+            summary: serde_json::to_value(&summary)?,
+            frames,
+            cycles: if keep.includes("cycles.csv") { cycle_rows(body, &run.outcome.analysis) } else { Vec::new() },
+            events: if keep.includes("events.csv") { events.clone() } else { Vec::new() },
+        })
+    }
+}
+
+/// Adds the columns of a table with a row per frame.
+fn add_columns(
+    frames: &mut Vec<FrameColumn>,
+    table: &Table,
+    file: &str,
+    prefix: &str,
+    unit: &dyn Fn(&str) -> &'static str,
+) {
+    let has_time = table.columns().next().is_some_and(|(name, _)| name == "time");
+    if !has_time || file == "times_and_distances.csv" {
+        return;
+    }
+    for (name, values) in table.columns() {
+        if name == "time" && !frames.is_empty() {
+            continue;
+        }
+        let own = if name == "time" { name.to_owned() } else { format!("{prefix}{name}") };
+        frames.push(FrameColumn { name: own, unit: unit(name), values: values.to_vec() });
+    }
+}

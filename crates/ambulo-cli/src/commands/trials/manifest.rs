@@ -1,0 +1,113 @@
+//! A list of trials, one per line: `.csv` with a head, or `.jsonl` with an object per line. Paths are relative to the folder of the list.
+
+use super::plan::{Plan, PlannedTrial};
+use crate::args::TrialFiles;
+use crate::files;
+use anyhow::{Context, Error, Result, bail};
+use serde::Deserialize;
+use serde::de::Error as _;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// A line of the list.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    /// The recording.
+    file: PathBuf,
+    /// The number of the trial in a `.b3d`.
+    #[serde(default, deserialize_with = "filled")]
+    trial: Option<String>,
+    #[serde(default, deserialize_with = "filled")]
+    person: Option<String>,
+    #[serde(default, deserialize_with = "filled")]
+    kind: Option<String>,
+    #[serde(default, rename = "static", deserialize_with = "filled")]
+    standing: Option<PathBuf>,
+    #[serde(default, deserialize_with = "filled")]
+    model: Option<PathBuf>,
+    #[serde(default, deserialize_with = "filled")]
+    grf: Option<PathBuf>,
+    #[serde(default, deserialize_with = "filled")]
+    loads: Option<PathBuf>,
+    #[serde(default, deserialize_with = "size")]
+    mass: Option<f64>,
+    #[serde(default, deserialize_with = "size")]
+    height: Option<f64>,
+}
+
+/// An empty cell states nothing.
+fn filled<'de, D: serde::Deserializer<'de>, T: From<String>>(deserializer: D) -> Result<Option<T>, D::Error> {
+    let text: Option<String> = Option::deserialize(deserializer)?;
+    Ok(text.filter(|text| !text.trim().is_empty()).map(T::from))
+}
+
+fn size<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    let number: Option<f64> = Option::deserialize(deserializer)?;
+    match number {
+        Some(number) if !(number > 0.0 && number.is_finite()) => {
+            Err(D::Error::custom(format!("found the size {number}, expected a number above 0")))
+        }
+        known => Ok(known),
+    }
+}
+
+/// The trials of a list, in its order.
+pub(crate) fn planned_by(path: &Path) -> Result<Plan> {
+    let shown = path.display();
+    let bytes = files::read(path)?;
+    let lines = match files::ending(path).as_str() {
+        "csv" => csv_lines(&bytes),
+        _ => json_lines(&bytes),
+    };
+    let lines = lines.with_context(|| shown.to_string())?;
+    if lines.is_empty() {
+        bail!("{shown}: found no trial; expected a line for each, with the path of the recording as `file`");
+    }
+    let root = path.parent().unwrap_or(Path::new(""));
+    let mut plan = Plan { read: vec![path.to_owned()], ..Plan::default() };
+    let mut names = BTreeSet::new();
+    for line in lines {
+        let trial = planned(line, root);
+        if !names.insert(trial.name.clone()) {
+            bail!("{shown}: found `{}` in two lines; expected each trial once", trial.name);
+        }
+        plan.read.push(trial.files.recording.clone());
+        plan.trials.push(trial);
+    }
+    Ok(plan)
+}
+
+fn csv_lines(bytes: &[u8]) -> Result<Vec<Line>> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+    reader.deserialize().map(|line| line.map_err(Error::from)).collect()
+}
+
+fn json_lines(bytes: &[u8]) -> Result<Vec<Line>> {
+    let text = std::str::from_utf8(bytes).context("the list is not UTF-8 text")?;
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    lines.map(|(k, line)| serde_json::from_str(line).with_context(|| format!("line {}", k + 1))).collect()
+}
+
+fn planned(line: Line, root: &Path) -> PlannedTrial {
+    let shown = line.file.display().to_string().replace('\\', "/");
+    let of_subject = line.trial.as_ref().map_or_else(String::new, |trial| format!(", trial {trial}"));
+    let folder = line.file.parent().map(|folder| folder.display().to_string()).filter(|folder| !folder.is_empty());
+    let path = |named: Option<PathBuf>| named.map(|named| root.join(named));
+    PlannedTrial {
+        name: format!("{shown}{of_subject}"),
+        person: line.person.or(folder).unwrap_or_else(|| shown.clone()),
+        kind: line.kind,
+        broken: None,
+        files: TrialFiles {
+            recording: root.join(&line.file),
+            trial: line.trial,
+            standing: path(line.standing),
+            model: path(line.model),
+            grf: path(line.grf),
+            loads: path(line.loads),
+            mass: line.mass,
+            height: line.height,
+        },
+    }
+}

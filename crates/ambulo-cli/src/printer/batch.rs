@@ -1,0 +1,153 @@
+//! Prints what `batch` found and computed.
+
+use super::print_line;
+use crate::args::PrintArgs;
+use crate::commands::PlannedTrial;
+use anyhow::Result;
+use serde::Serialize;
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Reasons, and trials of a ranking, that are printed without `--verbose`.
+const SHOWN: usize = 10;
+
+/// A trial as it is printed.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct BatchRow {
+    pub(crate) name: String,
+    pub(crate) error: Option<String>,
+    pub(crate) quality: Option<String>,
+    pub(crate) verdict: Option<String>,
+    /// Why quality and verdict are not good.
+    pub(crate) reasons: Vec<String>,
+}
+
+impl BatchRow {
+    /// Whether its data are bad or its motion is infeasible.
+    pub(crate) fn is_refused(&self) -> bool {
+        self.quality.as_deref() == Some("bad") || self.verdict.as_deref() == Some("infeasible")
+    }
+
+    /// Trials without results first, then bad, infeasible and doubtful ones.
+    fn rank(&self) -> usize {
+        match (&self.error, self.quality.as_deref(), self.verdict.as_deref()) {
+            (Some(_), ..) => 0,
+            (_, Some("bad"), _) => 1,
+            (.., Some("infeasible")) => 2,
+            (_, Some("good"), Some("feasible")) => 4,
+            _ => 3,
+        }
+    }
+}
+
+/// How many trials there are of each kind.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct BatchCounts {
+    pub(crate) trials: usize,
+    pub(crate) computed: usize,
+    pub(crate) quality: BTreeMap<String, usize>,
+    pub(crate) verdict: BTreeMap<String, usize>,
+}
+
+impl BatchCounts {
+    pub(crate) fn of(rows: &[BatchRow]) -> BatchCounts {
+        let count = |of: fn(&BatchRow) -> &Option<String>| {
+            let mut all = BTreeMap::new();
+            rows.iter().filter_map(|row| of(row).clone()).for_each(|word| *all.entry(word).or_insert(0) += 1);
+            all
+        };
+        BatchCounts {
+            trials: rows.len(),
+            computed: rows.iter().filter(|row| row.error.is_none()).count(),
+            quality: count(|row| &row.quality),
+            verdict: count(|row| &row.verdict),
+        }
+    }
+}
+
+/// Prints which trials were found with what, and which files are none.
+pub(crate) fn batch_plan(trials: &[&PlannedTrial], others: &[(String, String)], print: PrintArgs) -> Result<()> {
+    if print.quiet {
+        return Ok(());
+    }
+    let shown = |path: &Option<std::path::PathBuf>| path.as_ref().map(|path| path.display().to_string());
+    if print.json {
+        let listed = trials.iter().map(|trial| {
+            let files = &trial.files;
+            json!({ "trial": trial.name, "person": trial.person, "static": shown(&files.standing), "model": shown(&files.model), "grf": shown(&files.grf), "mass_kg": files.mass, "error": trial.broken })
+        });
+        let text = json!({ "listed": listed.collect::<Vec<_>>(), "not_computed": others });
+        return print_line(&serde_json::to_string_pretty(&text)?);
+    }
+    for trial in trials {
+        let files = &trial.files;
+        let with = [("static", &files.standing), ("model", &files.model), ("grf", &files.grf)];
+        let with = with.iter().filter_map(|(word, path)| Some(format!("; {word} {}", shown(path)?)));
+        let broken = trial.broken.as_ref().map_or_else(String::new, |why| format!("; {why}"));
+        print_line(&format!("  {}, person {}{}{broken}", trial.name, trial.person, with.collect::<String>()))?;
+    }
+    print_line(&format!("  {} trials", trials.len()))?;
+    for (name, why) in others {
+        print_line(&format!("  not {name}: {why}"))?;
+    }
+    Ok(())
+}
+
+/// Says on standard error how many trials are done, on one line where it is a terminal.
+pub(crate) fn batch_progress(done: usize, all: usize, rate: f64, left_s: f64, print: PrintArgs) {
+    /// Lines of a long batch that is not followed on a terminal.
+    const LINES: usize = 20;
+    if print.quiet || print.json {
+        return;
+    }
+    let text = format!("{done} of {all} trials, {rate:.1} a second, about {left_s:.0} s left");
+    if std::io::IsTerminal::is_terminal(&std::io::stderr()) {
+        eprint!("\r{text}   {}", if done == all { "\n" } else { "" });
+    } else if done.is_multiple_of(all.div_ceil(LINES).max(1)) || done == all {
+        eprintln!("{text}");
+    }
+}
+
+/// Prints counts and failures; with `ranked` every trial that is not good, the worst first.
+pub(crate) fn batch(
+    rows: &[BatchRow],
+    counts: &BatchCounts,
+    output: &Path,
+    ranked: bool,
+    print: PrintArgs,
+) -> Result<()> {
+    if print.quiet {
+        return Ok(());
+    }
+    let mut worst: Vec<&BatchRow> =
+        rows.iter().filter(|row| row.rank() < 4 && (ranked || row.error.is_some())).collect();
+    worst.sort_by_key(|row| row.rank());
+    if print.json {
+        let text = json!({ "counts": counts, "ranking": worst, "output": output });
+        return print_line(&serde_json::to_string_pretty(&text)?);
+    }
+    print_line(&format!("  computed  {} of {} trials", counts.computed, counts.trials))?;
+    let words = |of: &BTreeMap<String, usize>| {
+        of.iter().map(|(word, count)| format!("{count} {word}")).collect::<Vec<_>>().join(", ")
+    };
+    if counts.computed > 0 {
+        print_line(&format!("  quality   {}", words(&counts.quality)))?;
+        print_line(&format!("  verdict   {}", words(&counts.verdict)))?;
+    }
+    let shown = if print.verbose { usize::MAX } else { SHOWN };
+    for row in worst.iter().take(shown) {
+        let (word, why) = match &row.error {
+            Some(error) => ("failed".to_owned(), error.clone()),
+            None => {
+                let states = [&row.quality, &row.verdict].into_iter().flatten().cloned().collect::<Vec<_>>();
+                (states.join(", "), row.reasons.join("; "))
+            }
+        };
+        print_line(&format!("  {word:9} {}: {why}", row.name))?;
+    }
+    if worst.len() > shown {
+        print_line(&format!("  and {} more, see --verbose or the table of trials", worst.len() - shown))?;
+    }
+    print_line(&format!("  written   {}", output.display()))
+}

@@ -1,0 +1,209 @@
+//! `ambulo batch`: Parquet tables of all trials; shards, kills and resumed runs; what is refused.
+//!
+//! | claim                                                                                  | tolerance                        |
+//! |----------------------------------------------------------------------------------------|----------------------------------|
+//! | the numbers are those of `ambulo forces`                                               | 1e-6 of the largest: they have single precision |
+//! | a trial that cannot be computed is a row with its error                                | exact                            |
+//! | threads, kills at any moment and continued runs change no byte                         | exact                            |
+//! | shards compute every trial once                                                        | exact                            |
+//! | another batch, changed inputs, a run at the same time, a full disk are refused by name | exact                            |
+
+use crate::workbench::{Workbench, demo_input};
+use ambulo_formats::parquet::{ColumnValues, ParquetTable};
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::thread::sleep;
+use std::time::Duration;
+
+const TRIALS: usize = 5;
+
+/// A folder `set` with five walks of a figure in folders of their own, and a broken recording.
+fn set(name: &str) -> Workbench {
+    let bench = Workbench::empty(name).removed_at_the_end();
+    for trial in 0..TRIALS {
+        fs::create_dir_all(bench.folder.join(format!("set/person {trial}"))).unwrap();
+        bench.write(&format!("set/person {trial}/figure.osim"), demo_input("figure.osim"));
+        let walk = String::from_utf8(demo_input("walk.mot")).unwrap();
+        // Each walk ends a frame earlier.
+        let lines: Vec<&str> = walk.lines().collect();
+        let rows = lines.len() - lines.iter().position(|line| line.trim() == "endheader").unwrap() - 2;
+        let cut = lines[..lines.len() - trial].join("\n") + "\n";
+        let cut = cut.replace(&format!("nRows={rows}"), &format!("nRows={}", rows - trial));
+        bench.write(&format!("set/person {trial}/walk.mot"), cut);
+    }
+    bench.write("set/person 1/broken.c3d", "PathFileType");
+    bench
+}
+
+const BATCH: [&str; 6] = ["batch", "set", "--part", "2", "--quiet", "-o"];
+
+/// All Parquet files of a batch by name.
+fn tables(bench: &Workbench, folder: &str) -> BTreeMap<String, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    for table in ["trials", "frames", "cycles", "events"] {
+        for name in bench.names(&format!("{folder}/{table}")) {
+            let name = format!("{table}/{name}");
+            let bytes = bench.read(&format!("{folder}/{name}"));
+            if name.ends_with(".parquet") {
+                all.insert(name, bytes);
+            }
+        }
+    }
+    all
+}
+
+fn texts(table: &ParquetTable, column: &str) -> Vec<Option<String>> {
+    let Some(ColumnValues::Text(values)) = table.column(column) else { panic!("{column}") };
+    values.clone()
+}
+
+/// Names of the trials of a batch, in the order of its files.
+fn trials(bench: &Workbench, folder: &str) -> Vec<String> {
+    let all = tables(bench, folder);
+    let of_trials = all.iter().filter(|(name, _)| name.starts_with("trials/"));
+    of_trials.flat_map(|(_, bytes)| texts(&ParquetTable::read(bytes).unwrap(), "trial")).flatten().collect()
+}
+
+#[test]
+fn the_numbers_are_those_of_forces_and_a_broken_recording_is_a_row() {
+    let bench = set("batch");
+    let run = bench.run(&["batch", "set", "-o", "out"]).done();
+    assert!(run.stdout.contains("5 of 6 trials") && run.stdout.contains("person 1/broken.c3d: "), "{}", run.stdout);
+    let trials = ParquetTable::read(&bench.read("out/trials/part-000-00000.parquet")).unwrap();
+    let errors = texts(&trials, "error");
+    assert_eq!(errors.iter().flatten().count(), 1, "{errors:?}");
+    let keys = texts(&trials, "key");
+    assert!(keys.iter().all(|key| keys.iter().filter(|other| *other == key).count() == 1), "{keys:?}");
+    let frames = ParquetTable::read(&bench.read("out/frames/part-000-00000.parquet")).unwrap();
+    bench.run(&["forces", "set/person 0/walk.mot", "--model", "set/person 0/figure.osim", "-o", "one"]).done();
+    let moments = bench.table("one/moments.sto");
+    let own: Vec<usize> =
+        texts(&frames, "key").iter().enumerate().filter(|(_, key)| **key == keys[0]).map(|(k, _)| k).collect();
+    assert_eq!(own.len(), moments.rows());
+    for (name, expected) in moments.columns().filter(|(name, _)| *name != "time") {
+        let Some(ColumnValues::Single(found)) = frames.column(name) else { panic!("no column {name}") };
+        let largest = expected.iter().fold(1e-3, |most: f64, x| most.max(x.abs()));
+        let worst = own.iter().zip(expected).map(|(k, x)| (f64::from(found[*k]) - x).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-6 * largest, "{name}: {worst} of {largest}");
+    }
+    assert_eq!(frames.about("unit of hip_flexion_r_moment"), Some("N.m"));
+    let cycles = ParquetTable::read(&bench.read("out/cycles/part-000-00000.parquet")).unwrap();
+    assert!(texts(&cycles, "quantity").contains(&Some("knee_angle_moment".to_owned())));
+    let ranked = bench.run(&["batch", "set", "-o", "ranked", "--check", "--json"]);
+    let ranked: serde_json::Value = serde_json::from_str(&ranked.stdout).unwrap();
+    assert_eq!(
+        (&ranked["counts"]["computed"], &ranked["ranking"][0]["name"]),
+        (&5.into(), &"person 1/broken.c3d".into())
+    );
+}
+
+#[test]
+fn threads_kills_and_continued_runs_change_no_byte() {
+    let bench = set("batch_killed");
+    bench.run(&[&BATCH[..], &["whole", "--jobs", "1"]].concat()).done();
+    let whole = tables(&bench, "whole");
+    assert_eq!(whole.len(), 4 * 3, "three parts of four tables: {:?}", whole.keys());
+    bench.run(&[&BATCH[..], &["threads", "--jobs", "3"]].concat()).done();
+    assert!(tables(&bench, "threads") == whole, "three threads");
+    let mut interrupted = 0;
+    for kill in 0..10_u64 {
+        let mut run = bench.command(&[&BATCH[..], &["killed", "--resume"]].concat()).spawn().unwrap();
+        sleep(Duration::from_millis(20 + 35 * (kill % 5)));
+        let ended = run.try_wait().unwrap().is_some();
+        run.kill().unwrap();
+        run.wait().unwrap();
+        interrupted += usize::from(!ended);
+        // What is there is closed, and as it must be.
+        let found = if bench.exists("killed/trials") { tables(&bench, "killed") } else { BTreeMap::new() };
+        let closed = found.iter().filter(|(name, _)| name.starts_with("trials/"));
+        closed.for_each(|(name, bytes)| assert!(whole[name] == *bytes, "{name} after kill {kill}"));
+    }
+    bench.run(&[&BATCH[..], &["killed", "--resume"]].concat()).done();
+    assert!(tables(&bench, "killed") == whole, "after {interrupted} interruptions");
+    // A part without its trials is open: what is left of it is written again.
+    fs::remove_file(bench.folder.join("killed/trials/part-000-00001.parquet")).unwrap();
+    bench.write("killed/frames/part-000-00001.parquet", "torn");
+    bench.run(&[&BATCH[..], &["killed", "--resume"]].concat()).done();
+    assert!(tables(&bench, "killed") == whole, "an open part is written again");
+}
+
+#[test]
+fn shards_compute_every_trial_once() {
+    let bench = set("batch_shards");
+    bench.run(&[&BATCH[..], &["out", "--shard", "0/2"]].concat()).done();
+    bench.run(&[&BATCH[..], &["out", "--shard", "1/2"]].concat()).done();
+    bench.run(&[&BATCH[..], &["whole"]].concat()).done();
+    let (mut found, mut all) = (trials(&bench, "out"), trials(&bench, "whole"));
+    found.sort();
+    all.sort();
+    assert_eq!((found.len(), found), (TRIALS + 1, all));
+    bench
+        .run(&[&BATCH[..], &["out", "--shard", "1/3"]].concat())
+        .refused(&["another batch", "shards: found 2, expected 3"]);
+    for wrong in ["2/2", "-1/2", "1", "0/0", "a/b"] {
+        bench.run(&["batch", "set", "--shard", wrong]).refused(&["I/N", "0/4"]);
+    }
+}
+
+#[test]
+fn another_batch_changed_inputs_and_a_second_run_are_refused() {
+    let bench = set("batch_refused");
+    bench.run(&[&BATCH[..], &["out"]].concat()).done();
+    bench.run(&[&BATCH[..], &["out"]].concat()).refused(&["has results already", "--resume"]);
+    bench
+        .run(&[&BATCH[..], &["out", "--resume", "--", "--cutoff", "8"]].concat())
+        .refused(&["another batch", "--cutoff 8"]);
+    bench.run(&["batch", "set", "--part", "3", "-o", "out", "--resume"]).refused(&["--part: found 2, expected 3"]);
+    bench.edit("set/person 0/figure.osim", "figure", "body_");
+    bench.run(&[&BATCH[..], &["out", "--resume"]].concat()).refused(&["person 0/walk.mot", "changed since"]);
+    // A run at the same time has this lock.
+    fs::create_dir_all(bench.folder.join("busy/.shards/000")).unwrap();
+    let lock = File::create(bench.folder.join("busy/.shards/000/.ambulo-lock")).unwrap();
+    lock.lock().unwrap();
+    bench.run(&[&BATCH[..], &["busy"]].concat()).refused(&["another batch is writing shard 0/1"]);
+    for folder in ["mine", "torn"] {
+        fs::create_dir_all(bench.folder.join(folder)).unwrap();
+    }
+    bench.write("mine/notes.txt", "mine");
+    bench.run(&[&BATCH[..], &["mine"]].concat()).refused(&["has other files"]);
+    assert_eq!(bench.text("mine/notes.txt"), "mine");
+    bench.write("torn/batch.json", "{");
+    bench.run(&[&BATCH[..], &["torn"]].concat()).refused(&["not the description of a batch"]);
+}
+
+#[test]
+fn sources_without_a_trial_and_options_of_a_batch_after_the_dashes_are_refused() {
+    let bench = set("batch_sources");
+    fs::create_dir_all(bench.folder.join("empty")).unwrap();
+    bench.run(&["batch", "empty"]).refused(&["found no trial", "recordings of motion"]);
+    bench.run(&["batch", "nowhere"]).refused(&["no such folder"]);
+    bench.run(&["batch", "set", "--", "-o", "elsewhere"]).refused(&["after `--`", "before"]);
+    bench.run(&["batch", "set", "--", "--cutof", "8"]).refused(&["after `--`", "--cutof"]);
+    bench.write("list.jsonl", "{\"file\": \"set/person 0/walk.mot\"}\n");
+    bench.run(&["batch", "list.jsonl", "--quiet", "-o", "failed"]).refused(&["none of 1 trials", "failed/trials"]);
+    assert_eq!(trials(&bench, "failed"), ["set/person 0/walk.mot"], "its row says why");
+}
+
+#[test]
+fn a_list_of_trials_names_their_files() {
+    let bench = set("batch_list");
+    bench.write("list.csv", "file,model,person\nset/person 0/walk.mot,set/person 0/figure.osim,Ann\nset/person 3/walk.mot,set/person 3/figure.osim,\n");
+    bench.run(&["batch", "list.csv", "-o", "csv", "--quiet"]).done();
+    bench.write(
+        "list.jsonl",
+        "{\"file\": \"set/person 0/walk.mot\", \"model\": \"set/person 0/figure.osim\", \"person\": \"Ann\"}\n\n{\"file\": \"set/person 3/walk.mot\", \"model\": \"set/person 3/figure.osim\"}\n",
+    );
+    bench.run(&["batch", "list.jsonl", "-o", "jsonl", "--quiet"]).done();
+    assert!(tables(&bench, "csv") == tables(&bench, "jsonl"), "both lists name the same trials");
+    let table = ParquetTable::read(&bench.read("csv/trials/part-000-00000.parquet")).unwrap();
+    assert_eq!(texts(&table, "person"), [Some("Ann".to_owned()), Some("set/person 3".to_owned())]);
+    for (line, words) in [
+        ("{\"file\": \"a.c3d\", \"modell\": \"b\"}", &["line 1", "modell"][..]),
+        ("{\"file\": \"a.c3d\", \"mass\": -3}", &["line 1", "above 0"]),
+        ("{\"file\": \"a.c3d\"}\n{\"file\": \"a.c3d\"}", &["`a.c3d` in two lines"]),
+        ("", &["found no trial"]),
+    ] {
+        bench.write("wrong.jsonl", line);
+        bench.run(&["batch", "wrong.jsonl"]).refused(words);
+    }
+}
