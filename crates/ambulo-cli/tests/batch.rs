@@ -179,6 +179,11 @@ fn sources_without_a_trial_and_options_of_a_batch_after_the_dashes_are_refused()
     bench.run(&["batch", "nowhere"]).refused(&["no such folder"]);
     bench.run(&["batch", "set", "--", "-o", "elsewhere"]).refused(&["after `--`", "before"]);
     bench.run(&["batch", "set", "--", "--cutof", "8"]).refused(&["after `--`", "--cutof"]);
+    for count in ["--jobs", "--part", "--limit"] {
+        for wrong in ["0", "-1", "NaN", "1e99"] {
+            bench.run(&["batch", "set", &format!("{count}={wrong}")]).refused(&[count]);
+        }
+    }
     bench.write("list.jsonl", "{\"file\": \"set/person 0/walk.mot\"}\n");
     bench.run(&["batch", "list.jsonl", "--quiet", "-o", "failed"]).refused(&["none of 1 trials", "failed/trials"]);
     assert_eq!(trials(&bench, "failed"), ["set/person 0/walk.mot"], "its row says why");

@@ -202,13 +202,15 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
         assert!(names("forces").iter().all(|known| known != name), "{name}");
     }
     // A verb with its first numeric option needs a sweep below; numbers of `tune` are tried in tune.rs, because an accepted one takes seconds, those
-    // of `calibrate` are some of `forces`, those of `validate` too, apart from the number of threads (validate.rs).
+    // of `calibrate` are some of `forces`, those of `validate` too, apart from the number of threads (validate.rs);
+    // those of `batch` are counts (batch.rs).
     let command = Args::command();
     let verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
-    assert_eq!(swept, ["forces", "calibrate", "validate", "walk", "sweep", "simulate", "tune", "compare"]);
+    assert_eq!(swept, ["forces", "calibrate", "validate", "batch", "walk", "sweep", "simulate", "tune", "compare"]);
     assert!(names("calibrate").iter().all(|name| names("forces").contains(name)));
     assert_eq!(names("validate"), ["mass", "height", "jobs"]);
+    assert_eq!(names("batch"), ["jobs", "part", "limit"]);
 }
 
 #[test]
