@@ -58,6 +58,28 @@ pub fn sweep(words: &[String], caller: &Caller) -> Result<Results, Failure> {
     })
 }
 
+/// The results of `ambulo validate` with these words.
+///
+/// # Errors
+/// Those of the command.
+pub fn validate(words: &[String], caller: &Caller) -> Result<Results, Failure> {
+    named(words, || match parsed("validate", words)? {
+        Command::Validate(args) => Ok(commands::validate::compute(&args, caller)?.into()),
+        _ => Err(other_verb()),
+    })
+}
+
+/// The content of the file that `ambulo calibrate` writes with these words.
+///
+/// # Errors
+/// Those of the command.
+pub fn calibrate(words: &[String], caller: &Caller) -> Result<Vec<u8>, Failure> {
+    named(words, || match parsed("calibrate", words)? {
+        Command::Calibrate(args) => Ok(commands::calibrate::compute(&args, caller)?.to_toml().into_bytes()),
+        _ => Err(other_verb()),
+    })
+}
+
 /// The results in a folder.
 ///
 /// # Errors
@@ -124,7 +146,7 @@ fn other_verb() -> Failure {
 }
 
 /// Adds the file to an error that begins with the name of one.
-fn named(words: &[String], call: impl FnOnce() -> Result<Results, Failure>) -> Result<Results, Failure> {
+fn named<T>(words: &[String], call: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
     let value = |option: &'_ str| option.split_once('=').map_or("", |(_, value)| value).len();
     let values = words.iter().map(|word| {
         // Only an option has a value; the name of a file may contain the sign.

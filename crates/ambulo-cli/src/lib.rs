@@ -1,7 +1,8 @@
 //! The `ambulo` command: reads files, calls the library, writes files and messages.
 //!
-//! [`command`] is the whole command. [`forces`], [`walk`], [`simulate`] and [`sweep`] compute the same as the verbs of these names from the
-//! same words and return [`Results`] instead of writing a folder, for bindings to other languages; [`open`] reads a folder again.
+//! [`command`] is the whole command. [`forces`], [`walk`], [`simulate`], [`sweep`], [`validate`] and [`calibrate`] compute the same as the
+//! verbs of these names from the same words and return the results instead of writing them, for bindings to other languages; [`open`] reads a
+//! folder again.
 
 mod args;
 mod bug_report;
@@ -17,7 +18,7 @@ mod record;
 mod replacement;
 
 pub use caller::Caller;
-pub use calls::{forces, laboratory, model, open, read, simulate, sweep, table, walk};
+pub use calls::{calibrate, forces, laboratory, model, open, read, simulate, sweep, table, validate, walk};
 pub use commands::Results;
 pub use failure::Failure;
 

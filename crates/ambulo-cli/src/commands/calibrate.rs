@@ -4,26 +4,32 @@ use super::forces;
 use crate::args::CalibrateArgs;
 use crate::caller::Caller;
 use crate::{Completion, files, printer};
+use ambulo::ground::predict::PersonalErrors;
 use ambulo::study::{Outcome, personal_errors};
 use anyhow::{Error, Result};
 
 pub(crate) fn run(args: &CalibrateArgs) -> Result<Completion> {
     let inputs: Vec<_> = args.trials.iter().chain(&args.subject.still).chain(&args.model).cloned().collect();
     files::check_target(&args.output, &inputs, args.replace.existing())?;
+    let person = compute(args, &Caller::default())?;
+    files::write(&args.output, person.to_toml().as_bytes())?;
+    printer::calibrate(&person, args.trials.len(), &args.output, args.print)?;
+    Ok(Completion::Passed)
+}
+
+/// The calibration that the trials show.
+pub(crate) fn compute(args: &CalibrateArgs, caller: &Caller) -> Result<PersonalErrors> {
     let mut outcomes: Vec<Outcome> = Vec::new();
     for trial in &args.trials {
         printer::progress(&format!("predicting {}", trial.display()), args.print);
-        outcomes.push(forces::compute(&args.of_trial(trial)?, &Caller::default())?.into_outcome());
+        outcomes.push(forces::compute(&args.of_trial(trial)?, caller)?.into_outcome());
     }
-    let person = personal_errors(&outcomes).map_err(|error| {
+    personal_errors(&outcomes).map_err(|error| {
         let trial = error.trial().map(|number| args.trials[number].display().to_string());
         let error = Error::new(error);
         match trial {
             Some(trial) => error.context(trial),
             None => error,
         }
-    })?;
-    files::write(&args.output, person.to_toml().as_bytes())?;
-    printer::calibrate(&person, args.trials.len(), &args.output, args.print)?;
-    Ok(Completion::Passed)
+    })
 }

@@ -5,6 +5,7 @@ use super::result_folder::ResultFolder;
 use super::run_files::MotionRun;
 use super::simulate::SceneRun;
 use super::sweep::SweepRun;
+use super::validate::ValidationRun;
 use crate::args::Existing;
 use crate::failure::Failure;
 use crate::replacement::ResultTarget;
@@ -24,6 +25,7 @@ enum Content {
     Motion(Box<MotionRun>),
     Scene(Box<SceneRun>),
     Sweep(Box<SweepRun>),
+    Validation(Box<ValidationRun>),
     Folder(Box<ResultFolder>),
 }
 
@@ -45,6 +47,15 @@ impl From<SweepRun> for Results {
     }
 }
 
+impl From<ValidationRun> for Results {
+    fn from(run: ValidationRun) -> Results {
+        Results(Content::Validation(Box::new(run)))
+    }
+}
+
+/// Name of the page that only `ambulo validate` writes.
+const VALIDATION_PAGE: &str = "validation.html";
+
 impl Results {
     pub(crate) fn of_folder(path: &Path) -> Result<Results> {
         Ok(Results(Content::Folder(Box::new(ResultFolder::of_any_run(path)?))))
@@ -60,6 +71,7 @@ impl Results {
             Content::Motion(run) => names(&run.tables_for(&run.keep_tables())?.0),
             Content::Scene(run) => names(&run.written),
             Content::Sweep(run) => names(&run.written),
+            Content::Validation(run) => names(&run.written),
             Content::Folder(folder) => folder.names().cloned().collect(),
         })
     }
@@ -75,6 +87,7 @@ impl Results {
             Content::Motion(run) => of_file(run.file(name)?.as_ref())?,
             Content::Scene(run) => of_file(run.written.iter().find(|file| file.name == name))?,
             Content::Sweep(run) => of_file(run.written.iter().find(|file| file.name == name))?,
+            Content::Validation(run) => of_file(run.written.iter().find(|file| file.name == name))?,
             Content::Folder(folder) => from_folder(folder, |folder| folder.read(name))?,
         })
     }
@@ -89,7 +102,7 @@ impl Results {
         Ok(match &self.0 {
             Content::Motion(run) => of_file(run.file(name)?.as_ref())?,
             Content::Scene(run) => of_file(run.written.iter().find(|file| file.name == name))?,
-            Content::Sweep(_) => None,
+            Content::Sweep(_) | Content::Validation(_) => None,
             Content::Folder(folder) => from_folder(folder, |folder| {
                 let read = |name: &str| folder.read(name);
                 let files = Folder::of_files(folder.shown(), &read);
@@ -110,7 +123,7 @@ impl Results {
                 Folder::of_files(folder.shown(), &read).body()
             })??
             .map(|(_, model)| model),
-            Content::Scene(_) | Content::Sweep(_) => None,
+            Content::Scene(_) | Content::Sweep(_) | Content::Validation(_) => None,
         };
         Ok(columns.iter().map(|column| unit_of(table, column, model.as_ref()).to_owned()).collect())
     }
@@ -124,6 +137,7 @@ impl Results {
             Content::Motion(run) => summary_json(&run.tables_for(&run.keep_tables())?.1),
             Content::Scene(run) => summary_json(&run.summary),
             Content::Sweep(run) => summary_json(&run.summary("", BTreeMap::new())),
+            Content::Validation(run) => summary_json(&run.summary("", BTreeMap::new())),
             Content::Folder(folder) => return Ok(folder.read(SUMMARY).unwrap_or_default()),
         };
         Ok(json.map_err(anyhow::Error::new)?)
@@ -144,6 +158,10 @@ impl Results {
                 .bytes()
                 .map_err(anyhow::Error::new)?,
             Content::Sweep(_) => self.bytes(PAGE)?.context("the sweep was computed without its page")?,
+            Content::Validation(_) => self.bytes(VALIDATION_PAGE)?.context("a validation has a page")?,
+            Content::Folder(folder) if folder.has(VALIDATION_PAGE) => {
+                self.bytes(VALIDATION_PAGE)?.context("a validation has a page")?
+            }
             Content::Folder(folder) => match self.bytes(PAGE)? {
                 Some(page) => page,
                 None => from_folder(folder, |folder| {
@@ -173,6 +191,7 @@ impl Results {
             Content::Motion(run) => run.save(&target).map(drop)?,
             Content::Scene(run) => run.save(&target).map(drop)?,
             Content::Sweep(run) => run.save(&target)?,
+            Content::Validation(run) => run.save(&target).map(drop)?,
             Content::Folder(folder) => {
                 let files = folder.names().map(|name| Ok(OutputFile::new(name, folder.checked(name)?)));
                 let files = files.collect::<Result<Vec<_>>>()?;
@@ -187,7 +206,7 @@ impl Results {
     pub fn is_motion(&self) -> bool {
         match &self.0 {
             Content::Motion(_) => true,
-            Content::Scene(_) | Content::Sweep(_) => false,
+            Content::Scene(_) | Content::Sweep(_) | Content::Validation(_) => false,
             Content::Folder(folder) => folder.has(CLINICAL) || folder.has("moments.sto"),
         }
     }

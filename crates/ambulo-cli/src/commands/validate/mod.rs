@@ -10,7 +10,7 @@ use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::study::validation::JudgedTrial;
 use ambulo_report::{ListedTrial, validation_files};
-use ambulo_results::summary_json;
+use ambulo_results::{OutputFile, summary_json};
 use anyhow::{Error, Result, bail};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -21,45 +21,98 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const QUOTED: usize = 3;
 
 pub(crate) fn run(args: &ValidateArgs) -> Result<Completion> {
-    let threads = args.jobs.map_or_else(processors, |jobs| jobs as usize);
+    let plan = planned(args)?;
+    if args.dry_run {
+        printer::found_trials(&listed_trials(args, &plan), &plan.others, args.print)?;
+        return Ok(Completion::Passed);
+    }
+    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
+    let run = judge_all(args, &plan, &Caller::default())?;
+    let summary = run.save(&target)?;
+    printer::validate(&run.listed, &run.judged, &args.output, args.print, &summary)?;
+    Ok(Completion::Passed)
+}
+
+/// A validation, with everything that is written to the result folder.
+pub(crate) struct ValidationRun {
+    listed: Vec<ListedTrial>,
+    /// Files that are not trials, each with the reason.
+    others: Vec<(String, String)>,
+    judged: Vec<JudgedTrial>,
+    pub(crate) written: Vec<OutputFile<'static>>,
+    read: Vec<PathBuf>,
+    options: String,
+}
+
+/// Judges all trials of a folder.
+pub(crate) fn compute(args: &ValidateArgs, caller: &Caller) -> Result<ValidationRun> {
+    judge_all(args, &planned(args)?, caller)
+}
+
+fn planned(args: &ValidateArgs) -> Result<Plan> {
     let wanted = Wanted::MeasuredForces;
-    let mut plan = plan(&args.folder, wanted, &files_in(&args.folder, wanted)?, threads)?;
+    let mut plan = plan(&args.folder, wanted, &files_in(&args.folder, wanted)?, threads(args))?;
     plan.take_size(&args.folder, args.mass, args.height)?;
     if plan.trials.is_empty() {
         bail!("{}", nothing_found(args, &plan));
     }
-    let mut listed: Vec<ListedTrial> = plan.trials.iter().map(|trial| listed(trial, &args.folder)).collect();
-    if args.dry_run {
-        printer::found_trials(&listed, &plan.others, args.print)?;
-        return Ok(Completion::Passed);
-    }
-    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
-    let judged = judged(args, &plan, threads);
+    Ok(plan)
+}
+
+fn threads(args: &ValidateArgs) -> usize {
+    args.jobs.map_or_else(processors, |jobs| jobs as usize)
+}
+
+fn judge_all(args: &ValidateArgs, plan: &Plan, caller: &Caller) -> Result<ValidationRun> {
+    let mut listed = listed_trials(args, plan);
+    let judged = judged(args, plan, caller);
     for (row, result) in listed.iter_mut().zip(&judged) {
         row.error = result.as_ref().err().cloned();
     }
-    let good: Vec<JudgedTrial> = judged.into_iter().flatten().collect();
-    if good.is_empty() {
+    let judged: Vec<JudgedTrial> = judged.into_iter().flatten().collect();
+    if judged.is_empty() {
         bail!("{}", none_judged(args, &listed));
     }
     let title = format!("Predicted ground forces judged by the force plates of {}", shown_name(&args.folder));
-    let written = validation_files(&title, &listed, &plan.others, &good)?;
-    let run_id = run_id(&options(args), &inputs(&plan), &Caller::default())?;
-    let mut summary = summary(&listed, &plan, &run_id);
-    target.replace(&written, &inputs(&plan), &mut |files| {
-        summary["files"] = json!(files);
-        Ok(summary_json(&summary)?)
-    })?;
-    printer::validate(&listed, &good, &args.output, args.print, &summary)?;
-    Ok(Completion::Passed)
+    let written = validation_files(&title, &listed, &plan.others, &judged)?;
+    let (others, read, options) = (plan.others.clone(), inputs(plan), options(args));
+    Ok(ValidationRun { listed, others, judged, written, read, options })
+}
+
+impl ValidationRun {
+    /// Writes all files; returns the summary.
+    pub(crate) fn save(&self, target: &ResultTarget) -> Result<Value> {
+        let run_id = run_id(&self.options, &self.read, &Caller::default())?;
+        let mut summary = Value::Null;
+        target.replace(&self.written, &self.read, &mut |files| {
+            summary = self.summary(&run_id, files);
+            Ok(summary_json(&summary)?)
+        })?;
+        Ok(summary)
+    }
+
+    /// The content of `summary.json`.
+    pub(crate) fn summary(&self, run_id: &str, files: BTreeMap<String, String>) -> Value {
+        let others: BTreeMap<&str, &str> =
+            self.others.iter().map(|(name, why)| (name.as_str(), why.as_str())).collect();
+        json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "run_id": run_id,
+            "trials": self.listed.len(),
+            "trials_judged": self.judged.len(),
+            "listed": self.listed,
+            "not_judged": others,
+            "files": files,
+        })
+    }
 }
 
 /// Every trial, judged or with the reason why not, in the order of the plan.
-fn judged(args: &ValidateArgs, plan: &Plan, threads: usize) -> Vec<Result<JudgedTrial, String>> {
+fn judged(args: &ValidateArgs, plan: &Plan, caller: &Caller) -> Vec<Result<JudgedTrial, String>> {
     let done = AtomicUsize::new(0);
-    side_by_side(plan.trials.len(), threads, |k| {
+    side_by_side(plan.trials.len(), threads(args), |k| {
         let trial = &plan.trials[k];
-        let found = judge(args, trial).map_err(|error| {
+        let found = judge(args, trial, caller).map_err(|error| {
             let (message, hint) = printer::error_parts(&error);
             sentence(&message, hint, &trial.files.recording, &args.folder)
         });
@@ -70,11 +123,11 @@ fn judged(args: &ValidateArgs, plan: &Plan, threads: usize) -> Vec<Result<Judged
 }
 
 /// Predicts a trial as `ambulo forces --predict`, and compares it with the plates.
-fn judge(args: &ValidateArgs, trial: &PlannedTrial) -> Result<JudgedTrial> {
+fn judge(args: &ValidateArgs, trial: &PlannedTrial, caller: &Caller) -> Result<JudgedTrial> {
     if let Some(reason) = &trial.broken {
         return Err(Error::msg(reason.clone()));
     }
-    let run = forces::compute(&args.of_trial(&trial.files)?, &Caller::default())?;
+    let run = forces::compute(&args.of_trial(&trial.files)?, caller)?;
     let mut judged = JudgedTrial::of(&trial.name, &trial.person, &run.outcome, &run.findings)?;
     if let Some(kind) = &trial.kind {
         judged.kind.clone_from(kind);
@@ -83,6 +136,10 @@ fn judge(args: &ValidateArgs, trial: &PlannedTrial) -> Result<JudgedTrial> {
         judged.judge_tracking(&run.outcome);
     }
     Ok(judged)
+}
+
+fn listed_trials(args: &ValidateArgs, plan: &Plan) -> Vec<ListedTrial> {
+    plan.trials.iter().map(|trial| listed(trial, &args.folder)).collect()
 }
 
 fn listed(trial: &PlannedTrial, root: &Path) -> ListedTrial {
@@ -141,18 +198,4 @@ fn options(args: &ValidateArgs) -> String {
     let (output, jobs, dry_run, replace, print) = Default::default();
     let folder = shown_name(&args.folder).into();
     format!("validate {:?}", ValidateArgs { folder, output, jobs, dry_run, replace, print, ..args.clone() })
-}
-
-/// The content of `summary.json` without the list of files.
-fn summary(listed: &[ListedTrial], plan: &Plan, run_id: &str) -> Value {
-    let others: BTreeMap<&str, &str> = plan.others.iter().map(|(name, why)| (name.as_str(), why.as_str())).collect();
-    json!({
-        "version": env!("CARGO_PKG_VERSION"),
-        "run_id": run_id,
-        "trials": listed.len(),
-        "trials_judged": listed.iter().filter(|trial| trial.error.is_none()).count(),
-        "listed": listed,
-        "not_judged": others,
-        "files": {},
-    })
 }
