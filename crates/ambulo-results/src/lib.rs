@@ -13,6 +13,7 @@ mod scene_summary;
 mod scene_tables;
 mod sound;
 mod state_table;
+mod stream_columns;
 mod subject_summary;
 mod summary;
 mod tables;
@@ -38,6 +39,7 @@ pub use scene_summary::{
 pub use scene_tables::SceneTables;
 pub use sound::{EXPECTED, is_sound};
 pub use state_table::states_csv;
+pub use stream_columns::{stream_columns, stream_row};
 pub use subject_summary::{
     EventAgreementSummary, EventOrigin, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
     SegmentSummary, SubjectSummary,
