@@ -6,6 +6,7 @@ use ambulo_cli::{Caller, Failure};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
+use pyo3::types::PyBytes;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,11 +16,11 @@ use std::thread;
 use std::time::Duration;
 
 /// How often a computation looks whether the user pressed Ctrl-C.
-const SIGNALS: Duration = Duration::from_millis(50);
+pub(crate) const SIGNALS: Duration = Duration::from_millis(50);
 /// As much as the first thread of a program usually has.
 const STACK_BYTES: usize = 8 << 20;
 
-type Verb = fn(&[String], &Caller) -> Result<ambulo_cli::Results, Failure>;
+type Verb<T> = fn(&[String], &Caller) -> Result<T, Failure>;
 /// Input files in memory: name and content.
 type Files = Vec<(PathBuf, PyBackedBytes)>;
 
@@ -38,25 +39,37 @@ pub(crate) fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
 /// `ambulo forces`.
 #[pyfunction]
 pub(crate) fn forces(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
-    results(py, ambulo_cli::forces, words, &files)
+    computed(py, ambulo_cli::forces, words, &files).map(Results)
 }
 
 /// `ambulo walk`.
 #[pyfunction]
 pub(crate) fn walk(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
-    results(py, ambulo_cli::walk, words, &files)
+    computed(py, ambulo_cli::walk, words, &files).map(Results)
 }
 
 /// `ambulo simulate`.
 #[pyfunction]
 pub(crate) fn simulate(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
-    results(py, ambulo_cli::simulate, words, &files)
+    computed(py, ambulo_cli::simulate, words, &files).map(Results)
 }
 
 /// `ambulo sweep`.
 #[pyfunction]
 pub(crate) fn sweep(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
-    results(py, ambulo_cli::sweep, words, &files)
+    computed(py, ambulo_cli::sweep, words, &files).map(Results)
+}
+
+/// `ambulo validate`.
+#[pyfunction]
+pub(crate) fn validate(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
+    computed(py, ambulo_cli::validate, words, &files).map(Results)
+}
+
+/// `ambulo calibrate`: the content of its file.
+#[pyfunction]
+pub(crate) fn calibrate(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Bound<'_, PyBytes>> {
+    computed(py, ambulo_cli::calibrate, words, &files).map(|bytes| PyBytes::new(py, &bytes))
 }
 
 /// Opens a result folder.
@@ -65,12 +78,12 @@ pub(crate) fn open(py: Python<'_>, folder: PathBuf) -> PyResult<Results> {
     py.detach(|| ambulo_cli::open(&folder)).map(Results).map_err(|failure| exception(py, failure))
 }
 
-fn results(py: Python<'_>, verb: Verb, words: Vec<String>, files: &Files) -> PyResult<Results> {
+fn computed<T: Send + 'static>(py: Python<'_>, verb: Verb<T>, words: Vec<String>, files: &Files) -> PyResult<T> {
     let stop = Arc::new(AtomicBool::new(false));
     let files = files.iter().map(|(name, content)| (name.clone(), Arc::from(&content[..]))).collect();
     let caller = Caller { files, stop: Arc::clone(&stop) };
     let computed = interruptible(py, stop, move || verb(&words, &caller))?;
-    computed.map(Results).map_err(|failure| exception(py, failure))
+    computed.map_err(|failure| exception(py, failure))
 }
 
 /// Computes in a thread of its own, without the lock of the interpreter. Ctrl-C raises `KeyboardInterrupt` at once; the computation ends after

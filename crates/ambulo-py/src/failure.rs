@@ -1,5 +1,6 @@
 //! Errors of the command as Python exceptions.
 
+use ambulo::findings::Findings;
 use ambulo_cli::Failure;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -24,6 +25,15 @@ pub(crate) fn refused(py: Python<'_>, message: String) -> PyErr {
         None => (message, None),
     };
     exception(py, Failure { message, hint, file: None, line: None, system: None, stopped: false })
+}
+
+/// Issues warnings, as a function of the package that returns a `Result` does.
+pub(crate) fn warn(py: Python<'_>, findings: &Findings) -> PyResult<()> {
+    if findings.as_slice().is_empty() {
+        return Ok(());
+    }
+    py.import("ambulo._errors")?.call_method1("warn", (crate::model::listed(findings), 1))?;
+    Ok(())
 }
 
 /// The name of the error in Python's module `errno`, from which the class of the exception follows.

@@ -8,17 +8,21 @@ mod failure;
 mod model;
 mod recordings;
 mod results;
+mod smoothing;
+mod stream;
 
 #[pyo3::pymodule(gil_used = false)]
 mod _ambulo {
     #[pymodule_export]
     use super::arrow::arrow_stream;
     #[pymodule_export]
-    use super::calls::{command, forces, open, simulate, sweep, version, walk};
+    use super::calls::{calibrate, command, forces, open, simulate, sweep, validate, version, walk};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]
     use super::recordings::{read, read_markers, read_table, write_markers, write_table};
     #[pymodule_export]
     use super::results::Results;
+    #[pymodule_export]
+    use super::stream::Stream;
 }

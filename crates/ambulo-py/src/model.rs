@@ -4,8 +4,9 @@
 //! frames that stay in the processor's cache, so an array in Fortran order (columns are contiguous) is read fastest.
 
 use crate::arrays::array_of;
-use crate::failure::{exception, refused};
+use crate::failure::{exception, refused, warn};
 use crate::recordings::vectors;
+use crate::smoothing::{Cutoff, smoother};
 use ambulo::analysis::feasibility::Person;
 use ambulo::dynamics::{LoadSeries, Workspace, inverse_frames};
 use ambulo::findings::Findings;
@@ -13,11 +14,14 @@ use ambulo::ground::feet;
 use ambulo::ground::predict::{PredictSettings, predict};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{BodyMotion, Trajectory, each_body_motion};
-use ambulo::motion::{MarkerPath, MarkerRecording, TimeGrid};
+use ambulo::model::CoordinateId;
+use ambulo::motion::filter::LowPass;
+use ambulo::motion::{MarkerPath, MarkerRecording, Motion, SmoothSettings, Smoother, TimeGrid, Window, smooth};
 use ambulo::simulation::synthetic::RATES_HZ;
 use ambulo::spatial::{Vec3, Wrench};
+use ambulo::study::Settings;
 use ambulo_results::{deviation_columns, ground_columns};
-use numpy::ndarray::{Array2, ArrayView2, ArrayViewMut2, s};
+use numpy::ndarray::{Array2, ArrayView1, ArrayView2, ArrayViewMut2, s};
 use numpy::{
     AllowTypeChange, IntoPyArray, PyArray2, PyArray4, PyArrayLike2, PyArrayLike3, PyArrayMethods, PyReadwriteArray2,
     PyUntypedArrayMethods,
@@ -33,7 +37,20 @@ use std::time::Instant;
 /// Frames of one block of inverse dynamics.
 const BLOCK: usize = 128;
 
-type MotionArray<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
+pub(crate) type MotionArray<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
+
+/// Values, rates or accelerations of a coordinate.
+type Part = fn(&Trajectory, CoordinateId) -> &[f64];
+
+/// Code, severity and message of a finding.
+pub(crate) type Listed = (&'static str, String, String);
+
+pub(crate) fn listed(findings: &Findings) -> Vec<Listed> {
+    let finding = |finding: &ambulo::findings::Finding| {
+        (finding.code.name(), finding.severity().to_string(), finding.message.clone())
+    };
+    findings.as_slice().iter().map(finding).collect()
+}
 
 /// A body: an OpenSim model. `ambulo.model` reads one, `ambulo.calibrate` makes one.
 #[pyclass(frozen, module = "ambulo")]
@@ -41,7 +58,7 @@ pub(crate) struct Model {
     name: PathBuf,
     content: Arc<[u8]>,
     model: ambulo::model::Model,
-    findings: Vec<(&'static str, String, String)>,
+    findings: Vec<Listed>,
     /// Scratch memory of inverse dynamics that no call is using.
     scratch: Mutex<Vec<Workspace>>,
 }
@@ -53,10 +70,7 @@ impl Model {
         let mut findings = Findings::default();
         let model = py.detach(|| ambulo_cli::model(&data, &name, &mut findings));
         let model = model.map_err(|failure| exception(py, failure))?;
-        let finding = |finding: &ambulo::findings::Finding| {
-            (finding.code.name(), finding.severity().to_string(), finding.message.clone())
-        };
-        let findings = findings.as_slice().iter().map(finding).collect();
+        let findings = listed(&findings);
         Ok(Model { name, content: Arc::from(&data[..]), model, findings, scratch: Mutex::default() })
     }
 
@@ -120,7 +134,7 @@ impl Model {
 
     /// Warnings and notes about the file: code, severity, message.
     #[getter]
-    fn findings(&self) -> Vec<(&'static str, String, String)> {
+    fn findings(&self) -> Vec<Listed> {
         self.findings.clone()
     }
 
@@ -243,6 +257,15 @@ impl Model {
     /// ------
     /// InputError
     ///     No marker in common, too few markers, arrays of other shapes.
+    ///
+    /// Warns
+    /// -----
+    /// AmbuloWarning
+    ///     Once for each kind of doubtful data, such as swapped labels.
+    ///
+    /// Notes
+    /// -----
+    /// The fit of ``ambulo forces`` with its defaults. Method: docs of `ambulo::kinematics::marker_fit`.
     fn fit_markers<'py>(
         &self,
         py: Python<'py>,
@@ -267,10 +290,74 @@ impl Model {
             times: (0..frames).map(|frame| frame as f64 / rate).collect(),
             markers: names.into_iter().enumerate().map(path).collect(),
         };
+        let mut findings = Findings::default();
         let fit = py
-            .detach(|| fit_markers(&self.model, &recording, &FitSettings::default(), &mut Findings::default()))
+            .detach(|| fit_markers(&self.model, &recording, &FitSettings::default(), &mut findings))
             .map_err(|error| refused(py, error.to_string()))?;
+        warn(py, &findings)?;
         self.fit_arrays(py, frames, fit)
+    }
+
+    /// Smooth coordinates, and compute their rates and accelerations.
+    ///
+    /// Parameters
+    /// ----------
+    /// q : array_like, shape (frames, coordinates)
+    ///     Coordinates [rad, m] at a uniform rate; columns in the order of `coordinates`. Not a number where a value is missing: gaps inside
+    ///     the motion of at most 0.2 s are bridged, and a coordinate without any number gets the value of the model.
+    /// rate : float
+    ///     Frame rate [Hz].
+    /// filter : {"butterworth", "spline"}, optional
+    ///     Zero-phase low-pass, or quintic smoothing spline by generalised cross-validation.
+    /// cutoff : float or "off", optional
+    ///     Cut-off of one pass of the Butterworth filter [Hz]; ``"off"`` puts a spline through the numbers.
+    /// order : int, optional
+    ///     Order of one pass of the Butterworth filter, 1 to 8.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     ``times`` (frames,) [s], 0 at the first row of the argument; ``q``, ``qd``, ``qdd`` (frames, coordinates) [rad, m and per s, s²] in
+    ///     Fortran order, for `inverse_dynamics` and `predict_ground`.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     Gaps that are too long or at an end, too few frames, a cut-off that the rate does not allow, arrays of other shapes.
+    ///
+    /// Warns
+    /// -----
+    /// AmbuloWarning
+    ///     Once for each kind of doubtful data.
+    ///
+    /// Notes
+    /// -----
+    /// An option that is not given has the default of ``ambulo forces``. Methods and sources: docs of `ambulo::motion::smooth`.
+    #[pyo3(signature = (q, rate, filter=None, cutoff=None, order=None))]
+    fn smooth<'py>(
+        &self,
+        py: Python<'py>,
+        q: MotionArray<'py>,
+        rate: f64,
+        filter: Option<&str>,
+        cutoff: Option<Cutoff>,
+        order: Option<usize>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        check_rate(py, rate)?;
+        let [q, ..] = self.checked(py, [q.as_array(); 3])?;
+        let smoother = asked(py, filter, cutoff, order)?;
+        let mut findings = Findings::default();
+        let trajectory = py.detach(|| self.smoothed(q, rate, smoother, &mut findings));
+        let trajectory = trajectory.map_err(|message| refused(py, message))?;
+        warn(py, &findings)?;
+        let content = PyDict::new(py);
+        content.set_item("times", trajectory.grid().times().into_pyarray(py))?;
+        let parts = [("q", Trajectory::values as Part), ("qd", Trajectory::rates), ("qdd", Trajectory::accelerations)];
+        for (name, part) in parts {
+            let columns: Vec<&[f64]> = self.model.coordinate_ids().map(|id| part(&trajectory, id)).collect();
+            content.set_item(name, array_of(py, trajectory.grid().frames, columns.into_iter())?)?;
+        }
+        Ok(content)
     }
 
     /// Time per frame [s] of the library's own batch, for comparison in `bench/measure.py`.
@@ -295,6 +382,9 @@ impl Model {
     ///     Coordinates, rates and accelerations, as in `inverse_dynamics`.
     /// rate : float
     ///     Frame rate [Hz].
+    /// filter, cutoff, order : optional
+    ///     The filter that the motion has passed, as in `smooth`, which has the same default; ``cutoff="off"`` for a motion that was not filtered.
+    ///     It is used for running.
     ///
     /// Returns
     /// -------
@@ -307,9 +397,16 @@ impl Model {
     /// InputError
     ///     A model without feet or gravity, arrays of other shapes, numbers that are not finite.
     ///
+    /// Warns
+    /// -----
+    /// AmbuloWarning
+    ///     Once for each kind of doubtful data.
+    ///
     /// Notes
     /// -----
     /// Maximum a posteriori estimate; method and errors against force plates: docs/GROUND_FORCES.md.
+    #[pyo3(signature = (q, qd, qdd, rate, filter=None, cutoff=None, order=None))]
+    #[expect(clippy::too_many_arguments, reason = "the options of a function in Python")]
     fn predict_ground<'py>(
         &self,
         py: Python<'py>,
@@ -317,13 +414,20 @@ impl Model {
         qd: MotionArray<'py>,
         qdd: MotionArray<'py>,
         rate: f64,
+        filter: Option<&str>,
+        cutoff: Option<Cutoff>,
+        order: Option<usize>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let [lowest, highest] = RATES_HZ;
         if !(lowest..=highest).contains(&rate) {
             return Err(refused(py, format!("rate: found {rate} Hz; expected {lowest} to {highest} Hz")));
         }
         let motion = self.motion(py, [&q, &qd, &qdd])?;
-        let columns = py.detach(|| self.predicted_columns(motion, rate)).map_err(|message| refused(py, message))?;
+        let passed = asked(py, filter, cutoff, order)?.low_pass();
+        let mut findings = Findings::default();
+        let columns = py.detach(|| self.predicted_columns(motion, rate, passed, &mut findings));
+        let columns = columns.map_err(|message| refused(py, message))?;
+        warn(py, &findings)?;
         let content = PyDict::new(py);
         for (name, values) in columns {
             content.set_item(name, values.into_pyarray(py))?;
@@ -333,6 +437,28 @@ impl Model {
 }
 
 impl Model {
+    pub(crate) fn library(&self) -> &ambulo::model::Model {
+        &self.model
+    }
+
+    fn smoothed(
+        &self,
+        q: ArrayView2<'_, f64>,
+        rate: f64,
+        smoother: Smoother,
+        findings: &mut Findings,
+    ) -> Result<Trajectory, String> {
+        let recorded = |column: ArrayView1<'_, f64>| column.iter().any(|x| x.is_finite()).then(|| column.to_vec());
+        let motion = Motion {
+            origin: "q".to_owned(),
+            times: (0..q.nrows()).map(|frame| frame as f64 / rate).collect(),
+            columns: q.columns().into_iter().map(recorded).collect(),
+        };
+        let settings = SmoothSettings { smoother, window: Window::default(), rate_hz: None };
+        let smoothed = smooth(&self.model, &motion, settings, findings).map_err(|error| error.to_string())?;
+        Trajectory::complete(&self.model, smoothed, findings).map_err(|error| error.to_string())
+    }
+
     /// Runs the batch of the library on a complete trajectory, without copies.
     fn batch(&self, trajectory: &Trajectory, repeats: usize) -> f64 {
         let mut workspace = Workspace::new(&self.model);
@@ -499,13 +625,15 @@ impl Model {
         &self,
         motion: [ArrayView2<'_, f64>; 3],
         rate: f64,
+        motion_filter: Option<LowPass>,
+        findings: &mut Findings,
     ) -> Result<Vec<(String, Vec<f64>)>, String> {
         let frames = motion[0].nrows();
         let trajectory = self.trajectory(motion, 0..frames, rate)?;
         let soles = Person::of_model(&self.model).soles;
-        let settings = PredictSettings::default();
-        let prediction = predict(&self.model, &trajectory, &soles, &settings, &mut Findings::default())
-            .map_err(|error| error.to_string())?;
+        let settings = PredictSettings { motion_filter, ..PredictSettings::default() };
+        let prediction =
+            predict(&self.model, &trajectory, &soles, &settings, findings).map_err(|error| error.to_string())?;
         let mut columns = ground_columns(&feet(&self.model, &prediction.ground), frames);
         columns.extend(deviation_columns(&prediction.deviations, frames));
         Ok(columns)
@@ -523,6 +651,12 @@ fn not_finite(motion: &[ArrayView2<'_, f64>; 3]) -> Option<(&'static str, usize,
         let ((row, column), _) = array.indexed_iter().find(|(_, x)| !x.is_finite())?;
         Some((name, row, column))
     })
+}
+
+/// The smoother of these arguments.
+fn asked(py: Python<'_>, filter: Option<&str>, cutoff: Option<Cutoff>, order: Option<usize>) -> PyResult<Smoother> {
+    let smoother = smoother(filter, cutoff, order).map_err(|message| refused(py, message))?;
+    Ok(smoother.unwrap_or(Settings::default().smoother))
 }
 
 fn check_rate(py: Python<'_>, rate: f64) -> PyResult<()> {

@@ -114,6 +114,18 @@ def test_markers_of_a_known_posture_give_it_back(files):
         model.fit_markers(["x", "y", "z"], np.zeros((2, 3, 3)), 100)
 
 
+def test_doubtful_markers_are_warned_of_where_the_function_is_called(files, model):
+    recording = ambulo.read(files / "walk.trc")
+    positions = recording.markers[:60].copy()
+    knees = [recording.marker_names.index(name) for name in ("knee_r", "knee_l")]
+    positions[20:40, knees] = positions[20:40, knees[::-1]]
+    with pytest.warns(ambulo.AmbuloWarning, match="knee") as issued:
+        model.fit_markers(recording.marker_names, positions, recording.rate)
+    codes = [str(warning.message).split(":")[0] for warning in issued]
+    assert len(codes) == len(set(codes))
+    assert all(warning.filename == __file__ for warning in issued)
+
+
 def test_predicted_ground_forces_carry_the_body(model):
     standing = np.zeros((200, len(model.coordinates)))
     standing[:, model.coordinates.index("pelvis_ty")] = 0.0
@@ -121,6 +133,56 @@ def test_predicted_ground_forces_carry_the_body(model):
     vertical = forces["ground_force_r_vy"] + forces["ground_force_l_vy"]
     assert vertical == pytest.approx(model.mass * GRAVITY, rel=1e-3)
     assert (forces["ground_force_r_vy_sd"] >= 0).all()
+
+
+def test_the_steps_on_arrays_give_the_tables_of_the_command(files, predicted, model):
+    table = ambulo.read(files / "walk.mot").table
+    # A coordinate that the file does not have gets the value of the model.
+    q = np.full((len(table), len(model.coordinates)), np.nan)
+    for column, name in enumerate(model.coordinates):
+        if name in table:
+            in_degrees = predicted.angles.unit(name) == "deg"
+            q[:, column] = np.radians(table[name]) if in_degrees else table[name]
+    rate = round(table.rate)
+    motion = model.smooth(q, rate)
+    ground = model.predict_ground(motion["q"], motion["qd"], motion["qdd"], rate)
+    # Files have their angles in degrees, and times are those of their frames: rounding changes the last bits, which the fit of the forces enlarges.
+    for name in predicted.grf.names:
+        assert np.abs(ground[name] - predicted.grf[name]).max() < 1e-6, name
+    for name in predicted.sd.names:
+        assert np.abs(ground[name] - predicted.sd[name]).max() < 1e-6, name
+    other = model.smooth(q, rate, cutoff=3)
+    other = model.predict_ground(other["q"], other["qd"], other["qdd"], rate, cutoff=3)
+    assert np.abs(other["ground_force_r_vy"] - predicted.grf["ground_force_r_vy"]).max() > 10
+    with pytest.raises(ambulo.InputError, match="expected a number in Hz, or 'off'"):
+        model.predict_ground(motion["q"], motion["qd"], motion["qdd"], rate, cutoff="none")
+
+
+def test_smoothing_returns_derivatives_and_treats_gaps_as_the_command(model):
+    rate, omega = 100, 2 * np.pi
+    time = np.arange(200) / rate
+    q = np.full((200, len(model.coordinates)), np.nan)
+    knee = model.coordinates.index("knee_angle_r")
+    q[:, knee] = np.sin(omega * time)
+    exact = model.smooth(q, rate, cutoff="off")
+    assert np.allclose(exact["times"], time, rtol=0, atol=1e-12)
+    inner = slice(10, -10)
+    # A quintic spline through samples of a sine errs by about (omega h)^4 of its acceleration.
+    assert np.abs(exact["qd"][inner, knee] - omega * np.cos(omega * time)[inner]).max() < 1e-4
+    assert np.abs(exact["qdd"][inner, knee] + omega**2 * q[inner, knee]).max() < 1e-3
+    # A Butterworth filter of order 3 that runs twice has the gain 1/2 at its cut-off.
+    half = model.smooth(q, rate, cutoff=1, order=3)
+    assert np.abs(half["q"][60:140, knee]).max() == pytest.approx(0.5, abs=0.02)
+    gap = q.copy()
+    gap[90:95, knee] = np.nan
+    assert np.isfinite(model.smooth(gap, rate)["q"]).all()
+    for rows in (slice(90, 140), slice(0, 20)):
+        longer = q.copy()
+        longer[rows, knee] = np.nan
+        with pytest.raises(ambulo.InputError, match="`knee_angle_r` has no number from"):
+            model.smooth(longer, rate)
+    with pytest.raises(ambulo.InputError, match="rate: found 0"):
+        model.smooth(q, 0)
 
 
 def test_bad_arrays_are_refused_with_their_place(model, motion):

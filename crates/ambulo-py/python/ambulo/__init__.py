@@ -10,10 +10,12 @@ The functions compute what the command ``ambulo`` computes, with the same defaul
 
 from ambulo._ambulo import Model
 from ambulo._ambulo import version as _version
-from ambulo._calls import calibrate, forces, model, open, simulate, sweep, walk
+from ambulo._calls import calibrate, calibrate_person, forces, model, open, simulate, sweep, validate, walk
 from ambulo._errors import AmbuloError, AmbuloWarning, InputError
+from ambulo._person import Person
 from ambulo._recording import Recording, coordinates, markers, read
 from ambulo._result import Result
+from ambulo._stream import Stream
 from ambulo._table import Table
 
 __version__: str = _version()
@@ -23,10 +25,13 @@ __all__ = [
     "AmbuloWarning",
     "InputError",
     "Model",
+    "Person",
     "Recording",
     "Result",
+    "Stream",
     "Table",
     "calibrate",
+    "calibrate_person",
     "coordinates",
     "forces",
     "markers",
@@ -35,5 +40,6 @@ __all__ = [
     "read",
     "simulate",
     "sweep",
+    "validate",
     "walk",
 ]

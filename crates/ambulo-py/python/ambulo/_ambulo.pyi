@@ -8,7 +8,9 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Model",
     "Results",
+    "Stream",
     "arrow_stream",
+    "calibrate",
     "command",
     "forces",
     "open",
@@ -17,6 +19,7 @@ __all__ = [
     "read_table",
     "simulate",
     "sweep",
+    "validate",
     "version",
     "walk",
     "write_markers",
@@ -48,6 +51,15 @@ class MarkerFit(TypedDict):
     q: NDArray[np.float64]
     rms: NDArray[np.float64]
     converged: NDArray[np.bool_]
+
+@type_check_only
+class SmoothMotion(TypedDict):
+    """Smoothed coordinates with two derivatives."""
+
+    times: NDArray[np.float64]
+    q: NDArray[np.float64]
+    qd: NDArray[np.float64]
+    qdd: NDArray[np.float64]
 
 @final
 class Model:
@@ -83,10 +95,44 @@ class Model:
         self, q: ArrayLike, qd: ArrayLike | None = None, qdd: ArrayLike | None = None
     ) -> BodyMotions: ...
     def fit_markers(self, names: Sequence[str], positions: ArrayLike, rate: float) -> MarkerFit: ...
+    def smooth(
+        self,
+        q: ArrayLike,
+        rate: float,
+        filter: str | None = None,
+        cutoff: float | str | None = None,
+        order: int | None = None,
+    ) -> SmoothMotion: ...
     def _time_of_batch(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, repeats: int) -> float: ...
     def predict_ground(
-        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, rate: float
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        qdd: ArrayLike,
+        rate: float,
+        filter: str | None = None,
+        cutoff: float | str | None = None,
+        order: int | None = None,
     ) -> dict[str, NDArray[np.float64]]: ...
+
+@final
+class Stream:
+    def __new__(
+        cls,
+        model: Model,
+        rate: float,
+        delay: float | None = None,
+        window: float | None = None,
+        filter: str | None = None,
+        cutoff: float | str | None = None,
+        order: int | None = None,
+    ) -> Stream: ...
+    def columns(self) -> list[tuple[str, str]]: ...
+    def delay_frames(self) -> int: ...
+    def rate(self) -> float: ...
+    def findings(self) -> list[tuple[str, str, str]]: ...
+    def push(self, q: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def finish(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 
 @final
 class Results:
@@ -104,6 +150,8 @@ def forces(words: Sequence[str], files: _Files) -> Results: ...
 def walk(words: Sequence[str], files: _Files) -> Results: ...
 def simulate(words: Sequence[str], files: _Files) -> Results: ...
 def sweep(words: Sequence[str], files: _Files) -> Results: ...
+def validate(words: Sequence[str], files: _Files) -> Results: ...
+def calibrate(words: Sequence[str], files: _Files) -> bytes: ...
 def open(folder: _Path) -> Results: ...
 def read(path: _Path) -> bytes: ...
 def read_table(data: bytes, name: _Path) -> _Parts: ...

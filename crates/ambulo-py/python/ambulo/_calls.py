@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from ambulo import _ambulo
 from ambulo._errors import InputError
+from ambulo._person import Person
 from ambulo._recording import Recording
 from ambulo._result import Result
-from ambulo._words import Words, joined
+from ambulo._words import Words, joined, listed
 
 if TYPE_CHECKING:
     from ambulo._ambulo import Model
@@ -65,7 +66,7 @@ def forces(
     smpl: _Path | bytes | None = None,
     heading: str | None = None,
     earth: tuple[float, float, float] | None = None,
-    person: _Path | bytes | None = None,
+    person: Person | _Path | bytes | None = None,
     predict: bool = False,
     track: bool = False,
     ground: bool = True,
@@ -82,10 +83,11 @@ def forces(
     cutoff: _Cutoff | None = None,
     force_cutoff: _Cutoff | None = None,
     order: int | None = None,
-    consistent: str | None = None,
+    consistent: bool | str | None = None,
     device: Recording | Table | _Path | None = None,
     add_mass: Sequence[str] | None = None,
     thresholds: _Path | None = None,
+    keep: Sequence[str] | None = None,
 ) -> Result:
     """Compute joint moments, powers, reactions and ground forces of a recording: ``ambulo forces``.
 
@@ -116,15 +118,15 @@ def forces(
     plates : mapping of int to str, optional
         Foot of each force plate, counted from 1: ``{1: "r", 2: "off"}``.
     trial : int or str, optional
-        The trial of a ``.b3d``: its number, counted from 1, or its name.
+        The trial of a ``.b3d``: its number, counted from 1, or its name. All trials take one call each.
     smpl : str, path-like or bytes, optional
         The SMPL model (``.npz``) that gives a motion its lengths.
     heading : str, optional
         Sensors: the axis of one that points forward in the standing posture, such as ``"pelvis_imu:-z"``.
     earth : tuple of three floats, optional
         Sensors: angles about the fixed axes x, y and z [deg] that turn their earth to the axes of the model.
-    person : str, path-like or bytes, optional
-        Calibration of this person (``.toml``, written by ``ambulo calibrate``): ground forces are predicted and corrected by it.
+    person : Person, str, path-like or bytes, optional
+        Calibration of this person (`calibrate_person`, or a ``.toml`` of ``ambulo calibrate``): ground forces are predicted and corrected by it.
     predict : bool, optional
         Predict the ground forces even if they were measured, and compare both.
     track : bool, optional
@@ -155,14 +157,16 @@ def forces(
         Low-pass filter of the measured forces [Hz].
     order : int, optional
         Order of one pass of the Butterworth filters.
-    consistent : {"motion", "body"}, optional
-        Residual reduction: what may change so that the motion agrees with the forces.
+    consistent : bool or {"motion", "body"}, optional
+        Residual reduction: what may change so that the motion agrees with the forces; True for the choice of the command.
     device : Recording, Table, str or path-like, optional
         Joint moments of a worn device [N.m].
     add_mass : sequence of str, optional
         Point masses fixed to bodies: ``"torso:2.5:-0.1,0.3,0"``, kilograms and metres.
     thresholds : str or path-like, optional
         Limits of a person for the verdict: ``.toml``.
+    keep : sequence of str, optional
+        Outputs that `Result.save` writes, such as ``["moments", "grf"]``; all if omitted.
 
     Returns
     -------
@@ -225,6 +229,7 @@ def forces(
             "consistent": consistent,
             "add_mass": None if add_mass is None else list(add_mass),
             "thresholds": thresholds,
+            "keep": listed(keep),
         }
     )
     return _computed(_ambulo.forces, words)
@@ -256,6 +261,125 @@ def calibrate(recording: Recording | _Path, **options: Any) -> Model:
     return body
 
 
+def calibrate_person(
+    trials: Recording | _Path | Sequence[Recording | _Path],
+    model: Model | _Path | bytes | None = None,
+    *,
+    static: Recording | _Path | None = None,
+    mass: float | None = None,
+    height: float | None = None,
+    figure: str | None = None,
+    markers: _Path | None = None,
+    marker_set: _Path | bytes | None = None,
+    plates: Mapping[int, str] | None = None,
+    fit: str | None = None,
+    max_gap: float | None = None,
+) -> Person:
+    """Compare the predicted ground forces of one person with force plates, to correct later predictions: ``ambulo calibrate``.
+
+    An option that is None has the default of the command (``ambulo calibrate --help``).
+
+    Parameters
+    ----------
+    trials : Recording, str or path-like, or a sequence of these
+        Trials of one person walking over force plates (``.c3d``), each foot on a plate of its own.
+    model : Model, str, path-like or bytes, optional
+        The body.
+    static : Recording, str or path-like, optional
+        Standing trial of the same person.
+    mass : float, optional
+        Body mass [kg].
+    height : float, optional
+        Stature [m].
+    figure : str, optional
+        Table of segment masses of the built-in body.
+    markers : str or path-like, optional
+        The marker set: a name, or a ``.toml``.
+    marker_set : str, path-like or bytes, optional
+        Markers for the model: an OpenSim MarkerSet.
+    plates : mapping of int to str, optional
+        Foot of each force plate, counted from 1: ``{1: "r", 2: "off"}``.
+    fit : {"frames", "trajectory"}, optional
+        How markers are fitted.
+    max_gap : float, optional
+        Longest marker gap that is interpolated [s].
+
+    Returns
+    -------
+    Person
+        For `forces(person=...)`; `Person.save` writes the file of the command.
+
+    Raises
+    ------
+    FileNotFoundError, PermissionError
+        A file that cannot be read.
+    InputError
+        Trials without walking, plates or whole stances, or of different people; the message is the one of the command.
+
+    Notes
+    -----
+    Method, and errors with and without a calibration: docs/GROUND_FORCES.md.
+    """
+    words = Words()
+    for trial in [trials] if isinstance(trials, (Recording, str, os.PathLike)) else trials:
+        words.input(trial, "trial.c3d")
+    words.file("model", model, "model.osim")
+    words.file("static", static, "static")
+    words.file("marker-set", marker_set, "markers.xml")
+    words.option("plate", [f"{plate}={foot}" for plate, foot in (plates or {}).items()])
+    words.options({"mass": mass, "height": height, "figure": figure, "markers": markers, "fit": fit, "max_gap": max_gap})
+    words.option("quiet", True)
+    return Person(_ambulo.calibrate(words.words, words.listed()))
+
+
+def validate(
+    folder: _Path,
+    *,
+    mass: float | None = None,
+    height: float | None = None,
+    figure: str | None = None,
+    markers: _Path | None = None,
+    track: bool = False,
+    jobs: int | None = None,
+) -> Result:
+    """Judge predicted ground forces by the force plates of a folder of recordings: ``ambulo validate``.
+
+    An option that is None has the default of the command (``ambulo validate --help``).
+
+    Parameters
+    ----------
+    folder : str or path-like
+        The folder with the recordings; docs/VALIDATE.md says which files belong together.
+    mass : float, optional
+        Body mass, if the folder has the trials of one person [kg].
+    height : float, optional
+        Stature, if the folder has the trials of one person [m].
+    figure : str, optional
+        Table of segment masses of the built-in body.
+    markers : str or path-like, optional
+        The marker set: a name, or a ``.toml``.
+    track : bool, optional
+        Judge tracking as well, which takes one to three seconds per trial.
+    jobs : int, optional
+        Trials that are computed at the same time; the results do not depend on it.
+
+    Returns
+    -------
+    Result
+        With the tables ``stances`` and ``means`` (`Result.table`), the page, and in the summary all trials, also those that were not judged.
+
+    Raises
+    ------
+    InputError
+        A folder in which no trial can be judged; the message is the one of the command.
+    """
+    words = Words()
+    words.input(folder, "folder")
+    words.options({"mass": mass, "height": height, "figure": figure, "markers": markers, "track": track, "jobs": jobs})
+    words.option("quiet", True)
+    return _computed(_ambulo.validate, words)
+
+
 def walk(
     *,
     speed: float | None = None,
@@ -283,6 +407,7 @@ def walk(
     rate: float | None = None,
     convention: str | None = None,
     thresholds: _Path | None = None,
+    keep: Sequence[str] | None = None,
 ) -> Result:
     """Synthesise a walk at any speed and in any style, and compute its forces: ``ambulo walk``.
 
@@ -336,6 +461,8 @@ def walk(
         Reference of the pelvis and hip angles of `Result.clinical`.
     thresholds : str or path-like, optional
         Limits of a person for the verdict: ``.toml``.
+    keep : sequence of str, optional
+        Outputs that `Result.save` writes, such as ``["moments", "grf"]``; all if omitted.
 
     Returns
     -------
@@ -348,13 +475,19 @@ def walk(
     """
     options = dict(locals())
     options["no_toe_joint"] = not options.pop("toe_joint")
+    options["keep"] = listed(keep)
     words = Words()
     words.options(options)
     return _computed(_ambulo.walk, words)
 
 
 def simulate(
-    scene: _Path | bytes, *, duration: float | None = None, step: float | None = None, resume: _Path | None = None
+    scene: _Path | bytes,
+    *,
+    duration: float | None = None,
+    step: float | None = None,
+    resume: _Path | None = None,
+    keep: Sequence[str] | None = None,
 ) -> Result:
     """Simulate a scene: ``ambulo simulate``.
 
@@ -368,6 +501,8 @@ def simulate(
         Time step [s].
     resume : str or path-like, optional
         A state to begin with, saved by ``ambulo simulate --save``.
+    keep : sequence of str, optional
+        Outputs that `Result.save` writes, such as ``["moments", "grf"]``; all if omitted.
 
     Returns
     -------
@@ -383,7 +518,7 @@ def simulate(
     """
     words = Words()
     words.input(scene, "scene.toml")
-    words.options({"duration": duration, "step": step, "resume": resume})
+    words.options({"duration": duration, "step": step, "resume": resume, "keep": listed(keep)})
     return _computed(_ambulo.simulate, words)
 
 
@@ -398,6 +533,7 @@ def sweep(
     device: _Path | None = None,
     predict: bool = False,
     figure: str | None = None,
+    keep: Sequence[str] | None = None,
 ) -> Result:
     """Compute walks at many speeds, of many bodies, on slopes and with loads: ``ambulo sweep``.
 
@@ -423,6 +559,8 @@ def sweep(
         Predict all walks.
     figure : str, optional
         Table of segment masses.
+    keep : sequence of str, optional
+        Outputs that `Result.save` writes, such as ``["moments", "grf"]``; all if omitted.
 
     Returns
     -------
@@ -437,7 +575,7 @@ def sweep(
     words = Words()
     numbers = {"speed": speed, "mass": mass, "height": height, "slope": slope, "load": load}
     words.options({name: joined(values) for name, values in numbers.items()})
-    words.options({"weak": weak, "device": device, "predict": predict, "figure": figure, "quiet": True})
+    words.options({"weak": weak, "device": device, "predict": predict, "figure": figure, "keep": listed(keep), "quiet": True})
     return _computed(_ambulo.sweep, words)
 
 

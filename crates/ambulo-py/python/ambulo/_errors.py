@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import errno
+import warnings
+from collections.abc import Iterable
 
 
 class AmbuloError(Exception):
@@ -47,3 +49,12 @@ def failure(
     refused = InputError(what if hint is None else f"{what}\n  hint: {hint}")
     refused.file, refused.line, refused.hint = file, line, hint
     return refused
+
+
+def warn(findings: Iterable[tuple[str, str, str]], stacklevel: int) -> None:
+    """Issue the first warning of each code; a finding is a code, a severity and a message."""
+    known = set()
+    for code, severity, message in findings:
+        if severity == "warning" and code not in known:
+            known.add(code)
+            warnings.warn(f"{code}: {message}", AmbuloWarning, stacklevel=stacklevel + 1)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ambulo import _ambulo
-from ambulo._errors import AmbuloWarning, InputError
+from ambulo._errors import InputError, warn
 from ambulo._table import Table
 
 if TYPE_CHECKING:
@@ -225,9 +224,6 @@ class Result:
 
     def _warn(self, stacklevel: int) -> Result:
         """Issue the first warning of each code."""
-        known = set()
-        for finding in self.findings:
-            if finding["severity"] == "warning" and finding["code"] not in known:
-                known.add(finding["code"])
-                warnings.warn(f"{finding['code']}: {finding['message']}", AmbuloWarning, stacklevel=stacklevel)
+        found = [(finding["code"], finding["severity"], finding["message"]) for finding in self.findings]
+        warn(found, stacklevel)
         return self

@@ -11,6 +11,7 @@ from typing import Any
 
 from ambulo import _ambulo
 from ambulo._errors import InputError
+from ambulo._person import Person
 from ambulo._recording import Recording
 from ambulo._table import Table
 
@@ -20,7 +21,7 @@ class Words:
 
     def __init__(self) -> None:
         self._words: list[str] = []
-        self._input: str | None = None
+        self._inputs: list[str] = []
         self.files: dict[str, bytes] = {}
 
     def path(self, value: Any, name: str) -> str:
@@ -29,6 +30,8 @@ class Words:
             return self._in_memory(value.name, value.data)
         if isinstance(value, _ambulo.Model):
             return self._in_memory(value.file, value.data)
+        if isinstance(value, Person):
+            return self._in_memory(name, value.data)
         if isinstance(value, Table):
             return self._in_memory(name, value._storage())
         if isinstance(value, (bytes, bytearray, memoryview)):
@@ -41,8 +44,8 @@ class Words:
         return name
 
     def input(self, value: Any, name: str) -> None:
-        """Set the file that the command takes without an option."""
-        self._input = self.path(value, name)
+        """Add a file that the command takes without an option."""
+        self._inputs.append(self.path(value, name))
 
     def file(self, option: str, value: Any, name: str) -> None:
         """Add an option whose value is a file."""
@@ -69,7 +72,7 @@ class Words:
     @property
     def words(self) -> list[str]:
         """The words of the command line; a name that begins with a hyphen is no option."""
-        return self._words if self._input is None else [*self._words, "--", self._input]
+        return [*self._words, "--", *self._inputs] if self._inputs else self._words
 
     def listed(self) -> list[tuple[str, bytes]]:
         """Return the files in memory."""
@@ -84,3 +87,8 @@ def joined(value: Any) -> Any:
         return ",".join(str(float(number)) for number in value)
     except TypeError:
         return str(float(value))
+
+
+def listed(values: Any) -> Any:
+    """Return words as the command takes a list of them: separated by commas."""
+    return values if values is None or isinstance(values, str) else ",".join(values)

@@ -1,0 +1,111 @@
+"""Every option of the command has an argument, and the calibration and validation on force plates are those of the command."""
+
+from __future__ import annotations
+
+import inspect
+import pickle
+import re
+
+import numpy as np
+import pytest
+from conftest import command
+
+import ambulo
+
+#: Options that are named otherwise in Python.
+RENAMED = {"from": "start", "to": "end", "plate": "plates", "no_ground": "ground", "no_toe_joint": "toe_joint"}
+#: Options that only a command needs: where it writes, what it prints, and `Result.save(force=)`.
+OF_COMMANDS = {"output", "force", "check", "json", "quiet", "verbose", "help", "dry_run", "save", "states"}
+#: Another word for `mode`.
+DOUBLED = {"planar"}
+VERBS = {
+    "forces": ambulo.forces,
+    "calibrate": ambulo.calibrate_person,
+    "validate": ambulo.validate,
+    "walk": ambulo.walk,
+    "simulate": ambulo.simulate,
+    "sweep": ambulo.sweep,
+}
+
+
+@pytest.mark.parametrize(("verb", "function"), VERBS.items())
+def test_every_option_of_the_command_is_an_argument(verb, function, tmp_path):
+    described = command(verb, "--help", folder=tmp_path).stdout
+    named = re.findall(r"^ +(?:-\w, )?--([a-z-]+)", described, re.MULTILINE)
+    options = {RENAMED.get(name, name) for name in (option.replace("-", "_") for option in named)}
+    arguments = inspect.signature(function).parameters
+    assert len(options) > 4
+    assert options - OF_COMMANDS - DOUBLED <= set(arguments)
+    # The first arguments are those that the command takes without an option; no option is invented.
+    positional = {"recording", "trials", "folder", "scene"}
+    assert set(arguments) <= options | positional
+    assert all(value.default in (None, False, inspect.Parameter.empty) or name in RENAMED.values() for name, value in arguments.items())
+    for name in arguments:
+        assert re.search(rf"^    (?:\w+, )*{name}(?:, \w+)* : ", function.__doc__, re.MULTILINE), name
+
+
+@pytest.mark.parametrize("name", [name for name in ambulo.__all__ if inspect.isfunction(getattr(ambulo, name))])
+def test_functions_are_documented_in_the_form_of_numpy(name):
+    text = getattr(ambulo, name).__doc__
+    assert all(f"\n    {section}\n    {'-' * len(section)}\n" in text for section in ("Parameters", "Returns", "Raises")), name
+
+
+def test_methods_on_arrays_state_shapes_units_and_errors():
+    for method in (
+        ambulo.Model.inverse_dynamics,
+        ambulo.Model.forward_kinematics,
+        ambulo.Model.fit_markers,
+        ambulo.Model.smooth,
+        ambulo.Model.predict_ground,
+        ambulo.Stream.push,
+    ):
+        for word in ("shape (", "[rad, m]" if method is not ambulo.Model.fit_markers else "[m]", "Raises\n"):
+            assert word in inspect.getdoc(method) or "as in `inverse_dynamics`" in inspect.getdoc(method), (method, word)
+
+
+def test_kept_outputs_are_those_of_the_command(files, tmp_path):
+    result = ambulo.forces(files / "walk.mot", files / "figure.osim", keep=["moments", "grf"])
+    result.save(tmp_path / "out")
+    words = ("forces", files / "walk.mot", "--model", files / "figure.osim", "--keep", "moments,grf", "-o", "command")
+    assert command(*words, folder=tmp_path).returncode == 0
+    names = [sorted(path.name for path in (tmp_path / folder).iterdir()) for folder in ("out", "command")]
+    assert names[0] == names[1]
+    assert "powers.sto" in result.tables
+    assert "powers.sto" not in names[0]
+
+
+def test_a_calibration_is_the_file_of_the_command_and_corrects_a_prediction(files, tmp_path):
+    size = {"mass": 75, "height": 1.75}
+    words = ("calibrate", "walk.c3d", "--static", "standing.c3d", "--mass", 75, "--height", 1.75, "-o", tmp_path / "person.toml")
+    done = command(*words, folder=files)
+    assert done.returncode == 0, done.stderr
+    person = ambulo.calibrate_person(files / "walk.c3d", static=files / "standing.c3d", **size)
+    person.save(tmp_path / "own.toml")
+    assert (tmp_path / "own.toml").read_bytes() == (tmp_path / "person.toml").read_bytes() == person.data
+    by_file, by_value = (
+        ambulo.forces(files / "walk.c3d", static=files / "standing.c3d", person=given, **size)
+        for given in (tmp_path / "person.toml", pickle.loads(pickle.dumps(person)))
+    )
+    assert np.array_equal(by_file.grf.values, by_value.grf.values)
+    plain = ambulo.forces(files / "walk.c3d", static=files / "standing.c3d", predict=True, **size)
+    assert not np.array_equal(by_file.grf.values, plain.grf.values)
+    with pytest.raises(ambulo.InputError, match="walk.mot"):
+        ambulo.calibrate_person([files / "walk.mot"], files / "figure.osim")
+
+
+def test_a_validation_is_the_folder_of_the_command(files, tmp_path):
+    (tmp_path / "plates").mkdir()
+    for name in ("walk.c3d", "standing.c3d"):
+        (tmp_path / "plates" / name).write_bytes((files / name).read_bytes())
+    done = command("validate", "plates", "--mass", 75, "--height", 1.75, "-o", "command", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    result = ambulo.validate(tmp_path / "plates", mass=75, height=1.75)
+    assert result.tables == ["stances.csv", "means.csv"]
+    assert result.summary["trials_judged"] == 1
+    assert len(result.table("stances")) > 0
+    result.save(tmp_path / "function")
+    for name in ("validation.html", "validation.md", "stances.csv", "means.csv"):
+        assert (tmp_path / "function" / name).read_bytes() == (tmp_path / "command" / name).read_bytes(), name
+    assert ambulo.open(tmp_path / "command").page() == result.page()
+    with pytest.raises(ambulo.InputError, match="this folder has results of Ambulo"):
+        ambulo.validate(tmp_path / "command")
