@@ -28,7 +28,8 @@ usage: cargo xtask <command>
   mutants           run mutants of the science and write docs/measured/MUTANTS.md  [MODULE..] [--sample N] [--seed S]
                     [--resume: those not yet run] [--retry: survivors again] [--page: only the page]
   python            make a wheel of the Python package from the module that `cargo test` has compiled, and test it in a bare environment
-                    [--measure: build the wheel for users with maturin and print its size and times]
+                    [--with PROGRAM: in an environment of another Python] [--measure: build the wheel for users with maturin and
+                    print its size and times] [--free-threaded: compile the module for free-threaded Python]
   web               build the page that computes in the browser into target/page  [--test: and test it in Chromium]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv

@@ -1,8 +1,9 @@
-//! The Python package: `cargo xtask python`, `cargo xtask python --measure`.
+//! The Python package: `cargo xtask python`, with `--with PROGRAM`, `--measure` or `--free-threaded`.
 //!
-//! The first makes a wheel from the module that `cargo test` has compiled, installs it into a bare virtual environment, checks that it needs
-//! nothing but NumPy, and runs the tests of `crates/ambulo-py/tests` and stubtest. The second builds the wheel for users with maturin and prints
-//! its size and its times.
+//! Without an option it makes a wheel from the module that `cargo test` has compiled, installs it into a bare virtual environment, checks that it
+//! needs nothing but NumPy, and runs the tests of `crates/ambulo-py/tests` and stubtest; with `--with` in the environment of another Python.
+//! `--measure` builds the wheel for users with maturin and prints its size and its times. `--free-threaded` compiles the module for free-threaded
+//! Python, which need not be installed.
 
 use crate::workspace;
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
@@ -12,14 +13,19 @@ use std::process::Command;
 
 /// The version of maturin that builds the wheel for users.
 const MATURIN: &str = "maturin==1.16.0";
+/// What PyO3 has to know about free-threaded Python. The oldest one that it supports is 3.14.
+const FREE_THREADED: &str =
+    "implementation=CPython\nversion=3.14\nshared=true\npointer_width=64\nbuild_flags=Py_GIL_DISABLED\n";
 /// Prints the commands of the package and the packages that are installed, in an environment without anything else.
 const BARE: &str = "import ambulo, importlib.metadata as m; names = sorted({d.name for d in m.distributions()} - {'pip', 'setuptools'}); assert names == ['ambulo', 'numpy'], names; print(ambulo.__version__, 'installed with', names)";
 
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     match words {
-        [] => test(),
+        [] => test(interpreter()),
+        [option, program] if option == "--with" => test(program),
         [option] if option == "--measure" => measure(),
-        _ => Err("usage: cargo xtask python [--measure]".to_owned()),
+        [option] if option == "--free-threaded" => free_threaded(),
+        _ => Err("usage: cargo xtask python [--with PROGRAM | --measure | --free-threaded]".to_owned()),
     }
 }
 
@@ -28,7 +34,8 @@ pub(crate) fn interpreter() -> &'static str {
     if cfg!(windows) { "python" } else { "python3" }
 }
 
-fn test() -> Result<(), String> {
+/// Tests the package in an environment of this Python.
+fn test(program: &str) -> Result<(), String> {
     let module = workspace::target().join("debug/deps").join(format!("{DLL_PREFIX}_ambulo{DLL_SUFFIX}"));
     if !module.is_file() {
         return Err(format!(
@@ -47,7 +54,7 @@ fn test() -> Result<(), String> {
         return Err(format!("the wheel was not made: {}", String::from_utf8_lossy(&made.stderr)));
     }
     let wheel = String::from_utf8_lossy(&made.stdout).trim().to_owned();
-    let environment = Environment::new(&folder.join("environment"))?;
+    let environment = Environment::new(program, &folder.join("environment"))?;
     environment.install(&[&wheel])?;
     environment.python(&package, &["-c", BARE])?;
     environment.install(&["--requirement", &package.join("tests/requirements.txt").display().to_string()])?;
@@ -58,7 +65,7 @@ fn test() -> Result<(), String> {
 
 fn measure() -> Result<(), String> {
     let (folder, package) = (workspace::target().join("python"), package());
-    let environment = Environment::new(&folder.join("environment"))?;
+    let environment = Environment::new(interpreter(), &folder.join("environment"))?;
     environment.install(&[MATURIN])?;
     let wheels = folder.join("dist");
     // An older wheel would be measured instead.
@@ -77,6 +84,19 @@ fn measure() -> Result<(), String> {
     environment.python(&package, &["bench/measure.py", &wheel])
 }
 
+/// Compiles the module for free-threaded Python; it is not run. PyO3 reads what it needs to know from a file, so that no such Python is needed.
+fn free_threaded() -> Result<(), String> {
+    let folder = workspace::target().join("free-threaded");
+    fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let configuration = folder.join("pyo3.txt");
+    fs::write(&configuration, FREE_THREADED).map_err(|e| format!("{}: {e}", configuration.display()))?;
+    let mut cargo = workspace::cargo();
+    // A folder of its own: the module has the same name as the one that the tests use.
+    cargo.env("CARGO_TARGET_DIR", &folder).env("PYO3_CONFIG_FILE", &configuration);
+    cargo.args(["build", "--locked", "--package", "ambulo-py", "--lib", "--no-default-features"]);
+    run_or(&mut cargo, "the module was not compiled")
+}
+
 /// The folder of the package.
 fn package() -> PathBuf {
     workspace::root().join("crates/ambulo-py")
@@ -89,8 +109,8 @@ struct Environment {
 
 impl Environment {
     /// Makes an empty one; an earlier one in the folder is replaced.
-    fn new(folder: &Path) -> Result<Environment, String> {
-        let mut venv = Command::new(interpreter());
+    fn new(program: &str, folder: &Path) -> Result<Environment, String> {
+        let mut venv = Command::new(program);
         run_or(venv.args(["-m", "venv", "--clear"]).arg(folder), "a virtual environment was not made")?;
         let python = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
         Ok(Environment { python: folder.join(python) })
