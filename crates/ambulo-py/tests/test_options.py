@@ -8,10 +8,11 @@ import re
 
 import numpy as np
 import pytest
-from conftest import command
+from conftest import REPOSITORY, command
 
 import ambulo
 
+PACKAGE = REPOSITORY / "crates/ambulo-py"
 #: Options that are named otherwise in Python.
 RENAMED = {"from": "start", "to": "end", "plate": "plates", "no_ground": "ground", "no_toe_joint": "toe_joint"}
 #: Options that only a command needs: where it writes, what it prints, and `Result.save(force=)`.
@@ -47,7 +48,15 @@ def test_every_option_of_the_command_is_an_argument(verb, function, tmp_path):
 @pytest.mark.parametrize("name", [name for name in ambulo.__all__ if inspect.isfunction(getattr(ambulo, name))])
 def test_functions_are_documented_in_the_form_of_numpy(name):
     text = getattr(ambulo, name).__doc__
-    assert all(f"\n    {section}\n    {'-' * len(section)}\n" in text for section in ("Parameters", "Returns", "Raises")), name
+    assert all(f"\n    {section}\n    {'-' * len(section)}\n" in text for section in ("Parameters", "Returns", "Raises", "Notes")), name
+
+
+def test_documents_that_the_package_names_exist():
+    named = set()
+    for path in [*(PACKAGE / "python").rglob("*.py"), *(PACKAGE / "src").glob("*.rs")]:
+        named |= set(re.findall(r"docs/[A-Za-z_/]+\.(?:md|ipynb)", path.read_text()))
+    assert len(named) > 10
+    assert not [name for name in named if not (REPOSITORY / name).is_file()]
 
 
 def test_methods_on_arrays_state_shapes_units_and_errors():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import multiprocessing
 import os
 import pickle
 import re
@@ -10,7 +12,7 @@ import subprocess
 import sys
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -85,6 +87,25 @@ def test_models_recordings_and_tables_can_be_pickled(files, result):
     assert pickle.loads(pickle.dumps(result.events))["side"] == result.events["side"]
 
 
+def test_a_result_of_another_process_has_the_same_tables_and_page(files, result, tmp_path):
+    spawned = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(1, mp_context=spawned) as pool:
+        recording = ambulo.read(files / "walk.c3d")
+        other = pool.submit(ambulo.forces, recording, static=ambulo.read(files / "standing.c3d"), mass=75).result()
+    assert same(other, result)
+    assert sorted(other.tables) == sorted(result.tables)
+    assert other.verdict == result.verdict
+    assert "de-leva" in other.page()
+    again = pickle.loads(pickle.dumps(other))
+    again.save(tmp_path / "out")
+    assert same(ambulo.open(tmp_path / "out"), result)
+    folder = Path(again._folder.name)
+    assert folder.is_dir()
+    del again
+    gc.collect()
+    assert not folder.exists()
+
+
 def test_threads_share_a_model_and_compute_the_same(files, predicted):
     model = ambulo.model(files / "figure.osim")
     motion = [np.asfortranarray(0.1 * np.ones((5000, len(model.coordinates)))) for _ in range(3)]
@@ -115,14 +136,22 @@ def test_other_threads_run_during_a_computation(files):
     assert sum(start < tick < end for tick in ticks) > 20 * (end - start)
 
 
+LONG = {
+    "sweep": "ambulo.sweep(speed='0.8:1.7:0.01', predict=True)",
+    "stream": "ambulo.Stream(MODEL, 100).push(numpy.zeros((10**6, len(MODEL.coordinates))))",
+}
+
+
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
-def test_ctrl_c_stops_a_long_computation():
-    code = """
-import time, ambulo
+@pytest.mark.parametrize("call", LONG.values(), ids=LONG.keys())
+def test_ctrl_c_stops_a_long_computation(call, files):
+    code = f"""
+import time, numpy, ambulo
+MODEL = ambulo.model({str(files / "figure.osim")!r})
 print("begins", flush=True)
 start = time.perf_counter()
 try:
-    ambulo.sweep(speed="0.8:1.7:0.01", predict=True)
+    {call}
 except KeyboardInterrupt:
     print("stopped", time.perf_counter() - start, flush=True)
 import os; os._exit(0)
@@ -133,7 +162,7 @@ import os; os._exit(0)
         program.send_signal(signal.SIGINT)
         word, seconds = program.stdout.read().split()
     assert word == "stopped"
-    # The sweep takes minutes; the interrupt comes after half a second and is seen within 50 ms, later on a busy machine.
+    # Both take minutes; the interrupt comes after half a second and is seen within 50 ms, later on a busy machine.
     assert float(seconds) < 10
 
 
@@ -143,6 +172,11 @@ def test_the_page_is_shown_in_a_notebook(result):
     shown = result._repr_html_()
     assert shown.startswith("<iframe srcdoc=")
     assert "de-leva" in shown
+    table = result.moments._repr_html_()
+    assert table.count("<tr>") == 10
+    assert "<th>hip_flexion_r_moment</th>" not in table
+    assert "<th>N.m</th>" in table
+    assert "<td>strike</td>" in result.events._repr_html_()
 
 
 def test_curves_are_drawn(result):

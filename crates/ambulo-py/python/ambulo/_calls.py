@@ -43,6 +43,10 @@ def model(path: _Path | bytes, name: str | None = None) -> Model:
         A file that cannot be read.
     InputError
         A file that is not a model of a tree of bodies.
+
+    Notes
+    -----
+    Which parts of a model are read: docs/OPENSIM.md. `Model.findings` has what is not.
     """
     if isinstance(path, (bytes, bytearray, memoryview)):
         return _ambulo.Model(bytes(path), "model.osim" if name is None else name)
@@ -187,7 +191,8 @@ def forces(
     Notes
     -----
     Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the computation ends after its present stage. Methods and sources:
-    docs/THEORY.md.
+    docs/GROUND_FORCES.md for predicted forces, docs/CONSISTENCY.md for residual reduction, docs/OPTIMAL.md for tracking, docs/MARKERS.md for the
+    body, docs/CONVENTIONS.md for axes and signs.
     """
     words = Words()
     if recording is not None:
@@ -254,6 +259,10 @@ def calibrate(recording: Recording | _Path, **options: Any) -> Model:
     ------
     InputError
         As `forces`.
+
+    Notes
+    -----
+    Methods and sources: docs/MARKERS.md. The calibration of predicted ground forces is `calibrate_person`.
     """
     body = forces(recording, **options).model
     if body is None:
@@ -349,7 +358,7 @@ def validate(
     Parameters
     ----------
     folder : str or path-like
-        The folder with the recordings; docs/VALIDATE.md says which files belong together.
+        The folder with the recordings.
     mass : float, optional
         Body mass, if the folder has the trials of one person [kg].
     height : float, optional
@@ -372,6 +381,10 @@ def validate(
     ------
     InputError
         A folder in which no trial can be judged; the message is the one of the command.
+
+    Notes
+    -----
+    Other threads run meanwhile. Which files belong together, and definitions of the errors: docs/VALIDATE.md.
     """
     words = Words()
     words.input(folder, "folder")
@@ -472,6 +485,15 @@ def walk(
     ------
     InputError
         Options that give no walk; the message is the one of the command.
+
+    Warns
+    -----
+    AmbuloWarning
+        Once for each kind of warning in `Result.findings`.
+
+    Notes
+    -----
+    Other threads run meanwhile. Methods and sources: docs/GAITS.md for the curves, docs/OPTIMAL.md and docs/CORRECTED_WALK.md for the walks.
     """
     options = dict(locals())
     options["no_toe_joint"] = not options.pop("toe_joint")
@@ -515,6 +537,10 @@ def simulate(
         A file that cannot be read.
     InputError
         A scene that cannot be built; the message is the one of the command.
+
+    Notes
+    -----
+    Other threads run meanwhile. Scene files: docs/SCENES.md. Methods and sources: docs/SIMULATION.md.
     """
     words = Words()
     words.input(scene, "scene.toml")
@@ -571,6 +597,11 @@ def sweep(
     ------
     InputError
         Values that give no walk; the message is the one of the command.
+
+    Notes
+    -----
+    Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the walks that are being computed are finished before the threads end. Methods and
+    sources: docs/OPTIMAL.md.
     """
     words = Words()
     numbers = {"speed": speed, "mass": mass, "height": height, "slope": slope, "load": load}
@@ -595,6 +626,10 @@ def open(folder: _Path) -> Result:
     ------
     InputError
         A folder that no run wrote, or whose files were changed.
+
+    Notes
+    -----
+    Files are read when a table is asked for, so the folder has to stay. Their columns: docs/OUTPUTS.md.
     """
     return Result(_ambulo.open(folder))
 

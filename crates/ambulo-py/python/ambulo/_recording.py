@@ -120,7 +120,8 @@ def read(path: str | os.PathLike[str] | bytes, name: str | None = None) -> Recor
 
     Notes
     -----
-    The content is decoded where it is needed, so errors in it are raised by `forces` and by the attributes of the recording.
+    The content is decoded where it is needed, so errors in it are raised by `forces` and by the attributes of the recording. What is read of each
+    format: docs/LABORATORY.md, docs/MOTION_SETS.md, docs/OPENSIM.md.
     """
     if isinstance(path, (bytes, bytearray, memoryview)):
         if name is None:
@@ -151,6 +152,10 @@ def markers(names: Sequence[str], positions: ArrayLike, rate: float, *, name: st
     ------
     InputError
         Arrays of other shapes, equal names, a rate that is not above zero.
+
+    Notes
+    -----
+    Names of markers that are recognised: docs/MARKERS.md.
     """
     import numpy as np
 
@@ -184,6 +189,10 @@ def coordinates(
     ------
     InputError
         Columns of other lengths.
+
+    Notes
+    -----
+    Names and units of the columns: docs/OPENSIM.md for coordinates, docs/OUTPUTS.md for ground forces (``grf.mot``).
     """
     import numpy as np
 

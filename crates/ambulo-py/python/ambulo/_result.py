@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ambulo import _ambulo
@@ -11,6 +11,8 @@ from ambulo._errors import InputError, warn
 from ambulo._table import Table
 
 if TYPE_CHECKING:
+    from tempfile import TemporaryDirectory
+
     from matplotlib.figure import Figure
 
 _CLINICAL = "clinical.csv"
@@ -23,7 +25,9 @@ class Result:
     contact, `cycles` without a whole gait cycle. Signs and axes: docs/CONVENTIONS.md. Columns: docs/OUTPUTS.md.
     """
 
-    def __init__(self, results: _ambulo.Results) -> None:
+    def __init__(self, results: _ambulo.Results, folder: TemporaryDirectory[str] | None = None) -> None:
+        # Files that are read later; the folder is removed with this object.
+        self._folder = folder
         self._results = results
         self._tables: dict[str, Table | None] = {}
         self._summary: dict[str, Any] | None = None
@@ -222,8 +226,32 @@ class Result:
             raise InputError(f"found results without {_CLINICAL}; expected the results of a motion with legs")
         return clinical_figure(self, names, over)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the files that `save` writes."""
+        import tempfile
+        from pathlib import Path
+
+        with tempfile.TemporaryDirectory(prefix="ambulo-") as folder:
+            self.save(folder)
+            paths = [path for path in sorted(Path(folder).rglob("*")) if path.is_file()]
+            files = {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
+        return _unpickled, (files,)
+
     def _warn(self, stacklevel: int) -> Result:
         """Issue the first warning of each code."""
         found = [(finding["code"], finding["severity"], finding["message"]) for finding in self.findings]
         warn(found, stacklevel)
         return self
+
+
+def _unpickled(files: Mapping[str, bytes]) -> Result:
+    """Return the result of a folder with these files."""
+    import tempfile
+    from pathlib import Path
+
+    folder = tempfile.TemporaryDirectory(prefix="ambulo-")
+    for name, content in files.items():
+        path = Path(folder.name) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    return Result(_ambulo.open(folder.name), folder)

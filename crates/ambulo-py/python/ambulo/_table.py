@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     import polars
     import xarray
 
+#: Rows and columns that a notebook shows of a table.
+_SHOWN = 8
+
 
 class Table:
     """Columns of equal length with names and units.
@@ -141,6 +144,22 @@ class Table:
         """Describe the table in one line."""
         rate = "" if self.rate is None else f", {self.rate:g} Hz"
         return f"<Table {self.title!r}: {len(self)} rows, {len(self.names)} columns{rate}>"
+
+    def _repr_html_(self) -> str:
+        """Show names, units and the first rows in a notebook."""
+        from html import escape
+
+        columns = list(self._with_time())
+        cut = "<th>…</th>" if len(columns) > _SHOWN else ""
+        names = "".join(f"<th>{escape(name)}</th>" for name, _, _ in columns[:_SHOWN]) + cut
+        units = "".join(f"<th>{escape(unit)}</th>" for _, unit, _ in columns[:_SHOWN]) + cut.replace("…", "")
+        rows = ""
+        for row in range(min(len(self), _SHOWN)):
+            cells = [column[row] for _, _, column in columns[:_SHOWN]]
+            shown = (escape(cell) if isinstance(cell, str) else f"{cell:.6g}" for cell in cells)
+            rows += f"<tr>{''.join(f'<td>{cell}</td>' for cell in shown)}</tr>"
+        head = f"<thead><tr>{names}</tr><tr>{units}</tr></thead>"
+        return f"<div>{escape(repr(self)[1:-1])}<table>{head}<tbody>{rows}</tbody></table></div>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the columns."""
