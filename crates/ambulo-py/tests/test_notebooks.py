@@ -1,7 +1,7 @@
 """The notebooks of the tutorials run from the first cell to the last.
 
-Cells are executed in order in one namespace, without a kernel: the notebooks use no commands of IPython. The value of a cell's last expression is shown
-as a notebook shows it. A cell with the tag `parameters` can be followed by other values, as papermill does it.
+Cells are executed in order in one namespace, without a kernel: the notebooks use no commands of IPython. The value of a cell's last expression and the
+figures of a cell are shown as a notebook shows them. A cell with the tag `parameters` can be followed by other values, as papermill does it.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ import pytest
 from conftest import REPOSITORY
 
 matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  after the choice above
+
 NOTEBOOKS = REPOSITORY / "docs/tutorials"
 
 
@@ -32,13 +34,14 @@ def run(name: str, **parameters: object) -> dict[str, object]:
             names.update(parameters)
         if shown is not None:
             show(eval(compile(shown, f"{name} {cell['id']}", "eval"), names))
+        for number in pyplot.get_fignums():
+            pyplot.figure(number).savefig(io.BytesIO())
+        pyplot.close("all")
     return names
 
 
 def show(value: object) -> None:
-    if hasattr(value, "savefig"):
-        value.savefig(io.BytesIO())
-    elif hasattr(value, "_repr_html_"):
+    if hasattr(value, "_repr_html_"):
         assert value._repr_html_()
     else:
         repr(value)

@@ -42,13 +42,13 @@ def test_every_option_of_the_command_is_an_argument(verb, function, tmp_path):
     assert set(arguments) <= options | positional
     assert all(value.default in (None, False, inspect.Parameter.empty) or name in RENAMED.values() for name, value in arguments.items())
     for name in arguments:
-        assert re.search(rf"^    (?:\w+, )*{name}(?:, \w+)* : ", function.__doc__, re.MULTILINE), name
+        assert re.search(rf"^(?:\w+, )*{name}(?:, \w+)* : ", inspect.getdoc(function), re.MULTILINE), name
 
 
 @pytest.mark.parametrize("name", [name for name in ambulo.__all__ if inspect.isfunction(getattr(ambulo, name))])
 def test_functions_are_documented_in_the_form_of_numpy(name):
-    text = getattr(ambulo, name).__doc__
-    assert all(f"\n    {section}\n    {'-' * len(section)}\n" in text for section in ("Parameters", "Returns", "Raises", "Notes")), name
+    text = inspect.getdoc(getattr(ambulo, name))
+    assert all(f"\n{section}\n{'-' * len(section)}\n" in text for section in ("Parameters", "Returns", "Raises", "Notes")), name
 
 
 def test_documents_that_the_package_names_exist():
