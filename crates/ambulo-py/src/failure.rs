@@ -1,6 +1,6 @@
-//! Errors of the command as Python exceptions.
+//! Errors of the command as Python exceptions, findings as Python warnings.
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Finding, Findings};
 use ambulo_cli::Failure;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -27,12 +27,20 @@ pub(crate) fn refused(py: Python<'_>, message: String) -> PyErr {
     exception(py, Failure { message, hint, file: None, line: None, system: None, stopped: false })
 }
 
+/// Code, severity and message of a finding.
+pub(crate) type Listed = (&'static str, String, String);
+
+pub(crate) fn listed(findings: &Findings) -> Vec<Listed> {
+    let finding = |finding: &Finding| (finding.code.name(), finding.severity().to_string(), finding.message.clone());
+    findings.as_slice().iter().map(finding).collect()
+}
+
 /// Issues warnings, as a function of the package that returns a `Result` does.
 pub(crate) fn warn(py: Python<'_>, findings: &Findings) -> PyResult<()> {
     if findings.as_slice().is_empty() {
         return Ok(());
     }
-    py.import("ambulo._errors")?.call_method1("warn", (crate::model::listed(findings), 1))?;
+    py.import("ambulo._errors")?.call_method1("warn", (listed(findings), 1))?;
     Ok(())
 }
 

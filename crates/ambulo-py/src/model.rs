@@ -4,7 +4,7 @@
 //! frames that stay in the processor's cache, so an array in Fortran order (columns are contiguous) is read fastest.
 
 use crate::arrays::array_of;
-use crate::failure::{exception, refused, warn};
+use crate::failure::{Listed, exception, listed, refused, warn};
 use crate::recordings::vectors;
 use crate::smoothing::{Cutoff, smoother};
 use ambulo::analysis::feasibility::Person;
@@ -41,16 +41,6 @@ pub(crate) type MotionArray<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
 /// Values, rates or accelerations of a coordinate.
 type Part = fn(&Trajectory, CoordinateId) -> &[f64];
-
-/// Code, severity and message of a finding.
-pub(crate) type Listed = (&'static str, String, String);
-
-pub(crate) fn listed(findings: &Findings) -> Vec<Listed> {
-    let finding = |finding: &ambulo::findings::Finding| {
-        (finding.code.name(), finding.severity().to_string(), finding.message.clone())
-    };
-    findings.as_slice().iter().map(finding).collect()
-}
 
 /// A body: an OpenSim model. `ambulo.model` reads one, `ambulo.calibrate` makes one.
 #[pyclass(frozen, module = "ambulo")]

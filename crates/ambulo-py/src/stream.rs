@@ -2,7 +2,7 @@
 
 use crate::arrays::array_of;
 use crate::calls::SIGNALS;
-use crate::failure::refused;
+use crate::failure::{Listed, listed, refused};
 use crate::model::{Model, MotionArray};
 use crate::smoothing::{Cutoff, smoother};
 use ambulo::analysis::feasibility::Person;
@@ -73,9 +73,9 @@ impl Stream {
     }
 
     /// Warnings and notes about the latest window: code, severity, message.
-    fn findings(&self, py: Python<'_>) -> Vec<(&'static str, String, String)> {
+    fn findings(&self, py: Python<'_>) -> Vec<Listed> {
         py.detach(|| match &*self.lock() {
-            Some(stream) => crate::model::listed(stream.findings()),
+            Some(stream) => listed(stream.findings()),
             None => Vec::new(),
         })
     }
