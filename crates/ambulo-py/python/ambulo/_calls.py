@@ -73,6 +73,7 @@ def forces(
     person: Person | _Path | bytes | None = None,
     predict: bool = False,
     track: bool = False,
+    refit: bool = False,
     ground: bool = True,
     figure: str | None = None,
     markers: _Path | None = None,
@@ -135,6 +136,8 @@ def forces(
         Predict the ground forces even if they were measured, and compare both.
     track : bool, optional
         Change the motion until feet on soft ground alone supply its external forces.
+    refit : bool, optional
+        Change the motion as little as needed so that loaded feet do not slide, before forces are computed.
     ground : bool, optional
         False computes without ground forces.
     figure : str, optional
@@ -219,6 +222,7 @@ def forces(
             "left": left,
             "predict": predict,
             "track": track,
+            "refit": refit,
             "figure": figure,
             "markers": markers,
             "fit": fit,
