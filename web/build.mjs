@@ -53,6 +53,8 @@ function colours() {
     text: style.text,
     quiet: style.quiet,
     accent: style.right,
+    left: style.left,
+    band: style.band,
     bad: style.infeasible,
     control: style.quiet,
   };
@@ -97,6 +99,7 @@ files.set("manifest.webmanifest", JSON.stringify(manifest));
 const names = {
   PROGRAM: add("ambulo.wasm", readFileSync(program)),
   WORKER: add("worker.js", await script("worker")),
+  FAMILY: add("walks.json", readFileSync(join(here, "family/walks.json"))),
   OFFLINE: "offline.js",
 };
 const places = {

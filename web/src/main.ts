@@ -1,14 +1,19 @@
 // The page: takes files, runs the command in a worker, shows the report and saves what was computed.
 
 import { Engine, forbidConnections, Stopped } from "./engine";
+import { type Between, type Family, type Values, Walks } from "./family";
 import { commandLine, type Dropped, type Named, ROLES, type Role, type Stated, withRoles, wordsFor } from "./files";
+import { Preview } from "./preview";
+import { Pushing } from "./pushing";
 import { Sliders } from "./sliders";
+import { KEPT, SCENE } from "./walker";
 import type { Ended, Files } from "./wasi";
 import { zip } from "./zip";
 
 /** Names of the files that this page loads, given by build.mjs. */
 declare const PROGRAM: string;
 declare const WORKER: string;
+declare const FAMILY: string;
 declare const OFFLINE: string;
 
 /** The folder in which the command writes its results. */
@@ -46,6 +51,10 @@ function byId<T extends HTMLElement = HTMLElement>(id: string): T {
 const field = (id: string): HTMLInputElement => byId<HTMLInputElement>(id);
 const control = (id: string): HTMLButtonElement => byId<HTMLButtonElement>(id);
 
+/** What the visitor sees of the result: the report, a walk in between, or a walker who can be pushed. */
+const VIEWS = ["page", "preview", "stage"] as const;
+type View = (typeof VIEWS)[number];
+
 /** The page's state. */
 class Page {
   private engine: Engine | undefined;
@@ -56,7 +65,28 @@ class Page {
   private running = false;
   /** A walk that was asked for while another command runs. */
   private next: string[] | undefined;
-  private readonly sliders = new Sliders(byId<HTMLFormElement>("walk"), (words) => this.walk(words));
+  private view: View = "page";
+  private previews: Preview | undefined;
+  private readonly pushing = new Pushing(
+    {
+      picture: byId("picture"),
+      note: byId("stage-note"),
+      time: byId("stage-time"),
+      play: control("play"),
+      again: control("again"),
+      alone: control("alone"),
+      behind: control("behind"),
+      front: control("front"),
+      faster: field("faster"),
+      fasterText: byId("faster-text"),
+    },
+    (scene) => this.simulate(scene),
+  );
+  private readonly sliders = new Sliders(
+    byId<HTMLFormElement>("walk"),
+    (values) => this.preview(values),
+    (words) => this.walk(words),
+  );
 
   constructor() {
     field("files").addEventListener("change", () => {
@@ -71,6 +101,16 @@ class Page {
       event.preventDefault();
       this.compute();
     });
+    byId("push").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.see("stage");
+      this.open(false);
+      this.pushing.start();
+    });
+    control("back").addEventListener("click", () => this.see("page"));
+    control("save-scene").addEventListener("click", () =>
+      save(new Blob([this.pushing.scene], { type: "text/plain" }), SCENE),
+    );
     control("demo").addEventListener("click", () => this.demo());
     control("stop").addEventListener("click", () => this.engine?.stop());
     control("toggle").addEventListener("click", () => this.open(byId("input").classList.contains("closed")));
@@ -80,9 +120,14 @@ class Page {
 
   /** Loads the program, forbids connections, and shows the demo. */
   async start(): Promise<void> {
-    const [module, script] = await Promise.all([program(), fetch(WORKER).then((answer) => answer.text())]);
+    const [module, script, family] = await Promise.all([
+      program(),
+      fetch(WORKER).then((answer) => answer.text()),
+      fetch(FAMILY).then((answer) => answer.json() as Promise<Family>),
+    ]);
     keepOffline();
     forbidConnections(document);
+    this.previews = new Preview(byId("preview"), new Walks(family));
     this.engine = new Engine(module, script);
     this.refresh();
     if (this.files.length === 0) {
@@ -175,8 +220,11 @@ class Page {
     control("compute").disabled = !ready || this.files.length === 0;
     control("demo").disabled = !ready;
     control("stop").hidden = !this.running;
-    for (const slider of byId("walk").querySelectorAll<HTMLInputElement | HTMLButtonElement>("input, button")) {
-      slider.disabled = this.engine === undefined;
+    for (const part of document.querySelectorAll<HTMLInputElement | HTMLButtonElement>("#walk :is(input, button)")) {
+      part.disabled = this.engine === undefined;
+    }
+    for (const part of document.querySelectorAll<HTMLButtonElement>("#push button")) {
+      part.disabled = !ready;
     }
     control("save-report").disabled = this.running || !this.shown?.report;
     control("save-all").disabled = this.running || !this.shown;
@@ -191,6 +239,37 @@ class Page {
 
   private async demo(): Promise<void> {
     await this.run([...DEMO, ...ONLY_REPORT], new Map(), "demo", DEMO);
+  }
+
+  /** Shows a walk that is interpolated, until the exact one is solved. */
+  private preview(values: Values): Between | undefined {
+    const walk = this.previews?.show(values);
+    if (this.view !== "preview") {
+      this.see("preview");
+      // On a narrow screen, sliders and preview share it from now on.
+      document.activeElement?.scrollIntoView({ block: "center" });
+    }
+    return walk;
+  }
+
+  private see(view: View): void {
+    this.view = view;
+    document.body.dataset["view"] = view;
+    for (const id of VIEWS) {
+      byId(id).hidden = id !== view;
+    }
+  }
+
+  /** The results of a scene for the walker; none if the visitor stopped it or it failed. */
+  private async simulate(scene: string): Promise<Files | undefined> {
+    const words = ["simulate", SCENE, "--keep", KEPT, "-o", "out"];
+    const ended = await this.command(words, new Map([[SCENE, new TextEncoder().encode(scene)]]));
+    if (ended && ended.code > 1) {
+      this.fail(ended.complained.trim());
+    } else if (ended) {
+      this.say("The walker's walk is computed.");
+    }
+    return ended && ended.code <= 1 ? results(ended) : undefined;
   }
 
   /** A walk without files; the one before is given up. */
@@ -211,30 +290,41 @@ class Page {
   }
 
   private async run(words: string[], files: Files, name: string, all?: string[]): Promise<void> {
+    const start = performance.now();
+    const ended = await this.command(words, files);
+    if (ended) {
+      this.show(ended, { name, all }, (performance.now() - start) / 1000);
+      this.refresh();
+    }
+    if (this.next) {
+      const words = this.next;
+      this.next = undefined;
+      await this.walk(words);
+    } else if (this.view === "preview") {
+      this.see("page");
+    }
+  }
+
+  /** Runs a command; none if another one runs, if the visitor stops it, or if it ends early. */
+  private async command(words: string[], files: Files): Promise<Ended | undefined> {
     if (!this.engine || this.running) {
-      return;
+      return undefined;
     }
     this.running = true;
-    const start = performance.now();
     this.say(`Computing: ${commandLine(words)} ...`);
     this.refresh();
     try {
-      const ended = await this.engine.run(words, files);
-      this.running = false;
-      this.show(ended, { name, all }, (performance.now() - start) / 1000);
+      return await this.engine.run(words, files);
     } catch (thrown) {
-      this.running = false;
       if (!this.next) {
         this.fail(
           thrown instanceof Stopped ? "Stopped. The result before is unchanged." : `The program ended early: ${thrown}`,
         );
       }
-    }
-    this.refresh();
-    if (this.next) {
-      const words = this.next;
-      this.next = undefined;
-      await this.walk(words);
+      return undefined;
+    } finally {
+      this.running = false;
+      this.refresh();
     }
   }
 
@@ -249,6 +339,7 @@ class Page {
       return;
     }
     byId("error").hidden = true;
+    this.see("page");
     this.shown = { name, report, files, all };
     const isShown = (): void => {
       performance.mark("shown");

@@ -1,6 +1,7 @@
 // Sliders for a walk without files. They start at the values of the demo walk, so no default is written twice; only those that were moved become
 // options of the command.
 
+import type { Between, Values } from "./family";
 import { wordsOfWalk } from "./files";
 
 /** A slider, the option that it sets, and where a summary has its value. */
@@ -26,6 +27,8 @@ const SLIDERS: Slider[] = [
   { option: "slope", unit: "%", digits: 0, valueIn: () => undefined },
 ];
 
+const [SPEED, STEP] = ["speed", "step-length"] as const;
+
 /** After so long without a further move, a slider is at rest [ms]. */
 const REST_MS = 300;
 
@@ -34,16 +37,23 @@ export class Sliders {
   private readonly moved = new Set<string>();
   private timer = 0;
 
-  /** `compute` is called with the words of the command when a slider is released. */
+  /** `preview` is called while a slider moves, `compute` with the words of the command when it is released. */
   constructor(
     private readonly form: HTMLFormElement,
+    private readonly preview: (values: Values) => Between | undefined,
     private readonly compute: (words: string[]) => void,
   ) {
     for (const slider of SLIDERS) {
       const input = this.input(slider);
       input.addEventListener("input", () => {
+        clearTimeout(this.timer);
         this.moved.add(slider.option);
+        if (slider.option === STEP) {
+          // Otherwise the speed would follow from the step length.
+          this.moved.add(SPEED);
+        }
         this.label(slider);
+        this.follow(this.preview(this.values()));
       });
       input.addEventListener("change", () => {
         clearTimeout(this.timer);
@@ -69,8 +79,30 @@ export class Sliders {
     }
   }
 
+  /** A step length that the visitor did not set is that of the walk. */
+  private follow(walk: Between | undefined): void {
+    const step = SLIDERS.find(({ option }) => option === STEP);
+    if (walk && step && !this.moved.has(STEP)) {
+      this.input(step).value = String(walk.stepLength);
+      this.label(step);
+    }
+  }
+
+  private values(): Values {
+    const value = (option: string): number => (this.form.elements.namedItem(option) as HTMLInputElement).valueAsNumber;
+    return {
+      speed: value(SPEED),
+      stepLength: this.moved.has(STEP) ? value(STEP) : undefined,
+      height: value("height"),
+      mass: value("mass"),
+      slope: value("slope"),
+    };
+  }
+
   private words(): string[] {
-    const moved = SLIDERS.filter(({ option }) => this.moved.has(option));
+    // Level ground is no condition: the walk is then near the curves of people.
+    const isLevel = ({ option }: Slider): boolean => option === "slope" && this.values().slope === 0;
+    const moved = SLIDERS.filter((slider) => this.moved.has(slider.option) && !isLevel(slider));
     return wordsOfWalk(moved.map((slider) => [slider.option, this.input(slider).value]));
   }
 

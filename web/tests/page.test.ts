@@ -6,6 +6,8 @@ import { join } from "node:path";
 import { after, before, type TestContext, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { closeBrowser, type Page } from "../../viewer/e2e/page";
+import { readSolved } from "../family/solved";
+import { POINTS, QUANTITIES, type Values, Walks } from "../src/family";
 import { difference, native } from "./results";
 import { compute, host, saved, shown, visit } from "./site";
 import { unzip } from "./unit/archive";
@@ -14,6 +16,7 @@ import { unzip } from "./unit/archive";
 const REPOSITORY = fileURLToPath(new URL("../../..", import.meta.url));
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const RECORDING = join(REPOSITORY, "crates/ambulo-cli/tests/recording");
+const FAMILY = join(REPOSITORY, "web/family/walks.json");
 const CHILDREN = join(process.env["AMBULO_DATA"] ?? join(REPOSITORY, "../shared"), "data/biomechzoo-HC032A");
 const SHOTS = process.env["SHOTS"] ?? "";
 const DESKTOP = { width: 1280, height: 800 };
@@ -31,6 +34,10 @@ const FITTED: Limits = [
   [/^(kinematics\.mot|cycles\.csv)$/, 1e-3],
   [/./, 1e-6],
 ];
+/** A walk between those that were solved beforehand: speed [m/s] and mass [kg]. */
+const HELD_OUT = { speed: 1.15, mass: 90 };
+/** So many interpolated walks must be shown while a slider moves. */
+const UPDATES_PER_S = 10;
 /** Times that a visitor should wait at most [s]. */
 const DEMO_S = 2;
 const RECORDING_S = 3;
@@ -59,7 +66,7 @@ async function isSame(
   words: string[],
   inputs: string[],
   limits: Limits,
-): Promise<void> {
+): Promise<Map<string, Buffer>> {
   const { content } = await saved(page, "#save-all");
   const found = unzip(content);
   const expected = native(words, inputs).files;
@@ -76,6 +83,48 @@ async function isSame(
   }
   const said = worst.map((off, row) => `${off.toExponential(1)} (limit ${limits[row]?.[1].toExponential(0)})`);
   context.diagnostic(`${expected.size} files, numbers differ from the program's by at most ${said.join("; ")}`);
+  return found;
+}
+
+/** Moves the slider of the speed for some seconds; how many different walks were drawn per second. */
+async function updates(seconds: number): Promise<number> {
+  const slider = document.querySelector<HTMLInputElement>("#walk [name=speed]") as HTMLInputElement;
+  const was = slider.value;
+  const start = performance.now();
+  let [count, last] = [0, ""];
+  while (performance.now() < start + 1000 * seconds) {
+    slider.value = String(1 + 0.05 * ((count % 9) - 4));
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    const drawn = document.querySelector("#preview .curve")?.getAttribute("d") ?? "";
+    count += Number(drawn !== last);
+    last = drawn;
+    // The frame with this walk.
+    await new Promise(requestAnimationFrame);
+  }
+  slider.value = was;
+  return count / seconds;
+}
+
+/** Checks that the interpolated walk differs from the exact one by no more than the page states; returns the words of its first panel. */
+function isNear(
+  context: TestContext,
+  files: Map<string, Buffer>,
+  at: Pick<Values, "speed" | "height" | "mass">,
+): string {
+  const walk = new Walks(JSON.parse(readFileSync(FAMILY, "utf8"))).at({ ...at, stepLength: undefined, slope: 0 });
+  assert.ok(walk, "a walk of the family");
+  const exact = readSolved(files);
+  const shares = QUANTITIES.map(({ name }) => {
+    const { largest } = walk.error(name);
+    const off = Math.max(
+      ...walk.curve(name).map((value, index) => Math.abs(value - exact.value(name, index / (POINTS - 1)))),
+    );
+    assert.ok(off <= largest, `${name}: interpolated with an error of ${off}, stated ${largest}`);
+    return off / largest;
+  });
+  context.diagnostic(`interpolated walk: differs by at most ${Math.max(...shares).toFixed(2)} of the stated errors`);
+  const [least, most] = [Math.min(...walk.curve("hip_flexion")), Math.max(...walk.curve("hip_flexion"))];
+  return `Hip flexion: from ${least.toFixed(1)} to ${most.toFixed(1)} °`;
 }
 
 test("the demo is shown at once and is the program's", async (context) => {
@@ -328,17 +377,70 @@ test("a walk follows the sliders", async (context) => {
     assert.ok(Math.abs((await value("speed")) - walk.speed_asked_m_s) < 0.03);
     assert.ok(Math.abs((await value("step-length")) - walk.step_length_m) < 0.006);
     assert.equal(await value("mass"), mass_kg);
+    const rate = await page.evaluate(updates, 1);
+    context.diagnostic(`${rate.toFixed(0)} interpolated walks are shown per second`);
+    assert.ok(rate >= UPDATES_PER_S, `${rate} per second`);
     await page.focus("#walk [name=speed]");
+    await page.locator("#walk [name=speed]").fill(String(HELD_OUT.speed));
     await page.keyboard.press("ArrowRight");
+    await page.locator("#walk [name=mass]").fill(String(HELD_OUT.mass - 1));
+    await page.focus("#walk [name=mass]");
     await page.keyboard.press("ArrowRight");
+    assert.ok((await page.isVisible("#preview")) && (await page.isHidden("#page")), "the preview is shown");
+    const preview = await page.getAttribute("#preview .chart svg", "aria-label");
     await shown(page, "walk");
-    const speed = String(await value("speed"));
+    assert.ok((await page.isHidden("#preview")) && (await page.isVisible("#page iframe")), "the exact walk is shown");
     context.diagnostic((await page.textContent("#status")) ?? "");
-    await isSame(context, page, ["walk", "--speed", speed, "-o", "out"], [], SOLVED);
+    const speed = await value("speed");
+    const words = ["walk", "--speed", String(speed), "--mass", String(HELD_OUT.mass), "-o", "out"];
+    const files = await isSame(context, page, words, [], SOLVED);
+    const height = await value("height");
+    assert.equal(isNear(context, files, { speed, height, mass: HELD_OUT.mass }), preview);
     await page.click("#walk button[type=reset]");
     for (const begin of ["Computing: ambulo walk -o out", "walk: computed"]) {
       await page.waitForFunction((begin) => document.querySelector("#status")?.textContent?.startsWith(begin), begin);
     }
+    assert.deepEqual(complaints, []);
+  });
+});
+
+test("a walker can be pushed, and falls or not as the program says of the same scene", async (context) => {
+  await visit(async ({ page, complaints }) => {
+    await shown(page, "demo");
+    const note = async (pattern: RegExp): Promise<string> => {
+      const matches = ([source]: string[]): boolean =>
+        new RegExp(source as string).test(document.querySelector("#stage-note")?.textContent ?? "");
+      await page.waitForFunction(matches, [pattern.source], { timeout: 60_000 });
+      return (await page.textContent("#stage-note")) ?? "";
+    };
+    await page.click("#push button");
+    await note(/^The walker does not fall/);
+    const picture = await page.locator("#picture svg").boundingBox();
+    assert.ok(picture);
+    const [x, y] = [picture.x + 0.2 * picture.width, picture.y + 0.5 * picture.height];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 0.1 * picture.width, y, { steps: 3 });
+    const start = performance.now();
+    await page.mouse.up();
+    context.diagnostic(await note(/^1 ball.*does not fall/));
+    context.diagnostic(`a push is computed in ${((performance.now() - start) / 1000).toFixed(1)} s`);
+    await page.fill("#faster", "20");
+    await page.focus("#front");
+    await page.keyboard.press("Enter");
+    context.diagnostic(await note(/^2 balls.*(fall|fell)/));
+    const { name, content } = await saved(page, "#save-scene");
+    const path = join(demo, name);
+    writeFileSync(path, content);
+    const { findings } = JSON.parse(
+      native(["simulate", name, "--keep", "poses", "-o", "out"], [path]).files.get("summary.json")?.toString() ?? "",
+    );
+    const fell = findings.some(({ code }: { code: string }) => code === "figure.fell");
+    assert.match((await page.textContent("#stage-note")) ?? "", fell ? /The walker fell/ : /does not fall/);
+    mkdirSync(SHOTS, { recursive: true });
+    await page.screenshot({ path: join(SHOTS, "web-walker.png") });
+    await page.click("#back");
+    assert.ok(await page.isVisible("#page iframe"));
     assert.deepEqual(complaints, []);
   });
 });

@@ -31,6 +31,7 @@ usage: cargo xtask <command>
                     [--with PROGRAM: in an environment of another Python] [--measure: build the wheel for users with maturin and
                     print its size and times] [--free-threaded: compile the module for free-threaded Python]
   web               build the page that computes in the browser into target/page  [--test: and test it in Chromium]
+                    [--family: solve the walks between which its sliders interpolate: web/family/walks.json]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]

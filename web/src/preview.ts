@@ -1,0 +1,271 @@
+// The walk while a slider moves: interpolated curves with their error, and the figure that walks.
+
+import { type Between, POINTS, QUANTITIES, type Values, type Walks } from "./family";
+
+/** A panel: a curve of the family and its words. */
+interface Panel {
+  name: string;
+  title: string;
+  unit: string;
+  digits: number;
+}
+
+const JOINTS = [
+  ["hip_flexion", "Hip flexion", "Hip"],
+  ["knee_flexion", "Knee flexion", "Knee"],
+  ["ankle_dorsiflexion", "Ankle dorsiflexion", "Ankle"],
+] as const;
+
+const PANELS: Panel[] = [
+  ...JOINTS.map(([name, title]) => ({ name, title, unit: "°", digits: 1 })),
+  ...JOINTS.map(([name, , title]) => ({ name: `${name}_moment`, title: `${title} moment`, unit: "N.m/kg", digits: 2 })),
+  ...JOINTS.map(([name, , title]) => ({ name: `${name}_power`, title: `${title} power`, unit: "W/kg", digits: 2 })),
+  { name: "ground_force_vertical", title: "Vertical ground force", unit: "BW", digits: 2 },
+  { name: "ground_force_fore_aft", title: "Forward ground force", unit: "BW", digits: 2 },
+  { name: "ground_force_lateral", title: "Sideways ground force", unit: "BW", digits: 2 },
+];
+
+/** Width and height of the drawing of a panel; it is stretched to its place. */
+const [WIDTH, HEIGHT] = [200, 80];
+/** Length of an arrow for one body weight [m]. */
+const ARROW_M = 0.5;
+/** Smaller forces have no arrow [body weights]. */
+const LIGHT = 0.02;
+/** Distance of the marks on the ground [m]. */
+const MARK_M = 0.5;
+/** Half the width of the picture of the figure [m]. */
+const HALF_M = 0.8;
+/** The figure stands still at this share of the cycle where motion is not wanted. */
+const STILL = 0.12;
+
+const SVG = "http://www.w3.org/2000/svg";
+
+function drawn<K extends keyof SVGElementTagNameMap>(
+  parent: Element,
+  tag: K,
+  attributes: Record<string, string | number>,
+): SVGElementTagNameMap[K] {
+  const element = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    element.setAttribute(name, String(value));
+  }
+  parent.append(element);
+  return element;
+}
+
+function written(parent: Element, tag: string, className: string, text = ""): HTMLElement {
+  const element = document.createElement(tag);
+  element.className = className;
+  element.textContent = text;
+  parent.append(element);
+  return element;
+}
+
+const pathOf = (points: readonly (readonly [number, number])[]): string =>
+  points.map(([x, y], index) => `${index === 0 ? "M" : "L"}${x.toFixed(2)} ${y.toFixed(2)}`).join("");
+
+/** One curve over the gait cycle. */
+class Chart {
+  private readonly drawing: SVGSVGElement;
+  private readonly zero: SVGElement;
+  private readonly off: SVGElement;
+  private readonly band: SVGElement;
+  private readonly line: SVGElement;
+  private readonly high: HTMLElement;
+  private readonly low: HTMLElement;
+  private readonly error: HTMLElement;
+
+  /** `range` is that of all walks of the family, for a leg of 1 m. */
+  constructor(
+    parent: Element,
+    private readonly panel: Panel,
+    private readonly range: readonly [number, number],
+    private readonly power: number,
+  ) {
+    const figure = written(parent, "figure", "");
+    const caption = written(figure, "figcaption", "", `${panel.title} `);
+    written(caption, "span", "", panel.unit);
+    const frame = written(figure, "div", "chart");
+    this.high = written(frame, "span", "high");
+    this.low = written(frame, "span", "low");
+    this.drawing = drawn(frame, "svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", role: "img" });
+    this.zero = drawn(this.drawing, "line", { class: "zero", x1: 0, x2: WIDTH });
+    this.off = drawn(this.drawing, "line", { class: "off", y1: 0, y2: HEIGHT });
+    this.band = drawn(this.drawing, "path", { class: "band" });
+    this.line = drawn(this.drawing, "path", { class: "curve" });
+    this.error = written(figure, "p", "error");
+  }
+
+  show(walk: Between): void {
+    const { name, title, unit, digits } = this.panel;
+    const scale = walk.leg ** this.power;
+    const margin = 0.05 * (this.range[1] - this.range[0]);
+    const [low, high] = [scale * (this.range[0] - margin), scale * (this.range[1] + margin)];
+    const across = (index: number): number => (WIDTH * index) / (POINTS - 1);
+    const up = (value: number): number => (HEIGHT * (high - value)) / (high - low);
+    const curve = walk.curve(name);
+    const { rms, largest } = walk.error(name);
+    const moved = (by: number): [number, number][] => Array.from(curve, (value, i) => [across(i), up(value + by)]);
+    this.line.setAttribute("d", pathOf(moved(0)));
+    this.band.setAttribute("d", `${pathOf([...moved(rms), ...moved(-rms).reverse()])}Z`);
+    this.zero.setAttribute("transform", `translate(0 ${up(0)})`);
+    this.off.setAttribute("transform", `translate(${WIDTH * (0.5 + walk.support)} 0)`);
+    const word = (value: number): string => value.toFixed(digits);
+    this.high.textContent = (scale * this.range[1]).toFixed(1);
+    this.low.textContent = (scale * this.range[0]).toFixed(1);
+    this.error.textContent = `± ${word(rms)}, at most ${word(largest)}`;
+    const [least, most] = [Math.min(...curve), Math.max(...curve)];
+    this.drawing.setAttribute("aria-label", `${title}: from ${word(least)} to ${word(most)} ${unit}`);
+  }
+}
+
+type Place = readonly [x: number, y: number];
+
+/** The figure in the sagittal plane. */
+class Figure {
+  private readonly drawing: SVGSVGElement;
+  private readonly tilted: SVGElement;
+  private readonly marks: SVGElement;
+  private readonly parts: Record<"left" | "trunk" | "right", SVGElement>;
+  private readonly head: SVGElement;
+  private readonly arrows: Record<"left" | "right", SVGElement>;
+  private curves = new Map<string, Float64Array>();
+
+  constructor(parent: Element) {
+    this.drawing = drawn(parent, "svg", { class: "figure", role: "img" });
+    this.drawing.setAttribute("aria-label", "The figure walks, seen from its right side, with the ground forces");
+    this.tilted = drawn(this.drawing, "g", {});
+    drawn(this.tilted, "line", { class: "ground", x1: -2 * HALF_M, x2: 2 * HALF_M, y1: 0, y2: 0 });
+    this.marks = drawn(this.tilted, "path", { class: "ground" });
+    const part = (name: string): SVGElement => drawn(this.tilted, "path", { class: name });
+    this.arrows = { left: part("left arrow"), right: part("right arrow") };
+    this.parts = { left: part("left"), trunk: part("trunk"), right: part("right") };
+    this.head = drawn(this.tilted, "circle", { class: "trunk" });
+  }
+
+  take(walk: Between, slope: number): void {
+    const names = QUANTITIES.map(({ name }) => name).filter((name) => /_[xy]$|^ground_force/.test(name));
+    this.curves = new Map(names.map((name) => [name, walk.curve(name)]));
+    const top = 2.15 * walk.leg;
+    const half = HALF_M;
+    this.drawing.setAttribute("viewBox", `${-half} ${-top} ${2 * half} ${top + 0.3}`);
+    // Places are those along and across the ground.
+    this.tilted.setAttribute("transform", `rotate(${(-Math.atan(slope / 100) * 180) / Math.PI})`);
+  }
+
+  private value(name: string, share: number): number {
+    const curve = this.curves.get(name) ?? new Float64Array(POINTS);
+    const at = (share - Math.floor(share)) * (POINTS - 1);
+    const index = Math.min(Math.floor(at), POINTS - 2);
+    const [a, b] = [curve[index] ?? 0, curve[index + 1] ?? 0];
+    return a + (at - index) * (b - a);
+  }
+
+  private place(joint: string, share: number): Place {
+    return [this.value(`${joint}_x`, share), -this.value(`${joint}_y`, share)];
+  }
+
+  /** Draws the figure at a share of the cycle, after it has walked a distance [m]. */
+  draw(share: number, walked: number): void {
+    const middle = (joint: string): Place => {
+      const [a, b] = [this.place(joint, share), this.place(joint, share + 0.5)];
+      return [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+    };
+    for (const [side, at] of [
+      ["right", share],
+      ["left", share + 0.5],
+    ] as const) {
+      this.parts[side].setAttribute(
+        "d",
+        pathOf(["hip", "knee", "ankle", "ball"].map((joint) => this.place(joint, at))),
+      );
+      this.arrows[side].setAttribute("d", this.arrow(at));
+    }
+    const [hip, shoulder] = [middle("hip"), middle("shoulder")];
+    const [x, y] = [shoulder[0] - hip[0], shoulder[1] - hip[1]];
+    this.parts.trunk.setAttribute("d", pathOf([hip, shoulder]));
+    this.head.setAttribute("transform", `translate(${shoulder[0] + 0.42 * x} ${shoulder[1] + 0.42 * y})`);
+    this.head.setAttribute("r", String(0.22 * Math.hypot(x, y)));
+    const first = -(walked % MARK_M) - 4 * MARK_M;
+    const marks = Array.from({ length: 9 }, (_, index) => first + index * MARK_M);
+    this.marks.setAttribute("d", marks.map((mark) => `M${mark} 0l-0.05 0.08`).join(""));
+  }
+
+  private arrow(share: number): string {
+    const [forward, up] = [this.value("ground_force_fore_aft", share), this.value("ground_force_vertical", share)];
+    if (up < LIGHT) {
+      return "";
+    }
+    const from: Place = [this.value("pressure_x", share), 0];
+    const to: Place = [from[0] + ARROW_M * forward, -ARROW_M * up];
+    const [x, y] = [to[0] - from[0], to[1] - from[1]];
+    const wing = (turn: number): Place => {
+      const length = 0.06 / Math.hypot(x, y);
+      return [to[0] - length * (x - turn * y), to[1] - length * (y + turn * x)];
+    };
+    return `${pathOf([from, to])}${pathOf([wing(0.5), to, wing(-0.5)])}`;
+  }
+}
+
+/** The preview of a walk. */
+export class Preview {
+  private readonly note: HTMLElement;
+  private readonly drawings: HTMLElement;
+  private readonly charts: Chart[];
+  private readonly figure: Figure;
+  private walk: Between | undefined;
+  private speed = 0;
+  private share = STILL;
+  private walked = 0;
+  private drawnAt = 0;
+
+  constructor(
+    private readonly element: HTMLElement,
+    private readonly walks: Walks,
+  ) {
+    this.drawings = written(element, "div", "drawings");
+    this.note = written(element, "p", "note");
+    this.figure = new Figure(this.drawings);
+    const charts = written(this.drawings, "div", "charts");
+    this.charts = PANELS.map((panel) => {
+      const row = QUANTITIES.findIndex(({ name }) => name === panel.name);
+      return new Chart(charts, panel, walks.family.ranges[row] ?? [0, 1], QUANTITIES[row]?.power ?? 0);
+    });
+  }
+
+  /** Shows the walk with these values, while the element is not hidden, and returns it; none if no walks near it were solved beforehand. */
+  show(values: Values): Between | undefined {
+    const walk = this.walks.at(values);
+    const begins = this.element.hidden || !this.walk;
+    this.walk = walk;
+    this.speed = values.speed;
+    this.drawings.hidden = !walk;
+    this.note.textContent = walk
+      ? `Preview, interpolated between walks that were solved beforehand${values.slope === 0 ? "" : " (predicted, on a slope)"}. Right leg over its cycle; the left leg does the same half a cycle later. ±: difference from an exact walk, measured nearby (root mean square, and largest). BW: body weights.`
+      : "No walks near these values were solved beforehand.";
+    if (walk) {
+      for (const chart of this.charts) {
+        chart.show(walk);
+      }
+      this.figure.take(walk, values.slope);
+      this.figure.draw(this.share, this.walked);
+      if (begins && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
+        this.drawnAt = performance.now();
+        requestAnimationFrame((now) => this.step(now));
+      }
+    }
+    return walk;
+  }
+
+  private step(now: number): void {
+    if (this.element.hidden || !this.walk) {
+      return;
+    }
+    const passed = Math.max(now - this.drawnAt, 0) / 1000;
+    this.drawnAt = now;
+    this.share = (this.share + passed / this.walk.cycle_s) % 1;
+    this.walked += passed * this.speed;
+    this.figure.draw(this.share, this.walked);
+    requestAnimationFrame((next) => this.step(next));
+  }
+}
