@@ -1,21 +1,23 @@
-// Builds the page into a folder that any static host can serve: `node web/build.mjs PROGRAM.wasm FOLDER`. The tools are those of viewer/.
+// Builds the page and the documents into a folder that any static host can serve: `node web/build.mjs PROGRAM.wasm FOLDER [API]`. API is the folder
+// of cargo's documentation, which becomes part of it. The tools are those of viewer/.
 //
 // Every file but three has a hash of its content in its name, so a browser never mixes two versions: index.html, the manifest and the
 // service worker keep theirs.
 import { createHash } from "node:crypto";
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
+import { writeDocuments } from "./documents/documents.mjs";
+import { colours, REPORT } from "./style.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const data = join(here, "../crates/ambulo-report/data/report");
 const { build } = createRequire(join(here, "../viewer/package.json"))("esbuild");
 
-const [program, folder] = process.argv.slice(2);
+const [program, folder, api] = process.argv.slice(2);
 if (!folder) {
-  throw new Error("usage: node web/build.mjs PROGRAM.wasm FOLDER");
+  throw new Error("usage: node web/build.mjs PROGRAM.wasm FOLDER [API]");
 }
 
 /** Files of the page by name. */
@@ -45,30 +47,10 @@ async function script(entry, define = {}, format = "iife") {
   return Buffer.from(result.outputFiles[0].contents);
 }
 
-/** The colours of the report page. */
-function colours() {
-  const style = JSON.parse(readFileSync(join(data, "style.json"), "utf8"));
-  const names = {
-    paper: style.paper,
-    text: style.text,
-    quiet: style.quiet,
-    accent: style.right,
-    left: style.left,
-    band: style.band,
-    bad: style.infeasible,
-    control: style.quiet,
-  };
-  const rules = (key) =>
-    `:root{${Object.entries(names)
-      .map(([name, colour]) => `--${name}:${colour[key]}`)
-      .join(";")}}`;
-  return `${rules("color")}\n@media (prefers-color-scheme: dark){${rules("dark")}}\n`;
-}
-
 /** What the page may do until the program is loaded; engine.ts forbids the rest then. The report's own script is known by its hash. */
 function policy() {
   const report = createHash("sha256")
-    .update(readFileSync(join(data, "viewer.js")))
+    .update(readFileSync(join(REPORT, "viewer.js")))
     .digest("base64");
   return [
     "default-src 'none'",
@@ -130,3 +112,8 @@ for (const [name, content] of files) {
   process.stdout.write(`${name}: ${(packed / 1e3).toFixed(1)} kB compressed\n`);
 }
 process.stdout.write(`${folder}: ${files.size} files, ${(bytes / 1e6).toFixed(2)} MB compressed\n`);
+if (api) {
+  cpSync(api, join(folder, "api"), { recursive: true });
+}
+const documents = writeDocuments(join(folder, "documents"), api !== undefined);
+process.stdout.write(`${join(folder, "documents")}: ${documents} files\n`);

@@ -2,7 +2,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { after } from "node:test";
 import { pathToFileURL } from "node:url";
-import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
+import { type Browser, type BrowserContextOptions, chromium, firefox, type Page } from "playwright-core";
 
 export type { BrowserContextOptions, Page };
 
@@ -14,18 +14,29 @@ export const PHONE = { width: 390, height: 844 };
 
 /** Paths searched for Chromium if the variable CHROMIUM is not set. */
 const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+/** Paths searched for Firefox if the variable FIREFOX is not set. */
+const FIREFOX = ["/usr/bin/firefox-esr", "/usr/bin/firefox"];
 /** WebGL without a graphics card. */
 const ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
 let running: Promise<Browser> | null = null;
 
+/** The tests run in Firefox, an unchanged one that is driven by WebDriver BiDi, if the variable BROWSER says so. */
+export const IN_FIREFOX = process.env["BROWSER"] === "firefox";
+
+function pathOf(name: "CHROMIUM" | "FIREFOX", paths: string[]): string {
+  const path = process.env[name] ?? paths.find((path) => existsSync(path));
+  if (!path) {
+    throw new Error(`the browser was not found: install it, or set ${name} to its path`);
+  }
+  return path;
+}
+
 /** The browser, which is started when it is first needed. */
 export function browser(): Promise<Browser> {
-  const executablePath = process.env["CHROMIUM"] ?? CHROMIUM.find((path) => existsSync(path));
-  if (!executablePath) {
-    throw new Error("Chromium was not found: install it, or set CHROMIUM to its path");
-  }
-  running ??= chromium.launch({ executablePath, args: ARGUMENTS });
+  running ??= IN_FIREFOX
+    ? firefox.launch({ channel: "moz-firefox", executablePath: pathOf("FIREFOX", FIREFOX) })
+    : chromium.launch({ executablePath: pathOf("CHROMIUM", CHROMIUM), args: ARGUMENTS });
   return running;
 }
 

@@ -112,7 +112,7 @@ export interface Between {
   /** Shares of the cycle. */
   support: number;
   curve(name: string): Float64Array;
-  /** Error of a curve at the centre of the cell: root of the mean square over the cycle, and largest. */
+  /** Error of a curve, measured nearby: root of the mean square over the cycle, and largest. */
   error(name: string): { rms: number; largest: number };
 }
 
@@ -193,17 +193,28 @@ function axesOf({ axes: { speed, step, slope } }: Grid): readonly (readonly numb
   return [speed, step, slope];
 }
 
-/** The errors of the cell with a point. */
+/**
+ * The errors near a point: those of its cell and of the cells with the next lower and higher speeds, whose persons differ. The root mean square is that
+ * of all, the largest error the largest of them; none if the error of the cell itself is not known.
+ */
 function errorsAt(grid: Grid, point: readonly number[]): Errors | undefined {
-  let cell = 0;
-  for (const [direction, axis] of axesOf(grid).entries()) {
-    const place = between(axis, point[direction] ?? 0);
-    if (!place) {
-      return undefined;
+  const axes = axesOf(grid);
+  const cells = axes.map((axis) => Math.max(axis.length - 1, 1));
+  const own = axes.map((axis, direction) => between(axis, point[direction] ?? 0)?.index ?? 0);
+  const at = (faster: number): Errors | undefined => {
+    const speed = (own[0] ?? 0) + faster;
+    const isCell = speed >= 0 && speed < (cells[0] ?? 0);
+    const cell = (speed * (cells[1] ?? 1) + (own[1] ?? 0)) * (cells[2] ?? 1) + (own[2] ?? 0);
+    return (isCell && grid.errors[cell]) || undefined;
+  };
+  const near = [-1, 0, 1].map(at).filter((errors) => errors !== undefined);
+  const of = (kind: keyof Errors, row: number): number[] => near.map((errors) => errors[kind][row] ?? 0);
+  return (
+    at(0) && {
+      rms: QUANTITIES.map((_, row) => Math.hypot(...of("rms", row)) / Math.sqrt(near.length)),
+      largest: QUANTITIES.map((_, row) => Math.max(...of("largest", row))),
     }
-    cell = cell * Math.max(axis.length - 1, 1) + place.index;
-  }
-  return grid.errors[cell] ?? undefined;
+  );
 }
 
 /** The samples of a stored walk in the steps of their quantities. */

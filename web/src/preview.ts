@@ -61,6 +61,13 @@ function written(parent: Element, tag: string, className: string, text = ""): HT
   return element;
 }
 
+/** Changes a text only if it differs: the page is laid out anew after a change. */
+function say(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) {
+    element.textContent = text;
+  }
+}
+
 const pathOf = (points: readonly (readonly [number, number])[]): string =>
   points.map(([x, y], index) => `${index === 0 ? "M" : "L"}${x.toFixed(2)} ${y.toFixed(2)}`).join("");
 
@@ -111,9 +118,9 @@ class Chart {
     this.zero.setAttribute("transform", `translate(0 ${up(0)})`);
     this.off.setAttribute("transform", `translate(${WIDTH * (0.5 + walk.support)} 0)`);
     const word = (value: number): string => value.toFixed(digits);
-    this.high.textContent = (scale * this.range[1]).toFixed(1);
-    this.low.textContent = (scale * this.range[0]).toFixed(1);
-    this.error.textContent = `± ${word(rms)}, at most ${word(largest)}`;
+    say(this.high, (scale * this.range[1]).toFixed(1));
+    say(this.low, (scale * this.range[0]).toFixed(1));
+    say(this.error, `± ${word(rms)}, at most ${word(largest)}`);
     const [least, most] = [Math.min(...curve), Math.max(...curve)];
     this.drawing.setAttribute("aria-label", `${title}: from ${word(least)} to ${word(most)} ${unit}`);
   }
@@ -223,6 +230,8 @@ export class Preview {
     private readonly element: HTMLElement,
     private readonly walks: Walks,
   ) {
+    // It scrolls where it is taller than the screen.
+    element.tabIndex = 0;
     this.drawings = written(element, "div", "drawings");
     this.note = written(element, "p", "note");
     this.figure = new Figure(this.drawings);
@@ -240,9 +249,13 @@ export class Preview {
     this.walk = walk;
     this.speed = values.speed;
     this.drawings.hidden = !walk;
-    this.note.textContent = walk
-      ? `Preview, interpolated between walks that were solved beforehand${values.slope === 0 ? "" : " (predicted, on a slope)"}. Right leg over its cycle; the left leg does the same half a cycle later. ±: difference from an exact walk, measured nearby (root mean square, and largest). BW: body weights.`
-      : "No walks near these values were solved beforehand.";
+    const source = `between walks that were solved beforehand${values.slope === 0 ? "" : " (predicted, on a slope)"}`;
+    say(
+      this.note,
+      walk
+        ? `Preview, interpolated ${source}. Right leg over its cycle; the left leg does the same half a cycle later. ±: difference from exact walks, measured nearby (root mean square, and largest). BW: body weights.`
+        : "No walks near these values were solved beforehand.",
+    );
     if (walk) {
       for (const chart of this.charts) {
         chart.show(walk);

@@ -1,5 +1,5 @@
-// Tests the page in Chromium: `node web/tests/run.mjs SITE [NAME]`. SITE is a folder that build.mjs has written. AMBULO names the program
-// whose results the page's are compared with, CHROMIUM the browser, SHOTS a folder for screenshots.
+// Tests the page: `node web/tests/run.mjs SITE [NAME]`. SITE is a folder that build.mjs has written. AMBULO names the program whose results the
+// page's are compared with, SHOTS a folder for screenshots. The browser is Chromium (its path in CHROMIUM), or Firefox (FIREFOX) if BROWSER is firefox.
 import { spawnSync } from "node:child_process";
 import { mkdirSync } from "node:fs";
 import { createRequire } from "node:module";

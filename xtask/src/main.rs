@@ -30,7 +30,8 @@ usage: cargo xtask <command>
   python            make a wheel of the Python package from the module that `cargo test` has compiled, and test it in a bare environment
                     [--with PROGRAM: in an environment of another Python] [--measure: build the wheel for users with maturin and
                     print its size and times] [--free-threaded: compile the module for free-threaded Python]
-  web               build the page that computes in the browser into target/page  [--test: and test it in Chromium]
+  web               build the page that computes in the browser and the documents into target/page
+                    [--test: and test them in Chromium, and in Firefox if it is there]  [--site: with the API documentation]
                     [--family: solve the walks between which its sliders interpolate: web/family/walks.json]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv

@@ -1,8 +1,8 @@
-//! The page that computes in the browser: `cargo xtask web [--test | --family]`.
+//! The page that computes in the browser, and the documents: `cargo xtask web [--test | --site | --family]`.
 //!
 //! Builds the `ambulo` command for WebAssembly with WASI and the page around it into `target/page`, ready for any static host, and prints the size
-//! of its files. With `--test`, tests it in Chromium (`web/tests/page.test.ts`) and compares its results with those of the command. With `--family`,
-//! solves the walks between which its sliders interpolate (`web/family/walks.json`).
+//! of its files. With `--test`, tests it in Chromium and Firefox (`web/tests/page.test.ts`) and compares its results with those of the command. With `--site`, adds the API documentation of the
+//! crates. With `--family`, solves the walks between which its sliders interpolate (`web/family/walks.json`).
 
 use crate::workspace;
 use std::path::{Path, PathBuf};
@@ -10,21 +10,24 @@ use std::process::Command;
 
 /// The target of the compiler.
 pub(crate) const TARGET: &str = "wasm32-wasip1";
+/// Where Firefox is looked for.
+const FIREFOX: [&str; 2] = ["/usr/bin/firefox-esr", "/usr/bin/firefox"];
 /// As much as the first thread of a program usually has; the linker's default is an eighth of it.
 const STACK: &str = "link-arg=-zstack-size=8388608";
 
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
-        [] => build().map(|_| ()),
-        ["--test"] => test(&build()?),
+        [] => build(None).map(|_| ()),
+        ["--test"] => test(&build(None)?),
+        ["--site"] => build(Some(&api()?)).map(|_| ()),
         ["--family"] => solve_family(),
-        _ => Err("usage: cargo xtask web [--test | --family]".to_owned()),
+        _ => Err("usage: cargo xtask web [--test | --site | --family]".to_owned()),
     }
 }
 
-/// Builds the page; returns its folder.
-fn build() -> Result<PathBuf, String> {
+/// Builds the page and the documents, with the folder of the API documentation if there is one; returns its folder.
+fn build(api: Option<&Path>) -> Result<PathBuf, String> {
     if !has_target() {
         return Err(format!("the target {TARGET} is not installed\nhint: `rustup target add {TARGET}` installs it"));
     }
@@ -35,7 +38,7 @@ fn build() -> Result<PathBuf, String> {
     // Not `web`: that is the folder in which cargo keeps the build scripts of the profile.
     let site = workspace::target().join("page");
     let program = workspace::target().join(TARGET).join("web/ambulo.wasm");
-    finish(node("build.mjs").arg(program).arg(&site))?;
+    finish(node("build.mjs").arg(program).arg(&site).args(api))?;
     Ok(site)
 }
 
@@ -54,10 +57,38 @@ pub(crate) fn has_target() -> bool {
     output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir())
 }
 
-/// Tests the page; the command that it is compared with is built as for other tests.
+/// Tests the page in the browsers that are there, of which Chromium must be one; the command that it is compared with is built as for other tests.
+#[expect(clippy::print_stdout, reason = "says which browsers are tested")]
 fn test(site: &Path) -> Result<(), String> {
     finish(workspace::cargo().args(["build", "--locked", "--package", "ambulo-cli"]))?;
-    finish(node("tests/run.mjs").arg(site).env("AMBULO", workspace::debug_program()))
+    let in_browser =
+        |name| finish(node("tests/run.mjs").arg(site).env("AMBULO", workspace::debug_program()).env("BROWSER", name));
+    println!("in Chromium:");
+    in_browser("chromium")?;
+    if !has_firefox() {
+        println!("in Firefox: skipped, it is not installed");
+        return Ok(());
+    }
+    println!("in Firefox:");
+    in_browser("firefox")
+}
+
+/// Whether the tests find Firefox (`viewer/e2e/page.ts`).
+fn has_firefox() -> bool {
+    std::env::var_os("FIREFOX").is_some() || FIREFOX.iter().any(|path| Path::new(path).exists())
+}
+
+/// Writes the API documentation of the crates for users; returns its folder.
+fn api() -> Result<PathBuf, String> {
+    let mut command = workspace::cargo();
+    command.args(["doc", "--locked", "--no-deps", "--lib"]);
+    for package in ["ambulo", "ambulo-formats", "ambulo-results", "ambulo-report"] {
+        command.args(["--package", package]);
+    }
+    // Not the folder of `cargo doc`, which may have the documentation of other crates.
+    let folder = workspace::target().join("api");
+    finish(command.arg("--target-dir").arg(&folder))?;
+    Ok(folder.join("doc"))
 }
 
 /// Solves the walks between which the page interpolates.

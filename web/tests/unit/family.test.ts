@@ -5,6 +5,7 @@ import { fileURLToPath } from "node:url";
 import { solve } from "../../family/command";
 import { sampled, scaledPoints } from "../../family/solved";
 import {
+  type Errors,
   encode,
   type Family,
   type Grid,
@@ -67,6 +68,28 @@ test("walks of the table are themselves, others linear between them, and there i
   assert.equal(height(0.45, 0.95), 2.5);
   assert.equal(height(0.39, 1), undefined);
   assert.equal(height(0.45, 1.01), undefined);
+});
+
+test("the stated error is that of the cell and of its neighbours in speed", () => {
+  const family = small();
+  const errors = (rms: number, largest: number): Errors => ({
+    rms: QUANTITIES.map(() => rms),
+    largest: QUANTITIES.map(() => largest),
+  });
+  const grid = family.level;
+  grid.axes.speed = [0.3, 0.4, 0.5, 0.6, 0.7];
+  const [walk = null] = grid.walks;
+  grid.walks = Array.from({ length: 10 }, () => walk);
+  grid.supports = grid.walks.map(() => 0.12);
+  grid.errors = [errors(1, 9), errors(3, 4), null, errors(100, 100)];
+  family.preferred = [0.7, 0.7, 0.7, 0.7, 0.7];
+  const stated = (speed: number): unknown =>
+    new Walks(family)
+      .at({ speed: speed * Math.sqrt(9.81 * 0.5), height: 1, mass: 70, stepLength: undefined, slope: 0 })
+      ?.error("knee_flexion");
+  assert.deepEqual(stated(0.45), { rms: Math.sqrt(5), largest: 9 });
+  assert.equal(stated(0.55), undefined);
+  assert.deepEqual(stated(0.65), { rms: 100, largest: 100 });
 });
 
 test("a figure that is four times as large walks the same at twice the speed", () => {
