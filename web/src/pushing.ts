@@ -118,7 +118,9 @@ export class Pushing {
 
 /** What happens in a walk. */
 function outcome(run: Run, balls: number): string {
-  const thrown = `${balls} ball${balls === 1 ? "" : "s"}, together ${momentumOf(run).toFixed(0)} N.s forwards.`;
+  const momentum = momentumOf(run);
+  const given = `${Math.abs(momentum).toFixed(0)} N.s ${momentum < 0 ? "backwards" : "forwards"}`;
+  const thrown = `${balls} ball${balls === 1 ? "" : "s"}, together ${given}.`;
   const ends = run.fall ? `${run.fall}.` : "The walker does not fall.";
   return balls === 0 ? ends : `${thrown} ${ends}`;
 }
