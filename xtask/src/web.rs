@@ -5,6 +5,7 @@
 //! crates. With `--family`, solves the walks between which its sliders interpolate (`web/family/walks.json`).
 
 use crate::workspace;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -42,10 +43,13 @@ fn build(api: Option<&Path>) -> Result<PathBuf, String> {
     Ok(site)
 }
 
-/// Installs the packages of `viewer/`, which the page uses.
+/// Installs the packages of `viewer/`, which the page uses, if they are missing or the list of them has changed since.
 fn install_packages() -> Result<(), String> {
     let viewer = workspace::root().join("viewer");
-    if viewer.join("node_modules").is_dir() {
+    let changed = |path: &str| fs::metadata(viewer.join(path)).and_then(|file| file.modified()).ok();
+    // npm writes the second file when it has installed what the first one lists.
+    let [listed, installed] = ["package-lock.json", "node_modules/.package-lock.json"].map(changed);
+    if installed.is_some() && installed >= listed {
         return Ok(());
     }
     finish(Command::new("npm").current_dir(&viewer).args(["ci", "--no-audit", "--no-fund"]))
