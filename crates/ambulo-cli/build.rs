@@ -1,21 +1,30 @@
 //! Puts the commit into `ambulo --version`. A source archive without git has none.
 
+use std::path::Path;
 use std::process::Command;
 
 fn main() {
-    println!("cargo::rerun-if-changed=../../.git/HEAD");
-    println!("cargo::rerun-if-changed=../../.git/logs/HEAD");
+    println!("cargo::rerun-if-changed=build.rs");
     let commit = commit().map_or_else(String::new, |commit| format!(" ({commit})"));
     println!("cargo::rustc-env=AMBULO_VERSION={}{commit}", env!("CARGO_PKG_VERSION"));
 }
 
-/// The commit of this source tree; `None` without git, or inside the repository of something else.
+/// The commit of this source tree, asked for again when it changes; `None` without git, or inside the repository of something else.
 fn commit() -> Option<String> {
-    let git = |arguments: &[&str]| {
-        let output = Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;
-        let text = String::from_utf8(output.stdout).ok()?.trim().to_owned();
-        (!text.is_empty()).then_some(text)
-    };
     git(&["ls-files", "--error-unmatch", "build.rs"])?;
+    for name in ["HEAD", "logs/HEAD"] {
+        // In a second worktree they are not in `.git`. Cargo would run this program every time for a file that does not exist.
+        let file = git(&["rev-parse", "--git-path", name])?;
+        if Path::new(&file).is_file() {
+            println!("cargo::rerun-if-changed={file}");
+        }
+    }
     git(&["rev-parse", "--short=12", "HEAD"])
+}
+
+/// What git prints; `None` if it is missing, fails or prints nothing.
+fn git(arguments: &[&str]) -> Option<String> {
+    let output = Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;
+    let text = String::from_utf8(output.stdout).ok()?.trim().to_owned();
+    (!text.is_empty()).then_some(text)
 }
