@@ -5,6 +5,7 @@
 
 mod build_time;
 mod check;
+mod dist;
 #[cfg(test)]
 mod documents;
 mod house;
@@ -33,6 +34,8 @@ usage: cargo xtask <command>
   web               build the page that computes in the browser and the documents into target/page
                     [--test: and test them in Chromium, and in Firefox if it is there]  [--site: with the API documentation]
                     [--family: solve the walks between which its sliders interpolate: web/family/walks.json]
+  dist              build the archives of a release into target/archives, with checksums and the list of components, and try them
+                    [--target TARGET].. [--runner PROGRAM: starts programs of another machine] [--tag TAG: must be the version]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
@@ -68,7 +71,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 8] = ["check", "house", "build-time", "measured", "mutants", "python", "web", "sweep"];
+const OWN: [&str; 9] = ["check", "house", "build-time", "measured", "mutants", "python", "web", "dist", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
 const MEASUREMENTS: [&str; 21] = [
@@ -109,6 +112,7 @@ fn main() -> ExitCode {
         ("mutants", _) => mutants::run(rest),
         ("python", _) => python::run(rest),
         ("web", _) => web::run(rest),
+        ("dist", _) => dist::run(rest),
         ("sweep", []) => sweep::run(),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),

@@ -1,0 +1,220 @@
+//! Archives of the `ambulo` command for users: `cargo xtask dist [--target TARGET].. [--runner PROGRAM] [--tag TAG]`.
+//!
+//! Builds the command in the profile `dist`, packs it with its licences and the list of its components (`packaging/archive.py`) into
+//! `target/archives`, and tries the archive (`packaging/trial.py`) if this machine can run it. Python packs: its standard library has
+//! archives, hashes and JSON, so this program needs no dependency for them.
+
+use crate::python::interpreter;
+use crate::workspace;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const USAGE: &str = "usage: cargo xtask dist [--target TARGET].. [--runner PROGRAM] [--tag TAG]";
+
+/// A machine that archives are made for.
+struct Target {
+    /// The compiler's name of it, which is in the name of the archive.
+    triple: &'static str,
+    linker: Linker,
+}
+
+/// What links the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Linker {
+    /// The one that the compiler takes by itself.
+    Own,
+    /// Zig, through `cargo zigbuild`: for other processors, and for a C library as old as the version says.
+    Zig { glibc: Option<&'static str> },
+}
+
+/// The oldest C library that the programs for it run on, that of manylinux2014 (CentOS 7).
+const GLIBC: &str = "2.17";
+
+const TARGETS: [Target; 7] = [
+    Target { triple: "x86_64-unknown-linux-gnu", linker: Linker::Zig { glibc: Some(GLIBC) } },
+    Target { triple: "aarch64-unknown-linux-gnu", linker: Linker::Zig { glibc: Some(GLIBC) } },
+    Target { triple: "x86_64-unknown-linux-musl", linker: Linker::Own },
+    Target { triple: "aarch64-unknown-linux-musl", linker: Linker::Zig { glibc: None } },
+    Target { triple: "x86_64-apple-darwin", linker: Linker::Own },
+    Target { triple: "aarch64-apple-darwin", linker: Linker::Own },
+    Target { triple: "x86_64-pc-windows-gnu", linker: Linker::Own },
+];
+
+/// What the command line asks for.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Request {
+    targets: Vec<String>,
+    /// Starts programs of another machine.
+    runner: Option<String>,
+    /// The tag of a release, compared with the version.
+    tag: Option<String>,
+}
+
+pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    let mut request = request(words)?;
+    if let Some(tag) = &request.tag {
+        let changes = fs::read_to_string(workspace::root().join("CHANGELOG.md")).map_err(|e| e.to_string())?;
+        check_tag(tag, env!("CARGO_PKG_VERSION"), &changes)?;
+    }
+    if request.targets.is_empty() {
+        request.targets.push(usual_target()?.to_owned());
+    }
+    // All names are known before the first build, which takes minutes.
+    let targets = request.targets.iter().map(|name| target(name)).collect::<Result<Vec<_>, _>>()?;
+    targets.into_iter().try_for_each(|target| release(target, request.runner.as_deref()))
+}
+
+fn request(words: &[String]) -> Result<Request, String> {
+    let mut request = Request::default();
+    for pair in words.chunks(2) {
+        match pair {
+            [option, value] if option == "--target" => request.targets.push(value.clone()),
+            [option, value] if option == "--runner" => request.runner = Some(value.clone()),
+            [option, value] if option == "--tag" => request.tag = Some(value.clone()),
+            _ => return Err(USAGE.to_owned()),
+        }
+    }
+    Ok(request)
+}
+
+/// An error if a tag is not that of the version, or if the list of changes has no heading for it.
+fn check_tag(tag: &str, version: &str, changes: &str) -> Result<(), String> {
+    if tag != format!("v{version}") {
+        return Err(format!(
+            "the tag is `{tag}`; expected `v{version}`, the version in Cargo.toml\nhint: tag the commit that sets the version"
+        ));
+    }
+    let heading = format!("## {version}");
+    if changes.lines().any(|line| line == heading || line.starts_with(&format!("{heading} "))) {
+        return Ok(());
+    }
+    Err(format!(
+        "CHANGELOG.md has no heading `{heading}`\nhint: rename `## Unreleased` in the commit that sets the version"
+    ))
+}
+
+fn target(name: &str) -> Result<&'static Target, String> {
+    TARGETS.iter().find(|target| target.triple == name).ok_or_else(|| {
+        let known: Vec<_> = TARGETS.iter().map(|target| target.triple).collect();
+        format!("archives are not made for the target `{name}`; known: {}", known.join(", "))
+    })
+}
+
+/// The archive that runs on the most machines like this one: static on Linux.
+fn usual_target() -> Result<&'static str, String> {
+    let (processor, system) = (std::env::consts::ARCH, std::env::consts::OS);
+    let target = TARGETS.iter().find(|target| match system {
+        "linux" => target.triple == format!("{processor}-unknown-linux-musl"),
+        "macos" => target.triple == format!("{processor}-apple-darwin"),
+        "windows" => target.triple == format!("{processor}-pc-windows-gnu"),
+        _ => false,
+    });
+    target.map(|target| target.triple).ok_or_else(|| format!("no archive is made for {system} on {processor}\n{USAGE}"))
+}
+
+/// Builds, packs and tries one archive.
+#[expect(clippy::print_stdout, reason = "what was not tried is part of the command's result")]
+fn release(target: &Target, runner: Option<&str>) -> Result<(), String> {
+    let program = build(target)?;
+    let folder = workspace::target().join("archives");
+    finish(python("archive.py").arg(target.triple).arg(&program).arg(&folder))?;
+    let archive = folder.join(target.archive(env!("CARGO_PKG_VERSION")));
+    if runner.is_none() && !target.runs_here() {
+        println!("{}: not run, this machine is another one (--runner PROGRAM starts it)", target.triple);
+        return Ok(());
+    }
+    finish(python("trial.py").arg(&archive).args(runner))
+}
+
+/// Builds the command; returns the path of the program.
+fn build(target: &Target) -> Result<PathBuf, String> {
+    let mut command = workspace::cargo();
+    let name = match target.linker {
+        Linker::Own => target.triple.to_owned(),
+        Linker::Zig { glibc: None } => target.triple.to_owned(),
+        Linker::Zig { glibc: Some(version) } => format!("{}.{version}", target.triple),
+    };
+    command.arg(if target.linker == Linker::Own { "build" } else { "zigbuild" });
+    command.args(["--locked", "--package", "ambulo-cli", "--bin", "ambulo", "--profile", "dist", "--target", &name]);
+    finish(&mut command).map_err(|error| match target.linker {
+        Linker::Own => format!("{error}\nhint: `rustup target add {}` installs the target", target.triple),
+        Linker::Zig { .. } => format!(
+            "{error}\nhint: `rustup target add {}` installs the target, `pip install -r packaging/requirements.txt` the linker",
+            target.triple
+        ),
+    })?;
+    let extension = if target.is_windows() { ".exe" } else { "" };
+    Ok(workspace::target().join(target.triple).join("dist").join(format!("ambulo{extension}")))
+}
+
+impl Target {
+    fn is_windows(&self) -> bool {
+        self.triple.contains("windows")
+    }
+
+    /// File name of the archive.
+    fn archive(&self, version: &str) -> String {
+        format!("ambulo-{version}-{}.{}", self.triple, if self.is_windows() { "zip" } else { "tar.gz" })
+    }
+
+    /// Whether this machine runs its programs by itself.
+    fn runs_here(&self) -> bool {
+        let system = match std::env::consts::OS {
+            "macos" => "darwin",
+            other => other,
+        };
+        self.triple.starts_with(std::env::consts::ARCH) && self.triple.contains(system)
+    }
+}
+
+/// Python with a script of `packaging/`.
+fn python(script: &str) -> Command {
+    let path: PathBuf = workspace::root().join("packaging").join(script);
+    let mut command = Command::new(interpreter());
+    command.arg(path);
+    command
+}
+
+fn finish(command: &mut Command) -> Result<(), String> {
+    let name = |command: &Command| {
+        let first = command.get_args().next().map(|word| Path::new(word).display().to_string());
+        format!("{} {}", command.get_program().to_string_lossy(), first.unwrap_or_default())
+    };
+    let status = command.status().map_err(|e| format!("{}: cannot start: {e}", name(command)))?;
+    if status.success() { Ok(()) } else { Err(format!("`{}` failed ({status}), see above", name(command))) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(text: &str) -> Vec<String> {
+        text.split(' ').map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn a_command_line_has_targets_a_runner_and_a_tag() {
+        let asked = request(&words("--target a --target b --runner wine --tag v1.0.0")).unwrap();
+        assert_eq!(asked.targets, ["a", "b"]);
+        assert_eq!((asked.runner.as_deref(), asked.tag.as_deref()), (Some("wine"), Some("v1.0.0")));
+        assert_eq!(request(&[]).unwrap(), Request::default());
+        assert_eq!(request(&words("--target")).unwrap_err(), USAGE);
+        assert_eq!(request(&words("--fast yes")).unwrap_err(), USAGE);
+    }
+
+    #[test]
+    fn a_tag_has_the_version_and_the_changes_have_its_heading() {
+        let changes = "# Changelog\n\n## 1.2.0 (2030-01-31)\n";
+        assert_eq!(check_tag("v1.2.0", "1.2.0", changes), Ok(()));
+        assert!(check_tag("1.2.0", "1.2.0", changes).unwrap_err().contains("expected `v1.2.0`"));
+        assert!(check_tag("v1.2", "1.2", changes).unwrap_err().contains("no heading `## 1.2`"));
+        assert!(check_tag("v1.3.0", "1.3.0", changes).unwrap_err().contains("no heading"));
+    }
+
+    #[test]
+    fn an_unknown_target_is_refused_with_the_known_ones() {
+        let error = target("sparc-unknown-linux-gnu").err().unwrap();
+        assert!(error.contains("`sparc-unknown-linux-gnu`; known: x86_64-unknown-linux-gnu, "), "{error}");
+    }
+}
