@@ -189,6 +189,100 @@ fn finish(command: &mut Command) -> Result<(), String> {
 mod tests {
     use super::*;
 
+    const MANIFEST: &str = "crates/ambulo-cli/Cargo.toml";
+    const WORKFLOW: &str = ".github/workflows/release.yml";
+
+    fn read(name: &str) -> String {
+        fs::read_to_string(workspace::root().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+
+    /// A value of the table for `cargo binstall` for a target: of its own table if that has the key.
+    fn binstall(manifest: &str, triple: &str, key: &str) -> String {
+        let value = |table: &str| {
+            let (_, rest) = manifest.split_once(&format!("\n[{table}]\n"))?;
+            let rows = rest.split("\n\n").next()?.lines();
+            let (_, value) = rows.filter_map(|row| row.split_once(" = ")).find(|(name, _)| *name == key)?;
+            Some(value.trim_matches('"').to_owned())
+        };
+        let own = value(&format!("package.metadata.binstall.overrides.{triple}"));
+        let template =
+            own.or_else(|| value("package.metadata.binstall")).unwrap_or_else(|| panic!("{MANIFEST}: {key}"));
+        let ending = if triple.contains("windows") { ".exe" } else { "" };
+        let filled =
+            template.replace("{ version }", "1.2.3").replace("{ target }", triple).replace("{ bin }", "ambulo");
+        filled.replace("{ binary-ext }", ending)
+    }
+
+    #[test]
+    fn binstall_asks_for_the_archives_that_are_made() {
+        let manifest = read(MANIFEST);
+        // What `cargo binstall` looks for on Windows with the other compiler is the same archive.
+        let windows = target("x86_64-pc-windows-gnu").unwrap();
+        let machines =
+            TARGETS.iter().map(|target| (target.triple, target)).chain([("x86_64-pc-windows-msvc", windows)]);
+        for (machine, target) in machines {
+            let url = format!("{{ repo }}/releases/download/v1.2.3/{}", target.archive("1.2.3"));
+            assert_eq!(binstall(&manifest, machine, "pkg-url"), url);
+            let (ending, format) = if target.is_windows() { (".exe", "zip") } else { ("", "tgz") };
+            let program = format!("ambulo-1.2.3-{}/ambulo{ending}", target.triple);
+            assert_eq!(binstall(&manifest, machine, "bin-dir"), program);
+            assert_eq!(binstall(&manifest, machine, "pkg-fmt"), format, "{machine}");
+        }
+    }
+
+    /// The targets of a job of the workflow.
+    fn targets_of(job: &str) -> Vec<String> {
+        let workflow = read(WORKFLOW);
+        let (_, rest) =
+            workflow.split_once(&format!("\n  {job}:\n")).unwrap_or_else(|| panic!("{WORKFLOW}: no job {job}"));
+        let own = rest.lines().take_while(|line| line.is_empty() || line.starts_with("   "));
+        let named = own.filter_map(|line| line.trim().strip_prefix("- { target: ")?.split(',').next());
+        named.map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn the_workflow_builds_and_tries_every_archive() {
+        assert_eq!(targets_of("archives"), TARGETS.map(|target| target.triple));
+        // Archives that their builder cannot run are tried by another job.
+        let elsewhere = |target: &&Target| target.triple.starts_with("aarch64-unknown-linux") || target.is_windows();
+        let tried: Vec<_> = TARGETS.iter().filter(elsewhere).map(|target| target.triple).collect();
+        assert_eq!(targets_of("trial"), tried);
+    }
+
+    #[test]
+    fn every_action_of_the_workflows_is_pinned_to_a_commit() {
+        for name in [WORKFLOW, ".github/workflows/ci.yml"] {
+            let text = read(name);
+            for action in text.lines().filter_map(|line| line.split_once("uses: ")).map(|(_, action)| action) {
+                let commit = action.split('@').nth(1).and_then(|rest| rest.split(' ').next()).unwrap_or_default();
+                let pinned =
+                    commit.len() == 40 && commit.bytes().all(|b| b.is_ascii_hexdigit()) && action.contains(" # v");
+                assert!(pinned || action.starts_with("./"), "{name}: {action}");
+            }
+        }
+    }
+
+    /// The number after a key in a file.
+    fn stated(file: &str, key: &str) -> String {
+        let text = read(file);
+        let (_, rest) = text.split_once(key).unwrap_or_else(|| panic!("{file}: no `{key}`"));
+        rest.chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect()
+    }
+
+    #[test]
+    fn packages_and_documents_state_the_same_versions() {
+        for file in ["packaging/recipe.yaml", "packaging/Dockerfile", "packaging/ambulo.def"] {
+            let (key, end) = match file {
+                "packaging/recipe.yaml" => ("version: \"", ""),
+                "packaging/Dockerfile" => ("ARG VERSION=", ""),
+                _ => ("ambulo-", "-"),
+            };
+            assert_eq!(stated(file, key).trim_end_matches(end), env!("CARGO_PKG_VERSION"), "{file}");
+        }
+        assert_eq!(stated(WORKFLOW, "MATURIN: "), stated("xtask/src/python.rs", "\"maturin=="));
+        assert_eq!(stated("docs/RELEASES.md", "glibc "), GLIBC);
+    }
+
     fn words(text: &str) -> Vec<String> {
         text.split(' ').map(str::to_owned).collect()
     }
