@@ -65,7 +65,7 @@ def checksums(folder: Path) -> None:
 
 
 def main(target: str, program: Path, folder: Path) -> None:
-    components = Components(ROOT, target)
+    components = Components(ROOT, "ambulo-cli", target)
     name = f"ambulo-{components.version}-{target}"
     bill = (json.dumps(components.cyclonedx(), indent=1, ensure_ascii=False) + "\n").encode()
     files = {f"{name}/{document}": (ROOT / document).read_bytes() for document in DOCUMENTS}

@@ -1,5 +1,7 @@
 """What is inside a built `ambulo`: packages, data and their licences, from cargo's own answers for one target.
 
+`python packaging/components.py ambulo-py TARGET` prints the licences of everything in the Python module; archive.py uses the rest.
+
 `cargo tree` is asked rather than `cargo metadata`: it knows the features of this program alone, and leaves out what runs only while compiling
 (build scripts, procedural macros, tests). A component has the hash of its source from Cargo.lock or package-lock.json.
 """
@@ -11,10 +13,10 @@ import json
 import os
 import re
 import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
-PACKAGE = "ambulo-cli"
 # A line of `cargo tree --prefix depth`: depth, name, version, and a path for our own packages.
 LINE = re.compile(r"^(?P<depth>\d+)(?P<name>\S+) v(?P<version>[^ ]+)(?P<rest>.*)$")
 LICENCE_FILE = re.compile(r"^(licen[cs]e|copying|notice|unlicense)", re.IGNORECASE)
@@ -27,10 +29,10 @@ DATA_LICENCE = "CC-BY-SA-4.0"
 
 
 class Components:
-    """The components of the program for a target, as `Key = (name, version)`."""
+    """The components of one of our packages for a target. A component is named by name and version."""
 
-    def __init__(self, root: Path, target: str) -> None:
-        self.root, self.target = root, target
+    def __init__(self, root: Path, package: str, target: str) -> None:
+        self.root, self.package, self.target = root, package, target
         self.version = tomllib.loads((root / "Cargo.toml").read_text("utf-8"))["workspace"]["package"]["version"]
         metadata = json.loads(self._cargo("metadata", "--format-version", "1", "--filter-platform", target))
         self._packages = {(package["name"], package["version"]): package for package in metadata["packages"]}
@@ -51,7 +53,7 @@ class Components:
         edges = ["--edges", "normal,no-proc-macro", "--target", self.target, "--prefix", "depth"]
         needs: dict[tuple[str, str], set[tuple[str, str]]] = {}
         above: list[tuple[str, str]] = []
-        for line in self._cargo("tree", "--package", PACKAGE, *edges).splitlines():
+        for line in self._cargo("tree", "--package", self.package, *edges).splitlines():
             found = LINE.match(line)
             if found is None:
                 raise ValueError(f"`cargo tree` printed {line!r}; expected a depth, a name and a version")
@@ -112,7 +114,7 @@ class Components:
 
     def cyclonedx(self) -> dict:
         """Return the components as a CycloneDX 1.6 document. It has no time and no serial number: same program, same bytes."""
-        root = next(key for key in self._needs if key[0] == PACKAGE)
+        root = next(key for key in self._needs if key[0] == self.package)
         own = self._package(root) | {"type": "application", "name": "ambulo"}
         own["licenses"] = [{"expression": f"(MIT OR Apache-2.0) AND {DATA_LICENCE}"}]
         scripts, runtime = self._scripts(), self._runtime()
@@ -168,3 +170,10 @@ class Components:
             count = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))
             heads.append("\n".join([path.relative_to(self.root).as_posix(), *lines[:count]]))
         return "\n\n".join(heads)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit("usage: python packaging/components.py PACKAGE TARGET")
+    sys.stdout.reconfigure(encoding="utf-8", newline="\n")
+    print(Components(Path(__file__).resolve().parents[1], sys.argv[1], sys.argv[2]).licences(), end="")

@@ -271,13 +271,9 @@ mod tests {
 
     #[test]
     fn packages_and_documents_state_the_same_versions() {
-        for file in ["packaging/recipe.yaml", "packaging/Dockerfile", "packaging/ambulo.def"] {
-            let (key, end) = match file {
-                "packaging/recipe.yaml" => ("version: \"", ""),
-                "packaging/Dockerfile" => ("ARG VERSION=", ""),
-                _ => ("ambulo-", "-"),
-            };
-            assert_eq!(stated(file, key).trim_end_matches(end), env!("CARGO_PKG_VERSION"), "{file}");
+        let recipe = ("packaging/recipe.yaml", "version: \"");
+        for (file, key) in [recipe, ("packaging/Dockerfile", "ARG VERSION="), ("packaging/ambulo.def", "ambulo-")] {
+            assert_eq!(stated(file, key), env!("CARGO_PKG_VERSION"), "{file}");
         }
         assert_eq!(stated(WORKFLOW, "MATURIN: "), stated("xtask/src/python.rs", "\"maturin=="));
         assert_eq!(stated("docs/RELEASES.md", "glibc "), GLIBC);
