@@ -152,7 +152,12 @@ class Command {
 
   /** Runs the module; returns the exit code. */
   async run(module: WebAssembly.Module): Promise<number> {
-    const instance = await WebAssembly.instantiate(module, { wasi_snapshot_preview1: this.functions() });
+    const offered = this.functions();
+    for (const { name } of WebAssembly.Module.imports(module)) {
+      // What this system does not have is refused when it is asked for, and not before.
+      offered[name] ??= () => Errno.notsup;
+    }
+    const instance = await WebAssembly.instantiate(module, { wasi_snapshot_preview1: offered });
     this.memory = instance.exports["memory"] as WebAssembly.Memory;
     try {
       (instance.exports["_start"] as () => void)();

@@ -35,6 +35,8 @@ fn main() {
     fs::remove_dir_all("out/inner").unwrap();
     println!("{:?} {:?}", fs::metadata("out").unwrap().is_dir(), fs::metadata("out/inner").is_err());
     println!("{:?}", fs::File::create("out").is_err());
+    // A function that this system does not have.
+    println!("{:?}", fs::hard_link("missing", "link").is_err());
     eprintln!("done");
     std::process::exit(3);
 }
