@@ -210,7 +210,7 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     assert_eq!(swept, ["forces", "calibrate", "validate", "batch", "walk", "sweep", "simulate", "tune", "compare"]);
     assert!(names("calibrate").iter().all(|name| names("forces").contains(name)));
     assert_eq!(names("validate"), ["mass", "height", "jobs"]);
-    assert_eq!(names("batch"), ["jobs", "part", "limit"]);
+    assert_eq!(names("batch"), ["jobs", "shard", "part", "limit"]);
 }
 
 #[test]
