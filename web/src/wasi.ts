@@ -154,7 +154,7 @@ class Command {
   async run(module: WebAssembly.Module): Promise<number> {
     const offered = this.functions();
     for (const { name } of WebAssembly.Module.imports(module)) {
-      // What this system does not have is refused when it is asked for, and not before.
+      // A function that is missing here fails when it is called. Without an entry the program would not start.
       offered[name] ??= () => Errno.notsup;
     }
     const instance = await WebAssembly.instantiate(module, { wasi_snapshot_preview1: offered });

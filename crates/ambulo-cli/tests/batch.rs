@@ -179,6 +179,12 @@ fn sources_without_a_trial_and_options_of_a_batch_after_the_dashes_are_refused()
     bench.run(&["batch", "nowhere"]).refused(&["no such folder"]);
     bench.run(&["batch", "set", "--", "-o", "elsewhere"]).refused(&["after `--`", "before"]);
     bench.run(&["batch", "set", "--", "--cutof", "8"]).refused(&["after `--`", "--cutof"]);
+    // A size is that of one person.
+    bench.run(&["batch", "set", "--quiet", "-o", "sized", "--", "--mass", "80"]).refused(&[
+        "--mass",
+        "persons",
+        "trials.toml",
+    ]);
     for count in ["--jobs", "--part", "--limit"] {
         for wrong in ["0", "-1", "NaN", "1e99"] {
             bench.run(&["batch", "set", &format!("{count}={wrong}")]).refused(&[count]);

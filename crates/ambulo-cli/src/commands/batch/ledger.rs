@@ -6,8 +6,8 @@
 //! | `frames/part-SSS-PPPPP.parquet`, `cycles/`, `events/` | tables of part P of shard S |
 //! | `trials/part-SSS-PPPPP.parquet` | the trials of the part; it appears last and closes the part |
 //!
-//! Each file is written beside its place, through to the disk, and appears by a rename. After a kill at any moment a part is closed or not there:
-//! what an interrupted run left of an open part is written again. A lock keeps two runs of one shard apart.
+//! Each file is written beside its place, through to the disk, and appears by a rename. After a kill at any moment each part is either closed or open,
+//! and the files of an open part are written again. A lock keeps two runs of one shard apart.
 
 use super::tables::PartTables;
 use crate::args::Shard;
@@ -26,7 +26,7 @@ const TRIALS: &str = "trials";
 /// Folder of the locks of the shards.
 const LOCKS: &str = ".shards";
 
-/// What a batch is. All shards, and every run that continues it, must agree.
+/// The description of a batch. All shards and all runs that continue the batch must have the same one.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Description {
     /// Version of Ambulo.

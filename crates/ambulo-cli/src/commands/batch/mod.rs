@@ -29,10 +29,11 @@ const QUOTED: usize = 3;
 pub(crate) fn run(args: &BatchArgs) -> Result<Completion> {
     let in_job = SCHEDULERS.iter().any(|name| env::var_os(name).is_some());
     let threads = args.jobs.map_or_else(|| if in_job { 1 } else { processors() }, |jobs| jobs as usize);
-    let (root, plan) = planned(args, threads)?;
+    let (root, mut plan) = planned(args, threads)?;
     let work = Work { root, words: args.options.clone(), keep: args.keep.clone() };
     let Some(first) = plan.trials.first() else { bail!("{}", nothing_found(args, &plan)) };
-    work.check(first)?;
+    let [mass, height] = work.check(first)?;
+    plan.take_size(&args.source, mass, height)?;
     let limit = args.limit.map_or(usize::MAX, |limit| limit as usize);
     let own = plan.trials.iter().take(limit).skip(args.shard.index).step_by(args.shard.count);
     let trials: Vec<&PlannedTrial> = own.collect();
@@ -172,7 +173,7 @@ fn about() -> Vec<(String, String)> {
     ]
 }
 
-/// What is printed of the trials of a part.
+/// The rows that are printed for the trials of a part.
 fn rows_of(trials: &ParquetTable) -> Vec<BatchRow> {
     let text = |name: &str| match trials.column(name) {
         Some(ColumnValues::Text(values)) => values.clone(),

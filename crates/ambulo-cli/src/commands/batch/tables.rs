@@ -23,7 +23,7 @@ pub(super) struct PartTables {
 }
 
 /// Numbers of the summary in the table of trials: column, place in the summary.
-const NUMBERS: [(&str, &str); 13] = [
+const NUMBERS: [(&str, &str); 10] = [
     ("mass_kg", "/mass_kg"),
     ("height_m", "/height_m"),
     ("speed_m_s", "/speed_m_s"),
@@ -34,9 +34,6 @@ const NUMBERS: [(&str, &str); 13] = [
     ("residual_moment_nm", "/residual/moment_rms_nm"),
     ("judged_share", "/verdict/judged_share"),
     ("marker_error_mm", "/subject/markers/rms_mm"),
-    ("predicted_vertical_rmse_r_bw", "/comparison/feet/0/vertical/rmse_bw"),
-    ("predicted_vertical_rmse_l_bw", "/comparison/feet/1/vertical/rmse_bw"),
-    ("worst_quality_value", "/quality/reasons/0/value"),
 ];
 /// Texts of the summary in the table of trials.
 const TEXTS: [(&str, &str); 8] = [
@@ -89,6 +86,15 @@ fn trials(rows: &[Row<'_>]) -> Vec<Column> {
         let number = |row: &Row<'_>| summary(row, place).and_then(|value| value.as_f64()).unwrap_or(f64::NAN);
         column(name, ColumnValues::Double(rows.iter().map(number).collect()))
     }));
+    for side in ["r", "l"] {
+        // A comparison has the feet that stood on plates: both, or one.
+        let error = |row: &Row<'_>| {
+            let feet = summary(row, "/comparison/feet")?;
+            feet.as_array()?.iter().find(|foot| foot["side"] == side)?["vertical"]["rmse_bw"].as_f64()
+        };
+        let values = rows.iter().map(|row| error(row).unwrap_or(f64::NAN)).collect();
+        columns.push(column(&format!("predicted_vertical_rmse_{side}_bw"), ColumnValues::Double(values)));
+    }
     let frames = |row: &Row<'_>| summary(row, "/frames").and_then(|value| value.as_i64());
     columns.push(column("frames", ColumnValues::Whole(rows.iter().map(frames).collect())));
     let reasons = |place: &'static str| {

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 /// Tables whose columns would have the names of those of another table, and what is put before them.
 const PREFIXES: [(&str, &str); 2] = [("grf_measured.mot", "measured_"), ("clinical.csv", "clinical_")];
 
-/// What is computed for every trial of a batch.
+/// The work that a batch does on every trial.
 #[derive(Debug, Clone)]
 pub(super) struct Work {
     /// The folder that names of trials begin at.
@@ -70,14 +70,17 @@ impl Work {
     }
 
     /// Checks the options without computing anything.
-    pub(super) fn check(&self, trial: &PlannedTrial) -> Result<ForcesArgs> {
-        let options = self.options(trial)?;
+    ///
+    /// Returns the mass [kg] and the stature [m] that the words state.
+    pub(super) fn check(&self, trial: &PlannedTrial) -> Result<[Option<f64>; 2]> {
+        self.options(trial)?;
+        let options = ForcesArgs::of(&trial.files.recording, &self.words).map_err(Error::from)?;
         let defaults = ForcesArgs::of(&trial.files.recording, &[]).map_err(Error::from)?;
         let chooses_folder = options.output != defaults.output || options.keep != defaults.keep;
         if chooses_folder {
             anyhow::bail!("options after `--`: a batch has its own -o and --keep. hint: give them before `--`");
         }
-        Ok(options)
+        Ok([options.subject.mass, options.subject.height])
     }
 
     /// The key of a trial; files that cannot be read have no hash.
