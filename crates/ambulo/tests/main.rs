@@ -116,6 +116,7 @@ mod segment_poses;
 mod sensor_fit;
 mod simulation_closed_form;
 mod simulation_contact;
+mod simulation_midpoint;
 mod simulation_robustness;
 mod simulation_smooth;
 mod skeleton_recording;

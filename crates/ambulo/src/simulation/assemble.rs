@@ -29,7 +29,47 @@ pub(crate) struct Span {
     pub(crate) h: f64,
     /// Whether the solve is for an instant, an impact.
     pub(crate) instant: bool,
+    /// Whether the velocities are those in the middle of a step of 2 h, and the laws of unilateral rows and of friction hold at its end
+    /// ([`super::midpoint`]).
+    pub(crate) halfway: bool,
 }
+
+impl Span {
+    /// The time span of a first-order step [s].
+    pub(crate) fn step(h: f64) -> Span {
+        Span { h, instant: false, halfway: false }
+    }
+
+    /// An impact; `h` [s] is the span in which gaps close.
+    pub(crate) fn instant(h: f64) -> Span {
+        Span { h, instant: true, halfway: false }
+    }
+
+    /// The first half of a midpoint step [s].
+    pub(crate) fn half(h: f64) -> Span {
+        Span { h, instant: false, halfway: true }
+    }
+}
+
+impl Span {
+    /// The lowest rate at which a distance from a limit may change, from the distance and its rate at the start.
+    fn lowest_rate(self, distance: f64, rate: f64, pressed: bool) -> f64 {
+        match self.halfway {
+            false => (-distance / self.h).min(0.0),
+            // The rate at the end of the step, 2 u - u⁻, must not be negative.
+            true if pressed || distance + 2.0 * self.h * rate <= 0.0 => 0.5 * rate,
+            true => (-0.5 * distance / self.h).min(0.0),
+        }
+    }
+}
+
+/// Whether a unilateral row bore load in the last step.
+pub(super) fn presses(state: &WorldState, key: &RowKey) -> bool {
+    state.guess.get(key).is_some_and(|impulses| impulses[0] != 0.0)
+}
+
+/// Largest number of Newton steps for the spin of a body in the middle of a step.
+const ROUNDS: usize = 8;
 
 /// A coordinate of the graph: where it belongs.
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +92,8 @@ pub(crate) struct Assembly {
     pub(crate) directions: Vec<[Six; MOST]>,
     /// Joint of each body.
     pub(crate) joint_of: Vec<Option<usize>>,
+    /// Angular velocities at which the gyroscopic moments of bodies are taken [rad/s]; without one it is predicted from the body alone.
+    pub(crate) spins: Vec<Option<Vec3>>,
 }
 
 /// Positions that drives and figures prescribe at one instant.
@@ -111,17 +153,16 @@ impl Assembly {
         yielding: &Yielding,
         span: Span,
     ) {
-        let step_s = span.h;
         self.begin(world);
         for body in 0..world.bodies.len() {
-            self.add_body(world, state, body, step_s);
+            self.add_body(world, state, body, span);
             match self.joint_of[body] {
                 Some(joint) => self.add_joint(world, state, prescribed, yielding, joint, span),
                 None => self.add_free(body),
             }
         }
         for slot in 0..self.slots.len() {
-            self.add_coordinate(world, state, prescribed, yielding, slot, step_s);
+            self.add_coordinate(world, state, prescribed, yielding, slot, span);
         }
         self.add_closures(world, state);
     }
@@ -171,11 +212,17 @@ impl Assembly {
         self.keys.push(RowKey::Closure(number));
     }
 
-    fn add_body(&mut self, world: &World, state: &WorldState, body: usize, h: f64) {
+    fn add_body(&mut self, world: &World, state: &WorldState, body: usize, Span { h, halfway, .. }: Span) {
         let (about, pose, twist) = (&world.bodies[body], &state.poses[body], &state.twists[body]);
         let inertia = pose.rotation * about.inertia * pose.rotation.transpose();
-        let omega = twist.angular + gyroscopic_change(&inertia, &twist.angular, h);
-        let moment = inertia * omega + about.load.moment * h;
+        let momentum = match self.spins.get(body).copied().flatten() {
+            Some(spin) => inertia * twist.angular - spin.cross(&(inertia * spin)) * h,
+            None => {
+                inertia
+                    * (twist.angular + gyroscopic_change(&inertia, &twist.angular, h, if halfway { ROUNDS } else { 1 }))
+            }
+        };
+        let moment = momentum + about.load.moment * h;
         let force = twist.linear * about.mass + (world.gravity * about.mass + about.load.force) * h;
         self.graph.bodies.push(BodyTerms { mass: about.mass, inertia });
         self.graph.wrenches.push(Six::new(moment.x, moment.y, moment.z, force.x, force.y, force.z));
@@ -202,7 +249,7 @@ impl Assembly {
         prescribed: &Prescribed,
         yielding: &Yielding,
         number: usize,
-        Span { h, instant }: Span,
+        Span { h, instant, .. }: Span,
     ) {
         let joint = &world.joints[number];
         let center = state.poses[joint.child].translation;
@@ -261,12 +308,14 @@ impl Assembly {
         prescribed: &Prescribed,
         yielding: &Yielding,
         slot: usize,
-        h: f64,
+        span: Span,
     ) {
+        let h = span.h;
         let Slot { joint: Some(number), coordinate, .. } = self.slots[slot] else { return };
         let joint = &world.joints[number];
         let acting: &JointCoordinate = &joint.coordinates[coordinate];
         let q = state.coordinates[number][coordinate];
+        let rate = if span.halfway { state.rates(joint)[coordinate] } else { 0.0 };
         if acting.rotor > 0.0 {
             self.graph.rotors[slot] += acting.rotor;
             self.graph.efforts[slot] += acting.rotor * state.rates(joint)[coordinate];
@@ -299,13 +348,17 @@ impl Assembly {
         }
         if acting.friction > 0.0 {
             let most = h * acting.friction;
-            add(RowKey::Friction(number, coordinate), 0.0, 0.0, -most, most);
+            add(RowKey::Friction(number, coordinate), 0.5 * rate, 0.0, -most, most);
         }
         if let Some(lower) = acting.limits.0 {
-            add(RowKey::LowerLimit(number, coordinate), ((lower - q) / h).min(0.0), 0.0, 0.0, f64::INFINITY);
+            let key = RowKey::LowerLimit(number, coordinate);
+            let target = span.lowest_rate(q - lower, rate, presses(state, &key));
+            add(key, target, 0.0, 0.0, f64::INFINITY);
         }
         if let Some(upper) = acting.limits.1 {
-            add(RowKey::UpperLimit(number, coordinate), ((upper - q) / h).max(0.0), 0.0, f64::NEG_INFINITY, 0.0);
+            let key = RowKey::UpperLimit(number, coordinate);
+            let target = -span.lowest_rate(upper - q, -rate, presses(state, &key));
+            add(key, target, 0.0, f64::NEG_INFINITY, 0.0);
         }
     }
 }
@@ -319,15 +372,21 @@ fn write_directions(joint: &TreeJoint, state: &WorldState, directions: &mut [Six
     joint.kind.write_directions(axis, of_child, &to_center, directions);
 }
 
-/// ω - ω⁻ of a free body: one Newton step of I (ω - ω⁻) + h ω × I ω = 0 at ω⁻.
-fn gyroscopic_change(inertia: &Mat3, omega: &Vec3, h: f64) -> Vec3 {
-    let momentum = inertia * omega;
-    let moment = omega.cross(&momentum) * h;
-    if moment.norm_squared() < 1e-32 * momentum.norm_squared() {
-        return Vec3::zeros();
+/// ω - ω⁻ of a free body: Newton steps of I (ω - ω⁻) + h ω × I ω = 0, from ω⁻ on.
+fn gyroscopic_change(inertia: &Mat3, before: &Vec3, h: f64, rounds: usize) -> Vec3 {
+    let mut change = Vec3::zeros();
+    for _ in 0..rounds {
+        let omega = before + change;
+        let momentum = inertia * omega;
+        let off = inertia * change + omega.cross(&momentum) * h;
+        if off.norm_squared() < 1e-32 * momentum.norm_squared() {
+            break;
+        }
+        let slope = inertia + (omega.cross_matrix() * inertia - momentum.cross_matrix()) * h;
+        let Some(inverse) = slope.try_inverse() else { break };
+        change -= inverse * off;
     }
-    let slope = inertia + (omega.cross_matrix() * inertia - momentum.cross_matrix()) * h;
-    slope.try_inverse().map_or(Vec3::zeros(), |inverse| -(inverse * moment))
+    change
 }
 
 /// The twist of the child's mass centre relative to its parent that moves a following body to its prescribed pose in one step.

@@ -43,7 +43,7 @@ impl StepWorkspace {
         findings: &mut Findings,
     ) -> Result<(), LinkError> {
         self.step_s = IMPACT_S;
-        self.solve(world, state, Span { h: IMPACT_S, instant: true }, settings, prescribed, findings)
+        self.solve(world, state, Span::instant(IMPACT_S), settings, prescribed, findings)
     }
 
     /// Takes over the velocities after an impact, and records its impulses.

@@ -62,7 +62,7 @@ fn prescribed_step(
         w.strike(world, state, settings, prescribed, findings)?;
         w.step_s = h;
     }
-    w.solve(world, state, Span { h, instant: false }, settings, prescribed, findings)?;
+    w.solve(world, state, Span::step(h), settings, prescribed, findings)?;
     for (twist_now, motion) in state.twists.iter_mut().zip(&w.solution.motions) {
         *twist_now = twist(motion);
     }
@@ -97,6 +97,7 @@ impl StepWorkspace {
         findings: &mut Findings,
     ) -> Result<(), LinkError> {
         let h = span.h;
+        self.halfway = span.halfway;
         let unreasonable = match span.instant {
             // An impact has an impulse, not a force.
             true => f64::INFINITY,
@@ -108,7 +109,7 @@ impl StepWorkspace {
         loop {
             self.assembly.fill(world, state, prescribed, &yielding, span);
             let Assembly { graph, keys, .. } = &mut self.assembly;
-            self.touch.add_rows(world, state, &self.obstacles, h, graph, keys);
+            self.touch.add_rows(world, state, &self.obstacles, span, graph, keys);
             self.guess(state);
             solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
             let more = self.overloaded(world, &yielding, unreasonable);
@@ -130,7 +131,7 @@ impl StepWorkspace {
     }
 
     /// Keeps the impulses as first guess of the next step.
-    fn remember(&self, state: &mut WorldState) {
+    pub(super) fn remember(&self, state: &mut WorldState) {
         let groups = || self.assembly.keys.iter().zip(&self.assembly.graph.groups);
         let impulses = |group: &ConstraintGroup| {
             let mut impulses = [0.0; 6];

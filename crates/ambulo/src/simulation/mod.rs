@@ -53,6 +53,7 @@ mod check;
 mod energy;
 mod figure_tree;
 mod joint;
+mod midpoint;
 mod samples;
 mod signal;
 mod state;

@@ -35,7 +35,7 @@ const FAR: f64 = 1e-4;
 const ROUNDS: usize = 8;
 
 impl StepWorkspace {
-    /// Removes drift along M⁻¹ Jᵀ.
+    /// Removes drift along M⁻¹ Jᵀ after motions of duration `h`; contact points were found `step_s` before their end.
     pub(super) fn project(&mut self, world: &World, state: &mut WorldState, prescribed: &Prescribed, h: f64) {
         let most = CLOSING_SPEED * h;
         for (body, joint) in self.assembly.joint_of.iter().enumerate() {
@@ -65,7 +65,7 @@ impl StepWorkspace {
         for touch in self.touch.touches.iter().filter(|t| t.rigid) {
             let (group, row) = (&graph.groups[touch.rows.group], touch.rows.normal);
             let u = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates) - touch.surface_speed;
-            let gap = touch.at.gap + h * u;
+            let gap = touch.at.gap + self.step_s * u;
             self.targets[row] = (-gap).clamp(-most, most);
         }
         self.displace(world, state);
@@ -258,7 +258,7 @@ impl StepWorkspace {
                 break;
             }
             let (assembly, solution) = &mut self.later;
-            assembly.fill(world, state, prescribed, &Vec::new(), Span { h, instant: false });
+            assembly.fill(world, state, prescribed, &Vec::new(), Span::step(h));
             let graph = &mut assembly.graph;
             graph.wrenches.fill(Six::zeros());
             graph.efforts.fill(0.0);

@@ -53,7 +53,7 @@ fn project_velocities(
 ) -> Result<(), LinkError> {
     let mut assembly = Assembly::default();
     let prescribed = Prescribed::at(world, state.time_s);
-    assembly.fill(world, state, &prescribed, &Vec::new(), Span { h: 0.0, instant: true });
+    assembly.fill(world, state, &prescribed, &Vec::new(), Span::instant(0.0));
     assembly.keep_loops(world, state);
     keep_drives(world, state, &mut assembly);
     let mut solution = GraphSolution::default();

@@ -8,6 +8,7 @@ use super::assemble::Prescribed;
 use super::impact::impact;
 use super::impulse::impulse_step;
 use super::joint::JointKind;
+use super::midpoint::midpoint_step;
 use super::smooth::{self, Stage, runge_kutta};
 use super::state::WorldState;
 use super::touch::{ObstaclePoses, obstacle_motion};
@@ -47,6 +48,7 @@ pub fn step(
     w.impacts.clear();
     match settings.integrator {
         Integrator::Impulse => impulse_step(world, state, settings.step_s, settings, w, findings),
+        Integrator::Midpoint => midpoint_step(world, state, settings, w, findings),
         Integrator::RungeKutta => smooth_step(world, state, settings, w, findings),
     }
 }

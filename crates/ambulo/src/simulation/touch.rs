@@ -15,6 +15,7 @@
 //! Source: Faure, Debunne, Cani, Multon 1997, section 3.3 (contact as a joint that is destroyed when it would pull;
 //! restitution zero by default).
 
+use super::assemble::{Span, presses};
 use super::joint::rotation_vector;
 use super::state::{RowKey, WorldState};
 use super::world::{ContactLaw, ImpactLaw, Material, Obstacle, Owner, Surface, World};
@@ -213,12 +214,12 @@ impl TouchWorkspace {
         world: &World,
         state: &WorldState,
         obstacles: &ObstaclePoses,
-        step_s: f64,
+        span: Span,
         graph: &mut ConstraintGraph,
         keys: &mut Vec<RowKey>,
     ) {
         self.touches.retain_mut(|touch| {
-            let mut rows = RowWriter { world, state, obstacles, step_s, graph, keys };
+            let mut rows = RowWriter { world, state, obstacles, span, graph, keys };
             rows.add(touch)
         });
     }
@@ -229,7 +230,7 @@ struct RowWriter<'a> {
     world: &'a World,
     state: &'a WorldState,
     obstacles: &'a ObstaclePoses,
-    step_s: f64,
+    span: Span,
     graph: &'a mut ConstraintGraph,
     keys: &'a mut Vec<RowKey>,
 }
@@ -253,20 +254,15 @@ impl RowWriter<'_> {
         let mut rows = directions.map(|d| self.row(touch.at.point, d * sign, body, other));
         let u = rows.map(|row| self.velocity(&row, on) - row.target);
         touch.surface_speed = rows[0].target;
-        let h = self.step_s;
-        let gap = touch.at.gap;
+        let h = self.span.h;
+        // Springs yield from the gap at the start of the step.
+        let gap = touch.at.gap - if self.span.halfway { h * u[0] } else { 0.0 };
         let feature = touch.at.feature;
         match material.law {
             ContactLaw::Rigid => {
-                // An approach faster than gravity gives within a few steps is an impact.
-                let resting = 4.0 * h * self.world.gravity.norm();
-                let rebounds = material.restitution > 0.0 && self.world.impact == ImpactLaw::Coulomb;
-                let bounces = rebounds && u[0] < -resting;
-                if bounces && gap > 0.0 {
+                if !self.aim(touch, &mut rows[0], u[0], material.restitution) {
                     return false;
                 }
-                touch.rigid = !bounces;
-                rows[0].target += if bounces { -material.restitution * u[0] } else { -open(gap) / h };
             }
             ContactLaw::Regularised { stiffness, damping } => {
                 touch.rigid = false;
@@ -275,8 +271,13 @@ impl RowWriter<'_> {
             }
             ContactLaw::HuntCrossley(law) => {
                 touch.rigid = false;
-                return self.add_soft(touch, &law, rows, u, on, (a, b));
+                return self.add_soft(touch, &law, rows, (gap, u), on, (a, b));
             }
+        }
+        if self.span.halfway {
+            // Slip at the end of the step is 2 u - u⁻.
+            rows[1].target += 0.5 * u[1];
+            rows[2].target += 0.5 * u[2];
         }
         if touch.sticks {
             self.add_sticking(touch, &rows, on);
@@ -285,6 +286,32 @@ impl RowWriter<'_> {
         let (group, normal) = self.push(&rows, on, Law::Contact { friction: material.friction, bound: f64::INFINITY });
         touch.rows = ContactRows { group, normal, tangents: Some([normal + 1, normal + 2]) };
         self.keys.push(RowKey::Contact(a, b, feature));
+        true
+    }
+
+    /// Aims the normal row of a rigid point at the velocity that its law asks for; returns whether the point acts in this step. `u` is the normal
+    /// velocity at the start of the step.
+    fn aim(&self, touch: &mut Touch, row: &mut Constraint, u: f64, restitution: f64) -> bool {
+        let (gap, h) = (touch.at.gap, self.span.h);
+        // An approach faster than gravity gives within a few steps is an impact.
+        let resting = 4.0 * h * self.world.gravity.norm();
+        let rebounds = restitution > 0.0 && self.world.impact == ImpactLaw::Coulomb;
+        let bounces = rebounds && u < -resting;
+        if !self.span.halfway {
+            touch.rigid = !bounces;
+            row.target += if bounces { -restitution * u } else { -open(gap) / h };
+            return !bounces || gap <= 0.0;
+        }
+        let (a, b) = touch.surfaces;
+        let pressed = presses(self.state, &RowKey::Contact(a, b, touch.at.feature)) && gap < MARGIN_M;
+        let meets = gap + h * u <= CLOSED_M;
+        touch.rigid = !(bounces && meets);
+        row.target += match (meets, pressed) {
+            // The velocity at the end of the step, 2 u - u⁻, is -e u⁻, and without a rebound zero.
+            (true, _) if bounces => 0.5 * (1.0 - restitution) * u,
+            (true, _) | (false, true) => 0.5 * u,
+            (false, false) => -open(gap) / h,
+        };
         true
     }
 
@@ -348,14 +375,14 @@ impl RowWriter<'_> {
         touch: &mut Touch,
         law: &HuntCrossley,
         mut rows: [Constraint; 3],
-        u: [f64; 3],
+        (gap, u): (f64, [f64; 3]),
         on: ActsOn,
         (a, b): (usize, usize),
     ) -> bool {
-        let h = self.step_s;
+        let h = self.span.h;
         let surfaces = [&self.world.surfaces[a], &self.world.surfaces[b]];
         let radius = surfaces.iter().filter_map(|s| s.shape.radius()).fold(f64::INFINITY, f64::min);
-        let (depth, rate) = (-touch.at.gap, -u[0]);
+        let (depth, rate) = (-gap, -u[0]);
         if !radius.is_finite() || depth <= 0.0 {
             return false;
         }

@@ -28,6 +28,9 @@ pub struct StepSettings {
 pub enum Integrator {
     /// First order, with impulses at velocity level; handles contacts, impacts, friction and limits.
     Impulse,
+    /// Second order, by the midpoint rule: an undamped motion keeps its energy. Handles contacts, impacts, friction and limits; steps of impulses
+    /// where a coordinate is driven.
+    Midpoint,
     /// Fourth order (Runge-Kutta) where motion is smooth; impulses where surfaces stay in contact.
     RungeKutta,
 }
@@ -38,6 +41,7 @@ impl Integrator {
     pub fn word(self) -> &'static str {
         match self {
             Integrator::Impulse => "impulse",
+            Integrator::Midpoint => "midpoint",
             Integrator::RungeKutta => "runge-kutta",
         }
     }
@@ -80,6 +84,8 @@ pub struct StepWorkspace {
     /// Wrench impulse on each body by its joint, at its mass centre; valid after `read_wrenches`.
     pub(crate) wrenches: Vec<Six>,
     pub(crate) step_s: f64,
+    /// Whether the motions of the last solution are those in the middle of a step ([`super::midpoint`]).
+    pub(crate) halfway: bool,
     /// Impacts within the last step.
     pub(crate) impacts: Vec<Impact>,
     /// Twists of all bodies after the last impact; meaningless if there was none.
@@ -87,7 +93,7 @@ pub struct StepWorkspace {
 }
 
 impl StepWorkspace {
-    /// The forces of the last step: their means over the step for [`Integrator::Impulse`], their values at its start for
+    /// The forces of the last step: their means over the step for [`Integrator::Impulse`] and [`Integrator::Midpoint`], their values at its start for
     /// [`Integrator::RungeKutta`].
     #[must_use]
     pub fn forces(&self, world: &World) -> StepForces {
@@ -180,7 +186,7 @@ impl StepWorkspace {
         for (row, tangent) in touch.rows.tangents.into_iter().flatten().zip(&touch.tangents) {
             force += tangent * lambda[row];
             let u = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates);
-            slip += tangent * (u - graph.rows[row].target);
+            slip += tangent * (u - graph.rows[row].target) * if self.halfway { 2.0 } else { 1.0 };
         }
         ContactForce {
             surfaces: touch.surfaces,

@@ -6,7 +6,8 @@ use crate::simulation::{ImpactLaw, Integrator};
 use crate::toml_reader::Table;
 
 pub(super) fn read_integrator(root: &Table<'_>) -> Result<Integrator, SceneError> {
-    let words = [("impulse", Integrator::Impulse), ("runge-kutta", Integrator::RungeKutta)];
+    let all = [Integrator::Impulse, Integrator::Midpoint, Integrator::RungeKutta];
+    let words = all.map(|integrator| (integrator.word(), integrator));
     root.get("integrator").map_or(Ok(Integrator::Impulse), |value| value.choice(&words))
 }
 
@@ -15,8 +16,8 @@ pub(super) fn read_impact(root: &Table<'_>, integrator: Integrator) -> Result<Im
     let words = [("coulomb", ImpactLaw::Coulomb), ("sticking", ImpactLaw::Sticking)];
     let Some(value) = root.get("impact") else { return Ok(ImpactLaw::Coulomb) };
     let impact = value.choice(&words)?;
-    if impact == ImpactLaw::Sticking && integrator == Integrator::RungeKutta {
-        return Err(value.wrong("\"coulomb\" with the integrator \"runge-kutta\""));
+    if impact == ImpactLaw::Sticking && integrator != Integrator::Impulse {
+        return Err(value.wrong(&format!("\"coulomb\" with the integrator \"{}\"", integrator.word())));
     }
     Ok(impact)
 }

@@ -13,6 +13,8 @@ const FLAILING_S: f64 = 60.0;
 pub(super) struct Accuracy {
     /// Chain without damping, 10 s by Runge-Kutta.
     pub(super) smooth: EnergyDrift,
+    /// The same by the midpoint rule.
+    pub(super) midpoint: EnergyDrift,
     /// The same by impulses.
     pub(super) impulses: EnergyDrift,
     /// Chain flailing for 60 s by impulses: largest joint error [m] with and without position projection.
@@ -37,6 +39,7 @@ impl EnergyDrift {
 pub(super) fn measure() -> Result<Accuracy, String> {
     Ok(Accuracy {
         smooth: energy_drift(Integrator::RungeKutta)?,
+        midpoint: energy_drift(Integrator::Midpoint)?,
         impulses: energy_drift(Integrator::Impulse)?,
         joint_error_m: [flail(true)?, flail(false)?],
     })

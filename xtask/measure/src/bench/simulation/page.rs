@@ -36,8 +36,8 @@ const NOTES: &str = "\
 - **Springs.** The springs in the human's joints are three hinges in a row in MuJoCo, one ball or universal joint here, one
   joint with motors in Rapier. For small angles that is the same device. In Rapier's default settings they do not hold
   the human: it sags or falls, which says little about its contacts.
-- **Energy.** A step by impulses is of the first order and loses or gains energy; ours too. For smooth motion
-  `Integrator::RungeKutta` does not, see Accuracy; MuJoCo's RK4 is its like.
+- **Energy.** A step by impulses is of the first order and loses or gains energy; ours too. `Integrator::Midpoint` keeps it, with
+  contacts as well, and for smooth motion so does `Integrator::RungeKutta`, see Accuracy; MuJoCo's RK4 is its like.
 - **Builds.** Ours runs as `cargo build --release` makes it, for any x86-64. Rapier is built with
   `-C target-cpu=native`; MuJoCo comes as a built library and is stepped from Python in tens, one by one from 1,000
   bodies on.
@@ -296,7 +296,12 @@ fn missing(peers: &[PeerTiming], scene: Scene) -> String {
 
 fn accuracy(accuracy: &Accuracy) -> String {
     let mut table = Table::new(&["chain of 20 links, steps of 1 ms", "measured"]);
-    for (name, drift) in [("Runge-Kutta", &accuracy.smooth), ("impulses", &accuracy.impulses)] {
+    let integrators = [
+        ("Runge-Kutta", &accuracy.smooth),
+        ("the midpoint rule", &accuracy.midpoint),
+        ("impulses", &accuracy.impulses),
+    ];
+    for (name, drift) in integrators {
         let measured =
             format!("{} ({} J of {:.0} J)", small(drift.share()), small(drift.change_j), drift.turned_over_j);
         table.row([format!("energy over 10 s, by {name}"), measured]);

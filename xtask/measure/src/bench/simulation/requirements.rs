@@ -86,6 +86,12 @@ pub(super) fn all(results: &Results) -> Vec<Requirement> {
         accuracy.smooth.share(),
         ENERGY,
     ));
+    required.push(Requirement::error(
+        "the same with contacts possible (midpoint rule)",
+        "",
+        accuracy.midpoint.share(),
+        ENERGY,
+    ));
     required.push(Requirement::error("flailing chain of 20, 60 s: joint error", " m", flailing, JOINT_M));
     required
 }
