@@ -13,6 +13,8 @@
 
 /// Entries of a row that are eliminated side by side.
 const TOGETHER: usize = 4;
+/// Parts of a sum that a processor adds at once.
+const LANES: usize = 8;
 
 /// A symmetric band matrix, lower half stored by rows.
 #[derive(Debug, Clone)]
@@ -141,25 +143,60 @@ impl BandFactor {
     pub fn inverse_in_band(self) -> BandMatrix {
         let BandFactor(mut matrix) = self;
         let (size, w) = (matrix.size, matrix.width);
-        let mut column = vec![0.0; w];
+        let (mut column, mut product) = (vec![0.0; w], vec![0.0; w]);
         // Column j of Z from row j to j + w, by columns of L from the last to the first.
         for j in (0..size).rev() {
             let reach = (size - 1 - j).min(w);
-            for (k, l) in column[..reach].iter_mut().enumerate() {
+            let (column, product) = (&mut column[..reach], &mut product[..reach]);
+            for (k, l) in column.iter_mut().enumerate() {
                 *l = matrix.rows[matrix.at(j + 1 + k, j)];
             }
+            matrix.multiply(j + 1, column, product);
             let diagonal = matrix.at(j, j);
             let pivot = matrix.rows[diagonal];
-            for i in (j + 1..=j + reach).rev() {
-                let sum: f64 = (0..reach).map(|k| matrix.value(i, j + 1 + k) * column[k]).sum();
-                let place = matrix.at(i, j);
-                matrix.rows[place] = -sum / pivot;
+            let mut sum = 0.0;
+            for (k, (l, product)) in column.iter().zip(product).enumerate() {
+                let place = matrix.at(j + 1 + k, j);
+                matrix.rows[place] = -*product / pivot;
+                sum += matrix.rows[place] * l;
             }
-            let sum: f64 = (0..reach).map(|k| matrix.value(j + 1 + k, j) * column[k]).sum();
             matrix.rows[diagonal] = (1.0 / pivot - sum) / pivot;
         }
         matrix
     }
+}
+
+impl BandMatrix {
+    /// The product y = A x of the block of rows and columns from `first` on, as many as x has, which is no more than w + 1. Each row is read once,
+    /// for its own entry and for those of the columns.
+    fn multiply(&self, first: usize, x: &[f64], y: &mut [f64]) {
+        for (i, own) in x.iter().enumerate() {
+            let start = self.at(first + i, first);
+            let (row, diagonal) = (&self.rows[start..start + i], self.rows[start + i]);
+            let (above, at) = y.split_at_mut(i);
+            at[0] = add_and_multiply(row, *own, &x[..i], above) + diagonal * own;
+        }
+    }
+}
+
+/// Adds `factor` times the row to `sums` and returns the product of the row with x, whose sum has [`LANES`] parts in a fixed order.
+fn add_and_multiply(row: &[f64], factor: f64, x: &[f64], sums: &mut [f64]) -> f64 {
+    let mut parts = [0.0; LANES];
+    let (rows, row_rest) = row.as_chunks::<LANES>();
+    let (xs, x_rest) = x.as_chunks::<LANES>();
+    let (sums, sums_rest) = sums.as_chunks_mut::<LANES>();
+    for ((row, x), sums) in rows.iter().zip(xs).zip(sums) {
+        for k in 0..LANES {
+            parts[k] += row[k] * x[k];
+            sums[k] += row[k] * factor;
+        }
+    }
+    let mut rest = 0.0;
+    for ((row, x), sum) in row_rest.iter().zip(x_rest).zip(sums_rest) {
+        rest += row * x;
+        *sum += row * factor;
+    }
+    parts.iter().sum::<f64>() + rest
 }
 
 #[cfg(test)]
