@@ -18,7 +18,7 @@ pub const BAND_SAMPLES: usize = 51;
 /// Records at each speed.
 const RECORDS: [u32; SPEEDS] = [77, 82, 82, 76, 51];
 /// The measured quantities.
-const MEASURED: [&str; 20] = [
+const MEASURED: [&str; 21] = [
     "pelvis_tilt_angle",
     "pelvis_obliquity_angle",
     "pelvis_rotation_angle",
@@ -29,6 +29,7 @@ const MEASURED: [&str; 20] = [
     "knee_adduction_angle",
     "knee_rotation_angle",
     "ankle_dorsiflexion_angle",
+    "foot_progression_angle",
     "hip_flexion_moment",
     "hip_adduction_moment",
     "knee_flexion_moment",

@@ -18,13 +18,14 @@ const HEADER: &str = "\
 # Speeds: V* = V / sqrt(g L) with leg length L. Curves: 0 % to 100 % of the cycle from contact of the same foot, every 2 %; one row a
 # speed. Angles [deg]: flexion, dorsiflexion, adduction (varus), internal rotation, anterior tilt, own side up and ahead positive. Moments [N.m/kg],
 # internal: extensor, abductor, plantarflexor positive. Powers [W/kg], generated positive. Ground forces [body weights]: up and forward
-# on the foot positive. Left out: the trunk (measured against the laboratory, not against the pelvis) and the foot's progression.
+# on the foot positive. The foot's progression is internal positive. Left out: the trunk
+# (measured against the laboratory, not against the pelvis).
 # [time]: shares of the cycle, and dimensionless cadence n sqrt(L/g) with n steps a second (workbook of the same tables; no deviation
 # of it is known here).
 ";
 
 /// Name in the program; table and name in the source.
-const QUANTITIES: [(&str, Sheet, &str); 20] = [
+const QUANTITIES: [(&str, Sheet, &str); 21] = [
     ("pelvis_tilt_angle", Sheet::Angles, "Pelvic Ant/Posterior Tilt"),
     ("pelvis_obliquity_angle", Sheet::Angles, "Pelvic Up/Down Obliquity"),
     ("pelvis_rotation_angle", Sheet::Angles, "Pelvic Int/External Rotation"),
@@ -35,6 +36,7 @@ const QUANTITIES: [(&str, Sheet, &str); 20] = [
     ("knee_adduction_angle", Sheet::Angles, "Knee Ad/Abduction"),
     ("knee_rotation_angle", Sheet::Angles, "Knee Int/External Rotation"),
     ("ankle_dorsiflexion_angle", Sheet::Angles, "Ankle Dorsi/Plantarflexion"),
+    ("foot_progression_angle", Sheet::Angles, "Foot Int/External Progression"),
     ("hip_flexion_moment", Sheet::Moments, "Hip Ext/Flexion"),
     ("hip_adduction_moment", Sheet::Moments, "Hip Ab/Adduction"),
     ("knee_flexion_moment", Sheet::Moments, "Knee Ext/Flexion"),

@@ -7,6 +7,7 @@ mod cycles;
 mod event_agreement;
 mod events;
 pub mod feasibility;
+mod foot_progression;
 mod ground_agreement;
 mod marker_trial;
 mod peaks;
@@ -28,6 +29,7 @@ pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle, over_cycle_of};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts_from_force, events};
+pub use foot_progression::foot_progression;
 pub use ground_agreement::{
     BandAgreement, CenterAgreement, ComparedAnalyses, ComparedSample, ComparedStance, FootAgreement, ForceAgreement,
     GroundAgreement, MomentAgreement, PlateCoverage, compared_stances, ground_agreement,

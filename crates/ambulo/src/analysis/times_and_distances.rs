@@ -29,7 +29,7 @@ const MOVING_FLOOR: f64 = 0.2;
 const MISSED: f64 = 1.5;
 
 /// The pelvis moves at least this far in a stride that has a direction [m].
-const LEAST_STRIDE_M: f64 = 0.2;
+pub(super) const LEAST_STRIDE_M: f64 = 0.2;
 /// A path that is this many times as long as the straight line between its ends has a speed of its own.
 const LONGER: f64 = 1.05;
 /// The path is measured in pieces of about this time: half a stride, so that sway does not lengthen it [s].
@@ -296,14 +296,14 @@ struct Strike {
 
 /// The floor: which direction is up, and how a belt moves [m/s].
 #[derive(Debug, Clone, Copy)]
-struct Floor {
+pub(super) struct Floor {
     up: Vec3,
     velocity: Vec3,
 }
 
 impl Floor {
     /// A belt moves with the feet that carry the body; a floor that moves slower than a share of the walking speed is still.
-    fn of(model: &Model, analysis: &Analysis) -> Floor {
+    pub(super) fn of(model: &Model, analysis: &Analysis) -> Floor {
         let up = model.up();
         let still = Floor { up, velocity: Vec3::zeros() };
         let Some(over) = over_ground(model, &analysis.trajectory, &analysis.ground, up) else { return still };
@@ -316,20 +316,20 @@ impl Floor {
     }
 
     /// The part of a vector along the floor.
-    fn level(&self, v: Vec3) -> Vec3 {
+    pub(super) fn level(&self, v: Vec3) -> Vec3 {
         v - self.up * v.dot(&self.up)
     }
 }
 
 /// Where the pelvis is over the floor, frame by frame, as if the floor had not moved since the first frame.
-struct PelvisPath {
+pub(super) struct PelvisPath {
     grid: TimeGrid,
     places: Vec<Vec3>,
 }
 
 impl PelvisPath {
     /// `None` of a body without a pelvis.
-    fn of(model: &Model, analysis: &Analysis, floor: Floor) -> Option<PelvisPath> {
+    pub(super) fn of(model: &Model, analysis: &Analysis, floor: Floor) -> Option<PelvisPath> {
         let pelvis = model.anatomy().pelvis()?;
         let grid = analysis.trajectory.grid();
         let mut places = Vec::with_capacity(grid.frames);
@@ -341,7 +341,7 @@ impl PelvisPath {
     }
 
     /// From one instant to another [m].
-    fn between(&self, [from, to]: [f64; 2]) -> Option<Vec3> {
+    pub(super) fn between(&self, [from, to]: [f64; 2]) -> Option<Vec3> {
         Some(at(self.grid, &self.places, to)? - at(self.grid, &self.places, from)?)
     }
 
