@@ -114,6 +114,7 @@ mod scene_verdict;
 mod scene_walkers;
 mod segment_poses;
 mod sensor_fit;
+mod session;
 mod simulation_closed_form;
 mod simulation_contact;
 mod simulation_midpoint;

@@ -31,6 +31,7 @@ mod prediction;
 mod quality;
 mod refit;
 mod run;
+pub mod session;
 mod settings;
 mod size;
 mod source;
