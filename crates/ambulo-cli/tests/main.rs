@@ -38,6 +38,7 @@ mod reproduce;
 mod results;
 mod segment_poses;
 mod sensors;
+mod session;
 mod simulate;
 mod summary_schema;
 mod sweep;

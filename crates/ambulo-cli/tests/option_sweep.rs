@@ -203,14 +203,15 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     }
     // A verb with its first numeric option needs a sweep below; numbers of `tune` are tried in tune.rs, because an accepted one takes seconds, those
     // of `calibrate` are some of `forces`, those of `validate` too, apart from the number of threads (validate.rs);
-    // those of `batch` are counts (batch.rs).
+    // those of `batch` and `session` are counts (batch.rs, session.rs).
     let command = Args::command();
     let verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
-    assert_eq!(swept, ["forces", "calibrate", "validate", "batch", "walk", "sweep", "simulate", "tune", "compare"]);
+    assert_eq!(swept, ["forces", "calibrate", "validate", "batch", "session", "walk", "sweep", "simulate", "tune", "compare"]);
     assert!(names("calibrate").iter().all(|name| names("forces").contains(name)));
     assert_eq!(names("validate"), ["mass", "height", "jobs"]);
     assert_eq!(names("batch"), ["jobs", "shard", "part", "limit"]);
+    assert_eq!(names("session"), ["jobs"]);
 }
 
 #[test]

@@ -190,6 +190,21 @@ pub fn clinical_quantities(names: &ClinicalNames, has: impl Fn(&str) -> bool) ->
     ROWS.iter().filter_map(|row| row.found(names, &has)).collect()
 }
 
+/// Title, unit and meaning of the signs of a quantity that is displayed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Wording {
+    pub(crate) title: &'static str,
+    pub(crate) unit: &'static str,
+    /// Meaning of positive and of negative values.
+    pub(crate) directions: [&'static str; 2],
+}
+
+/// The wording of a quantity of [`clinical_quantities`]; `None` for other names.
+pub(crate) fn wording(id: &str) -> Option<Wording> {
+    let row = ROWS.iter().find(|row| row.id == id)?;
+    Some(Wording { title: row.title, unit: row.group.unit(), directions: row.directions })
+}
+
 /// Whether numbers of a unit (`BW`, `deg`, `N.m`, ...) change by more than rounding and filters change a constant. Joints that are
 /// locked, and the sideways force of a body that moves in a plane, do not.
 pub(crate) fn moves(unit: &str, values: &[f64]) -> bool {

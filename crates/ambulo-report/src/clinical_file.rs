@@ -70,7 +70,7 @@ fn pelvic_frame(outcome: &Outcome) -> Result<PelvicFrame, PelvicFrameError> {
 }
 
 /// The data for the columns.
-struct Curves<'a> {
+pub(crate) struct Curves<'a> {
     model: &'a Model,
     analysis: &'a Analysis,
     angles: Option<&'a ClinicalAngles>,
@@ -80,7 +80,7 @@ struct Curves<'a> {
 }
 
 impl<'a> Curves<'a> {
-    fn of(model: &'a Model, analysis: &'a Analysis, angles: Option<&'a ClinicalAngles>) -> Curves<'a> {
+    pub(crate) fn of(model: &'a Model, analysis: &'a Analysis, angles: Option<&'a ClinicalAngles>) -> Curves<'a> {
         let frames = analysis.trajectory.grid().frames;
         let ground = match analysis.ground.bodies.is_empty() {
             true => Vec::new(),
@@ -99,7 +99,8 @@ impl<'a> Curves<'a> {
         columns
     }
 
-    fn quantities(&self) -> Vec<ClinicalQuantity> {
+    /// The quantities of the body.
+    pub(crate) fn quantities(&self) -> Vec<ClinicalQuantity> {
         let stems = self.model.coordinate_ids().map(|id| self.model.coordinate_stem(id));
         let mut names: BTreeSet<String> =
             stems.flat_map(|stem| ["angle", "moment", "power"].map(|what| format!("{stem}_{what}"))).collect();
@@ -109,7 +110,8 @@ impl<'a> Curves<'a> {
         clinical_quantities(&ClinicalNames::of_model(self.model), |name| names.contains(name))
     }
 
-    fn values(&self, quantity: &ClinicalQuantity, side: Side) -> Option<Vec<f64>> {
+    /// A quantity of a side over the frames, in clinical signs and units; `None` if the body lacks it.
+    pub(crate) fn values(&self, quantity: &ClinicalQuantity, side: Side) -> Option<Vec<f64>> {
         let factor = quantity.factor(self.analysis.mass.kg, side);
         let scaled = |values: &[f64], factor: f64| values.iter().map(|x| factor * x).collect();
         let forces = &self.analysis.forces;

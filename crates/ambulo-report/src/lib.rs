@@ -11,6 +11,7 @@ pub mod page;
 mod reproduction;
 mod reproduction_page;
 mod scene_shapes;
+mod session;
 mod stage;
 pub mod style;
 mod sweep;
@@ -27,5 +28,10 @@ pub use figures::{CycleFigures, FigureError, Mark, SceneCurves, gait_figure, pap
 pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;
 pub use scene_shapes::scene_shapes;
+pub use session::{
+    ComparedSession, ComputedTrial, ExcludedSummary, GroupCurve, ProfileSummary, ReferenceGroup, ReferenceGroupError,
+    ReferenceSummary, RepresentativeSummary, SESSION_FORMAT, Session, SessionFacts, SessionSummary, SessionTrial,
+    Spread, TrialSummary, VariableSummary, session_from_files,
+};
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
 pub use validation::{ListedTrial, listed_section, validation_files};

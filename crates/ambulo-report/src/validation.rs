@@ -258,12 +258,12 @@ fn data_section(judged: &[&JudgedTrial]) -> Section {
 }
 
 /// Text whose back quotes are code.
-fn code(text: &str) -> String {
+pub(crate) fn code(text: &str) -> String {
     let parts = text.split('`').enumerate();
     parts.map(|(k, part)| if k % 2 == 1 { format!("<code>{}</code>", escaped(part)) } else { escaped(part) }).collect()
 }
 
-fn html_table(section: &Section) -> String {
+pub(crate) fn html_table(section: &Section) -> String {
     let Section { table, note, .. } = section;
     let is_number =
         |cell: &str| cell == "-" || cell.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit());
@@ -293,7 +293,7 @@ fn html_table(section: &Section) -> String {
 }
 
 /// A text as a cell of a CSV file.
-fn cell(text: &str) -> String {
+pub(crate) fn cell(text: &str) -> String {
     let text = guarded(text);
     if text.contains([',', '"', ';', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -303,7 +303,7 @@ fn cell(text: &str) -> String {
 }
 
 /// A number as a cell; empty where there is none.
-fn shown(x: f64) -> String {
+pub(crate) fn shown(x: f64) -> String {
     if x.is_finite() { x.to_string() } else { String::new() }
 }
 

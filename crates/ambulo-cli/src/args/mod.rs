@@ -4,6 +4,7 @@ mod batch;
 mod exchange;
 mod forces;
 mod report;
+mod session;
 mod tools;
 mod trial_files;
 mod validate;
@@ -14,6 +15,7 @@ pub(crate) use batch::{BatchArgs, Shard};
 pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Adjusted, CalibrateArgs, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
+pub(crate) use session::SessionArgs;
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
 pub(crate) use trial_files::TrialFiles;
 pub(crate) use validate::ValidateArgs;
@@ -40,6 +42,8 @@ pub(crate) enum Command {
     Validate(ValidateArgs),
     /// Compute all recordings of a folder or a list into Parquet tables: in parallel, in shards, resumable after any interruption.
     Batch(BatchArgs),
+    /// Compute the trials of a visit with one body and show them on one page: all cycles, means, times and distances, gait profile score, before and after.
+    Session(SessionArgs),
     /// Synthesise a walk at any speed and in any style; same outputs as `forces`, no file needed.
     Walk(Box<WalkArgs>),
     /// Compute walks at many speeds, of many bodies, on slopes and with loads: one table, and a page with envelopes.

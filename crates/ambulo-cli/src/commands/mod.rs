@@ -14,6 +14,7 @@ pub(crate) mod reproduce;
 mod result_folder;
 mod results;
 mod run_files;
+pub(crate) mod session;
 mod side_by_side;
 pub(crate) mod simulate;
 mod stopwatch;

@@ -1,5 +1,6 @@
 //! A result folder on disk, for functions that read its files by name.
 
+use super::session::SESSION_PAGE;
 use crate::files;
 use crate::record::Record;
 use crate::replacement::recover;
@@ -12,6 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 const CLAIMS: &str = "claims.json";
 /// Name of the file that only `ambulo sweep` writes.
 const WALKS: &str = "walks.csv";
+const OF_A_SESSION: &str = "`ambulo session` wrote this folder, and its page cannot be written again";
 const OF_A_SWEEP: &str = "`ambulo sweep` wrote this folder, and its report.html cannot be written again";
 const OF_THE_PAPER: &str = "`ambulo reproduce` wrote this folder, and its report.html cannot be written again";
 const HINT: &str = "hint: `ambulo demo -o demo` writes one";
@@ -33,6 +35,9 @@ impl ResultFolder {
         }
         if folder.record.files.contains_key(WALKS) {
             bail!("{}: {OF_A_SWEEP}", path.display());
+        }
+        if folder.record.files.contains_key(SESSION_PAGE) {
+            bail!("{}: {OF_A_SESSION}", path.display());
         }
         Ok(folder)
     }

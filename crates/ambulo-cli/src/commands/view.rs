@@ -2,6 +2,7 @@
 
 use super::report::write_page;
 use super::result_folder::{ResultFolder, read_checked};
+use super::session::SESSION_PAGE;
 use crate::args::Existing;
 use crate::args::ViewArgs;
 use crate::{Completion, files, printer};
@@ -22,8 +23,12 @@ pub(crate) fn run(args: &ViewArgs) -> Result<Completion> {
 fn page(path: &Path) -> Result<PathBuf> {
     let shown = path.display();
     if path.is_dir() {
-        let page = path.join(PAGE);
         let folder = ResultFolder::of_any_run(path)?;
+        if folder.has(SESSION_PAGE) {
+            _ = folder.checked(SESSION_PAGE)?;
+            return Ok(path.join(SESSION_PAGE));
+        }
+        let page = path.join(PAGE);
         match page.is_file() {
             true => _ = folder.checked(PAGE)?,
             false => write_page(&[path], Existing::Kept)?,

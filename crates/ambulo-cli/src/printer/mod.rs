@@ -9,6 +9,7 @@ mod consistency;
 mod forces;
 mod report;
 mod reproduce;
+mod session;
 mod simulate;
 mod subject;
 mod sweep;
@@ -21,6 +22,7 @@ pub(crate) use calibrate::calibrate;
 pub(crate) use forces::forces;
 pub(crate) use report::{report, view};
 pub(crate) use reproduce::reproduce;
+pub(crate) use session::session;
 pub(crate) use simulate::simulate;
 pub(crate) use sweep::sweep;
 pub(crate) use tools::{ComparedColumn, EventSource, SourceAgreement, compare, convert, events, info};
@@ -66,6 +68,7 @@ pub(crate) fn guide() -> Result<()> {
   ambulo forces WALK.c3d --static STANDING.c3d               joint moments, powers, ground forces from markers and force plates
   ambulo forces MOTION.trc --mass 70                         the same without force plates: predicted ground forces
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    the same from coordinates of an OpenSim model
+  ambulo session DIR                                         the trials of a visit on one page, compared with healthy people
   ambulo validate DIR                                        judge predicted ground forces on a folder of trials on plates
   ambulo simulate SCENE.toml                                 simulate a scene
   ambulo tune SCENE.toml                                     tune the gains of a figure that walks by its own torques

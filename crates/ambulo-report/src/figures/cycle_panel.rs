@@ -102,7 +102,7 @@ impl<'a> CyclePanel<'a> {
         attributes.extend(axes.attributes());
         drawing.open(&self.description(), &attributes);
         if let Some(band) = &self.band {
-            draw_band(drawing, style, &axes, band);
+            draw_band(drawing, style, &axes, &band.mean, &band.sd);
         }
         axes.draw_ground(drawing, style);
         for side in Side::BOTH {
@@ -185,10 +185,11 @@ fn tags(side: Side, role: &str, number: usize) -> [(&'static str, String); 3] {
     [("data-side", side.letter().to_owned()), ("data-role", role.to_owned()), number]
 }
 
-fn draw_band(drawing: &mut Drawing, style: &Style, axes: &Axes<'_>, band: &NormativeBand) {
-    let percent = |i: usize| 100.0 * i as f64 / (band.mean.len().max(2) - 1) as f64;
+/// The area within one standard deviation of the mean.
+pub(super) fn draw_band(drawing: &mut Drawing, style: &Style, axes: &Axes<'_>, mean: &[f64], sd: &[f64]) {
+    let percent = |i: usize| 100.0 * i as f64 / (mean.len().max(2) - 1) as f64;
     let edge = |sign: f64| {
-        let values = band.mean.iter().zip(&band.sd).enumerate();
+        let values = mean.iter().zip(sd).enumerate();
         values.map(move |(i, (mean, sd))| axes.at([percent(i), mean + sign * sd])).collect::<Vec<_>>()
     };
     let mut corners = edge(1.0);

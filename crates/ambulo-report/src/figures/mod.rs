@@ -8,6 +8,7 @@ mod gait_figure;
 mod moving_picture;
 mod paper_figure;
 mod scene_figures;
+mod session_panels;
 mod sheet;
 mod svg;
 mod time_figures;
@@ -18,6 +19,9 @@ pub use gait_figure::gait_figure;
 pub(crate) use moving_picture::moving_picture;
 pub use paper_figure::paper_figure;
 pub use scene_figures::SceneCurves;
+pub(crate) use session_panels::{
+    LineLook, PanelArea, PanelLine, ProfileBars, ProfileFigure, SessionFigure, SessionPanel, SessionSample,
+};
 pub use time_figures::{PredictedMotion, prediction_figure, residual_figure};
 
 use ambulo::model::Side;

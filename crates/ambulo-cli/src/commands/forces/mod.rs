@@ -17,7 +17,7 @@ use crate::args::{Adjusted, Filter, ForceCutoff, ForcesArgs, MarkerFitting};
 use crate::caller::Caller;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files};
-use ambulo::analysis::Adjustable;
+use ambulo::analysis::{Adjustable, Subject};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::predict::PersonalErrors;
 use ambulo::kinematics::marker_fit::{FitMethod, FitSettings, OutlierDetection, SmoothnessPrior};
@@ -25,7 +25,8 @@ use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, SubjectParameters, Window, is_bids_markers, is_marker_table};
 use ambulo::study::{
-    self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, Outcome, Recording, Settings, Source, TrackedTasks,
+    self, AddedMass, ForceFilter, ForceOrigin, GroundSettings, MarkerBody, Outcome, Recording, Settings, Source,
+    TrackedTasks,
 };
 use ambulo_formats::osim::{OsimMarkerSet, OsimModel};
 use ambulo_formats::table::Table;
@@ -60,6 +61,11 @@ fn check_range(args: &ForcesArgs) -> Result<()> {
 
 /// Reads the recording and computes its forces.
 pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
+    compute_on(args, caller, None)
+}
+
+/// The same with a body that was calibrated before, for markers with the built-in body.
+pub(crate) fn compute_on(args: &ForcesArgs, caller: &Caller, body: Option<&Subject>) -> Result<MotionRun> {
     let mut reading = Reading {
         caller: caller.clone(),
         findings: Findings::default(),
@@ -103,7 +109,10 @@ pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
         RecordingKind::Subject => subject::read(args, &mut reading)?,
         RecordingKind::Sensors => sensors::read(args, &mut reading)?,
     };
-    let source = Source { device: read_device(args, &mut reading)?, ..source };
+    let mut source = Source { device: read_device(args, &mut reading)?, ..source };
+    if let (Recording::Markers(markers), Some(body)) = (&mut source.recording, body) {
+        markers.body = MarkerBody::Calibrated(Box::new(body.clone()));
+    }
     reading.read.extend(args.device.iter().chain(&args.thresholds).chain(&args.person).cloned());
     studied(args, source, reading)
 }

@@ -3,6 +3,7 @@
 use super::plan::{Plan, PlannedTrial};
 use crate::args::TrialFiles;
 use crate::files;
+use ambulo::study::StatedTrial;
 use anyhow::{Context, Error, Result, bail};
 use serde::Deserialize;
 use serde::de::Error as _;
@@ -98,6 +99,7 @@ fn planned(line: Line, root: &Path) -> PlannedTrial {
         name: format!("{shown}{of_subject}"),
         person: line.person.or(folder).unwrap_or_else(|| shown.clone()),
         kind: line.kind,
+        stated: StatedTrial::default(),
         broken: None,
         files: TrialFiles {
             recording: root.join(&line.file),

@@ -46,6 +46,8 @@ pub(crate) struct PlannedTrial {
     /// The kind that the laboratory states.
     pub(crate) kind: Option<String>,
     pub(crate) files: TrialFiles,
+    /// What the laboratory states about it.
+    pub(crate) stated: StatedTrial,
     /// Why it cannot be read.
     pub(crate) broken: Option<String>,
 }
@@ -58,6 +60,8 @@ pub(crate) struct Plan {
     pub(crate) others: Vec<(String, String)>,
     /// Every file that was read.
     pub(crate) read: Vec<PathBuf>,
+    /// Recordings in which the person stands still.
+    pub(crate) standing: Vec<String>,
 }
 
 /// What a recording is by its content.
@@ -106,6 +110,8 @@ pub(crate) fn plan(root: &Path, wanted: Wanted, found: &[FoundFile], threads: us
     for file in found.iter().filter(|file| file.ending() == "b3d") {
         plan.add_subject(file, &list.of(&file.name), root);
     }
+    let is_still = |(_, content): &(&(&FoundFile, StatedTrial), &Content)| **content == Content::Still;
+    plan.standing = recordings.iter().zip(&contents).filter(is_still).map(|((file, _), _)| file.name.clone()).collect();
     plan.trials.sort_by(|a, b| a.name.cmp(&b.name));
     plan.others.iter_mut().for_each(|(_, why)| *why = relative(why, root));
     plan.others.sort();
@@ -154,6 +160,7 @@ impl Plan {
             person: stated.person.clone().unwrap_or_else(|| own.to_owned()),
             kind: stated.kind.clone(),
             broken,
+            stated: stated.clone(),
             files: TrialFiles {
                 recording: file.path.clone(),
                 trial: number.map(|number| number.to_string()),
@@ -345,6 +352,7 @@ impl<'a> Folders<'a> {
             name: file.name.clone(),
             person: stated.person.clone().unwrap_or_else(|| self.person(file)),
             kind: stated.kind.clone(),
+            stated: stated.clone(),
             broken: if let Content::Broken(reason) = content { Some(reason.clone()) } else { None },
             files: TrialFiles {
                 recording: file.path.clone(),

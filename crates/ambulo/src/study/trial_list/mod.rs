@@ -10,7 +10,8 @@ use crate::toml_reader::{Place, Source, Table, TomlError};
 use pattern::Pattern;
 
 const DOCUMENT: &str = "docs/VALIDATE.md";
-const KEYS: [&str; 10] = ["files", "person", "kind", "static", "mass", "height", "model", "grf", "loads", "exclude"];
+const KEYS: [&str; 11] =
+    ["files", "person", "kind", "static", "mass", "height", "age", "model", "grf", "loads", "exclude"];
 
 /// The list.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -38,6 +39,8 @@ pub struct StatedTrial {
     pub mass_kg: Option<f64>,
     /// Stature [m].
     pub height_m: Option<f64>,
+    /// Age of the person [years].
+    pub age_years: Option<f64>,
     /// The model of the body.
     pub model: Option<String>,
     /// The table of measured ground forces.
@@ -62,6 +65,7 @@ impl StatedTrial {
             standing: text(&later.standing, self.standing),
             mass_kg: later.mass_kg.or(self.mass_kg),
             height_m: later.height_m.or(self.height_m),
+            age_years: later.age_years.or(self.age_years),
             model: text(&later.model, self.model),
             forces: text(&later.forces, self.forces),
             loads: text(&later.loads, self.loads),
@@ -121,6 +125,7 @@ fn entry(table: &Table<'_>) -> Result<Entry, TomlError> {
             standing: text("static")?,
             mass_kg: size("mass")?,
             height_m: size("height")?,
+            age_years: size("age")?,
             model: text("model")?,
             forces: text("grf")?,
             loads: text("loads")?,

@@ -1,0 +1,50 @@
+//! Options of `ambulo session`.
+
+use super::{PrintArgs, ReplaceArgs};
+use clap::Args as ClapArgs;
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, ClapArgs)]
+#[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
+  ambulo session demo/input -o session -- --mass 75 --height 1.75
+  ambulo session demo/input --dry-run
+
+DIR is a visit: the trials of one person, with at most one standing trial. The files of each trial are found by the rules of docs/VALIDATE.md, and
+trials.toml states what differs: person, age, static, mass, height, model, grf, loads, exclude. All trials use one body, calibrated once. Each is computed as
+`ambulo forces --predict` does; forces are measured where force plates measured the whole stance of a cycle. Words after `--` are options of
+`ambulo forces` for every trial.
+
+Files written to OUT: session.html (open it with `ambulo view OUT`), summary.json, cycles.csv, times_and_distances.csv, deviations.csv; with --compare
+differences.csv; with --norm norm.json. A trial that cannot be computed is a row with its reason. Exit code: 0 if any trial has a cycle that counts, 2 if
+none. docs/SESSION.md has the rules and the definitions.")]
+pub(crate) struct SessionArgs {
+    /// The folder with the recordings of the visit.
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// Folder for the results.
+    #[arg(short, long, value_name = "OUT", default_value = "session")]
+    pub(crate) output: PathBuf,
+    /// An earlier session of the person (the OUT of that time), to show what changed.
+    #[arg(long, value_name = "EARLIER")]
+    pub(crate) compare: Option<PathBuf>,
+    /// Own reference group: norm.json of an earlier run, or a folder with the recordings or the sessions of healthy people, one folder per person [default: children of Schwartz et al. 2008].
+    #[arg(long, value_name = "FILE|DIR")]
+    pub(crate) norm: Option<PathBuf>,
+    /// Write no name, no path and no date into any file.
+    #[arg(long)]
+    pub(crate) anonymous: bool,
+    /// Only print which trials were found, with which files.
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+    /// Trials that are computed at the same time [default: the number of processors]; the results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) jobs: Option<u32>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
+    pub(crate) print: PrintArgs,
+    /// Options of `ambulo forces` for every trial.
+    #[arg(last = true, value_name = "OPTIONS")]
+    pub(crate) options: Vec<OsString>,
+}

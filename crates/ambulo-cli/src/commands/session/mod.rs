@@ -1,0 +1,213 @@
+//! `ambulo session`: the trials of a visit, computed with one body, on one page.
+
+mod anonymous;
+mod one_body;
+mod other_sessions;
+mod visit;
+
+use super::run_files::MotionRun;
+use super::side_by_side::processors;
+use super::trials::{Plan, PlannedTrial};
+use crate::args::SessionArgs;
+use crate::caller::Caller;
+use crate::record::{hash_of_file, run_id};
+use crate::replacement::ResultTarget;
+use crate::{Completion, files, printer};
+use ambulo_report::{ComparedSession, ComputedTrial, ReferenceGroup, Session, SessionFacts, SessionTrial};
+use ambulo_results::{OutputFile, summary_json};
+use anonymous::Anonymous;
+use anyhow::{Result, bail};
+use one_body::Visit;
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Name of the page of a session.
+pub(super) const SESSION_PAGE: &str = "session.html";
+/// Name of the reference group that a session was compared with.
+const NORM: &str = "norm.json";
+/// Reasons that an error quotes.
+const QUOTED: usize = 3;
+
+pub(crate) fn run(args: &SessionArgs) -> Result<Completion> {
+    let threads = args.jobs.map_or_else(processors, |jobs| jobs as usize);
+    let plan = visit::planned(&args.folder, threads)?;
+    visit::check_person(&args.folder, &plan)?;
+    let trials: Vec<&PlannedTrial> = plan.trials.iter().collect();
+    if args.dry_run {
+        printer::batch_plan(&trials, &plan.others, args.print)?;
+        return Ok(Completion::Passed);
+    }
+    let recordings = hashes(&trials);
+    other_sessions::check_output(args, &recordings)?;
+    let earlier = args.compare.as_deref().map(other_sessions::read).transpose()?;
+    let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
+    let computing = Computing { words: &args.options, threads, print: args.print };
+    let group = args.norm.as_deref().map(|norm| other_sessions::group(norm, &computing)).transpose()?;
+    let person = computing.person(&args.folder, &plan, &trials)?;
+    if !person.session.has_cycles() {
+        bail!("{}", nothing_counts(args, &person.session));
+    }
+    let finished = finished(args, person.session, Inputs { plan: &plan, recordings, group, earlier });
+    let finished = match args.anonymous {
+        true => Anonymous::of(&args.folder, &plan, &person.names).applied(finished),
+        false => finished,
+    };
+    let summary = save(args, &target, &plan, finished)?;
+    printer::session(&summary, &args.output, args.print)?;
+    Ok(Completion::Passed)
+}
+
+/// How trials are computed.
+struct Computing<'a> {
+    /// Options of `ambulo forces`.
+    words: &'a [OsString],
+    threads: usize,
+    print: crate::args::PrintArgs,
+}
+
+/// A session of one person, and the names in the recordings.
+struct PersonSession {
+    session: Session,
+    names: Vec<String>,
+}
+
+impl Computing<'_> {
+    /// Computes the session of one person.
+    fn person(&self, root: &Path, plan: &Plan, trials: &[&PlannedTrial]) -> Result<PersonSession> {
+        visit::check_stated(root, trials)?;
+        visit::check_standing(root, plan, trials)?;
+        let visit = Visit { root, trials, words: self.words, threads: self.threads };
+        visit.check()?;
+        let begun = AtomicUsize::new(0);
+        let computed = visit.compute(&|k| {
+            let count = begun.fetch_add(1, Ordering::Relaxed) + 1;
+            printer::progress(&format!("{count} of {}: {}", trials.len(), trials[k].name), self.print);
+        });
+        let named = |(trial, run): (&&PlannedTrial, &Result<MotionRun, String>)| {
+            Some((
+                trials.iter().copied().find(|known| known.name == trial.name)?,
+                run.as_ref().ok()?.input.person.clone()?,
+            ))
+        };
+        let named: Vec<(&PlannedTrial, String)> = trials.iter().zip(&computed.runs).filter_map(named).collect();
+        visit::check_names(root, &named)?;
+        let of_run = |(trial, run): (&&PlannedTrial, &Result<MotionRun, String>)| SessionTrial {
+            name: trial.name.clone(),
+            recorded_on: run.as_ref().ok().and_then(|run| run.input.recorded_on.clone()),
+            found: run.as_ref().map(|run| ComputedTrial::of(&run.outcome, run.convention)).map_err(Clone::clone),
+        };
+        let found: Vec<SessionTrial> = trials.iter().zip(&computed.runs).map(of_run).collect();
+        let facts = SessionFacts {
+            person: trials.first().map(|trial| trial.person.clone()),
+            age_years: trials.iter().find_map(|trial| trial.stated.age_years),
+            body: computed.body,
+        };
+        Ok(PersonSession {
+            session: Session::pooled(facts, &found),
+            names: named.into_iter().map(|(_, name)| name).collect(),
+        })
+    }
+}
+
+/// What a session is made of besides its trials.
+struct Inputs<'a> {
+    plan: &'a Plan,
+    recordings: Vec<String>,
+    group: Option<ReferenceGroup>,
+    earlier: Option<Session>,
+}
+
+/// A session with everything that its files show.
+pub(super) struct Finished {
+    session: Session,
+    group: Option<ReferenceGroup>,
+    earlier: Option<Session>,
+}
+
+fn finished(args: &SessionArgs, mut session: Session, inputs: Inputs<'_>) -> Finished {
+    let Inputs { plan, recordings, group, earlier } = inputs;
+    session.summary.recordings = recordings;
+    session.summary.not_computed = plan.others.iter().cloned().collect();
+    if session.summary.recorded_on.len() > 1 && !args.anonymous {
+        let days = session.summary.recorded_on.join(", ");
+        session.summary.warnings.push(format!("the recordings are of several days: {days}"));
+    }
+    Finished { session, group, earlier }
+}
+
+/// Writes all files; returns the summary.
+fn save(
+    args: &SessionArgs,
+    target: &ResultTarget,
+    plan: &Plan,
+    finished: Finished,
+) -> Result<ambulo_report::SessionSummary> {
+    let Finished { session, group, earlier } = finished;
+    let mut compared: ComparedSession = session.compared_with_norm(group.as_ref());
+    if let Some(earlier) = earlier {
+        compared = compared.since(earlier);
+    }
+    let mut written = compared.files()?;
+    if let Some(group) = &group {
+        written.push(OutputFile::new(NORM, group.to_json()?));
+    }
+    let read = inputs(args, plan);
+    let mut summary = compared.session.summary;
+    summary.run_id = run_id(&options(args), &read, &Caller::default())?;
+    target.replace(&written, &read, &mut |files: BTreeMap<String, String>| {
+        summary.files = files;
+        Ok(summary_json(&summary)?)
+    })?;
+    Ok(summary)
+}
+
+/// SHA-256 of the recordings, sorted; those that cannot be read have none.
+fn hashes(trials: &[&PlannedTrial]) -> Vec<String> {
+    let mut hashes: Vec<String> = trials.iter().filter_map(|trial| hash_of_file(&trial.files.recording).ok()).collect();
+    hashes.sort();
+    hashes.dedup();
+    hashes
+}
+
+fn nothing_counts(args: &SessionArgs, session: &Session) -> String {
+    let shown = args.folder.display();
+    let errors = session.summary.trials.iter().filter_map(|trial| Some((&trial.trial, trial.error.as_ref()?)));
+    let excluded = session.summary.excluded.iter().map(|cycle| (&cycle.trial, &cycle.reason));
+    let mut reasons: Vec<String> = errors.chain(excluded).map(|(name, why)| format!("{name}: {why}")).collect();
+    reasons.dedup();
+    reasons.truncate(QUOTED);
+    let reasons = match reasons.is_empty() {
+        true => "no trial has a whole gait cycle, from a foot strike to the next one of the same foot".to_owned(),
+        false => reasons.join("; "),
+    };
+    format!(
+        "{shown}: none of {} trials has a cycle that counts: {reasons}. hint: `ambulo forces` with the files of a trial shows what is wrong with it (`--dry-run` lists them)",
+        session.summary.trials.len()
+    )
+}
+
+/// Every file that was read; none of them is overwritten.
+fn inputs(args: &SessionArgs, plan: &Plan) -> Vec<PathBuf> {
+    let of_trial = |trial: &PlannedTrial| {
+        let files = trial.files.clone();
+        [files.standing, files.model, files.grf, files.loads].into_iter().flatten().chain([files.recording])
+    };
+    let others = args.norm.iter().filter(|path| path.is_file()).cloned();
+    let mut all: Vec<_> =
+        plan.read.iter().cloned().chain(plan.trials.iter().flat_map(of_trial)).chain(others).collect();
+    all.sort();
+    all.dedup();
+    all
+}
+
+/// The command with the options that matter for the results; where the folders lie does not.
+fn options(args: &SessionArgs) -> String {
+    let (output, jobs, dry_run, replace, print) = Default::default();
+    let name = |path: &Path| PathBuf::from(files::last(&path.canonicalize().unwrap_or_else(|_| path.to_owned())));
+    let (compare, norm) = (args.compare.as_deref().map(name), args.norm.as_deref().map(name));
+    let folder = name(&args.folder);
+    let args = SessionArgs { folder, output, compare, norm, jobs, dry_run, replace, print, ..args.clone() };
+    format!("session {args:?}")
+}

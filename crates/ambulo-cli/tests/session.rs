@@ -1,0 +1,217 @@
+//! `ambulo session`: the trials of a visit on one page, and what is refused.
+//!
+//! | claim                                                                                         | tolerance |
+//! |-----------------------------------------------------------------------------------------------|-----------|
+//! | curves are those of `ambulo forces --predict`; a broken trial is a row with its reason        | 1e-6      |
+//! | means, deviations and changes have rows for every quantity; a session compared with itself has not changed | exact |
+//! | threads and the place of the folder change no byte                                            | exact     |
+//! | an own reference group is written, read back, and gives the same numbers again                | exact     |
+//! | without name, path and date: no byte of any file has one                                      | exact     |
+//! | several persons, several standing trials, results of others are refused, and nothing is lost  | exact     |
+//! | all trials have one body; foot progression is that of Plug-in-Gait in the recording            | 6 degrees |
+
+use crate::shared_data::data;
+use crate::workbench::{Workbench, demo_input};
+use std::fs;
+
+/// A folder with walks of the figure, the later ones shorter by a frame, and a model.
+fn visit(bench: &Workbench, folder: &str, walks: usize) {
+    fs::create_dir_all(bench.folder.join(folder)).unwrap();
+    bench.write(&format!("{folder}/figure.osim"), demo_input("figure.osim"));
+    for walk in 0..walks {
+        let name = format!("{folder}/walk{walk}.mot");
+        bench.write(&name, demo_input("walk.mot"));
+        bench.edit_rows(&name, |rows| rows[..rows.len() - walk].to_vec());
+    }
+}
+
+/// The rows of a table, each as its cells.
+fn rows(text: &str) -> Vec<Vec<&str>> {
+    text.lines().map(|line| line.split(',').collect()).collect()
+}
+
+#[test]
+fn a_visit_is_one_page_with_the_curves_of_forces_and_a_broken_trial_is_a_row() {
+    let bench = Workbench::empty("session").removed_at_the_end();
+    visit(&bench, "Ann", 2);
+    bench.write("Ann/broken.c3d", "PathFileType");
+    let run = bench.run(&["session", "Ann", "-o", "out"]).done();
+    assert!(run.stdout.contains("2 of 3 computed") && run.stdout.contains("broken.c3d: "), "{}", run.stdout);
+    let names = ["cycles.csv", "deviations.csv", "session.html", "summary.json", "times_and_distances.csv"];
+    assert_eq!(bench.names("out"), names);
+    let page = bench.text("out/session.html");
+    for known in ["default-src 'none'", "Session of Ann", "broken.c3d", "mean-angles-knee_flexion_angle", "Times and distances"] {
+        assert!(page.contains(known), "{known}");
+    }
+    assert!(!page.contains("<script") && !page.contains("http://") || page.matches("http://").count() == page.matches("http://www.w3.org").count());
+    the_curves_are_those_of_forces(&bench);
+    a_session_compared_with_itself_has_not_changed(&bench);
+    no_byte_depends_on_place_or_threads(&bench);
+}
+
+fn the_curves_are_those_of_forces(bench: &Workbench) {
+    let words = ["forces", "Ann/walk0.mot", "--model", "Ann/figure.osim", "--predict", "--keep", "tables", "-o", "one"];
+    bench.run(&[&words[..], &["--quiet"]].concat()).done();
+    let (all, own) = (bench.text("out/cycles.csv"), bench.text("one/cycles.csv"));
+    let (all, own) = (rows(&all), rows(&own));
+    let mut compared = 0;
+    // The hip of the figure has clinical signs; a moment of the coordinate is that of a flexor, per mass.
+    let mass: f64 = bench.json("out/summary.json")["mass_kg"].as_f64().unwrap();
+    for (quantity, column, factor) in
+        [("hip_flexion_angle", "hip_flexion_angle", 1.0), ("hip_flexion_moment", "hip_flexion_moment", -1.0 / mass)]
+    {
+        for row in all.iter().filter(|row| row[0] == "walk0.mot" && row[9] == quantity && row[1] == "r" && row[2] == "1") {
+            let expected = own.iter().filter(|line| line[0] == column && line[1] == "r" && line[2] == "1");
+            let expected: Vec<f64> = expected.map(|line| line[4].parse::<f64>().unwrap() * factor).collect();
+            let found: Vec<f64> = row[11..].iter().map(|cell| cell.parse().unwrap()).collect();
+            assert_eq!(found.len(), 101);
+            assert!(found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-6), "{quantity}");
+            compared += expected.len();
+        }
+    }
+    assert_eq!(compared, 2 * 101);
+}
+
+fn a_session_compared_with_itself_has_not_changed(bench: &Workbench) {
+    bench.run(&["session", "Ann", "-o", "again", "--compare", "out", "--quiet"]).done();
+    let text = bench.text("again/differences.csv");
+    let lines = rows(&text);
+    assert!(lines.len() > 20, "{}", lines.len());
+    for line in &lines[1..] {
+        let change: f64 = line[8].parse().unwrap();
+        // The table of cycles has six digits.
+        assert!(line.len() == 14 && change.abs() < 1e-5, "{line:?}");
+    }
+    assert!(bench.text("again/session.html").contains("Before and after"));
+    bench.run(&["session", "Ann", "-o", "out", "--compare", "out"]).refused(&["would replace it", "-o"]);
+    bench.edit("out/summary.json", "\"session_format\": 1", "\"session_format\": 99");
+    bench.run(&["session", "Ann", "-o", "third", "--compare", "out"]).refused(&["layout 99", "reads layout 1"]);
+    bench.edit("out/summary.json", "\"session_format\": 99", "\"session_format\": 1");
+    bench.run(&["session", "Ann", "-o", "third", "--compare", "one"]).refused(&["another command", "ambulo session"]);
+    assert!(!bench.exists("third/summary.json"));
+}
+
+fn no_byte_depends_on_place_or_threads(bench: &Workbench) {
+    fs::create_dir(bench.folder.join("moved")).unwrap();
+    fs::rename(bench.folder.join("Ann"), bench.folder.join("moved/Ann")).unwrap();
+    bench.run(&["session", "moved/Ann", "-o", "threads", "--jobs", "1", "--quiet"]).done();
+    for name in bench.names("out") {
+        assert_eq!(bench.hash(&format!("out/{name}")), bench.hash(&format!("threads/{name}")), "{name}");
+    }
+}
+
+#[test]
+fn an_own_reference_group_is_written_and_read_back() {
+    let bench = Workbench::empty("session_norm").removed_at_the_end();
+    visit(&bench, "people/Ann", 1);
+    visit(&bench, "people/Ben", 2);
+    bench.write("people/trials.toml", "[[trial]]\nfiles = \"Ann/*\"\nage = 8\n[[trial]]\nfiles = \"Ben/*\"\nage = 11\n");
+    visit(&bench, "Eve", 1);
+    bench.run(&["session", "Eve", "-o", "first", "--norm", "people", "--quiet"]).done();
+    let group = bench.json("first/norm.json");
+    assert_eq!((&group["persons"], &group["version"], &group["ages_years"][1]), (&2.into(), &1.into(), &11.0.into()));
+    let knee = &group["curves"]["hip_flexion_angle"];
+    assert_eq!((knee["mean"].as_array().unwrap().len(), &knee["persons"]), (101, &2.into()));
+    bench.run(&["session", "Eve", "-o", "second", "--norm", "first/norm.json", "--quiet"]).done();
+    for name in ["deviations.csv", "times_and_distances.csv", "norm.json"] {
+        assert_eq!(bench.hash(&format!("first/{name}")), bench.hash(&format!("second/{name}")), "{name}");
+    }
+    // The sessions of the people, computed before, are the same group but for their ages.
+    for person in ["Ann", "Ben"] {
+        bench.run(&["session", &format!("people/{person}"), "-o", &format!("done/{person}"), "--quiet"]).done();
+    }
+    bench.run(&["session", "Eve", "-o", "third", "--norm", "done", "--quiet"]).done();
+    let found = bench.json("third/norm.json");
+    assert_eq!((&found["persons"], &found["ages_years"]), (&2.into(), &serde_json::Value::Null));
+    for (old, new, words) in [
+        ("\"version\": 1", "\"version\": 7", &["version 7", "reads version 1"][..]),
+        ("\"persons\": 2,", "\"persons\": 1,", &["at least 2"]),
+        ("ambulo-reference-group", "another", &["reference group"]),
+    ] {
+        bench.write("wrong.json", bench.text("first/norm.json").replacen(old, new, 1));
+        bench.run(&["session", "Eve", "-o", "out", "--norm", "wrong.json"]).refused(&[&["wrong.json"], words].concat());
+    }
+    bench.run(&["session", "Eve", "-o", "out", "--norm", "Eve"]).refused(&["found 1 persons", "at least 2"]);
+}
+
+#[test]
+fn what_is_no_visit_of_one_person_is_refused_and_nothing_is_lost() {
+    let bench = Workbench::empty("session_refused").removed_at_the_end();
+    fs::create_dir_all(bench.folder.join("empty")).unwrap();
+    bench.run(&["session", "empty"]).refused(&["empty: found no trial", "docs/SESSION.md"]);
+    bench.run(&["session", "nowhere"]).refused(&["no such folder"]);
+    visit(&bench, "two/Ann", 1);
+    visit(&bench, "two/Ben", 1);
+    bench.run(&["session", "two"]).refused(&["2 persons (Ann, Ben)", "person = \"NAME\""]);
+    bench.write("two/trials.toml", "[[trial]]\nfiles = \"**\"\nperson = \"Ann\"\n[[trial]]\nfiles = \"Ben/*\"\nmass = 20\n[[trial]]\nfiles = \"Ann/*\"\nmass = 60\n");
+    bench.run(&["session", "two"]).refused(&["`mass` from 20 to 60 kg", "one number"]);
+    bench.run(&["session", "two/Ann", "--", "--cutof", "8"]).refused(&["after `--`", "--cutof"]);
+    bench.run(&["session", "two/Ann", "--", "-o", "there"]).refused(&["after `--`", "before"]);
+    bench.run(&["session", "two/Ann", "-o", "two/Ann"]).refused(&["between the recordings"]);
+    for wrong in ["0", "-1", "NaN"] {
+        bench.run(&["session", "two/Ann", &format!("--jobs={wrong}")]).refused(&["--jobs"]);
+    }
+    // Results of others stay.
+    bench.run(&["walk", "--mode", "paper", "--cycles", "1", "--keep", "summary", "-o", "walked", "--quiet"]).done();
+    let before = bench.hash("walked/summary.json");
+    bench.run(&["session", "two/Ann", "-o", "walked"]).refused(&["another command", "--force"]);
+    fs::create_dir_all(bench.folder.join("batch")).unwrap();
+    bench.write("batch/batch.json", "{}");
+    bench.run(&["session", "two/Ann", "-o", "batch"]).refused(&["has a batch"]);
+    bench.run(&["session", "two/Ann", "-o", "ann", "--quiet"]).done();
+    visit(&bench, "Eve", 2);
+    fs::remove_file(bench.folder.join("Eve/walk0.mot")).unwrap();
+    bench.run(&["session", "Eve", "-o", "ann"]).refused(&["session of other recordings", "--force"]);
+    assert_eq!(bench.hash("walked/summary.json"), before);
+    // A motion without a whole cycle.
+    bench.edit_rows("Eve/walk1.mot", |rows| rows.into_iter().take(40).collect());
+    bench.run(&["session", "Eve", "-o", "eve"]).refused(&["none of 1 trials has a cycle that counts"]);
+    assert!(!bench.exists("eve/summary.json"));
+    bench.run(&["report", "ann"]).refused(&["`ambulo session` wrote this folder"]);
+    let opened = bench.run(&["view", "ann"]).done();
+    assert!(opened.stdout.contains("session.html"), "{}", opened.stdout);
+}
+
+/// Names that no file of an anonymous session may have.
+const NAMES: [&str; 5] = ["Beatrix", "Muster", "HC032A", "visit", "session_real"];
+
+#[test]
+fn a_real_visit_has_one_body_and_can_be_anonymous() {
+    let Some(data) = data() else { return };
+    let bench = Workbench::empty("session_real").removed_at_the_end();
+    let folder = bench.folder.join("visit Beatrix Muster");
+    fs::create_dir_all(&folder).unwrap();
+    for name in ["HC032A01.c3d", "HC032A03.c3d", "HC032A18.c3d"] {
+        fs::copy(data.join("biomechzoo-HC032A").join(name), folder.join(name)).unwrap();
+    }
+    bench.write("visit Beatrix Muster/HC032A99.c3d", "broken");
+    let list = "[[trial]]\nfiles = \"HC032A*\"\nperson = \"Beatrix Muster\"\n";
+    bench.write("visit Beatrix Muster/trials.toml", list);
+    let run = bench.run(&["session", "visit Beatrix Muster", "-o", "out", "--anonymous"]).done();
+    let summary = bench.json("out/summary.json");
+    // The turn is in no mean.
+    assert!(run.stdout.contains("trial 2") && summary["trials"][1]["counted"] == serde_json::json!([0, 0]), "{summary}");
+    assert!(summary["body"].as_str().unwrap().starts_with("built-in, calibrated from the standing trial"));
+    assert_eq!(summary["trials"][0]["measured"], serde_json::json!([1, 1]), "both plates measured a whole stance");
+    let score = summary["profile"]["overall"].as_f64().unwrap();
+    assert!((2.0..20.0).contains(&score), "{score}");
+    for name in bench.names("out") {
+        let text = bench.text(&format!("out/{name}")).to_lowercase();
+        let found = NAMES.iter().find(|name| text.contains(&name.to_lowercase()));
+        assert_eq!(found, None, "{name}");
+        let no_date = |year: i32| !text.contains(&format!("{year}-"));
+        assert!((1990..2100).all(no_date), "{name}");
+    }
+    two_standing_trials_are_refused(&bench);
+}
+
+fn two_standing_trials_are_refused(bench: &Workbench) {
+    let own = |name: &str| bench.folder.join("visit Beatrix Muster").join(name);
+    fs::copy(own("HC032A01.c3d"), own("static2.c3d")).unwrap();
+    let words = ["session", "visit Beatrix Muster", "-o", "out2", "--quiet"];
+    bench.run(&words).refused(&["2 standing trials (HC032A01.c3d, static2.c3d)", "static = \"FILE\"", "exclude"]);
+    let list = bench.text("visit Beatrix Muster/trials.toml");
+    bench.write("visit Beatrix Muster/trials.toml", format!("{list}static = \"static2.c3d\"\n"));
+    bench.run(&words).done();
+    assert!(bench.json("out2/summary.json")["body"].as_str().unwrap().ends_with("calibrated from static2.c3d"));
+}

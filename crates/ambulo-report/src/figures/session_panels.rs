@@ -1,0 +1,324 @@
+//! Draws curves over the gait cycle on scales that are the same for every session: small multiples for a page.
+
+use super::FigureError;
+use super::axes::{Axes, AxisWords};
+use super::cycle_panel::draw_band;
+use super::sheet::{Legend, Sample, Sheet, Slot};
+use super::svg::{Anchor, Drawing, Letters, Stroke};
+use crate::style::{Style, style};
+use ambulo::study::session::NormalCurve;
+
+/// Height of the ticks at foot off, as a share of the panel's.
+const TICK: f64 = 0.07;
+/// Steps by which a scale grows where a curve leaves it, as a share of its range.
+const STEP: f64 = 0.1;
+/// Height of the axes [pt].
+const HEIGHT: f64 = 84.0;
+
+/// How a line is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LineLook {
+    pub(crate) color: String,
+    /// [pt]
+    pub(crate) width: f64,
+    pub(crate) opacity: f64,
+    /// Lengths of dashes and gaps [pt].
+    pub(crate) dash: Vec<f64>,
+}
+
+impl LineLook {
+    fn stroke(&self) -> Stroke<'_> {
+        Stroke { color: &self.color, width: self.width, opacity: self.opacity, dash: &self.dash }
+    }
+}
+
+/// A curve with values at equal distances from 0 to 100 %.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PanelLine {
+    pub(crate) values: Vec<f64>,
+    pub(crate) look: LineLook,
+    /// What the line is, for readers of the file: `cycle`, `mean`.
+    pub(crate) role: &'static str,
+}
+
+/// The area between two curves.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PanelArea {
+    pub(crate) low: Vec<f64>,
+    pub(crate) high: Vec<f64>,
+    pub(crate) color: String,
+    pub(crate) opacity: f64,
+}
+
+/// A quantity over the gait cycle.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SessionPanel {
+    pub(crate) id: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) unit: &'static str,
+    /// Meaning of positive and negative values.
+    pub(crate) directions: [&'static str; 2],
+    /// The usual range of the ordinate.
+    pub(crate) scale: [f64; 2],
+    pub(crate) band: Option<NormalCurve>,
+    pub(crate) areas: Vec<PanelArea>,
+    pub(crate) lines: Vec<PanelLine>,
+    /// Foot off [% of the cycle]: the right ones stand on the abscissa, the left ones above them.
+    pub(crate) foot_offs: [Vec<(f64, LineLook)>; 2],
+    /// Lines above the axes with their meaning.
+    pub(crate) legend: Vec<(LineLook, String)>,
+}
+
+/// A figure of panels, three in a row.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SessionFigure {
+    pub(crate) name: &'static str,
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) panels: Vec<SessionPanel>,
+    pub(crate) legend: Vec<(SessionSample, String)>,
+    pub(crate) notes: Vec<String>,
+}
+
+/// The symbol of an entry of a legend.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum SessionSample {
+    Line(LineLook),
+    Tick(LineLook),
+    /// Colour and opacity.
+    Patch(String, f64),
+}
+
+/// Panels side by side.
+const COLUMNS: usize = 3;
+
+impl SessionFigure {
+    /// The figure as SVG.
+    ///
+    /// # Errors
+    /// A style that cannot be read.
+    pub(crate) fn svg(&self) -> Result<String, FigureError> {
+        let style = style().map_err(|e| FigureError { name: self.name, reason: e.to_string() })?;
+        let legend = self.legend.iter().map(|(sample, words)| {
+            let sample = match sample {
+                SessionSample::Line(look) => Sample::Line(look.stroke()),
+                SessionSample::Tick(look) => Sample::Tick(look.stroke()),
+                SessionSample::Patch(color, opacity) => Sample::Patch(color, *opacity),
+            };
+            (sample, words.clone())
+        });
+        let count = self.panels.len();
+        let widened = self.panels.iter().filter(|panel| panel.range() != panel.scale).map(|panel| panel.title);
+        let widened: Vec<&str> = widened.collect();
+        let mut notes = self.notes.clone();
+        if !widened.is_empty() {
+            notes.push(format!("Scale larger than usual, because curves leave the usual one: {}.", widened.join(", ")));
+        }
+        let sheet = Sheet {
+            style,
+            title: &self.title,
+            caption: &self.caption,
+            width_mm: style.widths_mm.two_columns,
+            rows: (0..count).step_by(COLUMNS).map(|i| i..(i + COLUMNS).min(count)).collect(),
+            panel_height: HEIGHT,
+            legend: legend.collect(),
+            panel_legends: self.panels.iter().map(SessionPanel::own_legend).collect(),
+            notes,
+            description: self.panels.iter().map(SessionPanel::description).collect::<Vec<_>>().join(" "),
+        };
+        Ok(sheet.draw(|drawing, slot| self.panels[slot.number].draw(drawing, style, slot, self.name)))
+    }
+}
+
+impl SessionPanel {
+    fn own_legend(&self) -> Legend<'_> {
+        self.legend.iter().map(|(look, words)| (Sample::Line(look.stroke()), words.clone())).collect()
+    }
+
+    fn description(&self) -> String {
+        let words = self.legend.iter().map(|(_, words)| words.as_str()).collect::<Vec<_>>().join(", ");
+        format!("{} ({}, {} positive): {words}.", self.title, self.unit, self.directions[0])
+    }
+
+    /// The usual range, with whole steps more at the ends where a curve leaves it.
+    fn range(&self) -> [f64; 2] {
+        let step = STEP * (self.scale[1] - self.scale[0]);
+        let lines = self.lines.iter().flat_map(|line| line.values.iter());
+        let areas = self.areas.iter().flat_map(|area| area.low.iter().chain(&area.high));
+        let finite = lines.chain(areas).copied().filter(|x| x.is_finite());
+        let (low, high) = finite.fold((self.scale[0], self.scale[1]), |(low, high), x| (low.min(x), high.max(x)));
+        [
+            self.scale[0] - step * ((self.scale[0] - low) / step).ceil(),
+            self.scale[1] + step * ((high - self.scale[1]) / step).ceil(),
+        ]
+    }
+
+    fn draw(&self, drawing: &mut Drawing, style: &Style, slot: Slot, figure: &str) {
+        let axes = Axes::new(slot.place, [0.0, 100.0], self.range());
+        let mut attributes = vec![("id", format!("{figure}-{}", self.id))];
+        attributes.extend(axes.attributes());
+        drawing.open(&self.description(), &attributes);
+        if let Some(NormalCurve { mean, sd }) = &self.band {
+            draw_band(drawing, style, &axes, mean, sd);
+        }
+        axes.draw_ground(drawing, style);
+        for area in &self.areas {
+            let mut corners = placed(&axes, &area.high);
+            corners.extend(placed(&axes, &area.low).into_iter().rev());
+            drawing.polygon(&corners, &area.color, area.opacity, &[("data-role", "spread".to_owned())]);
+        }
+        for line in &self.lines {
+            drawing.polyline(&placed(&axes, &line.values), line.look.stroke(), &[("data-role", line.role.to_owned())]);
+        }
+        self.draw_foot_offs(drawing, &axes);
+        let unit = self.unit.replace("N.m", "N·m");
+        let words = AxisWords {
+            title: self.title,
+            unit: &unit,
+            directions: self.directions,
+            abscissa: slot.named.then_some("gait cycle (%)"),
+            legend_height: slot.legend_height,
+        };
+        axes.draw_frame(drawing, style, words);
+        drawing.close();
+    }
+
+    fn draw_foot_offs(&self, drawing: &mut Drawing, axes: &Axes<'_>) {
+        let [_, top, _, bottom] = axes.place;
+        let height = TICK * (bottom - top);
+        for (row, offs) in self.foot_offs.iter().enumerate() {
+            let from = bottom - row as f64 * height;
+            for (percent, look) in offs {
+                drawing.line([axes.x(*percent), from], [axes.x(*percent), from - height], look.stroke());
+            }
+        }
+    }
+}
+
+/// The points of a curve, cut off at the edges of the axes.
+fn placed(axes: &Axes<'_>, values: &[f64]) -> Vec<[f64; 2]> {
+    let last = (values.len().max(2) - 1) as f64;
+    values.iter().enumerate().map(|(i, y)| axes.at([100.0 * i as f64 / last, *y])).collect()
+}
+
+/// Bars of the movement analysis profile: one group per angle, with the score of each side and the one to expect.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ProfileFigure {
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) bars: Vec<ProfileBars>,
+    /// Names of right, left and expected, for the legend.
+    pub(crate) legend: [String; 3],
+}
+
+/// The bars of one angle.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ProfileBars {
+    /// In two lines.
+    pub(crate) name: [String; 2],
+    /// Mean and standard deviation of the right and the left score [deg].
+    pub(crate) sides: [Option<(f64, Option<f64>)>; 2],
+    /// The score to expect [deg].
+    pub(crate) expected: Option<f64>,
+}
+
+/// Highest score of the usual scale [deg].
+const PROFILE_SCALE: f64 = 30.0;
+/// Width of a bar, as a share of its group.
+const BAR: f64 = 0.28;
+
+impl ProfileFigure {
+    /// The figure as SVG.
+    ///
+    /// # Errors
+    /// A style that cannot be read.
+    pub(crate) fn svg(&self) -> Result<String, FigureError> {
+        let style = style().map_err(|e| FigureError { name: "profile", reason: e.to_string() })?;
+        let [right, left, expected] = &self.legend;
+        let sheet = Sheet {
+            style,
+            title: &self.title,
+            caption: &self.caption,
+            width_mm: style.widths_mm.two_columns,
+            rows: std::iter::once(0..1).collect(),
+            panel_height: 1.3 * HEIGHT,
+            legend: vec![
+                (Sample::Patch(&style.right.color, 1.0), right.clone()),
+                (Sample::Patch(&style.left.color, 1.0), left.clone()),
+                (Sample::Patch(&style.band.color, style.band.opacity), expected.clone()),
+            ],
+            panel_legends: Vec::new(),
+            notes: vec!["Whiskers: standard deviation over the cycles.".to_owned()],
+            description: self.bars.iter().map(ProfileBars::description).collect::<Vec<_>>().join(" "),
+        };
+        Ok(sheet.draw(|drawing, slot| self.draw(drawing, style, slot)))
+    }
+
+    /// The usual scale, or one with whole steps more for higher scores.
+    fn top(&self) -> f64 {
+        let highest = |bars: &ProfileBars| {
+            let sides = bars.sides.iter().flatten().map(|(mean, sd)| mean + sd.unwrap_or(0.0));
+            sides.chain(bars.expected).fold(0.0, f64::max)
+        };
+        let step = STEP * PROFILE_SCALE;
+        let highest = self.bars.iter().map(highest).fold(PROFILE_SCALE, f64::max);
+        PROFILE_SCALE + step * ((highest - PROFILE_SCALE) / step).ceil()
+    }
+
+    fn draw(&self, drawing: &mut Drawing, style: &Style, slot: Slot) {
+        let axes = Axes::new(slot.place, [0.0, self.bars.len() as f64], [0.0, self.top()]);
+        drawing.open(&self.title, &axes.attributes());
+        axes.draw_ground(drawing, style);
+        for (k, bars) in self.bars.iter().enumerate() {
+            bars.draw(drawing, style, &axes, k as f64);
+        }
+        axes.draw_ordinate(drawing, style);
+        let [left, _, right, bottom] = axes.place;
+        drawing.line([left, bottom], [right, bottom], Stroke::solid(&style.quiet.color, style.lines_pt.axis));
+        let words = AxisWords {
+            title: "Score",
+            unit: "deg",
+            directions: [""; 2],
+            abscissa: None,
+            legend_height: slot.legend_height,
+        };
+        axes.draw_words(drawing, style, words);
+        drawing.close();
+    }
+}
+
+impl ProfileBars {
+    fn description(&self) -> String {
+        let side = |name: &str, k: usize| self.sides[k].map_or(String::new(), |(mean, _)| format!(" {name} {mean:.1}"));
+        let expected = self.expected.map_or(String::new(), |expected| format!(" expected {expected:.1}"));
+        format!("{}:{}{}{expected} deg.", self.name.join(" "), side("right", 0), side("left", 1))
+    }
+
+    fn draw(&self, drawing: &mut Drawing, style: &Style, axes: &Axes<'_>, from: f64) {
+        let middle = from + 0.5;
+        let bar = |drawing: &mut Drawing, [start, end]: [f64; 2], height: f64, color: &str, opacity: f64| {
+            let corners = [[start, 0.0], [start, height], [end, height], [end, 0.0]].map(|corner| axes.at(corner));
+            drawing.polygon(&corners, color, opacity, &[]);
+        };
+        if let Some(expected) = self.expected {
+            bar(drawing, [from + 0.08, from + 0.92], expected, &style.band.color, style.band.opacity);
+        }
+        let colors = [&style.right.color, &style.left.color];
+        for (k, side) in self.sides.iter().enumerate() {
+            let Some((mean, sd)) = side else { continue };
+            let start = middle + (k as f64 - 1.0) * (BAR + 0.02) + if k == 0 { 0.0 } else { 0.02 };
+            bar(drawing, [start, start + BAR], *mean, colors[k], 1.0);
+            if let Some(sd) = sd {
+                let x = start + 0.5 * BAR;
+                let whisker = Stroke::solid(&style.text.color, style.lines_pt.axis);
+                drawing.line(axes.at([x, (mean - sd).max(0.0)]), axes.at([x, mean + sd]), whisker);
+            }
+        }
+        let size = style.font.tick_pt;
+        let letters = Letters::plain(size, &style.text.color, Anchor::Middle);
+        for (line, word) in self.name.iter().enumerate() {
+            let y = axes.place[3] + 3.0 + (line as f64 + 0.9) * size;
+            drawing.text([axes.x(middle), y], word, letters);
+        }
+    }
+}

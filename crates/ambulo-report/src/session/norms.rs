@@ -1,0 +1,96 @@
+//! The people that a session is compared with: children of the literature, or an own reference group.
+
+use super::quantities::all;
+use super::reference_group::ReferenceGroup;
+use super::summary::{ReferenceSummary, SessionSummary};
+use crate::normative::{band, time_distance};
+use ambulo::study::session::NormalCurve;
+use ambulo_results::Convention;
+use std::collections::BTreeMap;
+
+/// A number of healthy people in the unit of its table: their mean, and the range of most of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NormalTime {
+    pub(crate) mean: Option<f64>,
+    pub(crate) range: Option<[f64; 2]>,
+}
+
+/// Curves and numbers of a reference group for one session.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Norms {
+    curves: BTreeMap<&'static str, NormalCurve>,
+    times: BTreeMap<String, NormalTime>,
+    /// In legends: `children, mean ± SD`.
+    pub(crate) short: String,
+    /// Who they are; `None` without a group.
+    pub(crate) summary: Option<ReferenceSummary>,
+    /// Why there is no group.
+    pub(crate) missing: Option<String>,
+}
+
+impl Norms {
+    pub(crate) fn curve(&self, quantity: &str) -> Option<&NormalCurve> {
+        self.curves.get(quantity)
+    }
+
+    pub(crate) fn time(&self, quantity: &str) -> Option<NormalTime> {
+        self.times.get(quantity).copied()
+    }
+
+    /// No group, with the reason.
+    pub(crate) fn none(reason: &str) -> Norms {
+        Norms { missing: Some(reason.to_owned()), ..Norms::default() }
+    }
+
+    /// The children of Schwartz et al. 2008 at the mean dimensionless speed of the session.
+    pub(crate) fn children(session: &SessionSummary) -> Norms {
+        let (Some(speed), Some(leg_m), Some(gravity)) =
+            (session.speed_dimensionless, session.leg_length_m, session.gravity_m_s2)
+        else {
+            return Norms::none("the walking speed is not known, and normal curves depend on it");
+        };
+        let mut norms = Norms { short: "children, mean ± SD".to_owned(), ..Norms::default() };
+        for quantity in all() {
+            if let Some(found) = band(quantity.id, speed.mean, session.convention) {
+                norms.summary.get_or_insert_with(|| ReferenceSummary {
+                    words: found.citation,
+                    persons: None,
+                    ages_years: None,
+                });
+                norms.curves.insert(quantity.id, NormalCurve { mean: found.mean, sd: found.sd });
+            }
+        }
+        for range in time_distance(speed.mean, leg_m, gravity) {
+            norms.times.insert(range.id.to_owned(), NormalTime { mean: range.mean, range: range.range });
+        }
+        norms
+    }
+
+    /// An own group; its angles must have the convention of the session.
+    pub(crate) fn of_group(group: &ReferenceGroup, session: &SessionSummary) -> Norms {
+        if group.convention != session.convention {
+            let words = |convention: Convention| convention.word();
+            return Norms::none(&format!(
+                "the angles of the reference group have the {} convention, those of the session the {} convention",
+                words(group.convention),
+                words(session.convention)
+            ));
+        }
+        let curves = all().filter_map(|quantity| Some((quantity.id, group.curve(quantity.id)?)));
+        let times = group.times.iter().map(|(name, spread)| {
+            let range = spread.sd.map(|sd| [spread.mean - 2.0 * sd, spread.mean + 2.0 * sd]);
+            (name.clone(), NormalTime { mean: Some(spread.mean), range })
+        });
+        Norms {
+            curves: curves.collect(),
+            times: times.collect(),
+            short: format!("own group of {}, mean ± SD", group.persons),
+            summary: Some(ReferenceSummary {
+                words: group.words(),
+                persons: Some(group.persons),
+                ages_years: group.ages_years,
+            }),
+            missing: None,
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! The tables of the page.
+
+use super::super::differences::{Change, TimeChange, changes, time_changes};
+use super::super::{ComparedSession, Session, all};
+use ambulo::model::Side;
+use ambulo::study::session::{CycleForces, deviation, pooled, side_difference};
+use ambulo::study::validation::{Section, TextTable, number};
+use ambulo_results::SpreadSummary;
+
+const NAMES: [(&str, &str, usize); 16] = [
+    ("speed", "Speed", 2),
+    ("cadence", "Cadence", 0),
+    ("stride_length", "Stride length", 2),
+    ("step_length", "Step length", 2),
+    ("step_width", "Step width", 2),
+    ("cycle_time", "Cycle time", 2),
+    ("step_time", "Step time", 2),
+    ("stance_time", "Stance time", 2),
+    ("swing_time", "Swing time", 2),
+    ("stance", "Stance", 1),
+    ("swing", "Swing", 1),
+    ("single_support", "Single support", 1),
+    ("double_support", "Double support", 1),
+    ("initial_double_support", "Initial double support", 1),
+    ("terminal_double_support", "Terminal double support", 1),
+    ("walk_ratio", "Walk ratio", 4),
+];
+
+/// Name and digits of a time or distance in tables.
+fn name(quantity: &str) -> (&'static str, usize) {
+    NAMES.iter().find(|(id, ..)| *id == quantity).map_or(("", 2), |(_, name, digits)| (name, *digits))
+}
+
+/// `1.20 ± 0.04 (6)`
+fn spread(mean: f64, sd: Option<f64>, n: usize, digits: usize) -> String {
+    let sd = sd.map_or(String::new(), |sd| format!(" ± {sd:.digits$}"));
+    format!("{mean:.digits$}{sd} ({n})")
+}
+
+pub(super) fn times(compared: &ComparedSession) -> Section {
+    let ComparedSession { session, norms, .. } = compared;
+    let mut table = TextTable::new(&["", "unit", "right", "left", "both", "normal", "symmetry %"]);
+    if let Some(speed) = session.summary.speed_m_s {
+        let both = spread(speed.mean, speed.sd, speed.n, 2);
+        table.row(["Speed", "m/s", "", "", both.as_str(), "", ""].map(str::to_owned));
+    }
+    for found in &session.summary.times_and_distances.quantities {
+        let (name, digits) = name(&found.quantity);
+        let cell = |spread_of: &Option<SpreadSummary>| {
+            spread_of.map_or(String::new(), |found| spread(found.mean, found.sd, found.strides, digits))
+        };
+        let normal = norms.time(&found.quantity).map_or(String::new(), |normal| match (normal.range, normal.mean) {
+            (Some([low, high]), _) => format!("{low:.digits$} to {high:.digits$}"),
+            (None, Some(mean)) => format!("about {mean:.digits$}"),
+            (None, None) => String::new(),
+        });
+        let symmetry = found.symmetry.map_or(String::new(), |index| format!("{:+.0}", 100.0 * index));
+        table.row([
+            name.to_owned(),
+            found.unit.clone(),
+            cell(&found.right),
+            cell(&found.left),
+            cell(&found.both),
+            normal,
+            symmetry,
+        ]);
+    }
+    let note = "Mean ± standard deviation, and the number of strides (of the speed: of trials). Normal: mean ± 2 standard deviations of the reference \
+                group, where they are known. Symmetry: right minus left, relative to their mean.";
+    Section { title: "Times and distances", table, note: note.to_owned() }
+}
+
+pub(super) fn deviations(compared: &ComparedSession) -> Section {
+    let mut table = TextTable::new(&[
+        "",
+        "side",
+        "unit",
+        "forces",
+        "cycles",
+        "distance",
+        "expected",
+        "largest",
+        "in SD",
+        "at %",
+        "outside %",
+    ]);
+    for quantity in compared.shown() {
+        for side in Side::BOTH {
+            let Some(found) = pooled(&compared.session.cycles, quantity.id, side) else { continue };
+            let Some(norm) = compared.norm(quantity.id) else { continue };
+            let Some(away) = deviation(&found.statistics.mean, norm) else { continue };
+            let words = quantity.wording();
+            let digits = if words.unit == "deg" { 1 } else { 2 };
+            let direction = words.directions[usize::from(away.largest < 0.0)];
+            table.row([
+                quantity.label(),
+                side.to_string(),
+                words.unit.to_owned(),
+                found.forces.map_or("", CycleForces::word).to_owned(),
+                found.statistics.count.to_string(),
+                number(away.rms, digits),
+                number(away.expected_rms, digits),
+                format!("{} {direction}", number(away.largest.abs(), digits)),
+                number(away.largest_sd.abs(), 1),
+                number(away.at_percent, 0),
+                number(100.0 * away.outside, 0),
+            ]);
+        }
+    }
+    let note = "Mean of the cycles against the mean of the reference group. Distance: root mean square over the cycle. Expected: that of a person of the \
+                group. Largest: the difference that is largest in standard deviations of the group, with its direction; 0 % is the foot strike. Outside: \
+                share of the cycle more than two standard deviations away.";
+    Section { title: "Deviation from the reference group", table, note: note.to_owned() }
+}
+
+pub(super) fn sides(compared: &ComparedSession) -> Section {
+    let mut table =
+        TextTable::new(&["", "unit", "forces", "right - left", "between cycles, right", "between cycles, left"]);
+    for quantity in compared.shown() {
+        let [right, left] = Side::BOTH.map(|side| pooled(&compared.session.cycles, quantity.id, side));
+        let Some(difference) = side_difference(right.as_ref(), left.as_ref()) else { continue };
+        let unit = quantity.wording().unit;
+        let digits = if unit == "deg" { 1 } else { 2 };
+        let between = [&right, &left].map(|side| side.as_ref().and_then(|found| found.statistics.spread()));
+        let [of_right, of_left] = between.map(|sd| number(sd.unwrap_or(f64::NAN), digits));
+        let forces = right.as_ref().and_then(|found| found.forces).map_or("", CycleForces::word).to_owned();
+        table.row([quantity.label(), unit.to_owned(), forces, number(difference, digits), of_right, of_left]);
+    }
+    let note = "Root mean square difference of the mean curves of both sides, and the standard deviation between the cycles of each side. A difference that \
+                is not larger than the variation between cycles is no asymmetry. Sides whose forces have different sources are not compared.";
+    Section { title: "Left against right", table, note: note.to_owned() }
+}
+
+pub(super) fn trials(session: &Session) -> Section {
+    let mut table = TextTable::new(&[
+        "trial",
+        "recorded",
+        "activity",
+        "speed m/s",
+        "data",
+        "motion",
+        "cycles r + l",
+        "counted r + l",
+        "measured r + l",
+        "remarks",
+    ]);
+    for trial in &session.summary.trials {
+        let pair = |[right, left]: [usize; 2]| format!("{right} + {left}");
+        let text = |text: &Option<String>| text.clone().unwrap_or_else(|| "-".to_owned());
+        let remarks = trial.error.clone().unwrap_or_else(|| trial.quality_reasons.join("; "));
+        table.row([
+            trial.trial.clone(),
+            text(&trial.recorded_on),
+            if trial.error.is_some() { "not computed".to_owned() } else { text(&trial.activity) },
+            number(trial.speed_m_s.unwrap_or(f64::NAN), 2),
+            text(&trial.quality),
+            text(&trial.verdict),
+            pair(trial.cycles),
+            pair(trial.counted),
+            pair(trial.measured),
+            remarks,
+        ]);
+    }
+    let note =
+        "Counted: cycles that are in the means. Measured: cycles of which force plates measured the whole stance."
+            .to_owned();
+    Section { title: "Trials", table, note }
+}
+
+/// Cycles that are in no mean, and those that are far from the others.
+pub(super) fn excluded(session: &Session) -> Section {
+    let mut table = TextTable::new(&["trial", "side", "cycle", "in the means", "reason"]);
+    let found = session.representative();
+    for (k, cycle) in session.cycles.iter().enumerate() {
+        let far = found.distances[k].filter(|_| found.is_far(k));
+        let (counts, reason) = match (&cycle.excluded, far) {
+            (Some(reason), _) => ("no", reason.clone()),
+            (None, Some(distance)) => {
+                ("yes", format!("its angles are {distance:.1} times as far from the median as usual"))
+            }
+            (None, None) => continue,
+        };
+        let name = session.name(cycle.trial).to_owned();
+        table.row([name, cycle.side.to_string(), cycle.number.to_string(), counts.to_owned(), reason]);
+    }
+    Section { title: "Excluded and unusual cycles", table, note: String::new() }
+}
+
+pub(super) fn time_differences(after: &Session, before: &Session) -> Section {
+    let mut table = TextTable::new(&["", "unit", "side", "before", "after", "change"]);
+    for TimeChange { quantity, unit, side, before, after } in time_changes(after, before) {
+        let (name, digits) = name(&quantity);
+        let cell = |[mean, sd, n]: [f64; 3]| spread(mean, Some(sd).filter(|sd| sd.is_finite()), n as usize, digits);
+        let side = match side {
+            "r" => "right",
+            "l" => "left",
+            both => both,
+        };
+        let change = after[0] - before[0];
+        table.row([name.to_owned(), unit, side.to_owned(), cell(before), cell(after), format!("{change:+.digits$}")]);
+    }
+    Section { title: "Before and after: times and distances", table, note: String::new() }
+}
+
+pub(super) fn curve_differences(compared: &ComparedSession, before: &Session) -> Section {
+    let mut table = TextTable::new(&[
+        "",
+        "side",
+        "unit",
+        "forces",
+        "cycles",
+        "change",
+        "largest",
+        "at %",
+        "clear %",
+        "from normal before",
+        "from normal after",
+    ]);
+    let shown = compared.shown();
+    for change in changes(&compared.session, before, &compared.norms) {
+        let Change { quantity, side, forces, cycles, rms, largest, at_percent, clear, from_normal } = change;
+        if !shown.contains(&quantity) {
+            continue;
+        }
+        let unit = quantity.wording().unit;
+        let digits = if unit == "deg" { 1 } else { 2 };
+        let [before, after] = from_normal.unwrap_or([f64::NAN; 2]);
+        table.row([
+            quantity.label(),
+            side.to_string(),
+            unit.to_owned(),
+            forces.map_or("", CycleForces::word).to_owned(),
+            format!("{} / {}", cycles[0], cycles[1]),
+            number(rms, digits),
+            format!("{largest:+.digits$}"),
+            number(at_percent, 0),
+            number(clear.map_or(f64::NAN, |clear| 100.0 * clear), 0),
+            number(before, digits),
+            number(after, digits),
+        ]);
+    }
+    let left_out = all().filter(|quantity| shown.contains(quantity)).count() * 2 - table.rows().len();
+    let missing = match left_out {
+        0 => String::new(),
+        _ => {
+            " Curves that only one of the sessions has, or whose forces have another source than before, are left out."
+                .to_owned()
+        }
+    };
+    let note = format!(
+        "Change: root mean square of after minus before. Clear: share of the cycle in which the change is larger than two standard deviations of the \
+         difference of the means over the cycles; it says nothing about the repeatability between days. From normal: distance from the mean of the \
+         reference group.{missing}"
+    );
+    Section { title: "Before and after: curves", table, note }
+}

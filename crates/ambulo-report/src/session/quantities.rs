@@ -1,0 +1,97 @@
+//! The quantities of a session, and the scales of their panels, which are the same for every session.
+
+use crate::clinical::{Wording, wording};
+
+/// The name of foot progression, which no coordinate of a body measures.
+pub(super) const FOOT_PROGRESSION: &str = "foot_progression_angle";
+
+/// A quantity with the range of its ordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SessionQuantity {
+    /// As in `clinical.csv`, without the side: `hip_flexion_moment`.
+    pub(crate) id: &'static str,
+    /// Lowest and highest number of the ordinate.
+    pub(crate) scale: [f64; 2],
+}
+
+impl SessionQuantity {
+    pub(crate) fn wording(self) -> Wording {
+        const PROGRESSION: Wording =
+            Wording { title: "Foot progression", unit: "deg", directions: ["internal", "external"] };
+        const UNKNOWN: Wording = Wording { title: "", unit: "", directions: [""; 2] };
+        match self.id {
+            FOOT_PROGRESSION => PROGRESSION,
+            id => wording(id).unwrap_or(UNKNOWN),
+        }
+    }
+
+    /// Both words of the title and the unit, for tables.
+    pub(crate) fn label(self) -> String {
+        self.wording().title.to_owned()
+    }
+}
+
+const fn of(id: &'static str, low: f64, high: f64) -> SessionQuantity {
+    SessionQuantity { id, scale: [low, high] }
+}
+
+/// Angles [deg], three in a row: pelvis, hip, then knee, ankle and foot; then the trunk, and what few bodies have.
+pub(crate) const ANGLES: [SessionQuantity; 15] = [
+    of("pelvis_tilt_angle", -20.0, 40.0),
+    of("pelvis_obliquity_angle", -30.0, 30.0),
+    of("pelvis_rotation_angle", -30.0, 30.0),
+    of("hip_flexion_angle", -20.0, 70.0),
+    of("hip_adduction_angle", -30.0, 30.0),
+    of("hip_rotation_angle", -40.0, 40.0),
+    of("knee_flexion_angle", -15.0, 75.0),
+    of("ankle_dorsiflexion_angle", -40.0, 30.0),
+    of(FOOT_PROGRESSION, -50.0, 30.0),
+    of("trunk_lean_angle", -30.0, 30.0),
+    of("trunk_obliquity_angle", -30.0, 30.0),
+    of("trunk_rotation_angle", -30.0, 30.0),
+    of("knee_adduction_angle", -30.0, 30.0),
+    of("knee_rotation_angle", -40.0, 40.0),
+    of("subtalar_angle", -30.0, 30.0),
+];
+
+/// Moments [N.m/kg], powers [W/kg] and ground forces [body weights], three in a row.
+pub(crate) const KINETICS: [SessionQuantity; 12] = [
+    of("hip_flexion_moment", -2.0, 2.0),
+    of("knee_flexion_moment", -1.5, 1.5),
+    of("ankle_dorsiflexion_moment", -1.0, 2.5),
+    of("hip_flexion_power", -3.0, 3.0),
+    of("knee_flexion_power", -3.0, 3.0),
+    of("ankle_dorsiflexion_power", -2.0, 5.0),
+    of("hip_adduction_moment", -1.0, 1.5),
+    of("knee_adduction_moment", -1.0, 1.0),
+    of("hip_rotation_moment", -0.5, 0.5),
+    of("ground_force_vertical", 0.0, 1.5),
+    of("ground_force_fore_aft", -0.4, 0.4),
+    of("ground_force_lateral", -0.2, 0.2),
+];
+
+/// All quantities, in the order of files and tables.
+pub(crate) fn all() -> impl Iterator<Item = SessionQuantity> {
+    ANGLES.into_iter().chain(KINETICS)
+}
+
+/// The quantity with this name.
+pub(crate) fn named(id: &str) -> Option<SessionQuantity> {
+    all().find(|quantity| quantity.id == id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ambulo::study::session::PROFILE;
+
+    #[test]
+    fn every_quantity_has_its_words_and_the_profile_comes_first() {
+        for quantity in all() {
+            assert!(!quantity.wording().title.is_empty(), "{}", quantity.id);
+            assert!(quantity.scale[0] < quantity.scale[1], "{}", quantity.id);
+        }
+        let first: Vec<&str> = ANGLES[..PROFILE.len()].iter().map(|quantity| quantity.id).collect();
+        assert_eq!(first, PROFILE);
+    }
+}

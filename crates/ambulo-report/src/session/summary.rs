@@ -1,0 +1,195 @@
+//! What `summary.json` of a session has: the person, the trials, times and distances, the profile; read back by later sessions.
+
+use ambulo::study::session::VariableScore;
+use ambulo_results::{Convention, WalkingSummary};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The layout of the files of a session; another number is another layout.
+pub const SESSION_FORMAT: u32 = 1;
+
+/// Mean and standard deviation, and the number of cycles, trials or people behind them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation; `null` of a single number.
+    pub sd: Option<f64>,
+    /// How many.
+    pub n: usize,
+}
+
+impl From<VariableScore> for Spread {
+    fn from(score: VariableScore) -> Spread {
+        Spread { mean: score.mean, sd: score.sd, n: score.cycles }
+    }
+}
+
+impl Spread {
+    /// Of at least one number.
+    #[must_use]
+    pub fn of(values: &[f64]) -> Option<Spread> {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let variance = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
+        (!values.is_empty()).then(|| Spread { mean, sd: (values.len() > 1).then(|| variance.sqrt()), n: values.len() })
+    }
+}
+
+/// A trial of a session.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TrialSummary {
+    /// Name.
+    pub trial: String,
+    /// Day of the recording, as YYYY-MM-DD.
+    pub recorded_on: Option<String>,
+    /// Why nothing could be computed; the rest is then empty.
+    pub error: Option<String>,
+    /// What the person does.
+    pub activity: Option<String>,
+    /// Walking speed [m/s].
+    pub speed_m_s: Option<f64>,
+    /// Good, doubtful or bad data.
+    pub quality: Option<String>,
+    /// Why the data are not good.
+    pub quality_reasons: Vec<String>,
+    /// Feasible, infeasible or not judged.
+    pub verdict: Option<String>,
+    /// Whole cycles of the right and of the left foot.
+    pub cycles: [usize; 2],
+    /// Those that count in the means.
+    pub counted: [usize; 2],
+    /// Those with measured forces.
+    pub measured: [usize; 2],
+}
+
+/// A cycle that is in no mean.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExcludedSummary {
+    /// Name of the trial.
+    pub trial: String,
+    /// `r` or `l`.
+    pub side: String,
+    /// Number of the cycle, from 1.
+    pub cycle: usize,
+    /// Why.
+    pub reason: String,
+}
+
+/// The representative trial and its cycles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RepresentativeSummary {
+    /// Name of the trial that has the representative cycles of both sides; `null` if they are of two trials.
+    pub trial: Option<String>,
+    /// Trial and number of the right cycle.
+    pub right: Option<(String, usize)>,
+    /// Trial and number of the left cycle.
+    pub left: Option<(String, usize)>,
+}
+
+/// The people that a session is compared with.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ReferenceSummary {
+    /// The group in a sentence.
+    pub words: String,
+    /// Number of people, if it is known.
+    pub persons: Option<usize>,
+    /// Youngest and oldest [years].
+    pub ages_years: Option<[f64; 2]>,
+}
+
+/// One angle of the movement analysis profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct VariableSummary {
+    /// The angle.
+    pub quantity: String,
+    /// Gait variable score of the right cycles [deg].
+    pub right: Option<Spread>,
+    /// Of the left cycles [deg].
+    pub left: Option<Spread>,
+    /// The score to expect of a person of the reference group [deg].
+    pub expected: Option<f64>,
+}
+
+/// Movement analysis profile and gait profile scores.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ProfileSummary {
+    /// Gait profile score of the right cycles [deg].
+    pub right: Option<Spread>,
+    /// Of the left cycles [deg].
+    pub left: Option<Spread>,
+    /// Of both sides [deg].
+    pub overall: Option<f64>,
+    /// The score to expect of a person of the reference group [deg].
+    pub expected: Option<f64>,
+    /// The angles.
+    pub variables: Vec<VariableSummary>,
+}
+
+/// `summary.json` of a session.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct SessionSummary {
+    /// Version of Ambulo.
+    pub version: String,
+    /// Identity of the run.
+    pub run_id: String,
+    /// Layout of the files ([`SESSION_FORMAT`]).
+    pub session_format: u32,
+    /// The person; `null` in an anonymous session.
+    pub person: Option<String>,
+    /// Age, if it is stated [years].
+    pub age_years: Option<f64>,
+    /// Days of the recordings, as YYYY-MM-DD; empty if they are not known, and in an anonymous session.
+    pub recorded_on: Vec<String>,
+    /// SHA-256 of the recordings, sorted.
+    pub recordings: Vec<String>,
+    /// Body mass [kg].
+    pub mass_kg: Option<f64>,
+    /// Stature [m], if it is known.
+    pub height_m: Option<f64>,
+    /// Hip to ground in standing [m].
+    pub leg_length_m: Option<f64>,
+    /// Gravity [m/s²].
+    pub gravity_m_s2: Option<f64>,
+    /// Where the body of all trials comes from.
+    pub body: String,
+    /// Convention of the angles of pelvis and hips.
+    pub convention: Convention,
+    /// Why it is not the chosen one.
+    pub convention_reason: Option<String>,
+    /// Walking speed over the trials [m/s].
+    pub speed_m_s: Option<Spread>,
+    /// V / √(g L) over the trials.
+    pub speed_dimensionless: Option<Spread>,
+    /// Every trial.
+    pub trials: Vec<TrialSummary>,
+    /// Recordings that are no trials, each with the reason.
+    pub not_computed: BTreeMap<String, String>,
+    /// Cycles that are in no mean.
+    pub excluded: Vec<ExcludedSummary>,
+    /// The most representative cycles.
+    pub representative: Option<RepresentativeSummary>,
+    /// Over the strides of the cycles that count.
+    pub times_and_distances: WalkingSummary,
+    /// The people that the session is compared with; `null` if there are none.
+    pub reference: Option<ReferenceSummary>,
+    /// Why it is not compared.
+    pub no_reference: Option<String>,
+    /// Movement analysis profile.
+    pub profile: Option<ProfileSummary>,
+    /// The earlier session that it is compared with: its days, or `an earlier session`.
+    pub compared_with: Option<String>,
+    /// Warnings about the session as a whole.
+    pub warnings: Vec<String>,
+    /// SHA-256 of the other files.
+    pub files: BTreeMap<String, String>,
+}
+
+impl SessionSummary {
+    /// The days in words: `2026-11-03`, or `2026-11-03 and 2026-11-04`.
+    #[must_use]
+    pub fn days(&self) -> Option<String> {
+        (!self.recorded_on.is_empty()).then(|| self.recorded_on.join(" and "))
+    }
+}
