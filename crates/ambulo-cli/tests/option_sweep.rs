@@ -207,7 +207,10 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     let command = Args::command();
     let verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
-    assert_eq!(swept, ["forces", "calibrate", "validate", "batch", "session", "walk", "sweep", "simulate", "tune", "compare"]);
+    assert_eq!(
+        swept,
+        ["forces", "calibrate", "validate", "batch", "session", "walk", "sweep", "simulate", "tune", "compare"]
+    );
     assert!(names("calibrate").iter().all(|name| names("forces").contains(name)));
     assert_eq!(names("validate"), ["mass", "height", "jobs"]);
     assert_eq!(names("batch"), ["jobs", "shard", "part", "limit"]);

@@ -76,7 +76,8 @@ pub(crate) struct Curves<'a> {
     angles: Option<&'a ClinicalAngles>,
     /// Columns of `grf.mot` [N, m, N.m].
     ground: Vec<(String, Vec<f64>)>,
-    weight_n: f64,
+    /// The mass that moments, powers and ground forces are divided by [kg].
+    mass_kg: f64,
 }
 
 impl<'a> Curves<'a> {
@@ -86,7 +87,12 @@ impl<'a> Curves<'a> {
             true => Vec::new(),
             false => ground_columns(&feet(model, &analysis.ground), frames),
         };
-        Curves { model, analysis, angles, ground, weight_n: analysis.mass.kg * model.gravity().norm() }
+        Curves { model, analysis, angles, ground, mass_kg: analysis.mass.kg }
+    }
+
+    /// The same per another mass [kg], such as that of the one body of several trials.
+    pub(crate) fn per_mass(self, mass_kg: f64) -> Curves<'a> {
+        Curves { mass_kg, ..self }
     }
 
     fn columns(&self) -> Vec<(String, Vec<f64>)> {
@@ -112,7 +118,7 @@ impl<'a> Curves<'a> {
 
     /// A quantity of a side over the frames, in clinical signs and units; `None` if the body lacks it.
     pub(crate) fn values(&self, quantity: &ClinicalQuantity, side: Side) -> Option<Vec<f64>> {
-        let factor = quantity.factor(self.analysis.mass.kg, side);
+        let factor = quantity.factor(self.mass_kg, side);
         let scaled = |values: &[f64], factor: f64| values.iter().map(|x| factor * x).collect();
         let forces = &self.analysis.forces;
         match quantity.group {
@@ -132,7 +138,7 @@ impl<'a> Curves<'a> {
                 let axis = ground_axis(&quantity.coordinates[side])?;
                 let column = format!("ground_force_{}_v{axis}", side.letter());
                 let (_, values) = self.ground.iter().find(|(name, _)| *name == column)?;
-                Some(scaled(values, factor / self.weight_n))
+                Some(scaled(values, factor / (self.mass_kg * self.model.gravity().norm())))
             }
         }
     }

@@ -30,8 +30,8 @@ pub use reproduction_page::reproduction_page;
 pub use scene_shapes::scene_shapes;
 pub use session::{
     ComparedSession, ComputedTrial, ExcludedSummary, GroupCurve, ProfileSummary, ReferenceGroup, ReferenceGroupError,
-    ReferenceSummary, RepresentativeSummary, SESSION_FORMAT, Session, SessionFacts, SessionSummary, SessionTrial,
-    Spread, TrialSummary, VariableSummary, session_from_files,
+    ReferenceSummary, RepresentativeSummary, SESSION_FORMAT, SESSION_PAGE, Session, SessionFacts, SessionSummary,
+    SessionTrial, Spread, TrialSummary, VariableSummary, session_from_files,
 };
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
 pub use validation::{ListedTrial, listed_section, validation_files};

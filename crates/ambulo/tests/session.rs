@@ -171,12 +171,35 @@ fn cycles_that_belong_to_no_mean_have_a_reason() {
         of(Some("markers are missing"), ActivityKind::Walk, None),
         of(None, ActivityKind::Walk, Some(25.0)),
     ];
-    let cycles = [(0, 1.1), (0, 1.12), (1, 2.2), (1, 1.08), (2, 1.1), (3, 1.1), (4, 1.1)];
-    let cycles = cycles.map(|(trial, duration_s)| CycleFacts { trial, duration_s });
+    let cycles = [
+        (0, 1.1, 0.62),
+        (0, 1.12, 0.6),
+        (1, 2.2, 0.6),
+        (1, 1.08, 0.61),
+        (2, 1.1, 0.6),
+        (3, 1.1, 0.6),
+        (4, 1.1, 0.6),
+        // A strike detected 0.3 s late; a slow stride; a limp.
+        (0, 0.8, 0.46),
+        (0, 1.4, 0.66),
+        (1, 1.1, 0.45),
+    ];
+    let cycles = cycles.map(|(trial, duration_s, stance)| CycleFacts { trial, duration_s, stance: Some(stance) });
     let reasons = exclusions(&trials, &cycles).into_iter().map(|reason| reason.map(|reason| reason.to_string()));
     let reasons: Vec<String> = reasons.map(Option::unwrap_or_default).collect();
-    let expected =
-        ["", "", "a foot strike was missed", "", "activity: turn; most trials: walk", "markers are missing", "25"];
+    let expected = [
+        "",
+        "",
+        "a foot strike was missed",
+        "",
+        "activity: turn; most trials: walk",
+        "markers are missing",
+        "25",
+        "at the wrong time",
+        "",
+        "",
+    ];
+    assert_eq!(reasons.len(), expected.len());
     for (found, expected) in reasons.iter().zip(expected) {
         assert!(found.contains(expected) && found.is_empty() == expected.is_empty(), "`{found}`, `{expected}`");
     }

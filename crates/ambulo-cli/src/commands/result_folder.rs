@@ -1,9 +1,9 @@
 //! A result folder on disk, for functions that read its files by name.
 
-use super::session::SESSION_PAGE;
 use crate::files;
 use crate::record::Record;
 use crate::replacement::recover;
+use ambulo_report::SESSION_PAGE;
 use ambulo_results::{PAGE, SUMMARY};
 use anyhow::{Error, Result, bail};
 use std::path::{Path, PathBuf};

@@ -2,10 +2,10 @@
 
 use super::report::write_page;
 use super::result_folder::{ResultFolder, read_checked};
-use super::session::SESSION_PAGE;
 use crate::args::Existing;
 use crate::args::ViewArgs;
 use crate::{Completion, files, printer};
+use ambulo_report::SESSION_PAGE;
 use ambulo_results::PAGE;
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};

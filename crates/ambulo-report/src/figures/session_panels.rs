@@ -13,7 +13,9 @@ const TICK: f64 = 0.07;
 /// Steps by which a scale grows where a curve leaves it, as a share of its range.
 const STEP: f64 = 0.1;
 /// Height of the axes [pt].
-const HEIGHT: f64 = 84.0;
+const HEIGHT: f64 = 96.0;
+/// A curve that leaves the scale by less, as a share of its range, changes no scale.
+const SLACK: f64 = 0.01;
 
 /// How a line is drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,10 +149,8 @@ impl SessionPanel {
         let areas = self.areas.iter().flat_map(|area| area.low.iter().chain(&area.high));
         let finite = lines.chain(areas).copied().filter(|x| x.is_finite());
         let (low, high) = finite.fold((self.scale[0], self.scale[1]), |(low, high), x| (low.min(x), high.max(x)));
-        [
-            self.scale[0] - step * ((self.scale[0] - low) / step).ceil(),
-            self.scale[1] + step * ((high - self.scale[1]) / step).ceil(),
-        ]
+        let more = |beyond: f64| step * ((beyond - SLACK * (self.scale[1] - self.scale[0])) / step).ceil().max(0.0);
+        [self.scale[0] - more(self.scale[0] - low), self.scale[1] + more(high - self.scale[1])]
     }
 
     fn draw(&self, drawing: &mut Drawing, style: &Style, slot: Slot, figure: &str) {

@@ -41,6 +41,9 @@ use ambulo::study::session::{
 };
 use ambulo_results::{OutputFile, WalkingSummary};
 
+/// Name of the page, which only a session has.
+pub const SESSION_PAGE: &str = "session.html";
+
 /// A session: its summary and its cycles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Session {
@@ -61,7 +64,7 @@ pub struct SessionFacts {
     pub body: String,
 }
 
-/// A times of the same foot strike differ by less [s].
+/// Times of the same foot strike differ by less [s].
 const SAME_INSTANT_S: f64 = 1e-6;
 
 impl Session {
@@ -298,7 +301,7 @@ impl ComparedSession {
     /// A style that cannot be read.
     pub fn files(&self) -> Result<Vec<OutputFile<'static>>, FigureError> {
         let mut files = vec![
-            OutputFile::new("session.html", page::page(self)?.into_bytes()),
+            OutputFile::new(SESSION_PAGE, page::page(self)?.into_bytes()),
             OutputFile::new("cycles.csv", tables::cycles_csv(&self.session).into_bytes()),
             OutputFile::new("times_and_distances.csv", tables::times_csv(self).into_bytes()),
             OutputFile::new("deviations.csv", tables::deviations_csv(self).into_bytes()),

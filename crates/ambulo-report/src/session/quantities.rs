@@ -21,11 +21,15 @@ impl SessionQuantity {
         const UNKNOWN: Wording = Wording { title: "", unit: "", directions: [""; 2] };
         match self.id {
             FOOT_PROGRESSION => PROGRESSION,
+            // The words stand along the ordinate of a small panel.
+            "hip_rotation_moment" => {
+                Wording { directions: ["external", "internal"], ..wording(self.id).unwrap_or(UNKNOWN) }
+            }
             id => wording(id).unwrap_or(UNKNOWN),
         }
     }
 
-    /// Both words of the title and the unit, for tables.
+    /// The title, for tables.
     pub(crate) fn label(self) -> String {
         self.wording().title.to_owned()
     }

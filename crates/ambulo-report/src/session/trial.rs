@@ -53,9 +53,10 @@ impl ComputedTrial {
         let Outcome { body, person, analysis, quality, verdict, times_and_distances, activity, .. } = outcome;
         let gravity_m_s2 = body.gravity().norm();
         let (angles, convention) = angles_of(outcome, chosen);
-        let moving = Curves::of(body, analysis, angles.as_ref());
+        // All trials of a session have one body, and their forces one mass.
+        let moving = Curves::of(body, analysis, angles.as_ref()).per_mass(body.mass());
         let measured = outcome.prediction.as_ref().and_then(|found| found.measured.as_ref());
-        let on_plates = measured.map(|measured| (measured, Curves::of(body, measured, None)));
+        let on_plates = measured.map(|measured| (measured, Curves::of(body, measured, None).per_mass(body.mass())));
         let progression = foot_progression(body, &person.soles, analysis);
         let mut reader = CurveReader { values: BTreeMap::new() };
         let cycles = analysis.cycles.iter().zip(progression).map(|(cycle, progression)| {

@@ -6,7 +6,7 @@
 //! |---|---|---|
 //! | φ | rad | foot progression; internal (toes towards the other foot) is positive |
 //! | d | - | direction of the pelvis over the floor or belt, from the foot strike to the next one of the same foot |
-//! | f | m | from the rear to the tip of the sole, without its vertical part |
+//! | f | m | from the rear of the sole to the ball of the foot, which no movement of the toes changes, without its vertical part |
 //! | u | - | upwards |
 //! | s | - | +1 for the right foot, -1 for the left one |
 //!
@@ -34,7 +34,7 @@ pub fn foot_progression(model: &Model, soles: &BySide<Option<Sole>>, analysis: &
             let place = |k: usize| {
                 sole.as_ref().map(|sole| &sole.points[k]).map(|p| bodies[p.body.index()].pose.place(p.place))
             };
-            feet[side].extend(place(2).zip(place(0)).map(|(tip, rear)| floor.level(tip - rear)));
+            feet[side].extend(place(1).zip(place(0)).map(|(ball, rear)| floor.level(ball - rear)));
         }
     });
     let grid = analysis.trajectory.grid();

@@ -23,8 +23,6 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Name of the page of a session.
-pub(super) const SESSION_PAGE: &str = "session.html";
 /// Name of the reference group that a session was compared with.
 const NORM: &str = "norm.json";
 /// Reasons that an error quotes.

@@ -42,7 +42,7 @@ pub(super) fn page(compared: &ComparedSession) -> Result<String, FigureError> {
     body += &section(&sections::trials(&compared.session));
     body += &section(&sections::excluded(&compared.session));
     body += &not_computed(summary);
-    let _ = write!(body, "<p class=\"soft\">{}</p>\n</main>", code(METHOD));
+    let _ = write!(body, "<p class=\"soft\">{} Ambulo {}</p>\n</main>", code(METHOD), escaped(&summary.version));
     let sides = Side::BOTH.map(|side| {
         let color = color_of(style, side);
         let name = side.to_string();
@@ -58,6 +58,9 @@ pub(super) fn page(compared: &ComparedSession) -> Result<String, FigureError> {
 const METHOD: &str = "Angles are clinical: flexion, dorsiflexion, adduction, internal rotation, anterior tilt, own side up and forward are positive. Moments \
 are internal, per body mass. The scales are the same in every session; where a curve leaves its scale, the figure says so. Forces are measured where force \
 plates measured the whole stance of a cycle, otherwise predicted from the motion; a mean never has both. Definitions: docs/SESSION.md.";
+
+/// Longer facts take a line of their own, in letters.
+const WIDE: usize = 60;
 
 /// What is known about person, body and data.
 fn facts(summary: &SessionSummary) -> String {
@@ -79,19 +82,19 @@ fn facts(summary: &SessionSummary) -> String {
         ("Body", Some(summary.body.clone()).filter(|body| !body.is_empty())),
         ("Trials", Some(format!("{computed} of {} computed", summary.trials.len()))),
         ("Cycles in the means", Some(count(|trial| trial.counted))),
-        ("with measured forces", Some(count(|trial| trial.measured))),
+        ("Cycles with measured forces", Some(count(|trial| trial.measured))),
         ("Walking speed", summary.speed_m_s.map(|speed| format!("{} m/s", spread(speed, 2)))),
         ("Speed over √(g L)", summary.speed_dimensionless.map(|speed| spread(speed, 2))),
         ("Angles of pelvis and hips", Some(convention(summary))),
+        ("Earlier session", summary.compared_with.clone()),
         ("Compared with", summary.reference.as_ref().map(|reference| reference.words.clone())),
         ("Not compared", summary.no_reference.clone()),
-        ("Earlier session", summary.compared_with.clone()),
-        ("Ambulo", Some(summary.version.clone())),
     ];
     let mut html = String::from("<dl class=\"facts\">\n");
     for (name, value) in rows {
         if let Some(value) = value {
-            let _ = writeln!(html, "<div><dt>{}</dt><dd>{}</dd></div>", escaped(name), escaped(&value));
+            let wide = if value.len() > WIDE { " class=\"wide\"" } else { "" };
+            let _ = writeln!(html, "<div{wide}><dt>{}</dt><dd>{}</dd></div>", escaped(name), escaped(&value));
         }
     }
     html + "</dl>\n"

@@ -6,6 +6,7 @@
 //! | another activity | the trial shows another activity than most trials of the session, such as a turn |
 //! | turn | the path of the trial turns by more than 20 degrees |
 //! | event missed | the cycle lasts more than 1.5 times, or less than 1/1.5 of, the median of the session: a foot strike was missed or invented |
+//! | strike shifted | its duration differs from the median by more than a fifth, and its share of stance by more than a tenth of the cycle: a foot strike at the wrong time changes both, another walking speed the duration alone |
 
 use super::SessionCycle;
 use crate::analysis::activity::ActivityKind;
@@ -17,6 +18,9 @@ use std::fmt;
 const STRAIGHT_RAD: f64 = 0.349;
 /// Between a stride and a stride with a missed strike, which lasts twice as long.
 const MISSED: f64 = 1.5;
+/// A strike at the wrong time changes the duration by more than this factor and the share of stance by more than this. From very slow to very
+/// fast walking the share changes by 0.12 (Schwartz, Rozumalski, Trost 2008), and the duration by the factor 2.2.
+const SHIFTED: (f64, f64) = (1.2, 0.1);
 
 /// What is known about a trial.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,13 +40,19 @@ pub struct CycleFacts {
     pub trial: usize,
     /// Duration [s].
     pub duration_s: f64,
+    /// Share of stance, from 0 to 1, if the foot off is known.
+    pub stance: Option<f64>,
 }
 
 impl CycleFacts {
     /// Of a cycle of a session.
     #[must_use]
     pub fn of(cycle: &SessionCycle) -> CycleFacts {
-        CycleFacts { trial: cycle.trial, duration_s: cycle.span_s[1] - cycle.span_s[0] }
+        CycleFacts {
+            trial: cycle.trial,
+            duration_s: cycle.span_s[1] - cycle.span_s[0],
+            stance: cycle.foot_off_percent.map(|percent| 0.01 * percent),
+        }
     }
 }
 
@@ -70,6 +80,13 @@ pub enum Exclusion {
         /// The median of the session [s].
         usual_s: f64,
     },
+    /// Duration and share of stance both differ from the usual ones.
+    Strike {
+        /// Duration, and the median of the session [s].
+        duration_s: [f64; 2],
+        /// Share of stance, and the median of the session.
+        stance: [f64; 2],
+    },
 }
 
 impl fmt::Display for Exclusion {
@@ -86,6 +103,13 @@ impl fmt::Display for Exclusion {
                 f,
                 "it lasts {found_s:.2} s, and {usual_s:.2} s are usual here: a foot strike was missed or is wrong"
             ),
+            Exclusion::Strike { duration_s: [found_s, usual_s], stance } => {
+                let [found, usual] = stance.map(|share| 100.0 * share);
+                write!(
+                    f,
+                    "it lasts {found_s:.2} s with {found:.0} % stance, and {usual_s:.2} s with {usual:.0} % are usual here: a foot strike is at the wrong time"
+                )
+            }
         }
     }
 }
@@ -104,15 +128,33 @@ pub fn exclusions(trials: &[TrialFacts], cycles: &[CycleFacts]) -> Vec<Option<Ex
         facts.turn.filter(|angle| *angle > STRAIGHT_RAD).map(|angle| Exclusion::Turn { angle })
     };
     let first: Vec<Option<Exclusion>> = cycles.iter().map(|cycle| trials.get(cycle.trial).and_then(of_trial)).collect();
-    let kept = cycles.iter().zip(&first).filter(|(_, excluded)| excluded.is_none());
-    let usual_s = median(kept.map(|(cycle, _)| cycle.duration_s));
-    let of_duration = |cycle: &CycleFacts| {
-        let usual_s = usual_s?;
-        let ratio = cycle.duration_s / usual_s;
-        (!(1.0 / MISSED..=MISSED).contains(&ratio))
-            .then_some(Exclusion::Duration { found_s: cycle.duration_s, usual_s })
+    let kept = || cycles.iter().zip(&first).filter(|(_, excluded)| excluded.is_none()).map(|(cycle, _)| cycle);
+    let usual = Usual {
+        duration_s: median(kept().map(|cycle| cycle.duration_s)),
+        stance: median(kept().filter_map(|cycle| cycle.stance)),
     };
-    cycles.iter().zip(first).map(|(cycle, first)| first.or_else(|| of_duration(cycle))).collect()
+    cycles.iter().zip(&first).map(|(cycle, first)| first.clone().or_else(|| usual.contradicted_by(cycle))).collect()
+}
+
+/// Medians of a session.
+struct Usual {
+    duration_s: Option<f64>,
+    stance: Option<f64>,
+}
+
+impl Usual {
+    /// Why a foot strike of the cycle is missing or wrong.
+    fn contradicted_by(&self, cycle: &CycleFacts) -> Option<Exclusion> {
+        let usual_s = self.duration_s?;
+        let found_s = cycle.duration_s;
+        let differs = |factor: f64| !(1.0 / factor..=factor).contains(&(found_s / usual_s));
+        if differs(MISSED) {
+            return Some(Exclusion::Duration { found_s, usual_s });
+        }
+        let stance = [cycle.stance?, self.stance?];
+        let is_shifted = differs(SHIFTED.0) && (stance[0] - stance[1]).abs() > SHIFTED.1;
+        is_shifted.then_some(Exclusion::Strike { duration_s: [found_s, usual_s], stance })
+    }
 }
 
 /// The activity of most trials whose data are not bad; of several, the first of the list.
