@@ -11,16 +11,23 @@
 //! | all trials have one body; foot progression is that of Plug-in-Gait in the recording            | 6 degrees |
 
 use crate::shared_data::data;
-use crate::workbench::{Workbench, demo_input};
+use crate::workbench::Workbench;
 use std::fs;
+
+/// A folder, with the walk that `ambulo demo` writes beside it.
+fn laboratory(name: &str) -> Workbench {
+    let bench = Workbench::empty(name).removed_at_the_end();
+    bench.run(&["demo", "-o", "demo", "--keep", "recording", "--quiet"]).done();
+    bench
+}
 
 /// A folder with walks of the figure, the later ones shorter by a frame, and a model.
 fn visit(bench: &Workbench, folder: &str, walks: usize) {
     fs::create_dir_all(bench.folder.join(folder)).unwrap();
-    bench.write(&format!("{folder}/figure.osim"), demo_input("figure.osim"));
+    bench.write(&format!("{folder}/figure.osim"), bench.read("demo/input/figure.osim"));
     for walk in 0..walks {
         let name = format!("{folder}/walk{walk}.mot");
-        bench.write(&name, demo_input("walk.mot"));
+        bench.write(&name, bench.read("demo/input/walk.mot"));
         bench.edit_rows(&name, |rows| rows[..rows.len() - walk].to_vec());
     }
 }
@@ -32,7 +39,7 @@ fn rows(text: &str) -> Vec<Vec<&str>> {
 
 #[test]
 fn a_visit_is_one_page_with_the_curves_of_forces_and_a_broken_trial_is_a_row() {
-    let bench = Workbench::empty("session").removed_at_the_end();
+    let bench = laboratory("session");
     visit(&bench, "Ann", 2);
     bench.write("Ann/broken.c3d", "PathFileType");
     let run = bench.run(&["session", "Ann", "-o", "out"]).done();
@@ -108,7 +115,7 @@ fn no_byte_depends_on_place_or_threads(bench: &Workbench) {
 
 #[test]
 fn an_own_reference_group_is_written_and_read_back() {
-    let bench = Workbench::empty("session_norm").removed_at_the_end();
+    let bench = laboratory("session_norm");
     visit(&bench, "people/Ann", 1);
     visit(&bench, "people/Ben", 2);
     bench
@@ -138,12 +145,12 @@ fn an_own_reference_group_is_written_and_read_back() {
         bench.write("wrong.json", bench.text("first/norm.json").replacen(old, new, 1));
         bench.run(&["session", "Eve", "-o", "out", "--norm", "wrong.json"]).refused(&[&["wrong.json"], words].concat());
     }
-    bench.run(&["session", "Eve", "-o", "out", "--norm", "Eve"]).refused(&["found 1 persons", "at least 2"]);
+    bench.run(&["session", "Eve", "-o", "out", "--norm", "Eve"]).refused(&["found 1 person", "at least 2"]);
 }
 
 #[test]
 fn what_is_no_visit_of_one_person_is_refused_and_nothing_is_lost() {
-    let bench = Workbench::empty("session_refused").removed_at_the_end();
+    let bench = laboratory("session_refused");
     fs::create_dir_all(bench.folder.join("empty")).unwrap();
     bench.run(&["session", "empty"]).refused(&["empty: found no trial", "docs/SESSION.md"]);
     bench.run(&["session", "nowhere"]).refused(&["no such folder"]);

@@ -322,3 +322,42 @@ impl ProfileBars {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn panel(values: Vec<f64>) -> SessionPanel {
+        let look = LineLook { color: "#000000".to_owned(), width: 1.0, opacity: 1.0, dash: Vec::new() };
+        SessionPanel {
+            id: "knee_flexion_angle",
+            title: "Knee flexion",
+            unit: "deg",
+            directions: ["flexion", "extension"],
+            scale: [-20.0, 80.0],
+            band: None,
+            areas: Vec::new(),
+            lines: vec![PanelLine { values, look, role: "cycle" }],
+            foot_offs: [Vec::new(), Vec::new()],
+            legend: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_scale_is_fixed_until_a_curve_leaves_it_and_grows_by_whole_steps() {
+        assert_eq!(panel(vec![0.0, 60.0]).range(), [-20.0, 80.0]);
+        assert_eq!(panel(vec![-20.9, 80.9]).range(), [-20.0, 80.0], "less than a hundredth of the range");
+        assert_eq!(panel(vec![0.0, 92.0]).range(), [-20.0, 100.0]);
+        assert_eq!(panel(vec![-24.0, f64::NAN]).range(), [-30.0, 80.0]);
+        let figure = |values: Vec<f64>| SessionFigure {
+            name: "test",
+            title: "Angles".to_owned(),
+            caption: String::new(),
+            panels: vec![panel(values)],
+            legend: Vec::new(),
+            notes: Vec::new(),
+        };
+        assert!(!figure(vec![0.0, 60.0]).svg().unwrap().contains("Scale larger"));
+        assert!(figure(vec![0.0, 92.0]).svg().unwrap().contains("Scale larger than usual"), "the figure says so");
+    }
+}

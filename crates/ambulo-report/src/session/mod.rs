@@ -180,7 +180,7 @@ impl Session {
                 verdict: Some(found.verdict.to_owned()),
                 cycles: count(|_| true),
                 counted: count(|cycle| cycle.excluded.is_none()),
-                measured: count(|cycle| cycle.forces == CycleForces::Measured),
+                measured: count(|cycle| cycle.excluded.is_none() && cycle.forces == CycleForces::Measured),
                 ..named
             },
         }

@@ -7,6 +7,7 @@ use super::Finished;
 use crate::commands::trials::Plan;
 use crate::files;
 use ambulo_report::Session;
+use std::cmp::Reverse;
 use std::path::Path;
 
 /// Shorter names, such as `1`, would also be replaced in numbers. They stand in sentences only with their ending.
@@ -43,7 +44,8 @@ impl Anonymous {
         }
         replaced.push((files::last(&full), "the person".to_owned()));
         replaced.retain(|(name, _)| name.chars().count() >= SHORTEST);
-        replaced.sort_by(|a, b| b.0.len().cmp(&a.0.len()).then(a.cmp(b)));
+        // Of two words for a name the first one stays in front and replaces it.
+        replaced.sort_by_key(|(name, _)| Reverse(name.len()));
         Anonymous { replaced }
     }
 

@@ -162,7 +162,7 @@ pub(super) fn trials(session: &Session) -> Section {
         ]);
     }
     let note =
-        "Counted: cycles that are in the means. Measured: cycles of which force plates measured the whole stance."
+        "Counted: cycles that are in the means. Measured: those of them whose whole stance force plates measured."
             .to_owned();
     Section { title: "Trials", table, note }
 }
