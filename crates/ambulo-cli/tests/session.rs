@@ -145,7 +145,7 @@ fn an_own_reference_group_is_written_and_read_back() {
         bench.write("wrong.json", bench.text("first/norm.json").replacen(old, new, 1));
         bench.run(&["session", "Eve", "-o", "out", "--norm", "wrong.json"]).refused(&[&["wrong.json"], words].concat());
     }
-    bench.run(&["session", "Eve", "-o", "out", "--norm", "Eve"]).refused(&["found 1 person", "at least 2"]);
+    bench.run(&["session", "Eve", "-o", "out", "--norm", "Eve", "--quiet"]).refused(&["found 1 person", "at least 2"]);
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn what_is_no_visit_of_one_person_is_refused_and_nothing_is_lost() {
     assert_eq!(bench.hash("walked/summary.json"), before);
     // A motion without a whole cycle.
     bench.edit_rows("Eve/walk1.mot", |rows| rows.into_iter().take(40).collect());
-    bench.run(&["session", "Eve", "-o", "eve"]).refused(&["none of 1 trials has a cycle that counts"]);
+    bench.run(&["session", "Eve", "-o", "eve", "--quiet"]).refused(&["none of 1 trials has a cycle that counts"]);
     assert!(!bench.exists("eve/summary.json"));
     bench.run(&["report", "ann"]).refused(&["`ambulo session` wrote this folder"]);
     let opened = bench.run(&["view", "ann"]).done();
