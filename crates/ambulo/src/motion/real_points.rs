@@ -24,11 +24,12 @@ pub(super) fn real_points(file: &C3d) -> Vec<&Point> {
 
 /// Whether a name is one of the four points of the axes of a segment.
 fn is_axis(name: &str, all: &[&str]) -> bool {
-    let plain = name.rsplit(':').next().unwrap_or(name);
-    let Some(stem) = plain.strip_suffix(['O', 'A', 'L', 'P']) else { return false };
-    let segment = AXES.iter().any(|s| stem == *s || stem.strip_prefix(['L', 'R']) == Some(s));
-    let head = &name[..name.len() - plain.len()];
-    segment && ["O", "A", "L", "P"].iter().all(|end| all.iter().any(|n| n.trim() == format!("{head}{stem}{end}")))
+    const ENDS: [char; 4] = ['O', 'A', 'L', 'P'];
+    let Some(axes) = name.strip_suffix(ENDS) else { return false };
+    let stem = axes.rsplit(':').next().unwrap_or(axes);
+    let is_segment = AXES.iter().any(|s| stem == *s || stem.strip_prefix(['L', 'R']) == Some(s));
+    let has = |end: char| all.iter().any(|other| other.trim().strip_suffix(end) == Some(axes));
+    is_segment && ENDS.into_iter().all(has)
 }
 
 /// Length of the prefix up to a colon that all names share; zero if there is none.

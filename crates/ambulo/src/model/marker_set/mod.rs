@@ -19,6 +19,7 @@ use super::anthropometry::Human;
 use super::{Marker, Side};
 use crate::spatial::Vec3;
 use crate::toml_reader::TomlError;
+use std::sync::LazyLock;
 
 /// A marker set: names and positions of markers.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,6 +91,12 @@ const FILES: [(&str, &str); 11] = [
     ("words", include_str!("../../../data/markers/words.toml")),
 ];
 
+/// The built-in sets, in the order of [`FILES`]. They are read once: a batch recognises the markers of thousands of recordings.
+static BUILT_IN: LazyLock<Result<Vec<MarkerSet>, MarkerSetError>> = LazyLock::new(|| {
+    let read = |(name, text)| MarkerSet::from_toml(text).map_err(|source| MarkerSetError::BuiltIn { name, source });
+    FILES.into_iter().map(read).collect()
+});
+
 impl MarkerSet {
     /// Names of the built-in sets.
     pub const NAMES: [&'static str; FILES.len()] = {
@@ -107,18 +114,18 @@ impl MarkerSet {
     /// # Errors
     /// A name that no built-in set has.
     pub fn named(name: &str) -> Result<MarkerSet, MarkerSetError> {
-        let Some((name, text)) = FILES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)) else {
+        let Some(place) = MarkerSet::NAMES.iter().position(|known| known.eq_ignore_ascii_case(name)) else {
             return Err(UnknownSet { found: name.to_owned(), known: MarkerSet::NAMES.join(", ") }.into());
         };
-        MarkerSet::from_toml(text).map_err(|source| MarkerSetError::BuiltIn { name, source })
+        Ok(MarkerSet::built_in()?[place].clone())
     }
 
     /// All built-in sets.
     ///
     /// # Errors
     /// None: a test reads the files.
-    pub fn built_in() -> Result<Vec<MarkerSet>, MarkerSetError> {
-        MarkerSet::NAMES.into_iter().map(MarkerSet::named).collect()
+    pub fn built_in() -> Result<&'static [MarkerSet], MarkerSetError> {
+        BUILT_IN.as_deref().map_err(Clone::clone)
     }
 
     /// The markers of this set on a body, at their positions on an average body. Technical markers without a position are left out.

@@ -70,15 +70,31 @@ impl<'s> NameIndex<'s> {
     }
 
     /// The marker with exactly this name; only the case may differ.
-    fn written(&self, name: &str) -> Option<&'s MarkerDefinition> {
-        self.written.get(&name.to_lowercase()).copied()
+    fn written(&self, name: &Readings) -> Option<&'s MarkerDefinition> {
+        self.written.get(&name.written).copied()
     }
 
     /// The marker whose name means the same.
-    fn meant(&self, name: &str) -> Option<&'s MarkerDefinition> {
+    fn meant(&self, name: &Readings) -> Option<&'s MarkerDefinition> {
+        name.meant.iter().find_map(|key| self.meant.get(key)).copied()
+    }
+}
+
+/// The keys under which a name may be found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Readings {
+    /// In lower case.
+    written: String,
+    /// As the name of each side and at last of none, in letters and digits.
+    meant: Vec<(Option<Side>, String)>,
+}
+
+impl Readings {
+    fn of(name: &str) -> Readings {
         let bare = bare(name);
-        let of_side = sided(&bare).find_map(|(side, stem)| self.meant.get(&(Some(side), stem)));
-        of_side.or_else(|| self.meant.get(&(None, bare.clone()))).copied()
+        let of_sides = sided(&bare).map(|(side, stem)| (Some(side), stem));
+        let meant = of_sides.chain([(None, bare.clone())]).collect();
+        Readings { written: name.to_lowercase(), meant }
     }
 }
 
@@ -98,9 +114,9 @@ fn sided(bare: &str) -> impl Iterator<Item = (Side, String)> {
 /// A recorded name, without the subject's prefix up to the last colon.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct RecordedName {
-    whole: String,
+    whole: Readings,
     /// Without the beginning that all names share, up to a separator.
-    rest: String,
+    rest: Readings,
 }
 
 impl RecordedName {
@@ -108,7 +124,7 @@ impl RecordedName {
     pub(super) fn all(names: &[&str]) -> Vec<RecordedName> {
         let plain: Vec<&str> = names.iter().map(|name| name.rsplit(':').next().unwrap_or(name).trim()).collect();
         let shared = shared_prefix(&plain);
-        let name = |name: &str| RecordedName { whole: name.to_owned(), rest: name[shared..].to_owned() };
+        let name = |name: &str| RecordedName { whole: Readings::of(name), rest: Readings::of(&name[shared..]) };
         plain.into_iter().map(name).collect()
     }
 }
@@ -131,13 +147,14 @@ mod tests {
 
     #[test]
     fn a_prefix_that_all_names_share_is_removed_but_never_a_side() {
-        let plain = |names: &[&str]| RecordedName::all(names).into_iter().map(|name| name.rest).collect::<Vec<_>>();
-        assert_eq!(plain(&["251112_KUO_LASI", "251112_KUO_RASI", "251112_KUO_C7", "251112_KUO_LKNE"])[0], "LASI");
-        assert_eq!(plain(&["Anna:LASI", "Anna:RASI", "Bob:LKNE"]), ["LASI", "RASI", "LKNE"]);
-        assert_eq!(plain(&["R_knee", "R_ankle", "R_toe", "R_heel"])[0], "R_knee");
-        assert_eq!(plain(&["P_R_knee", "P_R_ankle", "P_R_toe", "P_L_heel"])[0], "R_knee");
+        let plain =
+            |names: &[&str]| RecordedName::all(names).into_iter().map(|name| name.rest.written).collect::<Vec<_>>();
+        assert_eq!(plain(&["251112_KUO_LASI", "251112_KUO_RASI", "251112_KUO_C7", "251112_KUO_LKNE"])[0], "lasi");
+        assert_eq!(plain(&["Anna:LASI", "Anna:RASI", "Bob:LKNE"]), ["lasi", "rasi", "lkne"]);
+        assert_eq!(plain(&["R_knee", "R_ankle", "R_toe", "R_heel"])[0], "r_knee");
+        assert_eq!(plain(&["P_R_knee", "P_R_ankle", "P_R_toe", "P_L_heel"])[0], "r_knee");
         assert_eq!(plain(&["r knee 1", "r asis", "l asis", "c7"])[0], "r knee 1");
-        assert_eq!(plain(&["ä_LASI", "ä_RASI", "ä_LKNE", "ä_RKNE"])[3], "RKNE");
+        assert_eq!(plain(&["ä_LASI", "ä_RASI", "ä_LKNE", "ä_RKNE"])[3], "rkne");
     }
 
     #[test]
@@ -155,14 +172,15 @@ mod tests {
             "KneeLat-Right",
             "RT KNEE LAT",
         ] {
-            assert_eq!(index.meant(name).and_then(|marker| marker.side), Some(Side::Right), "{name}");
+            assert_eq!(index.meant(&Readings::of(name)).and_then(|marker| marker.side), Some(Side::Right), "{name}");
         }
         for name in ["l_knee_lat_study", "KneeLat_L", "Left.Knee.Lat"] {
-            assert_eq!(index.meant(name).and_then(|marker| marker.side), Some(Side::Left), "{name}");
+            assert_eq!(index.meant(&Readings::of(name)).and_then(|marker| marker.side), Some(Side::Left), "{name}");
         }
         for name in ["Knee.Lat", "R.Knee", "R", "L", "", "study"] {
-            assert!(index.meant(name).is_none(), "{name}");
+            assert!(index.meant(&Readings::of(name)).is_none(), "{name}");
         }
-        assert!(index.written("r.knee.lat").is_some() && index.written("r_knee_lat").is_none());
+        let is_written = |name: &str| index.written(&Readings::of(name)).is_some();
+        assert!(is_written("r.knee.lat") && !is_written("r_knee_lat"));
     }
 }

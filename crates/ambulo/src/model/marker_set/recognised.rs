@@ -5,6 +5,7 @@ use super::{Landmark, MarkerDefinition, MarkerSet, MarkerSetError};
 use crate::model::Side;
 use crate::toml_reader::listed;
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 /// Smallest number of further names that an additional set must explain; fewer may be coincidence.
 const LEAST_GAIN: usize = 2;
@@ -61,13 +62,18 @@ pub enum RecognitionError {
     Set(#[from] MarkerSetError),
 }
 
+/// The names of the built-in sets, in their order.
+static BUILT_IN_INDICES: LazyLock<Vec<NameIndex<'static>>> =
+    LazyLock::new(|| MarkerSet::built_in().unwrap_or_default().iter().map(NameIndex::new).collect());
+
 impl MarkerSet {
     /// Recognises markers with the built-in sets that explain most of their names.
     ///
     /// # Errors
     /// Names that no set explains.
     pub fn recognise<'n>(names: impl IntoIterator<Item = &'n str>) -> Result<RecognisedMarkers, RecognitionError> {
-        Ok(RecognisedMarkers::among(&MarkerSet::built_in()?, names)?)
+        let names: Vec<&str> = names.into_iter().collect();
+        Ok(RecognisedMarkers::indexed(MarkerSet::built_in()?, &BUILT_IN_INDICES, &names)?)
     }
 }
 
@@ -83,9 +89,17 @@ impl RecognisedMarkers {
     ) -> Result<RecognisedMarkers, UnknownMarkers> {
         let names: Vec<&str> = names.into_iter().collect();
         let indices: Vec<NameIndex<'_>> = sets.iter().map(NameIndex::new).collect();
-        let plain = RecordedName::all(&names);
-        let mut search =
-            Search { sets, indices: &indices, names: &plain, found: vec![None; names.len()], used: vec![] };
+        RecognisedMarkers::indexed(sets, &indices, &names)
+    }
+
+    /// As [`RecognisedMarkers::among`], with the index of each set.
+    fn indexed(
+        sets: &[MarkerSet],
+        indices: &[NameIndex<'_>],
+        names: &[&str],
+    ) -> Result<RecognisedMarkers, UnknownMarkers> {
+        let plain = RecordedName::all(names);
+        let mut search = Search { sets, indices, names: &plain, found: vec![None; names.len()], used: vec![] };
         // Where twice as many names mean the same as are written the same, the laboratory writes them in its own way.
         let most = |reading| (0..sets.len()).map(|set| search.gain(set, reading)).max().unwrap_or(0);
         if most(NameReading::Meant) < 2 * most(NameReading::Written) {
@@ -93,11 +107,11 @@ impl RecognisedMarkers {
         }
         search.rounds(NameReading::Meant);
         if search.used.is_empty() {
-            return Err(search.nothing(&names));
+            return Err(search.nothing(names));
         }
         let Search { found, used, .. } = search;
         let used: Vec<&MarkerSet> = used.into_iter().map(|set| &sets[set]).collect();
-        Ok(RecognisedMarkers::of(&used, &names, &found))
+        Ok(RecognisedMarkers::of(&used, names, &found))
     }
 
     fn of(used: &[&MarkerSet], names: &[&str], found: &[Option<&MarkerDefinition>]) -> RecognisedMarkers {
