@@ -10,8 +10,10 @@ use ambulo_formats::b3d::{
 };
 use ambulo_formats::npz::{Array, Data, Npz};
 use ambulo_formats::osim::{OsimJoint, OsimModel};
+use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
+use std::fs;
 
 /// Frames of the demo's walk in the file: two seconds.
 const FRAMES: usize = 200;
@@ -199,6 +201,44 @@ fn write_bids(bench: &Workbench, stem: &str, channels: &[(String, &str, &str, St
     bench.write(&format!("{stem}_motion.json"), r#"{"TaskName": "walk", "SamplingFrequency": 100}"#);
 }
 
+/// Adds a session with coordinates and a broken one to the data set, and computes it.
+fn bids_data_set_in_a_batch(bench: &Workbench, channels: &[(String, &str, &str, String)], columns: &[Vec<f64>]) {
+    write_bids(bench, "set/sub-01/ses-b/motion/sub-01_ses-b_task-walk", channels, columns);
+    bench.write("set/sub-01/ses-b/motion/figure.osim", bench.read("demo/input/figure.osim"));
+    bench.write("set/sub-01/ses-b/motion/sub-01_ses-b_task-lost_motion.tsv", "1\t2\n");
+    let batch = ["batch", "set", "-o", "tables", "--quiet", "--part", "2", "--"];
+    let size = ["--mass", "75", "--height", "1.75"];
+    bench.run(&[&batch[..], &size].concat()).done();
+    let read =
+        |part: &str| ParquetTable::read(&bench.read(&format!("tables/trials/part-000-0000{part}.parquet"))).unwrap();
+    let texts = |column: &str| -> Vec<Option<String>> {
+        let of = |part| match read(part).column(column) {
+            Some(ColumnValues::Text(values)) => values.clone(),
+            other => panic!("{column}: {other:?}"),
+        };
+        ["0", "1"].into_iter().flat_map(of).collect()
+    };
+    let names: Vec<String> = texts("trial").into_iter().flatten().collect();
+    assert_eq!(
+        names,
+        [
+            "ses-a/motion/sub-01_ses-a_task-walk",
+            "ses-b/motion/sub-01_ses-b_task-lost",
+            "ses-b/motion/sub-01_ses-b_task-walk"
+        ]
+        .map(|stem| format!("sub-01/{stem}_motion.tsv"))
+    );
+    assert!(texts("person").iter().all(|person| person.as_deref() == Some("sub-01")));
+    let errors = texts("error");
+    assert!(errors[0].is_none() && errors[2].is_none(), "{errors:?}");
+    assert!(errors[1].as_ref().is_some_and(|error| error.contains("task-lost_channels.tsv")), "{errors:?}");
+    assert!(texts("inputs")[0].as_ref().is_some_and(|inputs| inputs.contains("task-walk_channels.tsv")));
+    // The description beside a motion is a part of the trial.
+    bench.write("set/sub-01/ses-a/motion/sub-01_ses-a_task-walk_motion.json", r#"{"SamplingFrequency": 100.0}"#);
+    let again = ["batch", "set", "-o", "tables", "--quiet", "--part", "2", "--resume", "--"];
+    bench.run(&[&again[..], &size].concat()).refused(&["sub-01_ses-a_task-walk_motion.tsv", "changed since"]);
+}
+
 #[test]
 fn bids_motions_give_the_forces_of_the_same_markers_and_coordinates() {
     let bench = Workbench::empty("motion_sets_bids");
@@ -217,6 +257,13 @@ fn bids_motions_give_the_forces_of_the_same_markers_and_coordinates() {
     }
     bench.write("markers.csv", Table::new("markers", table).unwrap().write_csv());
     write_bids(&bench, "sub-1", &channels, &columns);
+    // A data set with sessions; originals of its recordings are no trials of their own.
+    for folder in ["set/sub-01/ses-a/motion", "set/sub-01/ses-b/motion", "set/sourcedata"] {
+        fs::create_dir_all(bench.folder.join(folder)).unwrap();
+    }
+    bench.write("set/dataset_description.json", "{}");
+    bench.write("set/sourcedata/walk.trc", bench.read("demo/input/walk.trc"));
+    write_bids(&bench, "set/sub-01/ses-a/motion/sub-01_ses-a_task-walk", &channels, &columns);
     let text = bench.run(&["info", "sub-1_motion.tsv"]).done().stdout;
     for line in [
         "kind: motion of a BIDS data set".to_owned(),
@@ -258,6 +305,7 @@ fn bids_motions_give_the_forces_of_the_same_markers_and_coordinates() {
     let [angles, direct] = ["angles/kinematics.mot", "direct/kinematics.mot"].map(|name| bench.table(name));
     let off = largest_difference(&angles, &direct, "hip_flexion_l");
     assert!(off < 1e-6, "{off} degrees");
+    bids_data_set_in_a_batch(&bench, &channels, &columns);
     bench.write("alone_motion.tsv", "1\t2\n");
     bench
         .run(&["forces", "alone_motion.tsv"])

@@ -13,7 +13,7 @@ use ambulo::motion::coordinates_from_table;
 use ambulo::motion::skeleton::skeleton_from_bvh;
 use ambulo::study::{
     self, ForceTable, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Recording, Settings,
-    Source,
+    Source, StandingTrial,
 };
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
@@ -24,6 +24,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Reads the source of a recording as the command does.
 struct Reader {
@@ -80,7 +81,8 @@ impl Reader {
         let mut findings = std::mem::take(&mut self.findings);
         let trial = self.laboratory_file(trial, &mut findings);
         let standing = standing.map(|name| {
-            study::standing_trial(&mut findings, |own| Ok::<_, ()>(self.laboratory_file(name, own))).unwrap()
+            let read = |own: &mut Findings| Ok::<_, ()>(self.laboratory_file(name, own));
+            Arc::new(StandingTrial::new(study::standing_trial(&mut findings, read).unwrap()))
         });
         self.findings = findings;
         let body = body(self);

@@ -70,7 +70,7 @@ fn followed(markers: &MarkerRecording, findings: &mut Findings) -> BodyInMotion 
     let measurements = BodyMeasurements::default();
     let person = PersonMeasurements { table: SegmentTable::DeLevaMale, mass: 70.0, height: Some(1.75), measurements };
     let body = BodySource::BuiltIn { person: &person, set: None };
-    let trial = MarkerTrial { trial: &trial, standing: None, body, plate_feet: &[] };
+    let trial = MarkerTrial { trial: &trial, standing: None, bodies: None, body, plate_feet: &[] };
     body_in_motion(&trial, &FitSettings::default(), findings).unwrap()
 }
 

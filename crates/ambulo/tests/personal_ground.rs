@@ -14,9 +14,10 @@ use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::study::{
     self, CalibrationError, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, Outcome, Settings, Source,
-    StudyError, personal_errors,
+    StandingTrial, StudyError, personal_errors,
 };
 use std::path::Path;
+use std::sync::Arc;
 
 fn trial(folder: &Path, name: &str) -> Source {
     let read = |name: &str| {
@@ -24,7 +25,7 @@ fn trial(folder: &Path, name: &str) -> Source {
         LaboratoryFile::from_c3d(bytes, name, &mut Findings::default()).unwrap()
     };
     let body = MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg: Some(82.6), height_m: None, set: None };
-    let standing = Some(read("Static1.c3d"));
+    let standing = Some(Arc::new(StandingTrial::new(read("Static1.c3d"))));
     Source::markers(MarkerSource { trial: read(name), standing, body, plates: Vec::new() })
 }
 

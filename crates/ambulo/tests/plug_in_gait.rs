@@ -9,9 +9,12 @@ use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::interpolate;
-use ambulo::study::{self, ForceFilter, LaboratoryFile, MarkerBody, MarkerSource, Outcome, Settings, Source, Tracking};
+use ambulo::study::{
+    self, ForceFilter, LaboratoryFile, MarkerBody, MarkerSource, Outcome, Settings, Source, StandingTrial, Tracking,
+};
 use ambulo_formats::c3d::C3d;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A person with a standing trial and a straight walk.
 pub(crate) struct Person {
@@ -70,7 +73,7 @@ impl Person {
         let (mass_kg, height_m) = (Some(self.mass_kg), Some(self.height_m));
         Source::markers(MarkerSource {
             trial: read(self.walk),
-            standing: Some(read(self.standing)),
+            standing: Some(Arc::new(StandingTrial::new(read(self.standing)))),
             body: MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg, height_m, set: None },
             plates: Vec::new(),
         })

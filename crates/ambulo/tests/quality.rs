@@ -12,10 +12,11 @@ use ambulo::motion::force_plate::PlateRecording;
 use ambulo::motion::{ForceRecording, Motion, Smoother, coordinates_from_table, force_recordings};
 use ambulo::spatial::Vec3;
 use ambulo::study::{
-    self, GroundSettings, MarkerBody, Measure, MeasuredForces, Quality, QualityLimits, QualityState, Recording,
-    Settings, Source,
+    self, GroundSettings, LaboratoryFile, MarkerBody, Measure, MeasuredForces, Quality, QualityLimits, QualityState,
+    Recording, Settings, Source, StandingTrial,
 };
 use std::path::Path;
+use std::sync::Arc;
 
 /// A way to spoil a recording, and a measure that must find it.
 struct Spoiled {
@@ -33,7 +34,9 @@ const SPOILED: [Spoiled; 11] = [
         let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
         let MarkerBody::BuiltIn { mass_kg: Some(mass_kg), .. } = &mut markers.body else { panic!("no stated mass") };
         *mass_kg *= 0.85;
-        markers.standing.as_mut().unwrap().recording.plates.clear();
+        let mut still = LaboratoryFile::clone(markers.standing.as_ref().unwrap());
+        still.recording.plates.clear();
+        markers.standing = Some(Arc::new(StandingTrial::new(still)));
     }),
     spoiled("plates at 0.6 of the force", Measure::ResidualForce, |source, _| scale_plates(source, 0.6)),
     spoiled("plates at 1.4 times the force", Measure::ResidualForce, |source, _| scale_plates(source, 1.4)),

@@ -11,7 +11,7 @@ use ambulo::motion::{ForceRecording, Motion};
 use ambulo::spatial::Vec3;
 use ambulo::study::{
     self, BodyMass, LaboratoryFile, MarkerBody, MarkerSource, MassState, MassWitness, MeasuredForces, Outcome,
-    Recording, Settings, Source, standing_trial,
+    Recording, Settings, Source, StandingTrial, standing_trial,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -137,7 +137,7 @@ fn without_stated_mass(trial: &Path, standing: Option<&Path>) -> Source {
         let mut still = standing_trial(&mut Findings::default(), |_| Ok::<_, ()>(laboratory_file(path))).unwrap();
         still.subject.mass_kg = None;
         still.recording.plates.clear();
-        still
+        Arc::new(StandingTrial::new(still))
     });
     Source::markers(MarkerSource {
         trial,

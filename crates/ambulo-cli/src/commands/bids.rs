@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// End of the name of the motion.
-const MOTION: &str = "_motion.tsv";
+pub(crate) const MOTION: &str = "_motion.tsv";
 
 /// A motion with the frame rate that its description states.
 pub(crate) struct BidsFiles {
@@ -19,15 +19,19 @@ pub(crate) struct BidsFiles {
     pub(crate) beside: Vec<PathBuf>,
 }
 
+/// Paths of the `_channels.tsv` and `_motion.json` that describe the motion at a path; `None` if its name is not that of a motion.
+pub(crate) fn beside(path: &Path) -> Option<[PathBuf; 2]> {
+    let name = files::last(path);
+    let stem = name.strip_suffix(MOTION)?;
+    Some([format!("{stem}_channels.tsv"), format!("{stem}_motion.json")].map(|name| path.with_file_name(name)))
+}
+
 /// Reads the files of the motion at a path.
 pub(crate) fn read(caller: &Caller, path: &Path) -> Result<BidsFiles> {
     let shown = path.display().to_string();
-    let name = files::last(path);
-    let Some(stem) = name.strip_suffix(MOTION) else {
+    let Some([channels, description]) = beside(path) else {
         bail!("{shown}: a .tsv is read as motion of a BIDS data set; expected a name that ends with {MOTION}");
     };
-    let channels = path.with_file_name(format!("{stem}_channels.tsv"));
-    let description = path.with_file_name(format!("{stem}_motion.json"));
     let motion = files::read_input(caller, path)?;
     let of_channels =
         files::read_input(caller, &channels).context("the columns of a BIDS motion are described beside it")?;

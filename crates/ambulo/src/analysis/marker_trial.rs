@@ -5,6 +5,7 @@
 
 use super::feasibility::Person;
 use super::ground_agreement::PlateCoverage;
+use super::known_bodies::KnownBodies;
 use super::progress::{Progress, Stage, Stopped};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
@@ -209,6 +210,8 @@ pub struct MarkerTrial<'a> {
     pub trial: &'a LaboratoryRecording,
     /// The standing trial of the same person.
     pub standing: Option<&'a LaboratoryRecording>,
+    /// Bodies that were calibrated from this standing trial; `None` calibrates one.
+    pub bodies: Option<&'a KnownBodies>,
     /// The body.
     pub body: BodySource<'a>,
     /// Plates (by index) whose foot is given.
@@ -233,7 +236,7 @@ pub(crate) fn fit_body_to_markers(
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<BodyInMotion, MarkerTrialError> {
-    let MarkerTrial { trial, standing, body, plate_feet } = trial;
+    let MarkerTrial { trial, standing, bodies, body, plate_feet } = trial;
     let set = body.marker_set();
     let (axes, LaboratoryRecording { markers, poses, plates, .. }) = body.turned(trial, findings);
     let markers = trimmed_to_visible(markers, findings);
@@ -242,19 +245,18 @@ pub(crate) fn fit_body_to_markers(
         let trial = PosedTrial { axes, plates, poses: during(&poses, &markers), points: markers };
         return trial.followed(body, plate_feet, settings, findings, progress);
     }
-    let standing = standing.map(|standing| body.turned(standing, findings).1.markers);
     let keypoints = Keypoints::recognised(&markers, set);
-    let standing = standing.map(|found| Keypoints::recognised(&found, set).map_or(found, |points| points.smooth));
     let moving = keypoints.as_ref().map_or(&markers, |keypoints| &keypoints.smooth);
-    let subject = match body {
-        BodySource::Model { model, mass, protocol: None } => {
-            Subject::of_model(model, *mass, standing.as_ref(), findings)?
+    let calibrated = |findings: &mut Findings| {
+        let standing = standing.map(|standing| body.turned(standing, findings).1.markers);
+        let standing = standing.map(|found| Keypoints::recognised(&found, set).map_or(found, |points| points.smooth));
+        Subject::of_source(body, moving, standing.as_ref(), findings)
+    };
+    let subject = match (body, standing, bodies) {
+        (BodySource::BuiltIn { person, set }, Some(_), Some(bodies)) => {
+            bodies.subject(person, *set, findings, calibrated)?
         }
-        BodySource::Model { model, mass, protocol: Some(protocol) } => {
-            Subject::by_protocol(model, *mass, protocol, standing.as_ref(), findings)?
-        }
-        BodySource::Calibrated(subject) => (*subject).clone(),
-        BodySource::BuiltIn { person, set } => Subject::built_in(moving, standing.as_ref(), person, *set, findings)?,
+        _ => calibrated(findings)?,
     };
     progress.end(Stage::Body)?;
     // The author of a given model decides which coordinates are clamped; the built-in body needs its ranges to keep arm angles unique.
@@ -432,6 +434,23 @@ impl BodyInMotion {
 }
 
 impl Subject {
+    /// The body of a source, from the standing trial or, without one, from the moving trial.
+    fn of_source(
+        body: &BodySource<'_>,
+        moving: &MarkerRecording,
+        standing: Option<&MarkerRecording>,
+        findings: &mut Findings,
+    ) -> Result<Subject, MarkerTrialError> {
+        match body {
+            BodySource::Model { model, mass, protocol: None } => Subject::of_model(model, *mass, standing, findings),
+            BodySource::Model { model, mass, protocol: Some(protocol) } => {
+                Subject::by_protocol(model, *mass, protocol, standing, findings)
+            }
+            BodySource::Calibrated(subject) => Ok((*subject).clone()),
+            BodySource::BuiltIn { person, set } => Subject::built_in(moving, standing, person, *set, findings),
+        }
+    }
+
     fn of_model(
         model: &Model,
         mass: Option<f64>,

@@ -9,6 +9,7 @@ mod events;
 pub mod feasibility;
 mod foot_progression;
 mod ground_agreement;
+mod known_bodies;
 mod marker_trial;
 mod peaks;
 mod plausibility;
@@ -34,6 +35,7 @@ pub use ground_agreement::{
     BandAgreement, CenterAgreement, ComparedAnalyses, ComparedSample, ComparedStance, FootAgreement, ForceAgreement,
     GroundAgreement, MomentAgreement, PlateCoverage, compared_stances, ground_agreement,
 };
+pub use known_bodies::KnownBodies;
 pub(crate) use marker_trial::fit_body_to_markers;
 pub use marker_trial::{
     BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, MarkerTrialError, ModelProtocol, Subject,

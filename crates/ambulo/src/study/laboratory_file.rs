@@ -183,10 +183,7 @@ impl LaboratoryFile {
 ///
 /// # Errors
 /// Those of `read`.
-pub fn standing_trial<E>(
-    findings: &mut Findings,
-    read: impl FnOnce(&mut Findings) -> Result<LaboratoryFile, E>,
-) -> Result<LaboratoryFile, E> {
+pub fn standing_trial<T, E>(findings: &mut Findings, read: impl FnOnce(&mut Findings) -> Result<T, E>) -> Result<T, E> {
     let mut own = Findings::default();
     let file = read(&mut own);
     let of_walk = findings.clone();

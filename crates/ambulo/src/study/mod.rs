@@ -35,6 +35,7 @@ pub mod session;
 mod settings;
 mod size;
 mod source;
+mod standing_trial;
 mod tracked;
 mod trial_list;
 pub mod validation;
@@ -59,4 +60,5 @@ pub use source::{
     AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse,
     Recording, SensorBody, SensorSource, Source,
 };
+pub use standing_trial::StandingTrial;
 pub use trial_list::{StatedTrial, TrialList};

@@ -411,8 +411,14 @@ impl Statements {
         };
         let plate_feet: Vec<(usize, Side)> =
             markers.plates.iter().filter_map(|known| Some((known.plate, of_foot(known.used)?))).collect();
-        let still = markers.standing.as_ref().map(|standing| &standing.recording);
-        let trial = MarkerTrial { trial: &trial, standing: still, body, plate_feet: &plate_feet };
+        let standing = markers.standing.as_deref();
+        let trial = MarkerTrial {
+            trial: &trial,
+            standing: standing.map(|standing| &standing.recording),
+            bodies: standing.map(|standing| &standing.bodies),
+            body,
+            plate_feet: &plate_feet,
+        };
         Ok(fit_body_to_markers(&trial, &settings.marker_fit, findings, progress)?)
     }
 }
@@ -450,7 +456,8 @@ impl MarkerSource {
     fn person(&self) -> Result<calibration::PersonMeasurements, StudyError> {
         let MarkerSource { trial, standing, body, .. } = self;
         let MarkerBody::BuiltIn { table, mass_kg, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
-        let stated = |of: &dyn Fn(&LaboratoryFile) -> Option<f64>| standing.as_ref().and_then(of).or_else(|| of(trial));
+        let still = || standing.as_ref().map(|standing| -> &LaboratoryFile { standing });
+        let stated = |of: &dyn Fn(&LaboratoryFile) -> Option<f64>| still().and_then(of).or_else(|| of(trial));
         Ok(calibration::PersonMeasurements {
             table: *table,
             mass: mass_kg.ok_or(StudyError::MassUnknown)?,

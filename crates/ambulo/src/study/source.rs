@@ -3,6 +3,7 @@
 use super::error::StudyError;
 use super::laboratory_file::LaboratoryFile;
 use super::size::StatedSize;
+use super::standing_trial::StandingTrial;
 use crate::analysis::feasibility::Person;
 use crate::analysis::{ModelProtocol, Subject};
 use crate::kinematics::Trajectory;
@@ -15,6 +16,7 @@ use crate::motion::{ForceRecording, Motion, SensorRecording};
 use crate::spatial::Vec3;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
+use std::sync::Arc;
 
 /// A recording with everything that is known about it. It holds data; names of files appear in messages only.
 #[derive(Debug, Clone)]
@@ -123,7 +125,7 @@ pub struct MarkerSource {
     /// The trial.
     pub trial: LaboratoryFile,
     /// The same person standing still.
-    pub standing: Option<LaboratoryFile>,
+    pub standing: Option<Arc<StandingTrial>>,
     /// The body.
     pub body: MarkerBody,
     /// Force plates of which the laboratory knows the foot.

@@ -7,12 +7,13 @@ use ambulo::model::{BodyId, Marker, Model};
 use ambulo::motion::coordinates_from_table;
 use ambulo::study::{
     self, ForceTable, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Outcome, Settings,
-    Source,
+    Source, StandingTrial,
 };
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The kinds of trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -357,6 +358,7 @@ impl Recording {
                 let read = |name: &str| laboratory_file(name, &file(name)?, &mut Findings::default());
                 let mut standing = standing.map(read).transpose()?;
                 standing.iter_mut().for_each(keep);
+                let standing = standing.map(|standing| Arc::new(StandingTrial::new(standing)));
                 let table = SegmentTable::DeLevaMale;
                 let body = MarkerBody::BuiltIn { table, mass_kg: Some(mass), height_m: height, set: None };
                 Source::markers(MarkerSource { trial, standing, body, plates: Vec::new() })

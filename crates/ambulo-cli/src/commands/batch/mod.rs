@@ -30,7 +30,7 @@ pub(crate) fn run(args: &BatchArgs) -> Result<Completion> {
     let in_job = SCHEDULERS.iter().any(|name| env::var_os(name).is_some());
     let threads = args.jobs.map_or_else(|| if in_job { 1 } else { processors() }, |jobs| jobs as usize);
     let (root, mut plan) = planned(args, threads)?;
-    let work = Work { root, words: args.options.clone(), keep: args.keep.clone() };
+    let work = Work { root, words: args.options.clone(), keep: args.keep.clone(), ..Work::default() };
     let Some(first) = plan.trials.first() else { bail!("{}", nothing_found(args, &plan)) };
     let [mass, height] = work.check(first)?;
     plan.take_size(&args.source, mass, height)?;

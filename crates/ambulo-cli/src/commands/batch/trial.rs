@@ -2,7 +2,8 @@
 
 use crate::args::ForcesArgs;
 use crate::caller::Caller;
-use crate::commands::forces;
+use crate::commands::bids;
+use crate::commands::forces::{self, Shared};
 use crate::commands::trials::{PlannedTrial, sentence};
 use crate::printer;
 use crate::record::{hash, hash_of_file};
@@ -12,15 +13,17 @@ use ambulo_formats::table::Table;
 use ambulo_results::{CycleRow, Keep, cycle_rows, unit_of};
 use anyhow::{Context, Error, Result};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Tables whose columns would have the names of those of another table, and what is put before them.
 const PREFIXES: [(&str, &str); 2] = [("grf_measured.mot", "measured_"), ("clinical.csv", "clinical_")];
 
 /// The work that a batch does on every trial.
-#[derive(Debug, Clone)]
+#[derive(Debug, Default)]
 pub(super) struct Work {
     /// The folder that names of trials begin at.
     pub(super) root: PathBuf,
@@ -28,6 +31,10 @@ pub(super) struct Work {
     pub(super) words: Vec<OsString>,
     /// Tables that are kept.
     pub(super) keep: Vec<String>,
+    /// What trials share.
+    pub(super) shared: Shared,
+    /// SHA-256 of files that several trials may have.
+    pub(super) hashes: Mutex<BTreeMap<PathBuf, String>>,
 }
 
 /// The identity of a trial: what it is made of, wherever the files lie.
@@ -89,13 +96,21 @@ impl Work {
         let of_words = self.words.iter().map(Path::new).filter(|path| path.is_file());
         let named =
             [&files.standing, &files.model, &files.grf, &files.loads].into_iter().flatten().map(PathBuf::as_path);
-        let all = std::iter::once(files.recording.as_path()).chain(named).chain(of_words);
         let shown = |path: &Path| {
             let path = path.strip_prefix(&self.root).unwrap_or(path);
             path.display().to_string().replace('\\', "/")
         };
+        let recording = files.recording.as_path();
+        // Trials of a .b3d have one file.
+        let of_recording = match files.trial {
+            Some(_) => self.shared_hash(recording),
+            None => hash_of_file(recording).unwrap_or_default(),
+        };
+        let of_bids = bids::beside(recording).into_iter().flatten().filter(|path| path.is_file());
+        let of_bids = of_bids.map(|path| (shown(&path), hash_of_file(&path).unwrap_or_default()));
+        let others = named.chain(of_words).map(|path| (shown(path), self.shared_hash(path)));
         let inputs: Vec<(String, String)> =
-            all.map(|path| (shown(path), hash_of_file(path).unwrap_or_default())).collect();
+            std::iter::once((shown(recording), of_recording)).chain(of_bids).chain(others).collect();
         let mut text = format!("{}\n{:?}\n{:?}\n", env!("AMBULO_VERSION"), self.words, self.keep);
         // Writing to memory does not fail.
         let _ = write!(text, "{:?} {:?} {:?} {:?}", files.trial, files.mass, files.height, trial.broken);
@@ -103,6 +118,17 @@ impl Work {
             let _ = write!(text, "\n{name} {hash}");
         }
         Key { hash: hash(text.as_bytes()), inputs }
+    }
+
+    /// SHA-256 of a file that several trials may have, computed once; empty if it cannot be read.
+    fn shared_hash(&self, path: &Path) -> String {
+        let hashes = || self.hashes.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = hashes().get(path) {
+            return known.clone();
+        }
+        let hash = hash_of_file(path).unwrap_or_default();
+        hashes().insert(path.to_owned(), hash.clone());
+        hash
     }
 
     /// Computes a trial; the error is a sentence.
@@ -118,7 +144,7 @@ impl Work {
     }
 
     fn computed(&self, trial: &PlannedTrial) -> Result<Computed> {
-        let run = forces::compute(&self.options(trial)?, &Caller::default())?;
+        let run = forces::compute_with(&self.options(trial)?, &Caller::default(), &self.shared)?;
         let keep = Keep::of_names(&self.keep);
         let (files, mut summary) = run.tables_for(&keep)?;
         let Analysis { events, .. } = &run.outcome.analysis;

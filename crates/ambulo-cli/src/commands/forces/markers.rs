@@ -8,14 +8,17 @@ use crate::files;
 use ambulo::findings::Findings;
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::motion::markers_from_bids;
-use ambulo::study::{LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, standing_trial};
+use ambulo::study::{
+    LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, StandingTrial, standing_trial,
+};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
+use std::sync::Arc;
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     check_options(args)?;
     let trial = read_laboratory_file(args.recording(), &reading.caller, &mut reading.findings)?;
-    let standing = args.subject.still.as_deref().map(|path| read_standing_trial(path, reading)).transpose()?;
+    let standing = args.subject.still.as_deref().map(|path| shared_standing_trial(path, reading)).transpose()?;
     reading.clock.lap("read_markers");
     let body = body(args, reading)?;
     let plates = args.subject.plate.iter().map(|PlateFoot { plate, side }| PlateAssignment {
@@ -46,7 +49,7 @@ pub(super) fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBod
 }
 
 /// Reads a `.c3d`, a `.trc`, a `.mvnx`, a `.csv` or a BIDS motion.
-fn read_laboratory_file(path: &Path, caller: &Caller, findings: &mut Findings) -> Result<LaboratoryFile> {
+pub(crate) fn read_laboratory_file(path: &Path, caller: &Caller, findings: &mut Findings) -> Result<LaboratoryFile> {
     if files::ending(path) == "tsv" {
         return read_bids(path, caller, findings);
     }
@@ -105,6 +108,13 @@ pub(super) fn check_options(args: &ForcesArgs) -> Result<()> {
         ),
         None => Ok(()),
     }
+}
+
+/// The standing trial of the person, which other recordings may share.
+fn shared_standing_trial(path: &Path, reading: &mut Reading) -> Result<Arc<StandingTrial>> {
+    reading.read.push(path.to_owned());
+    let Reading { caller, findings, standing_trials, .. } = reading;
+    standing_trial(findings, |findings| standing_trials.read(path, caller, findings))
 }
 
 pub(super) fn read_standing_trial(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile> {

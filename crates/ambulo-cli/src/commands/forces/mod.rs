@@ -8,6 +8,7 @@ mod sensors;
 mod setup;
 mod size;
 mod skeleton;
+mod standing_trials;
 pub(crate) mod subject;
 
 use super::bids;
@@ -32,6 +33,7 @@ use ambulo_formats::osim::{OsimMarkerSet, OsimModel};
 use ambulo_formats::table::Table;
 use ambulo_results::{GroundSource, Input, Keep, OutputFile};
 use anyhow::{Context, Result, bail};
+pub(crate) use standing_trials::StandingTrials;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -61,12 +63,22 @@ fn check_range(args: &ForcesArgs) -> Result<()> {
 
 /// Reads the recording and computes its forces.
 pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
-    compute_on(args, caller, None)
+    compute_with(args, caller, &Shared::default())
 }
 
-/// The same with a body that was calibrated before, for markers with the built-in body.
-pub(crate) fn compute_on(args: &ForcesArgs, caller: &Caller, body: Option<&Subject>) -> Result<MotionRun> {
+/// What several recordings of a person share.
+#[derive(Debug, Default)]
+pub(crate) struct Shared {
+    /// Standing trials, read once.
+    pub(crate) standing_trials: StandingTrials,
+    /// A body that was calibrated before, for markers with the built-in body.
+    pub(crate) body: Option<Subject>,
+}
+
+/// As [`compute`], with what other recordings share.
+pub(crate) fn compute_with(args: &ForcesArgs, caller: &Caller, shared: &Shared) -> Result<MotionRun> {
     let mut reading = Reading {
+        standing_trials: shared.standing_trials.clone(),
         caller: caller.clone(),
         findings: Findings::default(),
         clock: Stopwatch::new(),
@@ -110,7 +122,7 @@ pub(crate) fn compute_on(args: &ForcesArgs, caller: &Caller, body: Option<&Subje
         RecordingKind::Sensors => sensors::read(args, &mut reading)?,
     };
     let mut source = Source { device: read_device(args, &mut reading)?, ..source };
-    if let (Recording::Markers(markers), Some(body)) = (&mut source.recording, body) {
+    if let (Recording::Markers(markers), Some(body)) = (&mut source.recording, &shared.body) {
         markers.body = MarkerBody::Calibrated(Box::new(body.clone()));
     }
     reading.read.extend(args.device.iter().chain(&args.thresholds).chain(&args.person).cloned());
@@ -162,6 +174,7 @@ impl RecordingKind {
 
 /// Collected while the input files are read.
 struct Reading {
+    standing_trials: StandingTrials,
     caller: Caller,
     findings: Findings,
     clock: Stopwatch,
@@ -176,7 +189,7 @@ struct Reading {
 }
 
 fn studied(args: &ForcesArgs, source: Source, reading: Reading) -> Result<MotionRun> {
-    let Reading { caller, mut findings, mut clock, read, ground, tracked, setups: _ } = reading;
+    let Reading { caller, mut findings, mut clock, read, ground, tracked, setups: _, standing_trials: _ } = reading;
     let mut settings = settings(args, tracked)?;
     settings.prediction.person = read_person(args, &caller)?;
     let mut watch = |stage: study::Stage| {

@@ -7,7 +7,7 @@
 
 use crate::args::ForcesArgs;
 use crate::caller::Caller;
-use crate::commands::forces;
+use crate::commands::forces::{self, Shared};
 use crate::commands::run_files::MotionRun;
 use crate::commands::side_by_side::side_by_side;
 use crate::commands::trials::{PlannedTrial, sentence};
@@ -62,9 +62,10 @@ impl Visit<'_> {
 
     /// Computes all trials.
     pub(super) fn compute(&self, said: &(dyn Fn(usize) + Sync)) -> ComputedVisit {
+        let shared = Shared::default();
         let runs = side_by_side(self.trials.len(), self.threads, |k| {
             said(k);
-            self.run(self.trials[k], None, None)
+            self.run(self.trials[k], None, &shared)
         });
         let bodies: Vec<String> = runs.iter().flatten().map(|run| fingerprint(&run.outcome)).collect();
         let first = self.first_of(&runs);
@@ -78,12 +79,12 @@ impl Visit<'_> {
     }
 
     /// A trial, with a stated mass or with a body that was calibrated before.
-    fn run(&self, trial: &PlannedTrial, mass_kg: Option<f64>, body: Option<&Subject>) -> Result<MotionRun, String> {
+    fn run(&self, trial: &PlannedTrial, mass_kg: Option<f64>, shared: &Shared) -> Result<MotionRun, String> {
         let computed = match &trial.broken {
             Some(reason) => Err(Error::msg(reason.clone())),
             None => self.options(trial).and_then(|mut args| {
                 args.subject.mass = mass_kg.or(args.subject.mass);
-                forces::compute_on(&args, &Caller::default(), body)
+                forces::compute_with(&args, &Caller::default(), shared)
             }),
         };
         computed.map_err(|error| {
@@ -108,16 +109,18 @@ impl Visit<'_> {
 
     fn again_with_one_body(&self, first: usize, runs: Vec<Result<MotionRun, String>>) -> ComputedVisit {
         let mass_kg = median_mass(&runs);
-        let own = self.run(self.trials[first], mass_kg, None);
+        let own = self.run(self.trials[first], mass_kg, &Shared::default());
         let body = own.as_ref().ok().and_then(|run| subject(&run.outcome)).cloned();
+        let mass_of_others = mass_kg.filter(|_| body.is_none());
+        let shared = Shared { body, ..Shared::default() };
         let own = std::sync::Mutex::new(Some(own));
         let again = side_by_side(runs.len(), self.threads, |k| match &runs[k] {
             Err(error) => Err(error.clone()),
             Ok(_) if k == first => {
                 let taken = own.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take();
-                taken.unwrap_or_else(|| self.run(self.trials[first], mass_kg, None))
+                taken.unwrap_or_else(|| self.run(self.trials[first], mass_kg, &Shared::default()))
             }
-            Ok(_) => self.run(self.trials[k], mass_kg.filter(|_| body.is_none()), body.as_ref()),
+            Ok(_) => self.run(self.trials[k], mass_of_others, &shared),
         });
         let of_first = again[first].as_ref().ok().map(|run| fingerprint(&run.outcome));
         let differs = |run: &MotionRun| Some(fingerprint(&run.outcome)) != of_first;

@@ -1,6 +1,7 @@
 //! The files of a folder and of the folders in it.
 
 use super::Wanted;
+use crate::commands::bids;
 use crate::files::ending;
 use crate::record::Record;
 use anyhow::{Context, Result, bail};
@@ -14,6 +15,10 @@ const DEEPEST: usize = 32;
 const ENDINGS: [&str; 6] = ["c3d", "trc", "mot", "sto", "b3d", "osim"];
 /// Endings of other recordings of motion.
 const OF_MOTION: [&str; 3] = ["bvh", "npz", "mvnx"];
+/// The description of a BIDS data set, in its folder.
+const BIDS: &str = "dataset_description.json";
+/// Folders of a BIDS data set that have no recordings of their own: originals and results of these recordings, programs and pictures.
+const NOT_BIDS_RECORDINGS: [&str; 4] = ["sourcedata/", "derivatives/", "code/", "stimuli/"];
 
 /// A file that may be a part of a trial.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,6 +33,17 @@ pub(crate) struct FoundFile {
 impl FoundFile {
     pub(super) fn ending(&self) -> String {
         ending(&self.path)
+    }
+
+    /// Whether the name is that of the motion of a BIDS data set.
+    pub(super) fn is_bids_motion(&self) -> bool {
+        bids::beside(&self.path).is_some()
+    }
+
+    /// The subject of a BIDS data set that the file belongs to.
+    pub(super) fn bids_subject(&self) -> Option<&str> {
+        let is_subject = |part: &&str| part.starts_with("sub-");
+        self.folder.split('/').find(is_subject).filter(|_| self.is_bids_motion())
     }
 
     /// The name without folder and ending, in lower case.
@@ -57,9 +73,12 @@ pub(crate) fn files_in(root: &Path, wanted: Wanted) -> Result<Vec<FoundFile>> {
     collect(root, "", DEEPEST, &mut BTreeSet::new(), &mut found)?;
     let may_be = |file: &FoundFile| {
         let ending = file.ending();
-        ENDINGS.contains(&ending.as_str()) || wanted == Wanted::Motion && OF_MOTION.contains(&ending.as_str())
+        let of_motion = || OF_MOTION.contains(&ending.as_str()) || file.is_bids_motion();
+        ENDINGS.contains(&ending.as_str()) || wanted == Wanted::Motion && of_motion()
     };
-    found.retain(may_be);
+    let is_bids = root.join(BIDS).is_file();
+    let is_left_out = |file: &FoundFile| NOT_BIDS_RECORDINGS.iter().any(|folder| file.name.starts_with(folder));
+    found.retain(|file| may_be(file) && !(is_bids && is_left_out(file)));
     Ok(found)
 }
 

@@ -5,7 +5,8 @@
 //! | `.c3d` with force plates | a trial |
 //! | any recording of motion, where force plates are not asked for ([`Wanted`]) | a trial |
 //! | `.c3d` without plates, `.trc`, `.mot`, `.sto` with a table of ground forces beside it | a trial |
-//! | `.c3d`, `.trc` in which the person stands still | the standing trial of the trials in its folder |
+//! | `_motion.tsv` of a BIDS data set, of the person `sub-...` | a trial, where force plates are not asked for |
+//! | `.c3d`, `.trc`, `_motion.tsv` in which the person stands still | the standing trial of the trials in its folder |
 //! | `.mot`, `.sto` with a word of [`FORCES`] in its name | a table of ground forces |
 //! | `.b3d` | a person with trials |
 //! | the only `.osim` of a folder | the model of the `.trc`, `.mot` and `.sto` in it |
@@ -17,7 +18,7 @@ use super::Wanted;
 use super::folder::FoundFile;
 use crate::args::TrialFiles;
 use crate::caller::Caller;
-use crate::commands::forces::markers::parse_laboratory_file;
+use crate::commands::forces::markers::read_laboratory_file;
 use crate::commands::forces::subject::read_header;
 use crate::commands::side_by_side::side_by_side;
 use crate::files;
@@ -230,6 +231,7 @@ fn is_recording(file: &FoundFile) -> bool {
         "c3d" | "trc" => true,
         "mot" | "sto" => !is_force_table(file),
         "bvh" | "npz" | "mvnx" => true,
+        "tsv" => file.is_bids_motion(),
         _ => false,
     }
 }
@@ -239,7 +241,7 @@ fn is_force_table(file: &FoundFile) -> bool {
 }
 
 fn is_of_markers(file: &FoundFile) -> bool {
-    matches!(file.ending().as_str(), "c3d" | "trc")
+    matches!(file.ending().as_str(), "c3d" | "trc") || file.is_bids_motion()
 }
 
 /// Forms of one recording, the preferred one first.
@@ -264,9 +266,9 @@ fn content(file: &FoundFile, stated: &StatedTrial) -> Content {
     if stated.excluded.is_some() || !is_of_markers(file) {
         return Content::Motion;
     }
-    let read = files::read_input(&Caller::default(), &file.path)
-        .and_then(|bytes| parse_laboratory_file(bytes, &file.path, &mut Findings::default()));
-    match read {
+    match read_laboratory_file(&file.path, &Caller::default(), &mut Findings::default()) {
+        // A motion of BIDS may have coordinates instead of markers; its error is that of the computation.
+        Err(_) if file.is_bids_motion() => Content::Motion,
         Err(error) => Content::Broken(format!("{error:#}")),
         Ok(recording) if recording.is_still() => Content::Still,
         Ok(recording) if recording.recording.plates.is_empty() => Content::Motion,
@@ -386,6 +388,7 @@ impl<'a> Folders<'a> {
     }
 
     fn person(&self, file: &FoundFile) -> String {
-        if file.folder.is_empty() { self.root.clone() } else { file.folder.clone() }
+        let of_folder = || if file.folder.is_empty() { self.root.clone() } else { file.folder.clone() };
+        file.bids_subject().map_or_else(of_folder, str::to_owned)
     }
 }
