@@ -7,10 +7,15 @@
 //! | threads, kills at any moment and continued runs change no byte                         | exact                            |
 //! | shards compute every trial once                                                        | exact                            |
 //! | another batch, changed inputs, a run at the same time, a full disk are refused by name | exact                            |
+//! | a motion that is spoiled is ranked before the good one, with the reason                 | exact                            |
+//! | the page is written when all shards are complete, with the same bytes                  | exact                            |
+//! | the error against one plate is in the column of the foot that stood on it              | exact                            |
 
+use crate::shared_data;
 use crate::workbench::{Workbench, demo_input};
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::fs::{self, File};
 use std::thread::sleep;
 use std::time::Duration;
@@ -143,6 +148,104 @@ fn shards_compute_every_trial_once() {
     for wrong in ["2/2", "-1/2", "1", "0/0", "a/b"] {
         bench.run(&["batch", "set", "--shard", wrong]).refused(&["I/N", "0/4"]);
     }
+}
+
+#[test]
+fn a_full_disk_loses_no_closed_part() {
+    let bench = set("batch_full");
+    bench.run(&[&BATCH[..], &["whole"]].concat()).done();
+    let whole = tables(&bench, "whole");
+    let frames = |part: usize| whole[&format!("frames/part-000-0000{part}.parquet")].len();
+    assert!(frames(0) < frames(1), "the first part has one walk, the second two");
+    let words = [&BATCH[..], &["full", "--resume"]].concat();
+    bench.run_on_a_small_disk((frames(0) + frames(1)) / 2048, &words).refused(&[
+        "frames/part-000-00001.parquet",
+        "cannot be written",
+        "--resume continues",
+    ]);
+    let closed = tables(&bench, "full");
+    assert_eq!(closed.len(), 4, "the first part, and no half of the second: {:?}", closed.keys());
+    assert!(closed.iter().all(|(name, bytes)| whole[name] == *bytes));
+    bench.run(&words).done();
+    assert!(tables(&bench, "full") == whole);
+}
+
+#[test]
+fn spoiled_motions_are_ranked_before_the_good_one_with_the_reason() {
+    let bench = Workbench::empty("batch_ranked").removed_at_the_end();
+    // Name, column, what is added to it at a time [s], and a part of the reason.
+    type Added = fn(f64) -> f64;
+    let spoiled: [(&str, &str, Added, &str); 4] = [
+        ("twice as fast", "time", |time_s| -0.5 * time_s, "the residual force is"),
+        (
+            "a floor that drops",
+            "pelvis_ty",
+            |time_s| if time_s > 2.18 { -0.05 } else { 0.0 },
+            "something other than the feet",
+        ),
+        ("feet that slide", "pelvis_tz", |time_s| 0.05 * (4.0 * PI * time_s).sin(), "soles that carry the body move"),
+        ("an ankle beyond its range", "ankle_angle_l", |_| 70.0, "the joint reaches"),
+    ];
+    for name in spoiled.iter().map(|(name, ..)| *name).chain(["good"]) {
+        fs::create_dir_all(bench.folder.join(format!("set/{name}"))).unwrap();
+        bench.write(&format!("set/{name}/figure.osim"), demo_input("figure.osim"));
+        bench.write(&format!("set/{name}/walk.mot"), demo_input("walk.mot"));
+    }
+    for (name, column, added, _) in &spoiled {
+        let walk = format!("set/{name}/walk.mot");
+        let text = bench.text(&walk);
+        let names = text.lines().skip_while(|line| line.trim() != "endheader").nth(1).unwrap();
+        let column = names.split_whitespace().position(|own| own == *column).unwrap();
+        bench.edit_rows(&walk, |mut rows| {
+            for row in &mut rows {
+                let [time_s, value] = [0, column].map(|cell| row[cell].parse::<f64>().unwrap());
+                row[column] = (value + added(time_s)).to_string();
+            }
+            rows
+        });
+    }
+    let run = bench.run(&["batch", "set", "-o", "out", "--check", "--json"]);
+    let found: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    let ranking = found["ranking"].as_array().unwrap();
+    let row = |name: &str| ranking.iter().find(|row| row["name"] == format!("{name}/walk.mot"));
+    assert!(row("good").is_none(), "{ranking:?}");
+    for (name, _, _, reason) in &spoiled {
+        let row = row(name).unwrap_or_else(|| panic!("{name} is not ranked"));
+        assert!(row["reasons"].to_string().contains(reason), "{name}: {row}");
+    }
+}
+
+#[test]
+fn the_page_is_written_when_all_shards_are_complete() {
+    let bench = set("batch_page");
+    bench.run(&[&BATCH[..], &["out", "--shard", "0/2"]].concat()).done();
+    assert!(!bench.exists("out/summary.html"), "one of two shards");
+    bench.run(&[&BATCH[..], &["out", "--shard", "1/2"]].concat()).done();
+    let page = bench.text("out/summary.html");
+    assert!(page.contains("5 of 6 trials were computed") && page.contains("person 1/broken.c3d"), "{page}");
+    bench.run(&["batch", "set", "-o", "whole", "--quiet"]).done();
+    assert_eq!(bench.text("whole/summary.html"), page, "parts and shards do not change the page");
+    // A page that is lost is made again from the tables.
+    fs::remove_file(bench.folder.join("out/summary.html")).unwrap();
+    bench.run(&[&BATCH[..], &["out", "--shard", "0/2", "--resume"]].concat()).done();
+    assert_eq!(bench.text("out/summary.html"), page);
+}
+
+#[test]
+fn the_error_against_one_plate_is_in_the_column_of_its_foot() {
+    let Some(data) = shared_data::data() else { return };
+    let bench = Workbench::empty("batch_one_foot").removed_at_the_end();
+    // The right foot stood on a plate; the left one did not.
+    let folder = data.join("biomechzoo-HC036A");
+    let shown = |name: &str| folder.join(name).display().to_string();
+    bench.write("list.csv", format!("file,static\n{},{}\n", shown("HC036A23.c3d"), shown("HC036A01.c3d")));
+    bench.run(&["batch", "list.csv", "-o", "out", "--quiet", "--keep", "events", "--", "--predict"]).done();
+    let table = ParquetTable::read(&bench.read("out/trials/part-000-00000.parquet")).unwrap();
+    let errors = ["r", "l"].map(|side| match table.column(&format!("predicted_vertical_rmse_{side}_bw")) {
+        Some(ColumnValues::Double(values)) => values[0],
+        other => panic!("{side}: {other:?}"),
+    });
+    assert!(errors[0] > 0.0 && errors[0] < 0.3 && errors[1].is_nan(), "{errors:?}");
 }
 
 #[test]

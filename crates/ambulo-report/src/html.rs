@@ -1,4 +1,7 @@
-//! Writes HTML documents and escapes text in them.
+//! Writes HTML documents and tables, and escapes text in them.
+
+use ambulo::study::validation::Section;
+use std::fmt::Write;
 
 /// An HTML document that loads nothing from any network.
 pub(super) struct Document<'a> {
@@ -49,6 +52,42 @@ pub(super) fn escaped(text: &str) -> String {
         }
     }
     escaped
+}
+
+/// Text whose back quotes are code.
+pub(super) fn code(text: &str) -> String {
+    let parts = text.split('`').enumerate();
+    parts.map(|(k, part)| if k % 2 == 1 { format!("<code>{}</code>", escaped(part)) } else { escaped(part) }).collect()
+}
+
+/// A table with its note; columns of numbers are set to the right.
+pub(super) fn html_table(section: &Section) -> String {
+    let Section { table, note, .. } = section;
+    let is_number =
+        |cell: &str| cell == "-" || cell.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit());
+    let numeric: Vec<bool> = (0..table.head().len())
+        .map(|column| column > 0 && table.rows().iter().all(|row| is_number(&row[column])))
+        .collect();
+    let class = |column: usize| if numeric[column] { " class=\"number\"" } else { "" };
+    let mut html = String::from("<div class=\"scroll\"><table>\n<thead><tr>");
+    for (column, name) in table.head().iter().enumerate() {
+        let _ = write!(html, "<th scope=\"col\"{}>{}</th>", class(column), escaped(name));
+    }
+    html += "</tr></thead>\n<tbody>\n";
+    for row in table.rows() {
+        html += "<tr>";
+        for (column, cell) in row.iter().enumerate() {
+            let tag = if column == 0 { "th scope=\"row\"" } else { "td" };
+            let end = if column == 0 { "th" } else { "td" };
+            let _ = write!(html, "<{tag}{}>{}</{end}>", class(column), escaped(cell));
+        }
+        html += "</tr>\n";
+    }
+    html += "</tbody></table></div>\n";
+    if !note.is_empty() {
+        let _ = writeln!(html, "<p class=\"soft\">{}</p>", code(note));
+    }
+    html
 }
 
 #[cfg(test)]

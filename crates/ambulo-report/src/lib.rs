@@ -1,5 +1,6 @@
 //! Presents results: clinical curves with normative data, figures, the report page, and exchange formats.
 
+mod batch;
 pub mod clinical;
 mod clinical_file;
 mod exchange;
@@ -17,6 +18,7 @@ pub mod style;
 mod sweep;
 mod validation;
 
+pub use batch::{BATCH_QUANTITIES, BatchQuantity, BatchTrial, batch_page};
 pub use clinical_file::clinical_file;
 pub use exchange::{
     ExchangeError, Glb, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,

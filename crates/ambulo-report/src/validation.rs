@@ -4,7 +4,7 @@
 //! `validation.html` have the same tables for reading. Definitions and units: `ambulo::study::validation`.
 
 use super::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, FigureError, PALE};
-use super::html::{Document, escaped};
+use super::html::{Document, code, escaped, html_table};
 use ambulo::study::QualityState;
 use ambulo::study::validation::{
     self, Component, DEFINITIONS, Figure, JudgedTrial, LegJoint, PhaseError, Section, TextTable, kinds, mean,
@@ -255,41 +255,6 @@ fn data_section(judged: &[&JudgedTrial]) -> Section {
     }
     let note = "`ambulo forces` with the files of the trial says why data are doubtful or bad.".to_owned();
     Section { title: "Data of each trial", table, note }
-}
-
-/// Text whose back quotes are code.
-pub(crate) fn code(text: &str) -> String {
-    let parts = text.split('`').enumerate();
-    parts.map(|(k, part)| if k % 2 == 1 { format!("<code>{}</code>", escaped(part)) } else { escaped(part) }).collect()
-}
-
-pub(crate) fn html_table(section: &Section) -> String {
-    let Section { table, note, .. } = section;
-    let is_number =
-        |cell: &str| cell == "-" || cell.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit());
-    let numeric: Vec<bool> = (0..table.head().len())
-        .map(|column| column > 0 && table.rows().iter().all(|row| is_number(&row[column])))
-        .collect();
-    let class = |column: usize| if numeric[column] { " class=\"number\"" } else { "" };
-    let mut html = String::from("<div class=\"scroll\"><table>\n<thead><tr>");
-    for (column, name) in table.head().iter().enumerate() {
-        let _ = write!(html, "<th scope=\"col\"{}>{}</th>", class(column), escaped(name));
-    }
-    html += "</tr></thead>\n<tbody>\n";
-    for row in table.rows() {
-        html += "<tr>";
-        for (column, cell) in row.iter().enumerate() {
-            let tag = if column == 0 { "th scope=\"row\"" } else { "td" };
-            let end = if column == 0 { "th" } else { "td" };
-            let _ = write!(html, "<{tag}{}>{}</{end}>", class(column), escaped(cell));
-        }
-        html += "</tr>\n";
-    }
-    html += "</tbody></table></div>\n";
-    if !note.is_empty() {
-        let _ = writeln!(html, "<p class=\"soft\">{}</p>", code(note));
-    }
-    html
 }
 
 /// A text as a cell of a CSV file.

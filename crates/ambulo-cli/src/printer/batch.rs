@@ -29,13 +29,23 @@ impl BatchRow {
         self.quality.as_deref() == Some("bad") || self.verdict.as_deref() == Some("infeasible")
     }
 
+    /// The numbers of the rows that are not good and feasible, the worst first.
+    pub(crate) fn worst(rows: &[BatchRow]) -> Vec<usize> {
+        let mut worst: Vec<usize> = (0..rows.len()).filter(|k| rows[*k].rank() < BatchRow::GOOD).collect();
+        worst.sort_by_key(|k| rows[*k].rank());
+        worst
+    }
+
+    /// The rank of a good and feasible trial.
+    const GOOD: usize = 4;
+
     /// Trials without results first, then bad, infeasible and doubtful ones.
     fn rank(&self) -> usize {
         match (&self.error, self.quality.as_deref(), self.verdict.as_deref()) {
             (Some(_), ..) => 0,
             (_, Some("bad"), _) => 1,
             (.., Some("infeasible")) => 2,
-            (_, Some("good"), Some("feasible")) => 4,
+            (_, Some("good"), Some("feasible")) => BatchRow::GOOD,
             _ => 3,
         }
     }
@@ -120,9 +130,8 @@ pub(crate) fn batch(
     if print.quiet {
         return Ok(());
     }
-    let mut worst: Vec<&BatchRow> =
-        rows.iter().filter(|row| row.rank() < 4 && (ranked || row.error.is_some())).collect();
-    worst.sort_by_key(|row| row.rank());
+    let worst = BatchRow::worst(rows).into_iter().map(|k| &rows[k]);
+    let worst: Vec<&BatchRow> = worst.filter(|row| ranked || row.error.is_some()).collect();
     if print.json {
         let text = json!({ "counts": counts, "ranking": worst, "output": output });
         return print_line(&serde_json::to_string_pretty(&text)?);

@@ -5,6 +5,7 @@
 //! | `batch.json` | what the batch is: version, number of shards, trials in a part, tables, options |
 //! | `frames/part-SSS-PPPPP.parquet`, `cycles/`, `events/` | tables of part P of shard S |
 //! | `trials/part-SSS-PPPPP.parquet` | the trials of the part; it appears last and closes the part |
+//! | `summary.html` | the page of the batch, made from the tables of trials when all parts of all shards are closed |
 //!
 //! Each file is written beside its place, through to the disk, and appears by a rename. After a kill at any moment each part is either closed or open,
 //! and the files of an open part are written again. A lock keeps two runs of one shard apart.
@@ -120,19 +121,36 @@ impl Ledger {
     }
 
     fn place(&self, table: &str, part: usize) -> PathBuf {
-        self.folder.join(table).join(format!("{}{part:05}.parquet", self.beginning()))
+        self.place_of(self.shard.index, table, part)
     }
 
-    /// The beginning of the names of all files of this shard.
-    fn beginning(&self) -> String {
-        format!("part-{:03}-", self.shard.index)
+    fn place_of(&self, shard: usize, table: &str, part: usize) -> PathBuf {
+        self.folder.join(table).join(format!("{}{part:05}.parquet", beginning(shard)))
+    }
+
+    /// The tables of trials of all shards, if all their parts are closed. `trials` is the number of trials of the batch.
+    pub(super) fn complete(&self, trials: usize, part: usize) -> Result<Option<Vec<ParquetTable>>> {
+        let Shard { count, .. } = self.shard;
+        let parts = |shard: usize| trials.saturating_sub(shard).div_ceil(count).div_ceil(part);
+        let places: Vec<PathBuf> = (0..count)
+            .flat_map(|shard| (0..parts(shard)).map(move |number| (shard, number)))
+            .map(|(shard, number)| self.place_of(shard, TRIALS, number))
+            .collect();
+        if !places.iter().all(|place| place.is_file()) {
+            return Ok(None);
+        }
+        let read = |place: &PathBuf| {
+            let shown = || place.display().to_string();
+            ParquetTable::read(&fs::read(place).with_context(shown)?).with_context(shown)
+        };
+        places.iter().map(read).collect::<Result<_>>().map(Some)
     }
 
     fn first_closed(&self) -> Result<Option<String>> {
         let folder = self.folder.join(TRIALS);
         let entries = fs::read_dir(&folder).with_context(|| format!("{}: cannot be read", folder.display()))?;
         let names = entries.filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()));
-        Ok(names.filter(|name| name.starts_with(&self.beginning())).min())
+        Ok(names.filter(|name| name.starts_with(&beginning(self.shard.index))).min())
     }
 
     /// The table of trials of a closed part; `None` if the part is open.
@@ -179,6 +197,11 @@ impl Ledger {
         }
         Ok(())
     }
+}
+
+/// The beginning of the names of all files of a shard.
+fn beginning(shard: usize) -> String {
+    format!("part-{shard:03}-")
 }
 
 /// Why a closed part does not fit.

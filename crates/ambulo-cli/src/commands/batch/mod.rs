@@ -1,6 +1,7 @@
 //! `ambulo batch`: all recordings of a folder or a list, computed into Parquet tables.
 
 mod ledger;
+mod page;
 mod tables;
 mod trial;
 
@@ -34,8 +35,8 @@ pub(crate) fn run(args: &BatchArgs) -> Result<Completion> {
     let Some(first) = plan.trials.first() else { bail!("{}", nothing_found(args, &plan)) };
     let [mass, height] = work.check(first)?;
     plan.take_size(&args.source, mass, height)?;
-    let limit = args.limit.map_or(usize::MAX, |limit| limit as usize);
-    let own = plan.trials.iter().take(limit).skip(args.shard.index).step_by(args.shard.count);
+    let all = args.limit.map_or(usize::MAX, |limit| limit as usize).min(plan.trials.len());
+    let own = plan.trials.iter().take(all).skip(args.shard.index).step_by(args.shard.count);
     let trials: Vec<&PlannedTrial> = own.collect();
     if args.dry_run {
         printer::batch_plan(&trials, &plan.others, args.print)?;
@@ -54,6 +55,9 @@ pub(crate) fn run(args: &BatchArgs) -> Result<Completion> {
     let mut rows = Vec::with_capacity(trials.len());
     for (number, part) in trials.chunks(args.part as usize).enumerate() {
         rows.extend(batch.part(number, part)?);
+    }
+    if let Some(tables) = ledger.complete(all, args.part as usize)? {
+        page::write(&args.output, &args.source, &tables)?;
     }
     let counts = BatchCounts::of(&rows);
     if counts.computed == 0 && !rows.is_empty() {
@@ -180,15 +184,15 @@ fn rows_of(trials: &ParquetTable) -> Vec<BatchRow> {
         _ => Vec::new(),
     };
     let names = text("trial");
-    let [errors, qualities, verdicts, quality_reasons, verdict_reasons] =
-        ["error", "quality", "verdict", "quality_reasons", "verdict_reasons"].map(text);
+    let [errors, qualities, verdicts] = ["error", "quality", "verdict"].map(text);
+    let reasons = ["quality_reasons", "verdict_reasons", "verdict_undecided"].map(text);
     let at = |list: &[Option<String>], k: usize| list.get(k).cloned().flatten();
     let row = |(k, name): (usize, &Option<String>)| BatchRow {
         name: name.clone().unwrap_or_default(),
         error: at(&errors, k),
         quality: at(&qualities, k),
         verdict: at(&verdicts, k),
-        reasons: [at(&quality_reasons, k), at(&verdict_reasons, k)].into_iter().flatten().collect(),
+        reasons: reasons.iter().filter_map(|list| at(list, k)).collect(),
     };
     names.iter().enumerate().map(row).collect()
 }

@@ -100,13 +100,14 @@ fn trials(rows: &[Row<'_>]) -> Vec<Column> {
     let reasons = |place: &'static str| {
         texts(&|row| {
             let list = summary(row, place)?;
-            let messages = list.as_array()?.iter().filter_map(|reason| reason["message"].as_str());
+            let messages = list.as_array()?.iter().filter_map(|reason| reason["message"].as_str().or(reason.as_str()));
             let text = messages.collect::<Vec<_>>().join("; ");
             (!text.is_empty()).then_some(text)
         })
     };
     columns.push(column("quality_reasons", reasons("/quality/reasons")));
     columns.push(column("verdict_reasons", reasons("/verdict/reasons")));
+    columns.push(column("verdict_undecided", reasons("/verdict/undecided")));
     columns.push(column("findings", texts(&|row| summary(row, "/findings").map(|list| list.to_string()))));
     columns
 }

@@ -5,9 +5,8 @@ mod sections;
 
 use super::{ComparedSession, SessionSummary, Spread};
 use crate::figures::{FigureError, SessionFigure};
-use crate::html::{Document, escaped};
+use crate::html::{Document, code, escaped, html_table};
 use crate::style::style;
-use crate::validation::{code, html_table};
 use ambulo::model::Side;
 use ambulo::study::validation::Section;
 use figures::{Figures, Part, color_of};
