@@ -3,6 +3,7 @@
 //! This crate has no dependencies, so its commands start at once. Commands that need the library are in the crate
 //! `xtask-measure`, which is built in release and started from here.
 
+mod batch_cost;
 mod build_time;
 mod check;
 mod dist;
@@ -37,6 +38,8 @@ usage: cargo xtask <command>
   dist              build the archives of a release into target/archives, with checksums and the list of components, and try them
                     [--target TARGET].. [--runner PROGRAM: starts programs of another machine] [--tag TAG: must be the version]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
+  batch-cost        measure processor time, memory and bytes per trial of `ambulo batch`, and print what 70 h and 288 h of motion cost
+                    [--kills: and compute 10,000 trials with ten kills]
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/measured/BENCHMARKS.md] [--without-peers]
@@ -71,7 +74,8 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 9] = ["check", "house", "build-time", "measured", "mutants", "python", "web", "dist", "sweep"];
+const OWN: [&str; 10] =
+    ["check", "house", "build-time", "measured", "mutants", "python", "web", "dist", "sweep", "batch-cost"];
 
 /// Commands of the crate `xtask-measure`.
 const MEASUREMENTS: [&str; 21] = [
@@ -114,6 +118,7 @@ fn main() -> ExitCode {
         ("web", _) => web::run(rest),
         ("dist", _) => dist::run(rest),
         ("sweep", []) => sweep::run(),
+        ("batch-cost", _) => batch_cost::run(rest),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),
         ("help" | "--help" | "-h", []) => {

@@ -88,7 +88,7 @@ impl Drop for Scratch {
 }
 
 /// Builds the `ambulo` command in release and returns its path.
-fn release_program() -> Result<PathBuf, String> {
+pub(crate) fn release_program() -> Result<PathBuf, String> {
     let mut build = workspace::cargo();
     build.args(["build", "--quiet", "--release", "--locked", "--bin", "ambulo"]);
     let status = build.status().map_err(|e| format!("cargo: cannot start: {e}"))?;
@@ -192,7 +192,7 @@ fn wait_for_files(folder: &Path, child: &mut Child) {
 }
 
 /// Numbers from 0 to 1 that look random and are the same in every run.
-fn seeded() -> impl Iterator<Item = f64> {
+pub(crate) fn seeded() -> impl Iterator<Item = f64> {
     let next = |x: &u64| Some(x.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407));
     std::iter::successors(Some(5), next).skip(1).map(|x| (x >> 11) as f64 / (1_u64 << 53) as f64)
 }
