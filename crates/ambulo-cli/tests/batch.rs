@@ -186,10 +186,12 @@ fn spoiled_motions_are_ranked_before_the_good_one_with_the_reason() {
         ("feet that slide", "pelvis_tz", |time_s| 0.05 * (4.0 * PI * time_s).sin(), "soles that carry the body move"),
         ("an ankle beyond its range", "ankle_angle_l", |_| 70.0, "the joint reaches"),
     ];
+    bench.run(&["demo", "-o", "demo", "--quiet", "--keep", "recording"]).done();
     for name in spoiled.iter().map(|(name, ..)| *name).chain(["good"]) {
         fs::create_dir_all(bench.folder.join(format!("set/{name}"))).unwrap();
-        bench.write(&format!("set/{name}/figure.osim"), demo_input("figure.osim"));
-        bench.write(&format!("set/{name}/walk.mot"), demo_input("walk.mot"));
+        for file in ["figure.osim", "walk.mot"] {
+            bench.write(&format!("set/{name}/{file}"), bench.read(&format!("demo/input/{file}")));
+        }
     }
     for (name, column, added, _) in &spoiled {
         let walk = format!("set/{name}/walk.mot");

@@ -128,7 +128,7 @@ fn trials_of_a_subject_are_listed_and_computed_one_by_one_or_all() {
     assert_eq!(summary["input"]["motion"], "subject.b3d, trial 1");
     assert_eq!(summary["ground"]["source"], "measured");
     assert_eq!(bench.json("all/2-no_plates/summary.json")["ground"]["source"], "predicted");
-    std::fs::create_dir(bench.folder.join("set")).unwrap();
+    fs::create_dir(bench.folder.join("set")).unwrap();
     bench.write("set/subject.b3d", bench.read("subject.b3d"));
     let run = bench.run(&["validate", "set", "-o", "judged"]).done();
     let none = "subject.b3d, trial 002 (no plates): ";

@@ -54,7 +54,7 @@ pub struct BatchTrial {
     pub error: Option<String>,
     /// Quality of the data: `good`, `doubtful`, `bad`.
     pub quality: Option<String>,
-    /// Verdict on the motion: `feasible`, `infeasible`, `not judged`.
+    /// Verdict on the motion: `feasible`, `infeasible`, `not_judged`.
     pub verdict: Option<String>,
     /// Why quality and verdict are not better.
     pub reasons: Vec<String>,
@@ -99,7 +99,7 @@ fn lead(trials: &[BatchTrial]) -> String {
     let counted = |of: fn(&BatchTrial) -> Option<&str>| {
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
         trials.iter().filter_map(of).for_each(|word| *counts.entry(word).or_default() += 1);
-        counts.iter().map(|(word, count)| format!("{count} {word}")).collect::<Vec<_>>().join(", ")
+        counts.iter().map(|(word, count)| format!("{count} {}", words(word))).collect::<Vec<_>>().join(", ")
     };
     let (quality, verdict) = (counted(|trial| trial.quality.as_deref()), counted(|trial| trial.verdict.as_deref()));
     let states =
@@ -135,8 +135,8 @@ fn figure(trials: &[BatchTrial]) -> Result<String, FigureError> {
             points: points.flatten().collect(),
         };
         ChartPanel {
-            title: quantity.title.to_owned(),
-            abscissa: ChartAxis::labelled(quantity.unit),
+            title: format!("{} ({})", quantity.title, quantity.unit),
+            abscissa: ChartAxis::labelled(""),
             ordinate: ChartAxis { range: Some([0.0, 100.0]), ..ChartAxis::labelled("% of trials") },
             curves: vec![curve],
             ..ChartPanel::default()
@@ -179,7 +179,7 @@ fn worst_trials(worst: &[&BatchTrial]) -> Section {
     let mut table = TextTable::new(&["trial", "data", "motion", "reasons"]);
     let computed = || worst.iter().filter(|trial| trial.error.is_none());
     for trial in computed().take(LISTED) {
-        let word = |word: &Option<String>| word.clone().unwrap_or_else(|| "-".to_owned());
+        let word = |word: &Option<String>| word.as_deref().map_or("-".to_owned(), words);
         table.row([trial.name.clone(), word(&trial.quality), word(&trial.verdict), trial.reasons.join("; ")]);
     }
     Section { title: "Worst trials", table, note: and_more(computed().count()) }
@@ -201,6 +201,11 @@ fn failures(trials: &[BatchTrial]) -> Section {
         table.row([reason.to_owned(), names.len().to_string(), names[0].to_owned()]);
     }
     Section { title: "Failures by reason", table, note: and_more(count) }
+}
+
+/// A state as it is read: its name in files has no blanks.
+fn words(state: &str) -> String {
+    state.replace('_', " ")
 }
 
 /// The note below a list of this many entries.

@@ -13,12 +13,12 @@ use std::str::FromStr;
   ambulo batch demo/input -o batch
   ambulo batch demo/input -o batch --dry-run -- --predict
 
-SOURCE is a folder (every recording in it and in its folders is a trial; standing trials, models and tables of ground forces are found by the rules of
+SOURCE is a folder, also a BIDS data set (every recording in it and in its folders is a trial; standing trials, models and tables of ground forces are found by the rules of
 docs/VALIDATE.md, and trials.toml states what differs), a list of trials (.csv or .jsonl, docs/BATCH.md), or a subject of AddBiomechanics (.b3d).
 Words after `--` are options of `ambulo forces` for every trial.
 
 Files written to DIR, for DuckDB, polars, pandas and Spark: trials/, frames/, cycles/, events/, each with one file for some trials. The file in trials/
-appears last and closes its part. A trial that cannot be computed is a row with its error. After an interruption --resume computes the parts that are
+appears last and closes its part. summary.html appears when all parts of all shards are closed. A trial that cannot be computed is a row with its error. After an interruption --resume computes the parts that are
 not closed; the files are the same, byte for byte, as those of an unbroken run, whatever --jobs is. Exit code: 0 if any trial has results, 2 if none;
 with --check 1 if a trial has bad data or an infeasible motion.")]
 pub(crate) struct BatchArgs {
