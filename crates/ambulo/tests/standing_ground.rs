@@ -8,13 +8,13 @@ use ambulo::ground::predict::{PredictSettings, Prediction, predict};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{BySide, Side};
 use ambulo::spatial::Vec3;
-use ambulo::study::{self, GroundSettings, Outcome, Recording, Settings, Source, Tracking};
+use ambulo::study::{self, GroundSettings, LaboratoryFile, Outcome, Recording, Settings, Source, Tracking};
 
 /// The standing trial of a person, analysed as a motion.
 fn standing(source: &Source) -> Option<Outcome> {
     let mut source = source.clone();
     let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
-    markers.trial = markers.standing.clone()?;
+    markers.trial = LaboratoryFile::clone(markers.standing.as_ref()?);
     let settings = Settings { ground: GroundSettings::Predicted, ..Settings::default() };
     study::run(source, &settings, &mut Findings::default()).ok()
 }
