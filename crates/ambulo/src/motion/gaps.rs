@@ -28,7 +28,7 @@ pub(crate) fn rows_around(times: &[f64], window: Window, complete: impl Fn(usize
 }
 
 /// Interpolates gaps by a quintic spline through the other samples.
-pub(super) fn fill_gaps(
+pub(crate) fn fill_gaps(
     name: &str,
     times: &[f64],
     column: &[f64],

@@ -135,6 +135,25 @@ impl BandFactor {
 }
 
 impl BandFactor {
+    /// aᵀ A⁻¹ a = |L⁻¹ a|² of a vector with few entries, each with its row: the variance of a sum whose parts have the covariance A⁻¹. Cost: rows
+    /// after the first entry times w.
+    #[must_use]
+    pub fn variance_of(&self, entries: &[(usize, f64)]) -> f64 {
+        let BandMatrix { size, width: w, rows } = &self.0;
+        let Some(first) = entries.iter().map(|(row, _)| *row).min() else { return 0.0 };
+        let mut x = vec![0.0; size - first];
+        for (row, value) in entries {
+            x[row - first] += value;
+        }
+        for i in 0..x.len() {
+            let reach = i.min(*w);
+            let row = &rows[(first + i) * (w + 1)..(first + i + 1) * (w + 1)];
+            let known: f64 = row[w - reach..*w].iter().zip(&x[i - reach..i]).map(|(a, b)| a * b).sum();
+            x[i] = (x[i] - known) / row[*w];
+        }
+        x.iter().map(|x| x * x).sum()
+    }
+
     /// The entries of A⁻¹ inside the band of A, in the memory of L.
     ///
     /// From Z L = L⁻ᵀ, row by row from the last: Z_ij = (δ_ij / L_jj - Σ_k Z_ik L_kj) / L_jj for j <= i, k = j+1 .. j+w (Takahashi,
@@ -238,8 +257,14 @@ mod tests {
                     (dense[(i, j)], dense[(j, i)]) = (value, value);
                 }
             }
-            let inverse = band.factor().unwrap().inverse_in_band();
+            let factor = band.factor().unwrap();
+            let sum = [(size / 2, 0.7), (size - 1, -1.3)];
+            let variance = factor.variance_of(&sum);
+            let inverse = factor.inverse_in_band();
             let expected = dense.try_inverse().unwrap();
+            let pairs = sum.iter().flat_map(|a| sum.iter().map(move |b| (a, b)));
+            let known: f64 = pairs.map(|((i, a), (j, b))| a * b * expected[(*i, *j)]).sum();
+            assert!((variance - known).abs() < 1e-12, "{variance} for {known}");
             for i in 0..size {
                 for j in i.saturating_sub(width)..=i {
                     let (found, expected) = (inverse.value(i, j), expected[(i, j)]);

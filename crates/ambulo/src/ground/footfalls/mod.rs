@@ -65,7 +65,7 @@ use crate::spatial::Vec3;
 use belt::Belt;
 pub use instants::OffSpeed;
 use instants::Search;
-use signals::Signals;
+pub(super) use signals::{SignalFrame, Signals};
 use std::ops::Range;
 
 /// One stance of one foot.
@@ -140,15 +140,19 @@ pub fn footfalls_at(
     off_speed: OffSpeed,
     findings: &mut Findings,
 ) -> Footfalls {
-    let signals = Signals::new(model, trajectory, soles);
-    let belt = Belt::new(&signals);
-    let walking = stationary::walking_speed(&signals, &belt);
+    detect(&Signals::new(model, trajectory, soles), off_speed, findings)
+}
+
+/// Detects the stances from their signals.
+pub(super) fn detect(signals: &Signals, off_speed: OffSpeed, findings: &mut Findings) -> Footfalls {
+    let belt = Belt::new(signals);
+    let walking = stationary::walking_speed(signals, &belt);
     let mut runs: Vec<_> =
-        signals.feet.iter().map(|foot| stationary::stationary(&signals, &belt, &walking, foot)).collect();
-    stationary::keep_loaded(&signals, &mut runs);
+        signals.feet.iter().map(|foot| stationary::stationary(signals, &belt, &walking, foot)).collect();
+    stationary::keep_loaded(signals, &mut runs);
     let mut falls = Vec::new();
     for (foot, runs) in signals.feet.iter().zip(&runs) {
-        let search = Search { signals: &signals, belt: &belt, walking: &walking, foot, off_speed };
+        let search = Search { signals, belt: &belt, walking: &walking, foot, off_speed };
         let mut of_foot: Vec<Footfall> = (0..runs.len()).map(|i| footfall(&search, runs, i)).collect();
         put_in_order(&mut of_foot);
         falls.extend(of_foot);

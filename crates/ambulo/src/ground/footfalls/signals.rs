@@ -11,7 +11,7 @@ use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
-use crate::spatial::{STANDARD_GRAVITY, Vec3};
+use crate::spatial::{STANDARD_GRAVITY, Vec3, Wrench};
 
 /// The three points of one sole over time.
 pub(super) struct FootPath {
@@ -23,10 +23,12 @@ pub(super) struct FootPath {
 }
 
 /// All signals of the detection.
-pub(super) struct Signals {
+pub(in crate::ground) struct Signals {
     pub(super) grid: TimeGrid,
     /// Direction against gravity.
     pub(super) up: Vec3,
+    /// Body weight [N].
+    weight_n: f64,
     /// √(g L), L from hip to ground: unit of walking speed [m/s].
     pub(super) leg_speed: f64,
     /// √(L / g): unit of time [s].
@@ -40,39 +42,79 @@ pub(super) struct Signals {
     pub(super) pressure_line: Vec<[Vec3; 2]>,
 }
 
+/// What one frame adds to the signals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::ground) struct SignalFrame {
+    /// Places [m] and velocities [m/s] of the points of each sole; `None` for a foot without a sole.
+    feet: BySide<Option<[[Vec3; 3]; 2]>>,
+    center_velocity: Vec3,
+    /// Total ground force [N] and moment about the world's origin [N.m].
+    pub(in crate::ground) total: Wrench,
+}
+
+impl SignalFrame {
+    /// From the motion of all bodies.
+    pub(in crate::ground) fn of(model: &Model, soles: &BySide<Option<Sole>>, bodies: &[BodyMotion]) -> SignalFrame {
+        let whole = WholeBody::of(model, bodies);
+        SignalFrame {
+            feet: BySide::from_fn(|side| soles[side].as_ref().map(|sole| sole_motion(sole, bodies))),
+            center_velocity: whole.momentum / model.mass(),
+            total: Wrench { force: whole.force, moment: whole.moment },
+        }
+    }
+}
+
+/// Places and velocities of the points of a sole.
+fn sole_motion(sole: &Sole, bodies: &[BodyMotion]) -> [[Vec3; 3]; 2] {
+    let moves = sole.points.map(|point| {
+        let body = &bodies[point.body.index()];
+        let place = body.pose.place(point.place);
+        (place, body.twist.velocity_at(place - body.center))
+    });
+    [moves.map(|(place, _)| place), moves.map(|(_, velocity)| velocity)]
+}
+
 impl Signals {
     /// Computes the signals; a foot without a sole is left out.
     pub(super) fn new(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -> Signals {
-        let (up, grid) = (model.up(), trajectory.grid());
+        let mut signals = Signals::empty(model, trajectory.grid(), soles);
+        each_body_motion(model, trajectory, |_, bodies| signals.push(&SignalFrame::of(model, soles, bodies)));
+        signals
+    }
+
+    /// Signals with room for the frames of a grid.
+    pub(in crate::ground) fn empty(model: &Model, grid: TimeGrid, soles: &BySide<Option<Sole>>) -> Signals {
         let gravity = Some(model.gravity().norm()).filter(|g| *g > f64::MIN_POSITIVE).unwrap_or(STANDARD_GRAVITY);
         let leg = model.stature().leg_length_m;
-        let mut signals = Signals {
+        let path = |side: Side| FootPath {
+            side,
+            places: Vec::with_capacity(grid.frames),
+            velocities: Vec::with_capacity(grid.frames),
+        };
+        Signals {
             grid,
-            up,
+            up: model.up(),
+            weight_n: model.mass() * gravity,
             leg_speed: (gravity * leg).sqrt(),
             leg_time_s: (leg / gravity).sqrt(),
-            feet: Vec::new(),
+            feet: soles.iter().filter(|(_, sole)| sole.is_some()).map(|(side, _)| path(side)).collect(),
             center_velocity: Vec::with_capacity(grid.frames),
             carried: Vec::with_capacity(grid.frames),
             pressure_line: Vec::with_capacity(grid.frames),
-        };
-        let standing: Vec<Sole> = soles.values().flatten().copied().collect();
-        for (side, _) in soles.iter().filter(|(_, sole)| sole.is_some()) {
-            let (places, velocities) = (Vec::with_capacity(grid.frames), Vec::with_capacity(grid.frames));
-            signals.feet.push(FootPath { side, places, velocities });
         }
-        let weight = model.mass() * gravity;
-        each_body_motion(model, trajectory, |_, bodies| {
-            for (sole, path) in standing.iter().zip(&mut signals.feet) {
-                path.push(sole, bodies);
-            }
-            let whole = WholeBody::of(model, bodies);
-            let vertical = whole.force.dot(&up);
-            signals.center_velocity.push(whole.momentum / model.mass());
-            signals.carried.push(vertical / weight);
-            signals.pressure_line.push([up.cross(&whole.moment) / vertical, whole.force / vertical]);
-        });
-        signals
+    }
+
+    /// Adds the next frame.
+    pub(in crate::ground) fn push(&mut self, frame: &SignalFrame) {
+        for (path, [places, velocities]) in self.feet.iter_mut().zip(frame.feet.values().flatten()) {
+            path.places.push(*places);
+            path.velocities.push(*velocities);
+        }
+        let Wrench { force, moment } = frame.total;
+        let vertical = force.dot(&self.up);
+        self.center_velocity.push(frame.center_velocity);
+        self.carried.push(vertical / self.weight_n);
+        self.pressure_line.push([self.up.cross(&moment) / vertical, force / vertical]);
     }
 
     /// The horizontal part of a vector.
@@ -101,18 +143,6 @@ impl Signals {
     /// Number of frames in a time, at least one.
     pub(super) fn frames_in(&self, time_s: f64) -> usize {
         ((time_s / self.grid.step_s).round() as usize).clamp(1, self.grid.frames.max(1))
-    }
-}
-
-impl FootPath {
-    fn push(&mut self, sole: &Sole, bodies: &[BodyMotion]) {
-        let moves = sole.points.map(|point| {
-            let body = &bodies[point.body.index()];
-            let place = body.pose.place(point.place);
-            (place, body.twist.velocity_at(place - body.center))
-        });
-        self.places.push(moves.map(|(place, _)| place));
-        self.velocities.push(moves.map(|(_, velocity)| velocity));
     }
 }
 

@@ -2,21 +2,50 @@
 
 use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::anatomy::{Leg, Sole, SolePoint};
-use crate::model::{BodyId, BySide, Model};
+use crate::model::{BodyId, BySide, Model, Side};
 use crate::spatial::Vec3;
 
 /// Sole and shank of one foot in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FootPlace {
+pub(in crate::ground) struct FootPlace {
     /// Rear, ball and tip of the sole [m].
     pub(super) sole: [Vec3; 3],
     /// Unit vector from ankle to knee; `None` where the model has no such joints.
     pub(super) shank: Option<Vec3>,
 }
 
+/// Mass centre and feet in one frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::ground) struct GeometryFrame {
+    /// Position [m] and velocity [m/s] of the mass centre.
+    center: Vec3,
+    velocity: Vec3,
+    feet: BySide<FootPlace>,
+}
+
+impl GeometryFrame {
+    /// From the motion of all bodies.
+    pub(in crate::ground) fn of(model: &Model, soles: &BySide<Sole>, bodies: &[BodyMotion]) -> GeometryFrame {
+        let (mut center, mut velocity, mut whole) = (Vec3::zeros(), Vec3::zeros(), 0.0);
+        for (body, motion) in model.bodies().iter().zip(bodies) {
+            let mass = body.inertia.mass();
+            center += motion.center * mass;
+            velocity += motion.twist.linear * mass;
+            whole += mass;
+        }
+        let legs = model.anatomy().legs();
+        let place = |point: &SolePoint| bodies[point.body.index()].pose.place(point.place);
+        let foot = |side: Side| FootPlace {
+            sole: soles[side].points.each_ref().map(place),
+            shank: legs[side].as_ref().map(|leg| shank(model, bodies, leg)),
+        };
+        GeometryFrame { center: center / whole, velocity: velocity / whole, feet: BySide::from_fn(foot) }
+    }
+}
+
 /// Mass centre and feet, one entry per frame.
 #[derive(Debug, Clone)]
-pub(super) struct Geometry {
+pub(in crate::ground) struct Geometry {
     /// Position [m] and velocity [m/s] of the mass centre.
     pub(super) center: Vec<Vec3>,
     pub(super) velocity: Vec<Vec3>,
@@ -25,34 +54,25 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
+    /// Room for a number of frames.
+    pub(in crate::ground) fn with_capacity(frames: usize) -> Geometry {
+        let feet = BySide::from_fn(|_| Vec::with_capacity(frames));
+        Geometry { center: Vec::with_capacity(frames), velocity: Vec::with_capacity(frames), feet }
+    }
+
     pub(super) fn new(model: &Model, trajectory: &Trajectory, soles: &BySide<Sole>) -> Geometry {
-        let frames = trajectory.grid().frames;
-        let legs = model.anatomy().legs();
-        let masses: Vec<f64> = model.bodies().iter().map(|body| body.inertia.mass()).collect();
-        let whole: f64 = masses.iter().sum();
-        let feet = || Vec::with_capacity(frames);
-        let mut out = Geometry {
-            center: Vec::with_capacity(frames),
-            velocity: Vec::with_capacity(frames),
-            feet: BySide { right: feet(), left: feet() },
-        };
-        each_body_motion(model, trajectory, |_, bodies| {
-            let (mut center, mut velocity) = (Vec3::zeros(), Vec3::zeros());
-            for (body, mass) in bodies.iter().zip(&masses) {
-                center += body.center * *mass;
-                velocity += body.twist.linear * *mass;
-            }
-            out.center.push(center / whole);
-            out.velocity.push(velocity / whole);
-            for (side, sole) in soles.iter() {
-                let place = |point: &SolePoint| bodies[point.body.index()].pose.place(point.place);
-                out.feet[side].push(FootPlace {
-                    sole: [place(&sole.points[0]), place(&sole.points[1]), place(&sole.points[2])],
-                    shank: legs[side].as_ref().map(|leg| shank(model, bodies, leg)),
-                });
-            }
-        });
+        let mut out = Geometry::with_capacity(trajectory.grid().frames);
+        each_body_motion(model, trajectory, |_, bodies| out.push(&GeometryFrame::of(model, soles, bodies)));
         out
+    }
+
+    /// Adds the next frame.
+    pub(in crate::ground) fn push(&mut self, frame: &GeometryFrame) {
+        self.center.push(frame.center);
+        self.velocity.push(frame.velocity);
+        for (side, place) in frame.feet.iter() {
+            self.feet[side].push(*place);
+        }
     }
 }
 

@@ -11,6 +11,7 @@ use super::stances::{GaitType, Stance};
 use super::unknowns::Curve;
 use crate::model::Side;
 use crate::spatial::{Vec3, Wrench};
+use std::ops::Range;
 
 /// Smallest vertical force by which a moment is divided to get the centre of pressure [body weights].
 const LEAST_LOAD: f64 = 0.05;
@@ -49,27 +50,29 @@ impl FrameEstimate {
     }
 }
 
-/// The estimate of a stance in each of its frames ([`frames_of`]).
+/// The estimate of a stance in each of its frames ([`frames_of`]), with variances in the `wanted` ones.
 pub(super) fn stance_estimates(
     inputs: &EstimateInputs<'_>,
     expectation: &Expectation<'_>,
     curves: &[Curve; 6],
     solution: &Solution,
+    wanted: &Range<usize>,
 ) -> Vec<FrameEstimate> {
     let of_frame = |frame: usize| {
         let at = sample(inputs, expectation, curves, frame);
-        let parts = std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
+        let parts = std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution, wanted.contains(&frame)));
         FrameEstimate { center: at.center, parts }
     };
     frames_of(inputs, expectation.stance).map(of_frame).collect()
 }
 
-/// Loads of one foot in every frame; zero in swing. Estimates and misfits have one entry per stance.
+/// Loads of one foot in the `wanted` frames; zero in the others and in swing. Estimates and misfits have one entry per stance.
 pub(super) fn loads(
     side: Side,
     inputs: &EstimateInputs<'_>,
     estimates: &[Vec<FrameEstimate>],
     misfits: &[Misfit],
+    wanted: &Range<usize>,
 ) -> FootLoads {
     let frames = inputs.grid.frames;
     let zeros = || vec![Vec3::zeros(); frames];
@@ -82,7 +85,7 @@ pub(super) fn loads(
     };
     let own = inputs.stances.iter().zip(estimates).zip(misfits).filter(|((stance, _), _)| stance.side == side);
     for ((stance, estimates), misfit) in own {
-        for (frame, at) in frames_of(inputs, stance).zip(estimates) {
+        for (frame, at) in frames_of(inputs, stance).zip(estimates).filter(|(frame, _)| wanted.contains(frame)) {
             let mut parts = at.parts.clone();
             let phase = stance.elapsed_share(inputs.grid.time(frame));
             let center_error = inputs.take_errors_off(stance, phase, &mut parts);
@@ -164,17 +167,12 @@ struct Estimate {
 }
 
 impl Estimate {
-    fn of(part: &ComponentSample, curve: &Curve, solution: &Solution) -> Estimate {
+    /// The variance is zero if it is not wanted.
+    fn of(part: &ComponentSample, curve: &Curve, solution: &Solution, has_variance: bool) -> Estimate {
         let (k, splines) = part.active;
         let numbers = &curve.numbers[k..k + 4];
-        let (mut z, mut variance) = (0.0, 0.0);
-        for (i, (n, a)) in numbers.iter().zip(splines).enumerate() {
-            z += a * solution.values[*n];
-            variance += a * a * solution.covariances.value(*n, *n);
-            for (m, b) in numbers[..i].iter().zip(splines) {
-                variance += 2.0 * a * b * solution.covariances.value(*n, *m);
-            }
-        }
+        let z: f64 = numbers.iter().zip(splines).map(|(n, a)| a * solution.values[*n]).sum();
+        let variance = if has_variance { solution.covariances.variance(numbers, &splines) } else { 0.0 };
         Estimate {
             value: part.mean + part.deviation * z,
             variance: part.deviation * part.deviation * variance.max(0.0),

@@ -17,16 +17,18 @@ use super::loads::FrameEstimate;
 use super::samples::{EstimateInputs, frames_of};
 use super::stances::Stance;
 use crate::spatial::Wrench;
+use std::ops::Range;
 
-/// The misfit of each stance.
+/// The misfit of each stance, over its frames with evidence.
 pub(super) fn misfits(
     inputs: &EstimateInputs<'_>,
     estimates: &[Vec<FrameEstimate>],
     filters: &EvidenceFilters,
+    evidence: &Range<usize>,
 ) -> Vec<Misfit> {
     let frames = inputs.grid.frames;
     let required: Vec<Wrench> = (0..frames).map(|frame| inputs.about_mass_center(frame)).collect();
-    let mut rest = low_passed(&required, &filters.gaussian);
+    let mut rest = low_passed(&required, &filters.gaussian, evidence);
     rest.iter_mut().for_each(|wrench| *wrench = Wrench { force: -wrench.force, moment: -wrench.moment });
     for (filter, passing) in filters.estimated() {
         let mut estimated = vec![Wrench::ZERO; frames];
@@ -43,14 +45,16 @@ pub(super) fn misfits(
                 }
             }
         }
-        for (rest, of_feet) in rest.iter_mut().zip(low_passed(&estimated, filter)) {
+        for (rest, of_feet) in rest.iter_mut().zip(low_passed(&estimated, filter, evidence)) {
             *rest = Wrench { force: rest.force + of_feet.force, moment: rest.moment + of_feet.moment };
         }
     }
     let of_stance = |(stance, estimates): (&Stance, &Vec<FrameEstimate>)| {
         let axes = stance.axes(inputs.body_scale.up);
-        let mut squares = Misfit::default();
-        for (frame, estimate) in frames_of(inputs, stance).zip(estimates) {
+        let (mut squares, mut count) = (Misfit::default(), 0.0);
+        for (frame, estimate) in frames_of(inputs, stance).zip(estimates).filter(|(frame, _)| evidence.contains(frame))
+        {
+            count += 1.0;
             let arm = estimate.center - inputs.geometry.center[frame];
             let Wrench { force, moment } = rest[frame];
             let about_center = (moment - arm.cross(&force)) / inputs.body_scale.weight_n;
@@ -61,7 +65,7 @@ pub(super) fn misfits(
                 .zip([axes[2], axes[0]])
                 .for_each(|(sum, axis)| *sum += about_center.dot(&axis).powi(2));
         }
-        let count = estimates.len().max(1) as f64;
+        let count = f64::max(count, 1.0);
         Misfit {
             force: squares.force.map(|square| (square / count).sqrt()),
             center: squares.center.map(|square| (square / count).sqrt()),
@@ -70,8 +74,12 @@ pub(super) fn misfits(
     inputs.stances.iter().zip(estimates).map(of_stance).collect()
 }
 
-fn low_passed(series: &[Wrench], filter: &EvidenceFilter) -> Vec<Wrench> {
+/// Zero outside of the `wanted` frames.
+fn low_passed(series: &[Wrench], filter: &EvidenceFilter, wanted: &Range<usize>) -> Vec<Wrench> {
     let at = |frame| {
+        if !wanted.contains(&frame) {
+            return Wrench::ZERO;
+        }
         filter.around(frame, series.len()).fold(Wrench::ZERO, |sum, (tap, weight)| Wrench {
             force: sum.force + series[tap].force * weight,
             moment: sum.moment + series[tap].moment * weight,

@@ -41,7 +41,7 @@ use crate::spatial::{Vec3, Wrench};
 pub use deviation_calibration::{ByFifth, DeviationCalibration, DeviationScaling, scaling_at};
 use estimate::estimate;
 pub use fitted_parameters::FittedParameters;
-use geometry::Geometry;
+pub(super) use geometry::{Geometry, GeometryFrame};
 pub use personal::{OtherPerson, PersonalErrors};
 pub use prescribed::Prescribed;
 use samples::EstimateInputs;
@@ -266,18 +266,47 @@ pub fn predict(
     settings: &PredictSettings,
     findings: &mut Findings,
 ) -> Result<Prediction, PredictError> {
-    let name = || model.name().to_owned();
-    if soles.values().all(Option::is_none) {
-        return Err(PredictError::NoFeet { model: name() });
-    }
-    let sole = |side: Side| soles[side].ok_or_else(|| PredictError::NoSole { model: name(), side });
-    let soles = BySide { right: sole(Side::Right)?, left: sole(Side::Left)? };
+    let soles = both_soles(model, soles)?;
     settings.prescribed.check(trajectory.grid().frames)?;
     let footfalls = match &settings.prescribed.footfalls {
         Some(prescribed) => prescribed.clone(),
         None => footfalls(model, trajectory, &soles.map(Some), findings),
     };
     let total = settings.prescribed.total(total_wrench(model, trajectory));
+    let geometry = Geometry::new(model, trajectory, &soles);
+    let grid = trajectory.grid();
+    predict_frames(model, &soles, KnownMotion { grid, geometry, total, footfalls }, settings, 0..grid.frames)
+}
+
+/// The soles of both feet.
+pub(super) fn both_soles(model: &Model, soles: &BySide<Option<Sole>>) -> Result<BySide<Sole>, PredictError> {
+    let name = || model.name().to_owned();
+    if soles.values().all(Option::is_none) {
+        return Err(PredictError::NoFeet { model: name() });
+    }
+    let sole = |side: Side| soles[side].ok_or_else(|| PredictError::NoSole { model: name(), side });
+    Ok(BySide { right: sole(Side::Right)?, left: sole(Side::Left)? })
+}
+
+/// What a prediction needs to know of a motion, one entry per frame.
+pub(super) struct KnownMotion {
+    pub(super) grid: TimeGrid,
+    pub(super) geometry: Geometry,
+    /// Total ground force and moment about the world's origin.
+    pub(super) total: Vec<Wrench>,
+    pub(super) footfalls: Footfalls,
+}
+
+/// As [`predict`], but only in the `wanted` frames; the forces and deviations of the others are zero. Where these are not all frames, only the
+/// part of the motion that decides about them is evaluated ([`estimate`]).
+pub(super) fn predict_frames(
+    model: &Model,
+    soles: &BySide<Sole>,
+    motion: KnownMotion,
+    settings: &PredictSettings,
+    wanted: Range<usize>,
+) -> Result<Prediction, PredictError> {
+    let KnownMotion { grid, geometry, total, footfalls } = motion;
     let body_scale = body_scale(model)?;
     if let Some(person) = &settings.person {
         person.check(model)?;
@@ -287,12 +316,11 @@ pub fn predict(
         }
     }
     let curves = StanceCurves::built_in().map_err(|e| PredictError::Curves { message: e.to_string() })?;
-    let geometry = Geometry::new(model, trajectory, &soles);
-    let stances = stances(&footfalls, trajectory.grid(), &geometry, &body_scale, curves);
+    let stances = stances(&footfalls, grid, &geometry, &body_scale, curves);
     let inputs = EstimateInputs {
-        grid: trajectory.grid(),
+        grid,
         geometry: &geometry,
-        half_widths: soles.map(|sole| sole.half_width),
+        half_widths: soles.as_ref().map(|sole| sole.half_width),
         stances: &stances,
         total: &total,
         body_scale: &body_scale,
@@ -301,7 +329,7 @@ pub fn predict(
         person: settings.person.as_ref(),
         motion_filter: settings.motion_filter,
     };
-    let mut feet = estimate(&inputs, curves)?;
+    let mut feet = estimate(&inputs, curves, wanted)?;
     let up = body_scale.up;
     enforce_unilateral_contact(&mut feet, up, &settings.prescribed);
     let deviations = feet.values().map(|foot| foot.deviation.clone()).collect();

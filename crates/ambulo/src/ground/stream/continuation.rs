@@ -20,32 +20,62 @@ const AHEAD_S: f64 = 0.3;
 /// Largest difference of a repetition, as a share of the variation of the newest part about its mean.
 const ALIKE: f64 = 0.5;
 
-/// Appends the extrapolation; returns the motion unchanged if no earlier part resembles its end. Times are `step_s` apart.
-pub(super) fn continued(motion: &Motion, step_s: f64) -> Motion {
-    let frames = |time_s: f64| (time_s / step_s).round() as usize;
-    let (last, ahead, count) = (frames(LAST_PART_S).max(2), frames(AHEAD_S), motion.times.len());
-    let mut out = motion.clone();
-    let Some(back) = repetition(motion, last, frames(SHORTEST_S)) else { return out };
-    let ahead = ahead.min(back).min(count - 1 - back);
-    let Some(end_s) = motion.times.last() else { return out };
-    out.times.extend((1..=ahead).map(|j| end_s + j as f64 * step_s));
-    for (column, out) in motion.columns.iter().zip(&mut out.columns) {
-        let (Some(column), Some(out)) = (column, out) else { continue };
-        let difference = |k: usize| column[k] - column[k - back];
-        let end = count - 1;
-        out.extend((1..=ahead).map(|j| column[end - back + j] + 2.0 * difference(end) - difference(end - j)));
+/// The repetition is first searched at this spacing [s], then at every frame near the best place: the difference changes little in less.
+const COARSE_S: f64 = 0.02;
+
+/// How a motion repeats itself at its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Continuation {
+    /// Frames to the earlier part that resembles the newest part.
+    back: usize,
+    /// Frames that are extrapolated.
+    ahead: usize,
+}
+
+impl Continuation {
+    /// `None` if no earlier part resembles the end of the motion. Times are `step_s` apart.
+    pub(super) fn find(motion: &Motion, step_s: f64) -> Option<Continuation> {
+        let frames = |time_s: f64| (time_s / step_s).round() as usize;
+        let last = frames(LAST_PART_S).max(2);
+        let back = repetition(motion, last, frames(SHORTEST_S), frames(COARSE_S).max(1))?;
+        Some(Continuation { back, ahead: frames(AHEAD_S).min(back).min(motion.times.len() - 1 - back) })
     }
-    out
+
+    /// The values after the end of a column.
+    pub(super) fn of(self, column: &[f64]) -> impl Iterator<Item = f64> {
+        let Continuation { back, ahead } = self;
+        let end = column.len() - 1;
+        let difference = move |k: usize| column[k] - column[k - back];
+        (1..=ahead).map(move |j| column[end - back + j] + 2.0 * difference(end) - difference(end - j))
+    }
+
+    /// The motion with its extrapolation.
+    pub(super) fn appended_to(self, motion: &Motion, step_s: f64) -> Motion {
+        let mut out = motion.clone();
+        let Some(end_s) = motion.times.last() else { return out };
+        out.times.extend((1..=self.ahead).map(|j| end_s + j as f64 * step_s));
+        for (column, out) in motion.columns.iter().zip(&mut out.columns) {
+            let (Some(column), Some(out)) = (column, out) else { continue };
+            out.extend(self.of(column));
+        }
+        out
+    }
 }
 
 /// Number of frames to the earlier part that resembles the newest part most.
-fn repetition(motion: &Motion, last: usize, shortest: usize) -> Option<usize> {
+fn repetition(motion: &Motion, last: usize, shortest: usize, coarse: usize) -> Option<usize> {
     let count = motion.times.len();
     let columns: Vec<&Vec<f64>> = motion.columns.iter().flatten().collect();
     let longest = count.checked_sub(last + 1)?;
+    let differs = |back: usize, stride: usize| {
+        columns.iter().map(|column| line_residual(column, back, last, stride)).sum::<f64>()
+    };
+    let least = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
+    let coarsely = (shortest..=longest).step_by(coarse).map(|back| (back, differs(back, coarse)));
+    let (near, _) = coarsely.min_by(least)?;
+    let finely = (near.saturating_sub(coarse).max(shortest)..=(near + coarse).min(longest)).map(|b| (b, differs(b, 1)));
+    let best = finely.min_by(least)?;
     let own: f64 = columns.iter().map(|column| variation(&column[count - last..])).sum();
-    let differs = |back: usize| columns.iter().map(|column| line_residual(column, back, last)).sum::<f64>();
-    let best = (shortest..=longest).map(|back| (back, differs(back))).min_by(|a, b| a.1.total_cmp(&b.1))?;
     (best.1 < ALIKE * ALIKE * own).then_some(best.0)
 }
 
@@ -55,17 +85,21 @@ fn variation(values: &[f64]) -> f64 {
     values.iter().map(|x| (x - mean) * (x - mean)).sum()
 }
 
-/// Sum of squares of the difference between the newest part of a series and an earlier one, after subtraction of a straight line.
-fn line_residual(column: &[f64], back: usize, last: usize) -> f64 {
-    let newer = &column[column.len() - last..];
-    let older = &column[column.len() - last - back..column.len() - back];
-    let middle = 0.5 * (last as f64 - 1.0);
-    let (mut sum, mut squares, mut slope, mut spread) = (0.0, 0.0, 0.0, 0.0);
-    for (i, (a, b)) in newer.iter().zip(older).enumerate() {
-        let (x, y) = (i as f64 - middle, a - b);
-        (sum, squares, slope, spread) = (sum + y, squares + y * y, slope + x * y, spread + x * x);
+/// Sum of squares of the difference between the newest part of a series and an earlier one at every `stride`th frame, after subtraction of a straight
+/// line.
+fn line_residual(column: &[f64], back: usize, last: usize, stride: usize) -> f64 {
+    let newer = column[column.len() - last..].iter().rev().step_by(stride);
+    let older = column[column.len() - last - back..column.len() - back].iter().rev().step_by(stride);
+    let count = last.div_ceil(stride) as f64;
+    let middle = 0.5 * (count - 1.0);
+    let (mut sum, mut squares, mut slope, mut x) = (0.0, 0.0, 0.0, -middle);
+    for (a, b) in newer.zip(older) {
+        let y = a - b;
+        (sum, squares, slope, x) = (sum + y, squares + y * y, slope + x * y, x + 1.0);
     }
-    let left = squares - sum * sum / last as f64 - slope * slope / spread;
+    // Σ x² over the whole numbers about the middle.
+    let spread = count * (count * count - 1.0) / 12.0;
+    let left = squares - sum * sum / count - slope * slope / spread;
     // A part with a gap resembles nothing.
     if left.is_nan() { f64::INFINITY } else { left.max(0.0) }
 }
@@ -83,7 +117,8 @@ mod tests {
     #[test]
     fn a_periodic_motion_with_drift_is_continued_exactly() {
         let of = |t: f64| 0.3 * (std::f64::consts::TAU * t).sin() + 1.2 * t;
-        let out = continued(&motion(of, 230), 0.01);
+        let motion = motion(of, 230);
+        let out = Continuation::find(&motion, 0.01).unwrap().appended_to(&motion, 0.01);
         assert_eq!(out.times.len(), 260);
         let column = out.columns[1].as_ref().unwrap();
         for (t, x) in out.times.iter().zip(column) {
@@ -96,7 +131,7 @@ mod tests {
         // Two and a half oscillations in the newest part, after rest: the difference is not a straight line.
         let of = |t: f64| if t < 2.0 { 0.0 } else { 0.1 * (78.5 * (t - 2.0)).sin() };
         for motion in [motion(of, 230), motion(of, 30)] {
-            assert_eq!(continued(&motion, 0.01), motion);
+            assert_eq!(Continuation::find(&motion, 0.01), None);
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::dynamics::{BodyLoad, Workspace, inverse_frame};
 use crate::ground::BodyForces;
 use crate::ground::predict::Prediction;
-use crate::kinematics::{Posture, Trajectory};
+use crate::kinematics::Posture;
 use crate::model::{Model, Side};
 use crate::spatial::{Vec3, Wrench};
 
@@ -56,15 +56,15 @@ impl FootLoad {
     }
 }
 
-/// The forces in one frame of a window; `number` and `time_s` are those of the stream.
+/// The forces in one frame of a window, in which `row` is that of the prediction; `number` and `time_s` are those of the stream.
 pub(super) fn read(
     model: &Model,
     workspace: &mut Workspace,
-    (trajectory, prediction): &(Trajectory, Prediction),
-    frame: usize,
+    posture: Posture<'_>,
+    (prediction, row): (&Prediction, usize),
     (number, time_s): (usize, f64),
 ) -> StreamFrame {
-    let feet = Side::BOTH.map(|side| foot_load(model, prediction, side, frame));
+    let feet = Side::BOTH.map(|side| foot_load(model, prediction, side, row));
     let bodies = &prediction.ground.bodies;
     let load = |(body, foot): (&BodyForces, &FootLoad)| BodyLoad {
         body: body.body,
@@ -72,9 +72,7 @@ pub(super) fn read(
         wrench: Wrench { force: foot.force, moment: foot.moment },
     };
     let loads: Vec<BodyLoad> = bodies.iter().zip(&feet).map(load).collect();
-    let column = |part: usize| trajectory.columns().iter().map(|c| c[part][frame]).collect::<Vec<f64>>();
-    let (q, qd, qdd) = (column(0), column(1), column(2));
-    let forces = inverse_frame(workspace, Posture { q: &q, qd: &qd, qdd: &qdd }, &loads);
+    let forces = inverse_frame(workspace, posture, &loads);
     StreamFrame { frame: number, time_s, feet, generalized: forces.generalized().to_vec() }
 }
 

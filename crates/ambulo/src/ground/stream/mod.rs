@@ -1,39 +1,43 @@
 //! Predicts forces while the motion is being recorded: takes one frame, returns the forces in a slightly earlier frame.
 //!
-//! The last few seconds are kept. At every frame they are smoothed, and the forces are predicted by the same code as those of a whole
-//! recording ([`crate::motion::smooth`], [`predict`]); the frame at the delay is returned. Only the frames of the delay follow it:
-//! the smoothing ends there, and the duration of a stance that has not ended is estimated from earlier stances. docs/STREAMING.md
-//! compares the errors with those of a whole recording.
+//! The last few seconds are kept. Later frames change only the newest half second of the smoothed motion ([`tail`]), so that the motion of feet and mass
+//! centre is kept for the frames before it ([`settled`]). At every frame the newest part is smoothed, stances are detected in the window, and the forces
+//! are predicted in the frame at the delay by the code for whole recordings, from the steps around it. Only the frames of the delay follow it: the
+//! smoothing ends there, and the duration of a stance that has not ended is estimated from earlier stances. docs/STREAMING.md compares the errors with
+//! those of a whole recording.
 //!
 //! A missing coordinate is passed as not-a-number. While the newest frame has one, no forces are returned, and those frames are
 //! never returned later. A gap of at most 0.2 s is interpolated as in a recording; after a longer one the stream starts again.
 //! The first seconds are less accurate, because earlier stances are not known; their standard deviations are larger accordingly.
 //!
-//! Memory: the frames of the window, allocated once, and scratch memory that is freed after each push. Cost of a push: one smoothing
-//! and one prediction of the window.
+//! Memory: the frames of the window, allocated once, and scratch memory that is freed after each push. Cost of a push: constant once the window is
+//! full, however long the stream runs.
 //! Pinned by: tests/ground_stream.rs
 
 mod continuation;
 mod error;
 mod frame;
 mod frame_buffer;
+mod settled;
 mod step_timing;
+mod tail;
 
-use super::footfalls::footfalls;
-use super::predict::{FittedParameters, PredictSettings, Prediction, Prescribed, predict};
+use super::footfalls::{OffSpeed, detect};
+use super::predict::{FittedParameters, KnownMotion, PredictSettings, Prediction, both_soles, predict_frames};
 use crate::dynamics::Workspace;
 use crate::findings::Findings;
-use crate::kinematics::Trajectory;
+use crate::kinematics::{Posture, Trajectory, TrajectoryError};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model};
 use crate::motion::filter::LowPass;
 use crate::motion::gaps::LONGEST_GAP_S;
-use crate::motion::{SmoothSettings, Smoother, Window, smooth};
-use continuation::continued;
+use crate::motion::{Smoother, TimeGrid};
 pub use error::StreamError;
 pub use frame::{FootLoad, LoadDeviation, StreamFrame};
 use frame_buffer::FrameBuffer;
+use settled::{SettledFrames, body_frames, window};
 use step_timing::StepTiming;
+use tail::{FrameRange, Tail, TailSmoother};
 
 /// Lowest and highest frame rate [Hz].
 const RATES_HZ: [f64; 2] = [20.0, 2000.0];
@@ -41,6 +45,8 @@ const RATES_HZ: [f64; 2] = [20.0, 2000.0];
 const WINDOWS_S: [f64; 2] = [1.0, 60.0];
 /// A delay is rounded down to whole frames, unless it is this close to the next one [frames].
 const NEAR_A_FRAME: f64 = 1e-6;
+/// The prediction uses every n-th frame where that leaves at least this rate [Hz]: of a motion filtered at 6 Hz more frames say no more.
+const WORKING_RATE_HZ: f64 = 100.0;
 /// Number of frames that a quintic spline needs.
 const FEWEST_FRAMES: usize = 6;
 
@@ -78,9 +84,13 @@ impl StreamSettings {
 pub struct Stream {
     model: Model,
     soles: BySide<Option<Sole>>,
-    smoother: Smoother,
+    smoother: TailSmoother,
+    motion_filter: Option<LowPass>,
     parameters: FittedParameters,
     buffer: FrameBuffer,
+    settled: SettledFrames,
+    /// Frames of the motion from one frame of the prediction to the next.
+    stride: usize,
     step_timing: StepTiming,
     /// Delay of the results [frames].
     delay: usize,
@@ -113,7 +123,10 @@ impl Stream {
             workspace: Workspace::new(&model),
             model,
             soles,
-            smoother,
+            smoother: TailSmoother::new(smoother, rate_hz, capacity)?,
+            motion_filter: smoother.low_pass(),
+            settled: SettledFrames::with_capacity(capacity),
+            stride: ((rate_hz / WORKING_RATE_HZ + NEAR_A_FRAME) as usize).max(1),
             parameters,
             step_timing: StepTiming::default(),
             delay: (delay_s * rate_hz + NEAR_A_FRAME) as usize,
@@ -150,6 +163,7 @@ impl Stream {
         // The gap, from one complete frame to the next, is at least one step longer than the number of missing frames.
         if self.buffer.missing() > 0 && self.buffer.time(self.buffer.missing() + 1) > LONGEST_GAP_S {
             self.buffer.clear();
+            self.settled.forget_before(self.buffer.next);
             self.due = self.buffer.next;
             return Ok(None);
         }
@@ -158,9 +172,11 @@ impl Stream {
         if self.buffer.missing() > 0 {
             return Ok(None);
         }
-        let Some(window) = self.predict_window()? else { return Ok(None) };
-        self.due = frame + 1;
-        Ok(self.read(&window, frame))
+        let forces = self.forces_in(frame)?;
+        if forces.is_some() {
+            self.due = frame + 1;
+        }
+        Ok(forces)
     }
 
     /// Returns the remaining frames, those of the delay. They are less accurate because less motion follows them.
@@ -171,15 +187,20 @@ impl Stream {
         if self.buffer.missing() > 0 {
             return Ok(Vec::new());
         }
-        let Some(window) = self.predict_window()? else { return Ok(Vec::new()) };
         let first = self.due.max(self.buffer.next.saturating_sub(self.delay));
-        Ok((first..self.buffer.next).filter_map(|frame| self.read(&window, frame)).collect())
+        (first..self.buffer.next).filter_map(|frame| self.forces_in(frame).transpose()).collect()
     }
 
     /// Delay of the results [frames].
     #[must_use]
     pub fn delay_frames(&self) -> usize {
         self.delay
+    }
+
+    /// Number of values of a frame that are read: those of coordinates that nothing else determines.
+    #[must_use]
+    pub fn values(&self) -> usize {
+        self.buffer.motion().columns.iter().flatten().count()
     }
 
     /// Findings of the latest window.
@@ -191,39 +212,78 @@ impl Stream {
     /// Memory of the kept frames [bytes]: constant from the first push to the last.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.buffer.bytes()
+        self.buffer.bytes() + self.settled.bytes()
     }
 
-    /// Predicts the forces in the window; `None` while it has too few frames.
-    fn predict_window(&mut self) -> Result<Option<(Trajectory, Prediction)>, StreamError> {
+    /// The forces in one frame, by its number in the stream; `None` while the window has too few frames.
+    fn forces_in(&mut self, frame: usize) -> Result<Option<StreamFrame>, StreamError> {
         self.buffer.forget_leading_gap();
-        if self.buffer.len() < FEWEST_FRAMES {
+        let oldest = self.buffer.next - self.buffer.len();
+        self.settled.forget_before(oldest);
+        if self.buffer.len() < FEWEST_FRAMES || frame < oldest {
             return Ok(None);
         }
+        let soles = both_soles(&self.model, &self.soles)?;
         let mut findings = Findings::default();
-        let all = Window { from_s: None, to_s: self.buffer.motion().times.last().copied() };
-        let settings = SmoothSettings { smoother: self.smoother, window: all, rate_hz: None };
-        let motion = continued(self.buffer.motion(), self.buffer.time(1));
-        let smoothed = smooth(&self.model, &motion, settings, &mut findings)?;
-        let trajectory = Trajectory::complete(&self.model, smoothed, &mut findings)?;
-        let mut footfalls = footfalls(&self.model, &trajectory, &self.soles, &mut findings);
-        self.step_timing.update(&footfalls);
-        self.step_timing.extrapolate(&mut footfalls, trajectory.grid());
-        let prescribed = Prescribed { footfalls: Some(footfalls), ..Prescribed::default() };
-        let settings = PredictSettings {
-            prescribed,
-            parameters: self.parameters,
-            person: None,
-            motion_filter: self.smoother.low_pass(),
-        };
-        let prediction = predict(&self.model, &trajectory, &self.soles, &settings, &mut findings)?;
+        let unsettled = self.settled.next;
+        let tail = self.smoother.smooth(&self.model, &self.buffer, unsettled, &mut findings)?;
+        let settles = self.smoother.settles(self.delay).unwrap_or(usize::MAX);
+        if let Some(count) = (self.buffer.next - unsettled).checked_sub(settles).filter(|count| *count > 0) {
+            let trajectory =
+                self.trajectory(&tail, FrameRange { first: unsettled, stride: 1, count }, &mut findings)?;
+            self.settled.extend(body_frames(&self.model, &soles, &trajectory, &mut self.workspace), oldest);
+        }
+        // The frame is one of the window, all others of which are a multiple of the stride from it.
+        let first = self.settled.next + (frame - self.settled.next) % self.stride;
+        let range = FrameRange { first, stride: self.stride, count: (self.buffer.next - first).div_ceil(self.stride) };
+        let trajectory = self.trajectory(&tail, range, &mut findings)?;
+        let prediction = self.predict_window(&soles, &trajectory, range, frame, &mut findings)?;
         self.findings = findings;
-        Ok(Some((trajectory, prediction)))
+        let place = (frame - first) / self.stride;
+        let column = |part: usize| trajectory.columns().iter().map(|c| c[part][place]).collect::<Vec<f64>>();
+        let (q, qd, qdd) = (column(0), column(1), column(2));
+        let posture = Posture { q: &q, qd: &qd, qdd: &qdd };
+        let at = (frame, self.buffer.time(frame));
+        let (prediction, row) = &prediction;
+        Ok(Some(frame::read(&self.model, &mut self.workspace, posture, (prediction, *row), at)))
     }
 
-    /// The forces in one frame, by its number in the stream; `None` if it is outside the window.
-    fn read(&mut self, window: &(Trajectory, Prediction), number: usize) -> Option<StreamFrame> {
-        let row = number.checked_sub(self.buffer.next - self.buffer.len())?;
-        Some(frame::read(&self.model, &mut self.workspace, window, row, (number, self.buffer.time(number))))
+    fn trajectory(
+        &self,
+        tail: &Tail,
+        frames: FrameRange,
+        findings: &mut Findings,
+    ) -> Result<Trajectory, TrajectoryError> {
+        Trajectory::complete(&self.model, self.smoother.motion(tail, frames), findings)
+    }
+
+    /// Predicts the forces in a frame from the settled frames and the newest ones; also returns the row of the frame in the window.
+    fn predict_window(
+        &mut self,
+        soles: &BySide<Sole>,
+        newest: &Trajectory,
+        range: FrameRange,
+        frame: usize,
+        findings: &mut Findings,
+    ) -> Result<(Prediction, usize), StreamError> {
+        let newest = body_frames(&self.model, soles, newest, &mut self.workspace);
+        let (first, settled) = self.settled.before(range.first, range.stride);
+        let grid = TimeGrid {
+            start_s: self.buffer.time(first),
+            step_s: self.buffer.time(range.stride),
+            frames: (range.first - first) / range.stride + range.count,
+        };
+        let (signals, geometry, total) = window(&self.model, &self.soles, grid, settled.chain(&newest));
+        let mut footfalls = detect(&signals, OffSpeed::default(), findings);
+        self.step_timing.update(&footfalls);
+        self.step_timing.extrapolate(&mut footfalls, grid);
+        let settings = PredictSettings {
+            parameters: self.parameters,
+            motion_filter: self.motion_filter,
+            ..PredictSettings::default()
+        };
+        let row = (frame - first) / range.stride;
+        let motion = KnownMotion { grid, geometry, total, footfalls };
+        Ok((predict_frames(&self.model, soles, motion, &settings, row..row + 1)?, row))
     }
 }
