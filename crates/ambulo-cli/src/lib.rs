@@ -44,6 +44,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
         Some(Command::Validate(args)) => commands::validate::run(&args),
         Some(Command::Batch(args)) => commands::batch::run(&args),
         Some(Command::Session(args)) => commands::session::run(&args),
+        Some(Command::Stream(args)) => commands::stream::run(&args),
         Some(Command::Walk(args)) => commands::walk::run(&args),
         Some(Command::Sweep(args)) => commands::sweep::run(&args),
         Some(Command::Demo(args)) => commands::demo::run(&args),

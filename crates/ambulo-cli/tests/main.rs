@@ -40,6 +40,7 @@ mod segment_poses;
 mod sensors;
 mod session;
 mod simulate;
+mod stream;
 mod summary_schema;
 mod sweep;
 mod tune;

@@ -209,7 +209,7 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
     assert_eq!(
         swept,
-        ["forces", "calibrate", "validate", "batch", "session", "walk", "sweep", "simulate", "tune", "compare"]
+        ["forces", "calibrate", "validate", "batch", "session", "stream", "walk", "sweep", "simulate", "tune", "compare"]
     );
     assert!(names("calibrate").iter().all(|name| names("forces").contains(name)));
     assert_eq!(names("validate"), ["mass", "height", "jobs"]);
@@ -249,6 +249,13 @@ fn forces_of_markers_and_skeletons_survives_every_number() {
         only: &["mass", "height"],
     };
     sweep(&bench, "forces", &[markers, skeleton]);
+}
+
+#[test]
+fn stream_survives_every_number() {
+    let bench = Workbench::new("sweep_stream");
+    let base = Base { words: &["stream", "figure.osim", "--quiet"], options: &[("rate", "100")], only: &[] };
+    sweep(&bench, "stream", &[base]);
 }
 
 #[test]

@@ -11,6 +11,7 @@ fn without_arguments_the_command_prints_a_guide() {
         "ambulo walk",
         "ambulo forces",
         "ambulo session",
+        "ambulo stream",
         "ambulo simulate",
         "ambulo tune",
         "ambulo report",
@@ -30,8 +31,8 @@ fn without_arguments_the_command_prints_a_guide() {
 fn the_help_of_every_command_has_an_example() {
     let bench = Workbench::empty("help");
     for verb in [
-        "demo", "walk", "forces", "session", "validate", "simulate", "tune", "report", "view", "info", "convert",
-        "events", "compare",
+        "demo", "walk", "forces", "session", "stream", "validate", "simulate", "tune", "report", "view", "info",
+        "convert", "events", "compare",
     ] {
         let run = bench.run(&[verb, "--help"]).done();
         let example = run.stdout.split("Example").nth(1).unwrap_or_default();

@@ -5,6 +5,7 @@ mod exchange;
 mod forces;
 mod report;
 mod session;
+mod stream;
 mod tools;
 mod trial_files;
 mod validate;
@@ -16,10 +17,13 @@ pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Adjusted, CalibrateArgs, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use session::SessionArgs;
+pub(crate) use stream::{StreamArgs, StreamFormat};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
 pub(crate) use trial_files::TrialFiles;
 pub(crate) use validate::ValidateArgs;
-pub(crate) use values::{Cutoff, EarthTurn, FootColumns, ForceCutoff, HeadingAxis, PlateFoot, TimedValue, Values};
+pub(crate) use values::{
+    Cutoff, EarthTurn, Endpoint, FootColumns, ForceCutoff, HeadingAxis, PlateFoot, TimedValue, Values,
+};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
@@ -44,6 +48,8 @@ pub(crate) enum Command {
     Batch(BatchArgs),
     /// Compute the trials of a visit with one body and show them on one page: all cycles, means, times and distances, gait profile score, before and after.
     Session(SessionArgs),
+    /// Compute forces while a motion arrives: frames in, forces and joint moments out, over standard input, TCP or UDP.
+    Stream(StreamArgs),
     /// Synthesise a walk at any speed and in any style; same outputs as `forces`, no file needed.
     Walk(Box<WalkArgs>),
     /// Compute walks at many speeds, of many bodies, on slopes and with loads: one table, and a page with envelopes.

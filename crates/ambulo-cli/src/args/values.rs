@@ -8,6 +8,7 @@ use ambulo::study::AddedMass;
 use ambulo_results::Keep;
 use clap::builder::PossibleValuesParser;
 use std::fmt;
+use std::net::{Ipv4Addr, SocketAddr};
 use std::str::FromStr;
 
 /// Names of the outputs of a recording or a synthetic walk; all but `recording` unless it is the demo.
@@ -370,6 +371,51 @@ impl FromStr for AddedMassArg {
                 Ok(AddedMassArg(AddedMass { body: body.to_owned(), mass_kg, position_m: Vec3::from(position) }))
             }
             _ => Err(expected()),
+        }
+    }
+}
+
+/// Where frames of a stream come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Endpoint {
+    Stdin,
+    Tcp(SocketAddr),
+    Udp(SocketAddr),
+}
+
+/// `stdin`, `tcp:PORT`, `udp:PORT`, or with an address of this computer before the port.
+pub(super) fn endpoint(text: &str) -> Result<Endpoint, String> {
+    const EXPECTED: &str =
+        "expected stdin, tcp:PORT, udp:PORT, or with an address of this computer, such as tcp:0.0.0.0:5005 for all";
+    if text == "stdin" {
+        return Ok(Endpoint::Stdin);
+    }
+    let (kind, place) = text.split_once(':').ok_or(EXPECTED)?;
+    let local = |port: u16| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+    let address = place.parse().map(local).or_else(|_| place.parse()).map_err(|_| EXPECTED)?;
+    match kind {
+        "tcp" => Ok(Endpoint::Tcp(address)),
+        "udp" => Ok(Endpoint::Udp(address)),
+        _ => Err(EXPECTED.into()),
+    }
+}
+
+/// A time in milliseconds; the library checks its range.
+pub(super) fn milliseconds(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| "expected a number of milliseconds, such as 70".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_an_address_only_this_computer_can_connect() {
+        assert_eq!(endpoint("tcp:5005"), Ok(Endpoint::Tcp(SocketAddr::from(([127, 0, 0, 1], 5005)))));
+        assert_eq!(endpoint("udp:0.0.0.0:7"), Ok(Endpoint::Udp(SocketAddr::from(([0, 0, 0, 0], 7)))));
+        assert_eq!(endpoint("stdin"), Ok(Endpoint::Stdin));
+        for wrong in ["tcp", "tcp:", "tcp:70000", "serial:5", "udp:host:5", ""] {
+            assert!(endpoint(wrong).unwrap_err().contains("udp:PORT"), "{wrong}");
         }
     }
 }

@@ -18,6 +18,7 @@ pub(crate) mod session;
 mod side_by_side;
 pub(crate) mod simulate;
 mod stopwatch;
+pub(crate) mod stream;
 pub(crate) mod sweep;
 mod trials;
 pub(crate) mod tune;

@@ -70,6 +70,7 @@ pub(crate) fn guide() -> Result<()> {
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    the same from coordinates of an OpenSim model
   ambulo session DIR                                         the trials of a visit on one page, compared with healthy people
   ambulo validate DIR                                        judge predicted ground forces on a folder of trials on plates
+  ambulo stream MODEL.osim --rate 200 --input tcp:5005       forces while the motion arrives
   ambulo simulate SCENE.toml                                 simulate a scene
   ambulo tune SCENE.toml                                     tune the gains of a figure that walks by its own torques
   ambulo reproduce -o paper                                  recompute the claims of the 1997 paper
@@ -141,6 +142,16 @@ fn states_as_json(table: &str, changes: &[StateChange], findings: &Findings) -> 
     };
     let run: Vec<_> = changes.iter().map(change).collect();
     print_line(&serde_json::to_string_pretty(&serde_json::json!({ "states": table, "run": run }))?)
+}
+
+/// Prints what frames and results of a stream contain, as JSON.
+pub(crate) fn stream_description(description: &impl serde::Serialize) -> Result<()> {
+    print_line(&serde_json::to_string_pretty(description)?)
+}
+
+/// Prints a line about a stream that goes on.
+pub(crate) fn stream_line(line: &str) {
+    eprintln!("{}", visible(line));
 }
 
 fn print_findings(findings: &[Finding]) {

@@ -105,8 +105,7 @@ pub(super) fn loads(
                     if is_on_forefoot { on_touching_part(place, center, axes[1]) } else { center }
                 }
             };
-            out.free_moment[frame] = about_up.value;
-            out.height[frame] = stance.height_m;
+            (out.free_moment[frame], out.height[frame]) = (about_up.value, stance.height_m);
             let deviation = &mut out.deviation;
             let run_factor = if stance.gait == GaitType::Run { RUN_DEVIATION } else { 1.0 };
             let remaining = inputs.remaining(stance);

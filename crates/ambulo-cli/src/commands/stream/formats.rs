@@ -1,0 +1,122 @@
+//! Messages of a stream: lines of JSON, or records of 32-bit numbers.
+
+use anyhow::{Context, Result, bail};
+use serde::{Deserialize, Serialize};
+
+/// A message to the command.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Message {
+    /// Names of the coordinates in the order of the values that follow.
+    pub(super) coordinates: Option<Vec<String>>,
+    /// Unit of angles that follow.
+    pub(super) angles: Option<AngleUnit>,
+    /// Number of the frame.
+    pub(super) frame: Option<u64>,
+    /// Its time [s].
+    pub(super) time: Option<f64>,
+    /// Its values; missing ones are null, or not-a-number in a record.
+    pub(super) q: Option<Vec<Option<f64>>>,
+}
+
+/// Unit of angles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum AngleUnit {
+    Rad,
+    Deg,
+}
+
+/// What frames and results contain.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Description {
+    pub(crate) model: String,
+    pub(crate) rate_hz: f64,
+    pub(crate) delay_frames: usize,
+    /// Coordinates of a frame.
+    pub(crate) coordinates: Vec<String>,
+    /// Names and units of the values of a result.
+    pub(crate) columns: Vec<String>,
+    pub(crate) units: Vec<&'static str>,
+}
+
+/// A message of the command besides the description.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub(super) enum Answer {
+    Forces {
+        frame: u64,
+        time: f64,
+        values: Vec<f32>,
+    },
+    /// Something to know about the frames.
+    Notice {
+        notice: &'static str,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        frame: Option<u64>,
+        message: String,
+    },
+}
+
+/// Reads a line.
+pub(super) fn from_json(line: &[u8]) -> Result<Message> {
+    serde_json::from_slice(line).context("a line that is no message; expected {\"frame\": 0, \"q\": [...]}")
+}
+
+/// Bytes of a record with so many values.
+pub(super) fn record_bytes(values: usize) -> usize {
+    4 * (values + 1)
+}
+
+/// Reads a record.
+pub(super) fn from_record(record: &[u8], values: usize) -> Result<Message> {
+    if record.len() != record_bytes(values) {
+        let expected = record_bytes(values);
+        bail!("a record of {} bytes; expected {expected}, the number of the frame and {values} values", record.len());
+    }
+    let mut words = record.chunks_exact(4).map(|word| [word[0], word[1], word[2], word[3]]);
+    let frame = words.next().map(|word| u64::from(u32::from_le_bytes(word)));
+    let q = words.map(f32::from_le_bytes).map(|x| (!x.is_nan()).then_some(f64::from(x))).collect();
+    Ok(Message { coordinates: None, angles: None, frame, time: None, q: Some(q) })
+}
+
+/// Appends a line.
+pub(super) fn to_json(message: &impl Serialize, out: &mut Vec<u8>) {
+    // Writing to memory does not fail, and these structures have no keys that JSON refuses.
+    let _ = serde_json::to_writer(&mut *out, message);
+    out.push(b'\n');
+}
+
+/// Appends a record.
+pub(super) fn to_record(frame: u64, values: &[f32], out: &mut Vec<u8>) {
+    // Numbers go on from zero after the largest.
+    out.extend((frame as u32).to_le_bytes());
+    out.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_have_the_numbers_that_were_written() {
+        let mut bytes = Vec::new();
+        to_record(70_000, &[1.5, f32::NAN, -3.25e7], &mut bytes);
+        assert_eq!(bytes.len(), record_bytes(3));
+        let message = from_record(&bytes, 3).unwrap();
+        assert_eq!((message.frame, message.q), (Some(70_000), Some(vec![Some(1.5), None, Some(-3.25e7)])));
+        let error = from_record(&bytes[..12], 3).unwrap_err().to_string();
+        assert!(error.contains("12 bytes; expected 16"), "{error}");
+    }
+
+    #[test]
+    fn lines_are_frames_or_names_and_nothing_else() {
+        let frame = from_json(b"{\"frame\": 3, \"q\": [0.5, null]}").unwrap();
+        assert_eq!((frame.frame, frame.q), (Some(3), Some(vec![Some(0.5), None])));
+        let names = from_json(b"{\"coordinates\": [\"hip\"], \"angles\": \"deg\"}").unwrap();
+        assert_eq!((names.coordinates, names.angles), (Some(vec!["hip".to_owned()]), Some(AngleUnit::Deg)));
+        for wrong in ["", "[]", "{\"frame\": -1}", "{\"q\": [\"x\"]}", "{\"values\": []}", "{\"angles\": \"turns\"}"] {
+            assert!(from_json(wrong.as_bytes()).is_err(), "{wrong}");
+        }
+    }
+}

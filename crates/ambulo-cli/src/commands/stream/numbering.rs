@@ -1,0 +1,95 @@
+//! What the number of a frame says: whether frames before it were lost, or it came twice, late or anew.
+
+/// How many of the last numbers are remembered, to tell a doubled frame from a late one.
+const REMEMBERED: u64 = 64;
+
+/// Place of a frame in its sequence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// The one that was expected.
+    Next,
+    /// So many frames before it are missing.
+    After(u64),
+    /// It came before.
+    Doubled,
+    /// Its turn is over: a later frame was already used.
+    Late,
+    /// The sender began again with other numbers.
+    Anew,
+}
+
+/// The numbers that came.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Numbering {
+    /// The number that is expected; `None` before the first frame.
+    next: Option<u64>,
+    /// Which of the [`REMEMBERED`] numbers before it came, the last one in the lowest bit.
+    came: u64,
+}
+
+impl Numbering {
+    /// The number that follows the last one.
+    pub(super) fn expected(&self) -> u64 {
+        self.next.unwrap_or(0)
+    }
+
+    /// Adds a number. A number that lies more than `far` before the expected one begins a new sequence.
+    pub(super) fn place(&mut self, number: u64, far: u64) -> Place {
+        let Some(next) = self.next else {
+            self.begin(number);
+            return Place::Next;
+        };
+        if number >= next {
+            let missing = number - next;
+            // The places of the missing frames and of this one.
+            self.came = self.came.checked_shl(u32::try_from(missing + 1).unwrap_or(u32::MAX)).unwrap_or(0) | 1;
+            self.next = Some(number.saturating_add(1));
+            return if missing == 0 { Place::Next } else { Place::After(missing) };
+        }
+        let back = next - 1 - number;
+        match back {
+            _ if back >= far => {
+                self.begin(number);
+                Place::Anew
+            }
+            _ if back < REMEMBERED && self.came & (1 << back) != 0 => Place::Doubled,
+            _ => {
+                self.came |= if back < REMEMBERED { 1 << back } else { 0 };
+                Place::Late
+            }
+        }
+    }
+
+    fn begin(&mut self, number: u64) {
+        *self = Numbering { next: Some(number.saturating_add(1)), came: 1 };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lost_doubled_late_and_new_sequences_are_told_apart() {
+        let mut numbering = Numbering::default();
+        let far = 200;
+        let cases = [
+            (7, Place::Next),
+            (8, Place::Next),
+            (11, Place::After(2)),
+            (11, Place::Doubled),
+            (9, Place::Late),
+            (9, Place::Doubled),
+            (10, Place::Late),
+            (12, Place::Next),
+            (400, Place::After(387)),
+            (12, Place::Anew),
+            (13, Place::Next),
+            (u64::MAX, Place::After(u64::MAX - 14)),
+            (u64::MAX - 1, Place::Late),
+        ];
+        for (number, expected) in cases {
+            assert_eq!(numbering.place(number, far), expected, "{number}");
+        }
+    }
+}

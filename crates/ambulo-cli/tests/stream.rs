@@ -1,0 +1,264 @@
+//! `ambulo stream`: frames of another process in, forces out; what is lost on the way is said and survived.
+//!
+//! | claim                                                                        | tolerance                                    |
+//! |------------------------------------------------------------------------------|----------------------------------------------|
+//! | a replayed recording has the forces of `ambulo forces` on all of it           | 8 % of body weight, as docs/STREAMING.md says |
+//! | lines and records, standard input, TCP and UDP have the same numbers          | exact; records of single precision 0.5 N     |
+//! | lost, doubled, late and broken frames: each is named, the others have results | exact                                        |
+//! | a port in use and a wrong address are refused by name                         | exact                                        |
+
+use crate::workbench::Workbench;
+use ambulo_formats::table::Table;
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{SocketAddr, TcpListener, TcpStream, UdpSocket};
+use std::process::{Child, Stdio};
+use std::time::Duration;
+
+/// Frames of a replay; the walk has 2.9 s.
+const FRAMES: usize = 200;
+/// Frames of the shorter ones.
+const FEW: usize = 30;
+const STREAM: [&str; 4] = ["stream", "figure.osim", "--rate", "100"];
+
+/// The names of the coordinates, and their values in every frame: degrees and metres.
+fn walk(bench: &Workbench) -> (Vec<String>, Vec<Vec<f64>>) {
+    let text = bench.text("walk.mot");
+    let mut lines = text.lines().skip_while(|line| line.trim() != "endheader").skip(1);
+    let names = lines.next().unwrap().split_whitespace().skip(1).map(str::to_owned).collect();
+    let values = |line: &str| line.split_whitespace().skip(1).map(|cell| cell.parse().unwrap()).collect();
+    (names, lines.map(values).collect())
+}
+
+fn heading(names: &[String]) -> String {
+    format!("{}\n", json!({ "coordinates": names, "angles": "deg" }))
+}
+
+fn line(frame: usize, q: &[f64]) -> String {
+    format!("{}\n", json!({ "frame": frame, "q": q }))
+}
+
+/// The program, started.
+fn started(bench: &Workbench, more: &[&str]) -> Child {
+    let mut command = bench.command(&[&STREAM[..], more].concat());
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// The address that a server says it waits on; its standard error is read in the background from then on.
+fn address(child: &mut Child) -> SocketAddr {
+    let mut errors = BufReader::new(child.stderr.take().unwrap());
+    let mut first = String::new();
+    errors.read_line(&mut first).unwrap();
+    std::thread::spawn(move || errors.read_to_end(&mut Vec::new()));
+    assert!(first.contains("this computer only"), "{first}");
+    first.split_whitespace().find_map(|word| word.parse().ok()).unwrap_or_else(|| panic!("{first}"))
+}
+
+/// Sends lines to standard input; returns the answers and standard error.
+fn piped(bench: &Workbench, lines: Vec<String>) -> (Vec<Value>, String) {
+    let mut child = started(bench, &[]);
+    let mut input = child.stdin.take().unwrap();
+    let sender = std::thread::spawn(move || lines.iter().for_each(|line| input.write_all(line.as_bytes()).unwrap()));
+    let output = child.wait_with_output().unwrap();
+    sender.join().unwrap();
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{errors}");
+    (answers(&output.stdout), errors)
+}
+
+fn answers(bytes: &[u8]) -> Vec<Value> {
+    bytes
+        .split(|byte| *byte == b'\n')
+        .filter(|line| !line.is_empty())
+        .map(|line| serde_json::from_slice(line).unwrap())
+        .collect()
+}
+
+/// Number and values of each result.
+fn results(answers: &[Value]) -> Vec<(u64, Vec<f64>)> {
+    let values = |answer: &Value| answer["values"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    answers
+        .iter()
+        .filter(|answer| answer["values"].is_array())
+        .map(|a| (a["frame"].as_u64().unwrap(), values(a)))
+        .collect()
+}
+
+fn replay(bench: &Workbench, frames: usize) -> Vec<String> {
+    let (names, values) = walk(bench);
+    let frames = values[..frames].iter().enumerate().map(|(frame, q)| line(frame, q));
+    [heading(&names)].into_iter().chain(frames).collect()
+}
+
+#[test]
+fn a_replayed_recording_has_the_forces_of_the_whole_one() {
+    let bench = Workbench::new("stream_replay");
+    let (answers, errors) = piped(&bench, replay(&bench, FRAMES));
+    let results = results(&answers);
+    assert!(results.iter().map(|(frame, _)| *frame).eq(0..FRAMES as u64), "every frame once, in order");
+    assert!(errors.contains("200 frames in, forces of 200 frames out"), "{errors}");
+    let description = &answers[0];
+    assert_eq!((&description["delay_frames"], &description["rate_hz"]), (&json!(7), &json!(100.0)));
+    let columns: Vec<&str> = description["columns"].as_array().unwrap().iter().map(|c| c.as_str().unwrap()).collect();
+    assert!(columns.contains(&"ground_force_r_vy_sd") && columns.contains(&"ankle_angle_r_moment"), "{columns:?}");
+    let run =
+        bench.run(&["forces", "walk.mot", "--model", "figure.osim", "--keep", "tables", "--quiet", "-o", "whole"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let whole: Table = bench.table("whole/grf.mot");
+    let weight = 9.81 * 75.0;
+    for name in ["ground_force_r_vy", "ground_force_l_vy"] {
+        let place = columns.iter().position(|column| *column == name).unwrap();
+        let expected = whole.column(name).unwrap();
+        // The first steps are known less well.
+        let later = || results.iter().filter(|(frame, _)| (80..FRAMES as u64 - 7).contains(frame));
+        let squares: f64 = later().map(|(frame, values)| (values[place] - expected[*frame as usize]).powi(2)).sum();
+        let difference = 100.0 * (squares / later().count() as f64).sqrt() / weight;
+        println!("{name}: {difference:.1} % of body weight from the whole recording");
+        assert!(difference < 8.0, "{name}: {difference}");
+        assert!(later().any(|(_, values)| values[place] > 0.8 * weight), "{name} carries the body");
+    }
+}
+
+#[test]
+fn lost_doubled_late_and_broken_frames_are_named_and_survived() {
+    let bench = Workbench::new("stream_lost");
+    let (names, values) = walk(&bench);
+    let mut lines = vec![heading(&names)];
+    for (frame, q) in values[..90].iter().enumerate() {
+        match frame {
+            20 | 21 => {}
+            22 => lines.extend([line(22, q), line(20, &values[20]), line(22, q)]),
+            30 => lines.extend(["{\"frame\": 30,\n".to_owned(), line(30, &q[1..]), line(30, q)]),
+            40..70 => {}
+            _ => lines.push(line(frame, q)),
+        }
+    }
+    // The sender starts again.
+    lines.extend((0..FEW).map(|frame| line(frame + 1000, &values[frame])));
+    lines.extend((0..FEW).map(|frame| line(frame, &values[frame])));
+    let (answers, errors) = piped(&bench, lines);
+    let notices: Vec<&str> = answers.iter().filter_map(|answer| answer["notice"].as_str()).collect();
+    assert_eq!(notices, ["lost", "late", "doubled", "refused", "refused", "lost", "lost", "restarted", "ended"]);
+    for words in [
+        "frames 20 to 21 did not arrive",
+        "frame 20 came after a later one",
+        "frame 22 came again",
+        "18 values; expected 19",
+    ] {
+        assert!(errors.contains(words), "`{words}` is not in {errors}");
+    }
+    let frames: Vec<u64> = results(&answers).iter().map(|(frame, _)| *frame).collect();
+    // While frames 20 and 21 were missing, 13 and 14 became due; from 40 on the stream ended and began again at 70.
+    let expected = (0..13).chain(15..40).chain(70..90).chain(1000..1030).chain(0..30);
+    assert_eq!(frames, expected.collect::<Vec<u64>>(), "{errors}");
+}
+
+/// Replays lines to a TCP server as records or lines, and reads everything that it answers.
+fn over_tcp(address: SocketAddr, bytes: Vec<u8>) -> Vec<u8> {
+    let mut link = TcpStream::connect(address).unwrap();
+    let mut sending = link.try_clone().unwrap();
+    let sender = std::thread::spawn(move || {
+        sending.write_all(&bytes).unwrap();
+        sending.shutdown(std::net::Shutdown::Write).unwrap();
+    });
+    let mut received = Vec::new();
+    link.read_to_end(&mut received).unwrap();
+    sender.join().unwrap();
+    received
+}
+
+#[test]
+fn tcp_serves_one_connection_after_the_other_with_the_numbers_of_standard_input() {
+    let bench = Workbench::new("stream_tcp");
+    let lines = replay(&bench, FEW);
+    let (by_pipe, _) = piped(&bench, lines.clone());
+    let mut server = started(&bench, &["--input", "tcp:0"]);
+    let address = address(&mut server);
+    for _ in 0..2 {
+        let received = over_tcp(address, lines.concat().into_bytes());
+        assert_eq!(answers(&received), by_pipe);
+    }
+    // A connection that breaks in the middle of a line is survived.
+    TcpStream::connect(address).unwrap().write_all(&lines.concat().as_bytes()[..2000]).unwrap();
+    assert_eq!(answers(&over_tcp(address, lines.concat().into_bytes())), by_pipe);
+    let in_use = bench.run(&[&STREAM[..], &["--input", &format!("tcp:{}", address.port())]].concat());
+    in_use.refused(&["is in use by another program", "hint: choose another port"]);
+    server.kill().unwrap();
+    server.wait().unwrap();
+}
+
+#[test]
+fn records_over_udp_have_the_numbers_of_lines() {
+    let bench = Workbench::new("stream_udp");
+    let (names, values) = walk(&bench);
+    let model_order = bench.run(&[&STREAM[..], &["--describe"]].concat()).done();
+    let description: Value = serde_json::from_str(&model_order.stdout).unwrap();
+    let order: Vec<usize> = description["coordinates"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|name| names.iter().position(|n| n == name.as_str().unwrap()).unwrap())
+        .collect();
+    let count = description["columns"].as_array().unwrap().len();
+    let mut server = started(&bench, &["--input", "udp:0", "--format", "f32"]);
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    socket.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
+    socket.connect(address(&mut server)).unwrap();
+    let mut found: Vec<(u64, Vec<f64>)> = Vec::new();
+    let mut datagram = vec![0; 1 << 16];
+    let mut receive = |found: &mut Vec<(u64, Vec<f64>)>| {
+        let length = socket.recv(&mut datagram).unwrap();
+        for record in datagram[..length].chunks(4 * (count + 1)) {
+            let words: Vec<[u8; 4]> = record.chunks(4).map(|word| word.try_into().unwrap()).collect();
+            let values = words[1..].iter().map(|word| f64::from(f32::from_le_bytes(*word))).collect();
+            found.push((u64::from(u32::from_le_bytes(words[0])), values));
+        }
+    };
+    for (frame, q) in values[..FEW].iter().enumerate() {
+        let in_si = |&place: &usize| {
+            if names[place].starts_with("pelvis_t") && names[place] != "pelvis_tilt" {
+                q[place]
+            } else {
+                q[place].to_radians()
+            }
+        };
+        let floats = order.iter().map(in_si).flat_map(|value| (value as f32).to_le_bytes());
+        let record: Vec<u8> = (frame as u32).to_le_bytes().into_iter().chain(floats).collect();
+        socket.send(&record).unwrap();
+        if frame >= 7 {
+            receive(&mut found);
+        }
+    }
+    socket.send(&[]).unwrap();
+    receive(&mut found);
+    let (by_pipe, _) = piped(&bench, replay(&bench, FEW));
+    let expected = results(&by_pipe);
+    assert_eq!(found.len(), expected.len());
+    for ((frame, values), (number, others)) in found.iter().zip(&expected) {
+        assert_eq!(frame, number);
+        // The coordinates have single precision.
+        let largest = values.iter().zip(others).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(largest < 0.5, "frame {frame}: {largest}");
+    }
+    server.kill().unwrap();
+    server.wait().unwrap();
+}
+
+#[test]
+fn what_cannot_be_streamed_is_refused_by_name() {
+    let bench = Workbench::new("stream_refused");
+    let refused =
+        |words: &[&str], expected: &[&str]| bench.run(&[&["stream", "figure.osim"], words].concat()).refused(expected);
+    refused(&["--rate", "5"], &["frame rate of 5 Hz", "20 to 2000 Hz"]);
+    refused(&["--rate", "100", "--delay", "2000"], &["a delay of 2 s"]);
+    refused(&["--rate", "100", "--input", "tcp:203.0.113.7:5005"], &["no address of this computer"]);
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port();
+    refused(&["--rate", "100", "--input", &format!("tcp:{port}")], &["in use by another program"]);
+    let wrong = bench.run(&[&STREAM[..], &["--input", "serial:3"]].concat());
+    assert!(wrong.code == Some(2) && wrong.stderr.contains("udp:PORT"), "{}", wrong.stderr);
+    // Names that the model does not have are said, with those that it has.
+    let (answers, _) = piped(&bench, vec!["{\"coordinates\": [\"elbow\"]}\n".to_owned()]);
+    let message = answers[1]["message"].as_str().unwrap();
+    assert!(message.contains("no coordinate `elbow`") && message.contains("hip_flexion_r"), "{message}");
+}
