@@ -209,7 +209,19 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
     assert_eq!(
         swept,
-        ["forces", "calibrate", "validate", "batch", "session", "stream", "walk", "sweep", "simulate", "tune", "compare"]
+        [
+            "forces",
+            "calibrate",
+            "validate",
+            "batch",
+            "session",
+            "stream",
+            "walk",
+            "sweep",
+            "simulate",
+            "tune",
+            "compare"
+        ]
     );
     assert!(names("calibrate").iter().all(|name| names("forces").contains(name)));
     assert_eq!(names("validate"), ["mass", "height", "jobs"]);
