@@ -6,6 +6,7 @@ use super::formats::{
 };
 use super::numbering::{Numbering, Place};
 use crate::args::StreamFormat;
+use ambulo::ground::predict::PredictError;
 use ambulo::ground::stream::{Stream, StreamError, StreamFrame};
 use ambulo::model::CoordinateKind;
 use ambulo_results::{stream_columns, stream_row};
@@ -93,14 +94,20 @@ impl<'a> Conversation<'a> {
             StreamFormat::Json => from_json(bytes),
             StreamFormat::F32 => from_record(bytes, self.slots.len()),
         };
-        if let Err(error) = message.and_then(|message| self.take(&message)) {
-            if error.downcast_ref::<StreamError>().is_some_and(|error| matches!(error, StreamError::Prediction(_))) {
-                return Err(error);
+        let taken = message.and_then(|message| self.take(&message));
+        self.survive(taken)
+    }
+
+    /// Says what was wrong; only a model that no frame can be computed of is an error.
+    fn survive(&mut self, done: Result<()>) -> Result<()> {
+        match done {
+            Err(error) if error.downcast_ref().is_some_and(is_of_the_model) => Err(error),
+            Err(error) => {
+                self.notice("refused", None, format!("{error:#}"));
+                Ok(())
             }
-            let chain: Vec<String> = error.chain().map(ToString::to_string).collect();
-            self.notice("refused", None, chain.join(": "));
+            Ok(()) => Ok(()),
         }
-        Ok(())
     }
 
     fn take(&mut self, message: &Message) -> Result<()> {
@@ -112,8 +119,8 @@ impl<'a> Conversation<'a> {
         if values.len() != expected {
             bail!("a frame with {} values; expected {expected}, one per coordinate", values.len());
         }
+        let q = self.in_model_order(values)?;
         let number = self.number(message)?;
-        let q = self.in_model_order(values);
         self.counts.frames += 1;
         let rate_hz = self.setup.settings.rate_hz;
         let expected = self.numbering.expected();
@@ -188,7 +195,8 @@ impl<'a> Conversation<'a> {
     /// The end of the frames: answers those of the delay, and says what came.
     pub(super) fn end(&mut self) -> Result<()> {
         let ended = std::mem::replace(&mut self.stream, self.setup.stream()?);
-        self.finish(ended)?;
+        let finished = self.finish(ended);
+        self.survive(finished)?;
         let Counts { frames, results, notices } = std::mem::take(&mut self.counts);
         let notices: String = notices.iter().map(|(kind, count)| format!(", {count} x {kind}")).collect();
         let message = format!("{frames} frames in, forces of {results} frames out{notices}");
@@ -233,12 +241,17 @@ impl<'a> Conversation<'a> {
     }
 
     /// One value per coordinate of the model, not-a-number where it is missing.
-    fn in_model_order(&self, values: &[Option<f64>]) -> Vec<f64> {
-        let mut q: Vec<f64> = self.setup.model.coordinates().iter().map(|c| c.default_value).collect();
+    fn in_model_order(&self, values: &[Option<f64>]) -> Result<Vec<f64>> {
+        let coordinates = self.setup.model.coordinates();
+        let mut q: Vec<f64> = coordinates.iter().map(|c| c.default_value).collect();
         for (slot, value) in self.slots.iter().zip(values) {
-            q[slot.coordinate] = value.map_or(f64::NAN, |value| value * slot.unit);
+            let value = value.map_or(f64::NAN, |value| value * slot.unit);
+            if value.is_infinite() {
+                bail!("`{}` is {value}; expected a finite number, or none", coordinates[slot.coordinate].name);
+            }
+            q[slot.coordinate] = value;
         }
-        q
+        Ok(q)
     }
 
     fn answer(&mut self, forces: Option<StreamFrame>) {
@@ -279,4 +292,15 @@ impl<'a> Conversation<'a> {
             to_json(answer, &mut self.out);
         }
     }
+}
+
+fn is_of_the_model(error: &StreamError) -> bool {
+    let StreamError::Prediction(error) = error else { return false };
+    matches!(
+        error,
+        PredictError::NoFeet { .. }
+            | PredictError::NoSole { .. }
+            | PredictError::NoMass { .. }
+            | PredictError::NoGravity { .. }
+    )
 }

@@ -74,8 +74,8 @@ pub(super) fn serve_tcp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     loop {
         let (connection, peer) = listener.accept().context("connections cannot be accepted")?;
         setup.say(&format!("{peer} connected"));
-        // Every answer is sent at once, without waiting for more.
-        connection.set_nodelay(true).ok();
+        // Every answer is sent at once, without waiting for more; where that cannot be chosen, answers come later.
+        let _ = connection.set_nodelay(true);
         let mut conversation = Conversation::new(setup)?;
         let mut input = BufReader::new(&connection);
         match serve(&mut input, &mut &connection, &mut conversation) {

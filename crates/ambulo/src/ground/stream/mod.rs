@@ -1,7 +1,7 @@
 //! Predicts forces while the motion is being recorded: takes one frame, returns the forces in a slightly earlier frame.
 //!
-//! The last few seconds are kept. Later frames change only the newest half second of the smoothed motion ([`tail`]), so that the motion of feet and mass
-//! centre is kept for the frames before it ([`settled`]). At every frame the newest part is smoothed, stances are detected in the window, and the forces
+//! The last few seconds are kept. Later frames change only the newest half second of the smoothed motion, so that the motion of feet and mass
+//! centre is kept for the frames before it. At every frame the newest part is smoothed, stances are detected in the window, and the forces
 //! are predicted in the frame at the delay by the code for whole recordings, from the steps around it. Only the frames of the delay follow it: the
 //! smoothing ends there, and the duration of a stance that has not ended is estimated from earlier stances. docs/STREAMING.md compares the errors with
 //! those of a whole recording.
