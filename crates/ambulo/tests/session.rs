@@ -75,7 +75,7 @@ fn measured_and_predicted_forces_are_never_in_one_mean() {
     let left_angle = pooled(&cycles, "hip_flexion_angle", left).unwrap();
     assert!((side_difference(Some(&angle), Some(&left_angle)).unwrap() - 50.5).abs() < 1e-9);
     cycles[2].excluded = Some("turn".to_owned());
-    assert_eq!(pooled(&cycles, "hip_flexion_moment", right).unwrap().statistics.mean[0], 3.0);
+    assert!((pooled(&cycles, "hip_flexion_moment", right).unwrap().statistics.mean[0] - 3.0).abs() < 1e-12);
     assert!(pooled(&cycles, "subtalar_angle", right).is_none());
 }
 

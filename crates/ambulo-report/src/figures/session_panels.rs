@@ -110,7 +110,7 @@ impl SessionFigure {
             (sample, words.clone())
         });
         let count = self.panels.len();
-        let widened = self.panels.iter().filter(|panel| panel.range() != panel.scale).map(|panel| panel.title);
+        let widened = self.panels.iter().filter(|panel| panel.is_widened()).map(|panel| panel.title);
         let widened: Vec<&str> = widened.collect();
         let mut notes = self.notes.clone();
         if !widened.is_empty() {
@@ -151,6 +151,12 @@ impl SessionPanel {
         let (low, high) = finite.fold((self.scale[0], self.scale[1]), |(low, high), x| (low.min(x), high.max(x)));
         let more = |beyond: f64| step * ((beyond - SLACK * (self.scale[1] - self.scale[0])) / step).ceil().max(0.0);
         [self.scale[0] - more(self.scale[0] - low), self.scale[1] + more(high - self.scale[1])]
+    }
+
+    /// Whether a curve leaves the usual range.
+    fn is_widened(&self) -> bool {
+        let [low, high] = self.range();
+        low < self.scale[0] || high > self.scale[1]
     }
 
     fn draw(&self, drawing: &mut Drawing, style: &Style, slot: Slot, figure: &str) {
@@ -345,10 +351,15 @@ mod tests {
 
     #[test]
     fn a_scale_is_fixed_until_a_curve_leaves_it_and_grows_by_whole_steps() {
-        assert_eq!(panel(vec![0.0, 60.0]).range(), [-20.0, 80.0]);
-        assert_eq!(panel(vec![-20.9, 80.9]).range(), [-20.0, 80.0], "less than a hundredth of the range");
-        assert_eq!(panel(vec![0.0, 92.0]).range(), [-20.0, 100.0]);
-        assert_eq!(panel(vec![-24.0, f64::NAN]).range(), [-30.0, 80.0]);
+        for (values, expected) in [
+            ([0.0, 60.0], "[-20.0, 80.0]"),
+            // Less than a hundredth of the range.
+            ([-20.9, 80.9], "[-20.0, 80.0]"),
+            ([0.0, 92.0], "[-20.0, 100.0]"),
+            ([-24.0, f64::NAN], "[-30.0, 80.0]"),
+        ] {
+            assert_eq!(format!("{:?}", panel(values.to_vec()).range()), expected);
+        }
         let figure = |values: Vec<f64>| SessionFigure {
             name: "test",
             title: "Angles".to_owned(),

@@ -83,13 +83,10 @@ impl Computing<'_> {
             let count = begun.fetch_add(1, Ordering::Relaxed) + 1;
             printer::progress(&format!("{count} of {}: {}", trials.len(), trials[k].name), self.print);
         });
-        let named = |(trial, run): (&&PlannedTrial, &Result<MotionRun, String>)| {
-            Some((
-                trials.iter().copied().find(|known| known.name == trial.name)?,
-                run.as_ref().ok()?.input.person.clone()?,
-            ))
-        };
-        let named: Vec<(&PlannedTrial, String)> = trials.iter().zip(&computed.runs).filter_map(named).collect();
+        let mut named: Vec<(&PlannedTrial, String)> = Vec::new();
+        for (trial, run) in trials.iter().copied().zip(&computed.runs) {
+            named.extend(run.as_ref().ok().and_then(|run| Some((trial, run.input.person.clone()?))));
+        }
         visit::check_names(root, &named)?;
         let of_run = |(trial, run): (&&PlannedTrial, &Result<MotionRun, String>)| SessionTrial {
             name: trial.name.clone(),
