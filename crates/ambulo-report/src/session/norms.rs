@@ -52,7 +52,7 @@ impl Norms {
         let mut norms = Norms { short: "children, mean ± SD".to_owned(), ..Norms::default() };
         for quantity in all() {
             if let Some(found) = band(quantity.id, speed.mean, session.convention) {
-                norms.summary.get_or_insert_with(|| ReferenceSummary {
+                norms.summary.get_or_insert(ReferenceSummary {
                     words: found.citation,
                     persons: None,
                     ages_years: None,

@@ -15,7 +15,7 @@
 //! the expected score √( mean over t of σ_q(t)² ), because the expectation of (x - n)² is σ².
 //!
 //! Source: Baker, McGinley, Schwartz, Beynon, Rozumalski, Graham, Tirosh 2009 (The gait profile score and movement analysis profile, Gait
-//! Posture 30:265), unverified; variables and the pelvis of the left side as in the implementation of pyCGM2 (`CGM1_GPS`), which was read.
+//! Posture 30:265), unverified; variables and the pelvis of the left side as in the implementation of pyCGM2 (`CGM1_GPS`, read in excerpts).
 
 use super::SessionCycle;
 use super::pool::{CurveStatistics, rms, rms_difference};
