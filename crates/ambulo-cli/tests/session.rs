@@ -12,6 +12,7 @@
 
 use crate::shared_data::data;
 use crate::workbench::Workbench;
+use ambulo_formats::c3d::C3d;
 use std::fs;
 
 /// A folder, with the walk that `ambulo demo` writes beside it.
@@ -219,7 +220,31 @@ fn a_real_visit_has_one_body_and_can_be_anonymous() {
         let no_date = |year: i32| !text.contains(&format!("{year}-"));
         assert!((1990..2100).all(no_date), "{name}");
     }
+    foot_progression_is_that_of_plug_in_gait(&bench);
     two_standing_trials_are_refused(&bench);
+}
+
+/// The recording has the angles that Plug-in-Gait computed from the same markers; the third is foot progression.
+fn foot_progression_is_that_of_plug_in_gait(bench: &Workbench) {
+    let (recording, _) = C3d::read(&bench.read("visit Beatrix Muster/HC032A03.c3d")).unwrap();
+    let times = recording.times();
+    let cycles = bench.text("out/cycles.csv");
+    let rows = rows(&cycles);
+    let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();
+    let own = rows.iter().filter(|row| row[column("quantity")] == "foot_progression_angle");
+    let mut compared = 0;
+    for row in own.filter(|row| row[column("trial")] == "trial 1") {
+        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
+        let angles = recording.point(&format!("{}FootProgressAngles", row[column("side")].to_uppercase())).unwrap();
+        for percent in 0..=100 {
+            let time = number("start_s") + (number("end_s") - number("start_s")) * f64::from(percent) / 100.0;
+            let frame = times.partition_point(|t| *t < time).min(times.len() - 1);
+            let off = number(&format!("percent_{percent}")) - angles.positions[frame][2];
+            assert!(off.abs() < 6.0, "{percent} % of {row:?}: {off} degrees off");
+        }
+        compared += 1;
+    }
+    assert_eq!(compared, 2);
 }
 
 fn two_standing_trials_are_refused(bench: &Workbench) {
