@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import numpy as np
+from conftest import command
 
 KNEE = "knee_angle_r_moment"
 
@@ -36,6 +37,27 @@ def test_duckdb_and_pyarrow_read_a_table(result):
     assert np.array_equal(moments[KNEE].to_numpy(), result.moments[KNEE])
     found = duckdb.sql(f"select max({KNEE}) from moments").fetchall()
     assert found == [(result.moments[KNEE].max(),)]
+
+
+def test_duckdb_polars_and_pyarrow_read_the_tables_of_a_batch(files, tmp_path):
+    import duckdb
+    import polars
+    import pyarrow.parquet
+
+    (tmp_path / "list.csv").write_text(f"file,model\n{files / 'walk.mot'},{files / 'figure.osim'}\nnone.mot,\n")
+    done = command("batch", "list.csv", "-o", "batch", "--part", 1, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    batch = tmp_path / "batch"
+    rows = duckdb.sql(f"select trial, error is null from '{batch}/trials/*.parquet' order by error nulls first").fetchall()
+    assert [computed for _, computed in rows] == [True, False]
+    frames = polars.read_parquet(batch / "frames" / "*.parquet")
+    assert np.all(np.diff(frames["time"].to_numpy()) > 0) and frames[KNEE].abs().max() > 10
+    joined = duckdb.sql(
+        f"select max(f.{KNEE}) from '{batch}/frames/*.parquet' f join '{batch}/trials/*.parquet' t using (key)"
+    ).fetchall()
+    assert joined == [(frames[KNEE].max(),)]
+    metadata = pyarrow.parquet.read_schema(next((batch / "frames").glob("*.parquet"))).metadata
+    assert b"N.m" in metadata[f"unit of {KNEE}".encode()]
 
 
 def test_xarray_reads_a_table(result):
