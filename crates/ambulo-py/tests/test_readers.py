@@ -45,7 +45,7 @@ def test_duckdb_polars_and_pyarrow_read_the_tables_of_a_batch(files, tmp_path):
     import pyarrow.parquet
 
     (tmp_path / "list.csv").write_text(f"file,model\n{files / 'walk.mot'},{files / 'figure.osim'}\nnone.mot,\n")
-    done = command("batch", "list.csv", "-o", "batch", "--part", 1, folder=tmp_path)
+    done = command("batch", "list.csv", "-o", "batch", folder=tmp_path)
     assert done.returncode == 0, done.stderr
     batch = tmp_path / "batch"
     rows = duckdb.sql(f"select trial, error is null from '{batch}/trials/*.parquet' order by error nulls first").fetchall()

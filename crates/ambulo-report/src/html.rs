@@ -79,7 +79,7 @@ pub(super) fn html_table(section: &Section) -> String {
         for (column, cell) in row.iter().enumerate() {
             let tag = if column == 0 { "th scope=\"row\"" } else { "td" };
             let end = if column == 0 { "th" } else { "td" };
-            let _ = write!(html, "<{tag}{}>{}</{end}>", class(column), escaped(cell));
+            let _ = write!(html, "<{tag}{}>{}</{end}>", class(column), code(cell));
         }
         html += "</tr>\n";
     }
