@@ -7,7 +7,7 @@
 //! | `trials/part-SSS-PPPPP.parquet` | the trials of the part; it appears last and closes the part |
 //! | `summary.html` | the page of the batch, made from the tables of trials when all parts of all shards are closed |
 //!
-//! Each file is written beside its place, through to the disk, and appears by a rename. After a kill at any moment each part is either closed or open,
+//! Each file is first written under another name and flushed to the disk, and then renamed. After a kill at any moment each part is either closed or open,
 //! and the files of an open part are written again. A lock keeps two runs of one shard apart.
 
 use super::tables::PartTables;

@@ -66,7 +66,7 @@ pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
     compute_with(args, caller, &Shared::default())
 }
 
-/// What several recordings of a person share.
+/// Data that are read or computed once for several recordings of a person.
 #[derive(Debug, Default)]
 pub(crate) struct Shared {
     /// Standing trials, read once.

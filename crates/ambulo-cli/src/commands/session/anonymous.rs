@@ -10,7 +10,7 @@ use ambulo_report::Session;
 use std::cmp::Reverse;
 use std::path::Path;
 
-/// Shorter names, such as `1`, would also be replaced in numbers. They stand in sentences only with their ending.
+/// A shorter name, such as `1`, is only replaced together with its file ending, because it may also be part of a number.
 const SHORTEST: usize = 3;
 
 /// What stands for what.
@@ -20,7 +20,7 @@ pub(super) struct Anonymous {
 }
 
 impl Anonymous {
-    /// For a folder with these trials; `names` stand in the recordings.
+    /// The names to replace: those of the folder, of the files of its trials, and `names`, which were read from the recordings.
     pub(super) fn of(folder: &Path, plan: &Plan, names: &[String]) -> Anonymous {
         let mut replaced: Vec<(String, String)> = Vec::new();
         for (k, trial) in plan.trials.iter().enumerate() {

@@ -106,7 +106,7 @@ impl Computing<'_> {
     }
 }
 
-/// What a session is made of besides its trials.
+/// Everything that a session is made from, except its trials.
 struct Inputs<'a> {
     plan: &'a Plan,
     recordings: Vec<String>,

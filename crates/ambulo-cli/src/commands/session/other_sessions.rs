@@ -19,7 +19,7 @@ const CYCLES: &str = "cycles.csv";
 /// The file that only `ambulo batch` writes.
 const BATCH: &str = "batch.json";
 
-/// What tells a session from other results.
+/// The keys by which the summary of a session differs from that of other results.
 #[derive(Deserialize)]
 struct Head {
     session_format: Option<u32>,

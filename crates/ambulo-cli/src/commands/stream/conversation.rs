@@ -55,7 +55,7 @@ impl<'a> Conversation<'a> {
         Ok(Conversation { setup, stream: setup.stream()?, numbering, origin: 0, slots, out: Vec::new(), counts })
     }
 
-    /// What frames and results contain.
+    /// The description of frames and results that the sender gets first.
     pub(super) fn description(&self) -> Description {
         let model = &self.setup.model;
         let (columns, units) = stream_columns(model).into_iter().unzip();
@@ -84,7 +84,7 @@ impl<'a> Conversation<'a> {
         }
     }
 
-    /// Takes a message. What is wrong with it is said, and the next one is taken.
+    /// Takes a message. One that is not valid gets a notice, and the next one is taken.
     ///
     /// # Errors
     /// A model that cannot be streamed.

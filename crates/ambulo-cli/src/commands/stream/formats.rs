@@ -27,7 +27,7 @@ pub(super) enum AngleUnit {
     Deg,
 }
 
-/// What frames and results contain.
+/// Describes frames and results: names, units, rate and delay.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct Description {
     pub(crate) model: String,

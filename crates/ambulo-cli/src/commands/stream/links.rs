@@ -102,7 +102,7 @@ pub(super) fn serve_udp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     loop {
         let (length, peer) = match socket.recv_from(&mut datagram) {
             Ok(received) => received,
-            // On some systems an answer that nobody received is an error of the next call.
+            // Some systems report an answer that could not be delivered when the next datagram is read.
             Err(error) if is_gone(error.kind()) => continue,
             Err(error) => return Err(error).context("datagrams cannot be read"),
         };

@@ -19,7 +19,7 @@ use anyhow::Result;
 use conversation::Conversation;
 use std::io::{stdin, stdout};
 
-/// What every connection starts with.
+/// The options and the model, the same for every connection.
 struct Setup<'a> {
     args: &'a StreamArgs,
     model: Model,
