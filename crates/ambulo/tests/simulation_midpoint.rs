@@ -5,7 +5,9 @@ use crate::common::worlds::{
     G, O, Run, add_ball, add_body, add_box, add_closure, add_floor, add_hinge, add_joint, along, drive, empty,
     of_material, of_rigid, sine, turned, v,
 };
-use ambulo::simulation::{ContactLaw, Integrator, JointKind, Material, Spring, World, energy, largest_joint_error};
+use ambulo::simulation::{
+    ContactLaw, Integrator, JointKind, Material, Motor, Signal, Spring, World, energy, largest_joint_error,
+};
 use ambulo::spatial::{Pose, Twist, Vec3};
 
 fn midpoint(world: World, step_s: f64) -> Run {
@@ -172,6 +174,33 @@ fn a_limit_stops_a_fall_and_then_bears_the_weight() {
     assert!(lowest > -0.1 - 0.25 * 1e-3 * (2.0 * G * 0.1_f64).sqrt(), "{lowest}");
     assert!((run.q(0, 0) + 0.1).abs() < 1e-9 && run.velocity(0).norm() < 1e-9, "{}", run.q(0, 0));
     assert!((run.forces().efforts[0][0] - 2.0 * G).abs() < 1e-8, "{:?}", run.forces().efforts);
+}
+
+#[test]
+fn dry_friction_of_a_coordinate_stops_a_slide_where_it_should() {
+    // 2 kg at 1 m/s against 4 N: at rest after 0.5 s and v² m / (2 F) = 0.25 m.
+    let mut world = World { gravity: O, ..on_slide(1.0) };
+    world.joints[0].coordinates[0].friction = 4.0;
+    let mut run = midpoint(world, 1e-3);
+    run.to(0.25);
+    assert!((run.q(0, 0) - 0.1875).abs() < 1e-9 && (run.velocity(0).y - 0.5).abs() < 1e-9, "{}", run.q(0, 0));
+    assert!((run.forces().efforts[0][0] + 4.0).abs() < 1e-9, "friction acts against the motion");
+    run.to(1.0);
+    assert!((run.q(0, 0) - 0.25).abs() < 1e-9 && run.velocity(0).norm() < 1e-9, "{}", run.q(0, 0));
+}
+
+#[test]
+fn a_motor_swings_as_the_spring_and_damper_that_it_is() {
+    let (kp, kd) = (800.0, 5.0);
+    let mut by_spring = World { gravity: O, ..on_slide(1.0) };
+    let mut by_motor = by_spring.clone();
+    by_spring.joints[0].coordinates[0].spring = Some(Spring { stiffness: kp, damping: kd, rest: 0.0 });
+    let target = Signal::Constant(0.0);
+    by_motor.joints[0].coordinates[0].motor = Some(Motor { target, kp, kd, max: 1e6 });
+    let (mut spring, mut motor) = (midpoint(by_spring, 1e-3), midpoint(by_motor, 1e-3));
+    spring.to(0.3);
+    motor.to(0.3);
+    assert!(spring.q(0, 0).abs() > 1e-3 && (spring.q(0, 0) - motor.q(0, 0)).abs() < 1e-9, "{}", motor.q(0, 0));
 }
 
 fn block_on_slope(angle: f64, friction: f64) -> Run {
