@@ -21,32 +21,31 @@ pub(super) enum Place {
 /// The numbers that came.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Numbering {
-    /// The number that is expected; `None` before the first frame.
-    next: Option<u64>,
-    /// Which of the [`REMEMBERED`] numbers before it came, the last one in the lowest bit.
+    /// The greatest number that came; `None` before the first frame.
+    last: Option<u64>,
+    /// Which of the [`REMEMBERED`] numbers up to the last one came, the last one in the lowest bit.
     came: u64,
 }
 
 impl Numbering {
     /// The number that follows the last one.
     pub(super) fn expected(&self) -> u64 {
-        self.next.unwrap_or(0)
+        self.last.map_or(0, |last| last.saturating_add(1))
     }
 
     /// Adds a number. A number that lies more than `far` before the expected one begins a new sequence.
     pub(super) fn place(&mut self, number: u64, far: u64) -> Place {
-        let Some(next) = self.next else {
+        let Some(last) = self.last else {
             self.begin(number);
             return Place::Next;
         };
-        if number >= next {
-            let missing = number - next;
-            // The places of the missing frames and of this one.
-            self.came = self.came.checked_shl(u32::try_from(missing + 1).unwrap_or(u32::MAX)).unwrap_or(0) | 1;
-            self.next = Some(number.saturating_add(1));
-            return if missing == 0 { Place::Next } else { Place::After(missing) };
+        if number > last {
+            let places = number - last;
+            self.came = self.came.checked_shl(u32::try_from(places).unwrap_or(u32::MAX)).unwrap_or(0) | 1;
+            self.last = Some(number);
+            return if places == 1 { Place::Next } else { Place::After(places - 1) };
         }
-        let back = next - 1 - number;
+        let back = last - number;
         match back {
             _ if back >= far => {
                 self.begin(number);
@@ -61,7 +60,7 @@ impl Numbering {
     }
 
     fn begin(&mut self, number: u64) {
-        *self = Numbering { next: Some(number.saturating_add(1)), came: 1 };
+        *self = Numbering { last: Some(number), came: 1 };
     }
 }
 
@@ -87,6 +86,7 @@ mod tests {
             (13, Place::Next),
             (u64::MAX, Place::After(u64::MAX - 14)),
             (u64::MAX - 1, Place::Late),
+            (u64::MAX, Place::Doubled),
         ];
         for (number, expected) in cases {
             assert_eq!(numbering.place(number, far), expected, "{number}");
