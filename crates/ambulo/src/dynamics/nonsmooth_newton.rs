@@ -19,7 +19,7 @@
 //! Cost: one factorisation of n rows per step, n³/3 products.
 //! Pinned by: tests/contact_convergence.rs
 
-use super::block::Six;
+use super::block::{Six, plane_length};
 use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, Law};
 use super::delassus::{Delassus, motion_under};
 use super::departure::BestIterate;
@@ -30,7 +30,7 @@ use crate::numerics::DenseLu;
 /// More rows are not attempted: the factors of 400 rows cost some 20 million products.
 pub(super) const MOST_ROWS: usize = 400;
 /// Number of turns, and the largest number of Newton steps in a turn.
-const TURNS: usize = 48;
+const TURNS: usize = 200;
 const STEPS: usize = 40;
 /// ρ W of the turns, over and over: another ρ makes another |F|², which has its own places without descent.
 const SCALES: [f64; 8] = [1.0, 0.1, 10.0, 1.0, 0.01, 100.0, 1.0, 0.3];
@@ -309,7 +309,7 @@ fn move_rows(delassus: &Delassus, row: usize, change: f64, u: &mut [f64]) {
 fn rubbing(start: usize, friction: f64, bound: f64, rho: &[f64], lambda: &[f64], u: &[f64]) -> ([f64; 2], f64, f64) {
     let z = [1, 2].map(|k| lambda[start + k] - rho[start + k] * u[start + k]);
     let radius = friction * (lambda[start] - rho[start] * u[start]).clamp(0.0, bound);
-    (z, z[0].hypot(z[1]), radius)
+    (z, plane_length(z[0], z[1]), radius)
 }
 
 /// F of one group.

@@ -14,7 +14,7 @@
 //! Cost: one factorisation per step.
 //! Pinned by: tests/constraint_graph.rs, tests/simulation_robustness.rs
 
-use super::block::Six;
+use super::block::{Six, plane_length};
 use super::constraint::{ActsOn, ConstraintGroup, Convergence, Law};
 use super::departure::stiffness;
 use super::elimination::Offsets;
@@ -129,7 +129,7 @@ impl Relaxed<'_, '_> {
         let u = &self.problem.departures.u;
         slip.clear();
         slip.extend(self.problem.graph.groups.iter().map(|group| match group.law {
-            Law::Contact { friction, .. } => friction * u[group.rows.start + 1].hypot(u[group.rows.start + 2]),
+            Law::Contact { friction, .. } => friction * plane_length(u[group.rows.start + 1], u[group.rows.start + 2]),
             Law::Bounded { .. } => 0.0,
         }));
         let change = shift.iter().zip(&*slip).fold(0.0, |m: f64, (old, new)| m.max((old - new).abs()));

@@ -18,6 +18,7 @@
 use crate::dynamics::Six;
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// The motions that a joint leaves free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,6 +52,29 @@ pub(crate) struct Frames {
     pub(crate) parent: Pose,
     /// `world_from_C`.
     pub(crate) child: Pose,
+}
+
+/// Directions that a joint forbids, world axes.
+#[derive(Debug, Clone)]
+pub(crate) struct Constrained {
+    /// The axes of the parent's frame.
+    axes: [Vec3; 3],
+    /// For a universal joint: the normal of its two axes, about which it cannot turn.
+    normal: Option<Vec3>,
+    turns: Range<usize>,
+    slides: Range<usize>,
+}
+
+impl Constrained {
+    /// Axes about which nothing turns.
+    pub(crate) fn turns(&self) -> impl Iterator<Item = Vec3> + '_ {
+        self.axes[self.turns.clone()].iter().map(|axis| self.normal.unwrap_or(*axis))
+    }
+
+    /// Axes along which nothing slides.
+    pub(crate) fn slides(&self) -> impl Iterator<Item = Vec3> + '_ {
+        self.axes[self.slides.clone()].iter().copied()
+    }
 }
 
 impl JointKind {
@@ -98,7 +122,10 @@ impl JointKind {
             JointKind::Weld => Pose::IDENTITY,
             JointKind::Revolute => turn(about_z(q[0])),
             JointKind::Prismatic => Pose::at(Vec3::new(0.0, 0.0, q[0])),
-            JointKind::Universal => turn(rotation(&Vec3::new(q[0], 0.0, 0.0)) * rotation(&Vec3::new(0.0, q[1], 0.0))),
+            JointKind::Universal => {
+                let ((sa, ca), (sb, cb)) = (q[0].sin_cos(), q[1].sin_cos());
+                turn(Mat3::new(cb, 0.0, sb, sa * sb, ca, -sa * cb, -ca * sb, sa, ca * cb))
+            }
             JointKind::Ball => turn(rotation(&Vec3::new(q[0], q[1], q[2]))),
             JointKind::Planar => Pose { rotation: about_z(q[2]), translation: Vec3::new(q[0], q[1], 0.0) },
             JointKind::Free => {
@@ -160,6 +187,20 @@ impl JointKind {
         displacement
     }
 
+    /// Coordinates after a displacement along the free directions: their sum; for rotation vectors, that of the rotation after the other.
+    #[inline(always)]
+    pub(crate) fn moved(self, q: &[f64], along: &Coordinates) -> Coordinates {
+        let mut moved = [0.0; MOST];
+        for (moved, (q, along)) in moved.iter_mut().zip(q.iter().zip(along)) {
+            *moved = q + along;
+        }
+        if matches!(self, JointKind::Ball | JointKind::Free) {
+            let [turn, then] = [along.as_slice(), q].map(|v| rotation(&Vec3::new(v[0], v[1], v[2])));
+            moved[..3].copy_from_slice(near_vector(rotation_vector(&(turn * then)), q).as_slice());
+        }
+        moved
+    }
+
     /// T without its drift: the nearest pose that the joint allows.
     pub(crate) fn without_drift(self, t: &Pose, last: &[f64]) -> Pose {
         match self {
@@ -208,20 +249,23 @@ impl JointKind {
     }
 
     /// Constrained directions, world axes: rotations that the joint forbids, then translations.
-    pub(crate) fn constrained(self, frames: &Frames) -> (Vec<Vec3>, Vec<Vec3>) {
+    #[inline(always)]
+    pub(crate) fn constrained(self, frames: &Frames) -> Constrained {
         let [x, y, z] = [0, 1, 2].map(|k| frames.parent.rotation.column(k).into_owned());
-        match self {
-            JointKind::Weld => (vec![x, y, z], vec![x, y, z]),
-            JointKind::Revolute => (vec![x, y], vec![x, y, z]),
-            JointKind::Prismatic => (vec![x, y, z], vec![x, y]),
+        let (turns, slides) = match self {
+            JointKind::Weld => (0..3, 0..3),
+            JointKind::Revolute => (0..2, 0..3),
+            JointKind::Prismatic => (0..3, 0..2),
             JointKind::Universal => {
-                let normal = x.cross(&frames.child.rotation.column(1));
-                (normal.try_normalize(1e-9).into_iter().collect(), vec![x, y, z])
+                let normal = x.cross(&frames.child.rotation.column(1)).try_normalize(1e-9);
+                let turns = 0..usize::from(normal.is_some());
+                return Constrained { axes: [x, y, z], normal, turns, slides: 0..3 };
             }
-            JointKind::Ball => (vec![], vec![x, y, z]),
-            JointKind::Planar => (vec![x, y], vec![z]),
-            JointKind::Free => (vec![], vec![]),
-        }
+            JointKind::Ball => (0..0, 0..3),
+            JointKind::Planar => (0..2, 2..3),
+            JointKind::Free => (0..0, 0..0),
+        };
+        Constrained { axes: [x, y, z], normal: None, turns, slides }
     }
 }
 
@@ -237,6 +281,9 @@ pub(crate) fn drift(kind: JointKind, frames: &Frames, last: &[f64]) -> (Vec3, Ve
         if cosine > 0.0 {
             return (across * stretch, frames.child.translation - frames.parent.translation);
         }
+    }
+    if kind == JointKind::Ball {
+        return (Vec3::zeros(), frames.child.translation - frames.parent.translation);
     }
     let t = frames.parent.inverse() * frames.child;
     let allowed = kind.without_drift(&t, last);
