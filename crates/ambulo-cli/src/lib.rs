@@ -4,6 +4,11 @@
 //! verbs of these names from the same words and return the results instead of writing them, for bindings to other languages; [`open`] reads a
 //! folder again.
 
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
+)]
+
 mod args;
 mod bug_report;
 mod caller;

@@ -1,5 +1,10 @@
 //! Presents results: clinical curves with normative data, figures, the report page, and exchange formats.
 
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
+)]
+
 mod batch;
 pub mod clinical;
 mod clinical_file;

@@ -22,7 +22,7 @@ mod torque;
 mod trunk;
 
 pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
-pub(crate) use path::BodyPath;
+pub(crate) use path::{BodyPath, upward_to};
 
 use super::page::ViewShape;
 use ambulo::model::Side;

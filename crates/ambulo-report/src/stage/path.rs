@@ -1,7 +1,14 @@
 //! Poses of a body over time.
 
-use ambulo::spatial::{Pose, Vec3};
+use ambulo::spatial::{Pose, Vec3, rotation_between};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+
+/// A turn that takes the upward axis y to a direction: the smallest one, or half a turn about x if the direction is down.
+pub(crate) fn upward_to(direction: &Vec3) -> UnitQuaternion<f64> {
+    let half_a_turn = || Matrix3::from_diagonal(&Vec3::new(1.0, -1.0, -1.0));
+    let turn = rotation_between(&Vec3::y(), direction).unwrap_or_else(half_a_turn);
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn))
+}
 
 /// Positions and orientations, one entry per instant.
 #[derive(Debug, Clone, PartialEq, Default)]

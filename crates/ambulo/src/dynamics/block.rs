@@ -11,12 +11,6 @@ pub type Six = nalgebra::Vector6<f64>;
 /// (see `proximal`) leave a share of 1e-10.
 const VANISHED: f64 = 1e-13;
 
-/// Length of a plane vector. Forces and velocities are far from the largest numbers, which `hypot` takes care of at a cost.
-#[inline(always)]
-pub(crate) fn plane_length(x: f64, y: f64) -> f64 {
-    (x * x + y * y).sqrt()
-}
-
 /// Mass and inertia of a rigid body at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyTerms {

@@ -19,13 +19,14 @@
 //! Cost: one factorisation of n rows per step, n³/3 products.
 //! Pinned by: tests/contact_convergence.rs
 
-use super::block::{Six, plane_length};
+use super::block::Six;
 use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, Law};
 use super::delassus::{Delassus, motion_under};
 use super::departure::BestIterate;
 use super::problem::Problem;
 use super::within_law::confine;
 use crate::numerics::DenseLu;
+use crate::numerics::elementary::hypot;
 
 /// More rows are not attempted: the factors of 400 rows cost some 20 million products.
 pub(super) const MOST_ROWS: usize = 400;
@@ -309,7 +310,7 @@ fn move_rows(delassus: &Delassus, row: usize, change: f64, u: &mut [f64]) {
 fn rubbing(start: usize, friction: f64, bound: f64, rho: &[f64], lambda: &[f64], u: &[f64]) -> ([f64; 2], f64, f64) {
     let z = [1, 2].map(|k| lambda[start + k] - rho[start + k] * u[start + k]);
     let radius = friction * (lambda[start] - rho[start] * u[start]).clamp(0.0, bound);
-    (z, plane_length(z[0], z[1]), radius)
+    (z, hypot(z[0], z[1]), radius)
 }
 
 /// F of one group.

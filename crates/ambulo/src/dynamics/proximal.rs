@@ -41,8 +41,10 @@
 //! Long because it is one algorithm: its steps share the notation above.
 //! Pinned by: tests/constraint_graph.rs
 
+use crate::numerics::elementary::hypot;
+
 use super::active_set::{self, WITHIN, has_past};
-use super::block::{Six, plane_length};
+use super::block::Six;
 use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
 use super::curvature::{Curvature, Proximal, add_group};
 use super::departure::{BestIterate, stiffness};
@@ -386,7 +388,7 @@ impl Newton<'_, '_> {
             if let (Law::Contact { friction, .. }, false) = (group.law, has_past(group, before)) {
                 let center = &mut center[group.rows.clone()];
                 center[0] = center[0].max(0.0);
-                let (length, radius) = (plane_length(center[1], center[2]), WITHIN * friction * center[0]);
+                let (length, radius) = (hypot(center[1], center[2]), WITHIN * friction * center[0]);
                 if length > radius {
                     center[1..].iter_mut().for_each(|x| *x *= radius / length);
                 }

@@ -36,6 +36,7 @@ pub use side::Side;
 pub use simm_spline::SimmSpline;
 
 use crate::numerics::Shown;
+use crate::numerics::elementary::{cos, sin};
 use crate::spatial::{Inertia, InertiaError, Vec3};
 use std::sync::Arc;
 
@@ -423,7 +424,7 @@ impl Model {
     #[must_use]
     pub fn on_slope(&self, angle: f64) -> Model {
         let forward = Vec3::x() - self.up * self.up.dot(&Vec3::x());
-        let gravity = (self.up * angle.cos() + forward * angle.sin()) * -self.gravity.norm();
+        let gravity = (self.up * cos(angle) + forward * sin(angle)) * -self.gravity.norm();
         Model { gravity, ..self.clone() }
     }
 

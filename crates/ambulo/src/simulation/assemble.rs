@@ -12,14 +12,14 @@
 //!
 //! A drive moves its coordinate to the value of its signal at the end of the step: q̇ = (s(t + h) - q)/h.
 
-use super::joint::{Constrained, Coordinates, Frames, JointKind, MOST, rotation_vector};
+use super::joint::{Constrained, Coordinates, Frames, JointKind, MOST};
 use super::signal::Instant;
 use super::state::{RowKey, WorldState, rates};
 use super::world::{Closure, JointCoordinate, TreeJoint, World};
 use crate::dynamics::{
     ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_slide, relative_turn,
 };
-use crate::spatial::{Mat3, Pose, Twist, Vec3};
+use crate::spatial::{Mat3, Pose, Twist, Vec3, rotation_vector};
 
 /// Drives that give way beyond their limit in this step: (joint, coordinate, limit).
 pub(crate) type Yielding = Vec<(usize, usize, f64)>;

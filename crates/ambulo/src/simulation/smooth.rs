@@ -20,7 +20,7 @@
 //! Source: the classical method of Runge and Kutta; Munthe-Kaas 1998, "Runge-Kutta methods on Lie groups" (unverified page).
 
 use super::assemble::{Assembly, Slot, closing_rows, twist};
-use super::joint::{Frames, JointKind, MOST, orthonormal, rotation, rotation_vector};
+use super::joint::{Frames, JointKind, MOST, orthonormal};
 use super::projection::{closure_errors, closure_frames};
 use super::state::{RowKey, WorldState, rates};
 use super::world::{Figure, TreeJoint, World};
@@ -29,7 +29,7 @@ use crate::dynamics::{
     solve_graph,
 };
 use crate::kinematics::{BodyMotion, Posture, body_motion};
-use crate::spatial::{Pose, Twist, Vec3};
+use crate::spatial::{Pose, Twist, Vec3, rotation, rotation_vector};
 
 /// A body and the joint that carries it; a free body has a joint with six coordinates.
 struct Branch {

@@ -16,12 +16,11 @@
 //! restitution zero by default).
 
 use super::assemble::{Span, presses};
-use super::joint::rotation_vector;
 use super::state::{RowKey, WorldState};
 use super::world::{ContactLaw, ImpactLaw, Material, Obstacle, Owner, Surface, World};
 use crate::contact::{ContactPoint, HuntCrossley, candidate_pairs, contacts};
 use crate::dynamics::{ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Law, Six};
-use crate::spatial::{Pose, Twist, Vec3};
+use crate::spatial::{Pose, Twist, Vec3, rotation_vector};
 
 /// Surfaces nearer than this are examined even if nothing moves [m].
 const MARGIN_M: f64 = 1e-4;

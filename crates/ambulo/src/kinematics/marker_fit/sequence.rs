@@ -13,6 +13,7 @@ use super::problem::FitProblem;
 use super::settings::OutlierDetection;
 use super::solve::Outcome;
 use super::start;
+use crate::numerics::elementary::powi;
 use crate::spatial::Vec3;
 
 /// A frame is fitted again if an offset changes by more than this [m] plus the sliding of skin. A jump of 50 mm changes the offset
@@ -296,7 +297,7 @@ fn robust(problem: &mut FitProblem<'_>, memory: &mut Tracking) {
     for k in 0..REWEIGHTINGS {
         note_distances(problem, memory);
         // From wide to narrow, so that a badly predicted posture excludes no marker.
-        let scale = SCALE * (4.0 * 0.5_f64.powi(k as i32)).max(1.0);
+        let scale = SCALE * (4.0 * powi(0.5_f64, k as i32)).max(1.0);
         for (i, r) in memory.distances.iter().enumerate() {
             let share = 1.0 + (r / scale).powi(2);
             problem.frame_weights[i] = if r.is_finite() { memory.weights[i] / (share * share) } else { 0.0 };
