@@ -47,14 +47,22 @@ after(() => rmSync(demo, { recursive: true, force: true }));
 after(closeBrowser);
 
 /** Compares the bytes of the files that the page saves with those of the program; the report is drawn from the same numbers. */
-async function isSame(context: TestContext, page: Page, words: string[], inputs: string[]): Promise<Map<string, Buffer>> {
+async function isSame(
+  context: TestContext,
+  page: Page,
+  words: string[],
+  inputs: string[],
+): Promise<Map<string, Buffer>> {
   const { content } = await saved(page, "#save-all");
   const found = unzip(content);
   const expected = native(words, inputs).files;
   assert.deepEqual([...found.keys()].sort(), [...expected.keys()].sort());
   const compared = [...expected].filter(([name]) => name !== "report.html" && !name.endsWith(".c3d"));
   for (const [name, bytes] of compared) {
-    const [a, b] = [found.get(name) ?? Buffer.of(), bytes].map((content) => comparable(name, content)) as [Buffer, Buffer];
+    const [a, b] = [found.get(name) ?? Buffer.of(), bytes].map((content) => comparable(name, content)) as [
+      Buffer,
+      Buffer,
+    ];
     assert.ok(a.equals(b), `${name}: the bytes differ; a number by ${difference(a.toString(), b.toString())}`);
   }
   context.diagnostic(`${compared.length} files have the bytes of the program's`);
