@@ -40,5 +40,6 @@ pub use session::{
     ReferenceSummary, RepresentativeSummary, SESSION_FORMAT, SESSION_PAGE, Session, SessionFacts, SessionSummary,
     SessionTrial, Spread, TrialSummary, VariableSummary, session_from_files,
 };
+pub use stage::quaternion;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
 pub use validation::{ListedTrial, listed_section, validation_files};

@@ -74,6 +74,7 @@ mod laboratory_files;
 mod laboratory_gaps;
 mod laboratory_robustness;
 mod landing_ground;
+mod live_markers;
 mod lumped;
 mod marker_fit;
 mod marker_fit_invented;

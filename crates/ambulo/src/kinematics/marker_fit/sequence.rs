@@ -43,11 +43,11 @@ const FIRST_SWAP: f64 = 0.060;
 
 /// What earlier frames have shown.
 #[derive(Debug, Clone)]
-struct Tracking {
+pub(super) struct Tracking {
     /// The last two fitted frames.
-    last: [Option<usize>; 2],
+    pub(super) last: [Option<usize>; 2],
     /// Offset of each marker in the last frame in which it was used, and the time of that frame [s].
-    offsets: Vec<Vec3>,
+    pub(super) offsets: Vec<Vec3>,
     times: Vec<f64>,
     /// Offsets of excluded markers.
     rejected: Vec<Vec3>,
@@ -64,24 +64,30 @@ struct Tracking {
     usable: Vec<Vec3>,
 }
 
+impl Tracking {
+    /// Before the first frame; `default` is a value per unknown.
+    pub(super) fn new(markers: usize, default: &[f64]) -> Tracking {
+        Tracking {
+            last: [None; 2],
+            offsets: vec![Vec3::repeat(f64::NAN); markers],
+            times: vec![f64::NEG_INFINITY; markers],
+            rejected: vec![Vec3::zeros(); markers],
+            seen: vec![f64::NEG_INFINITY; markers],
+            used: vec![true; markers],
+            paths: (0..markers).collect(),
+            x: default.to_vec(),
+            trial: default.to_vec(),
+            distances: vec![f64::NAN; markers],
+            weights: vec![0.0; markers],
+            expected: vec![Vec3::zeros(); markers],
+            usable: vec![Vec3::zeros(); markers],
+        }
+    }
+}
+
 /// Fits every frame that has enough markers.
 pub(super) fn run(problem: &mut FitProblem<'_>, frames: &mut Frames, outliers: OutlierDetection, default: &[f64]) {
-    let markers = frames.markers();
-    let mut memory = Tracking {
-        last: [None; 2],
-        offsets: vec![Vec3::repeat(f64::NAN); markers],
-        times: vec![f64::NEG_INFINITY; markers],
-        rejected: vec![Vec3::zeros(); markers],
-        seen: vec![f64::NEG_INFINITY; markers],
-        used: vec![true; markers],
-        paths: (0..markers).collect(),
-        x: default.to_vec(),
-        trial: default.to_vec(),
-        distances: vec![f64::NAN; markers],
-        weights: vec![0.0; markers],
-        expected: vec![Vec3::zeros(); markers],
-        usable: vec![Vec3::zeros(); markers],
-    };
+    let mut memory = Tracking::new(frames.markers(), default);
     for frame in 0..frames.count() {
         fit_frame(problem, frames, &mut memory, frame, outliers, default);
     }
@@ -104,7 +110,8 @@ fn use_majority(frames: &mut Frames) {
     }
 }
 
-fn fit_frame(
+/// Fits a frame; it has no posture afterwards if it lacks too many markers.
+pub(super) fn fit_frame(
     problem: &mut FitProblem<'_>,
     frames: &mut Frames,
     memory: &mut Tracking,
