@@ -23,7 +23,9 @@ mod record;
 mod replacement;
 
 pub use caller::Caller;
-pub use calls::{calibrate, forces, laboratory, model, open, read, simulate, sweep, table, validate, walk};
+pub use calls::{
+    batch, calibrate, forces, laboratory, model, open, read, session, simulate, sweep, table, validate, walk,
+};
 pub use commands::Results;
 pub use failure::Failure;
 
