@@ -89,8 +89,14 @@ impl ParquetTable {
         self.bytes().map_err(|error| failed(&error))
     }
 
+    /// Number of rows: values of the first column.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+
     fn check(&self) -> Result<(), Error> {
-        let rows = self.columns.first().map_or(0, |column| column.values.len());
+        let rows = self.rows();
         for (k, column) in self.columns.iter().enumerate() {
             let found = column.values.len();
             if found != rows {

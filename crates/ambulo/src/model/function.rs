@@ -6,7 +6,7 @@ use crate::numerics::NaturalSpline;
 use crate::numerics::elementary::sin_cos;
 
 /// y = f(x), with dy/dx and d²y/dx².
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Function {
     /// y = value.
     Constant(f64),

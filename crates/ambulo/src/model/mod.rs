@@ -65,7 +65,7 @@ impl CoordinateId {
 }
 
 /// A rigid segment and the joint to its parent.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Body {
     /// Name of the body.
     pub name: String,
@@ -76,7 +76,7 @@ pub struct Body {
 }
 
 /// A generalised coordinate.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Coordinate {
     /// Name of the coordinate.
     pub name: String,
@@ -115,7 +115,7 @@ impl CoordinateKind {
 }
 
 /// How the value of a coordinate is determined.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Drive {
     /// By the recording.
     Free,
@@ -141,7 +141,7 @@ pub struct Marker {
 }
 
 /// A tree of bodies, its coordinates and markers.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     name: String,
     gravity: Vec3,
