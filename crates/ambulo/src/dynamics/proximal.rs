@@ -70,9 +70,9 @@ const PATIENCE: usize = 12;
 const STALLED: usize = 30;
 /// Maximum number of Newton steps after the convex problem.
 const POLISH: usize = 20;
-/// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and half a second.
+/// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and a second.
 const FIRST_PRODUCTS: usize = 10_000_000;
-const LAST_PRODUCTS: usize = 600_000_000;
+const LAST_PRODUCTS: usize = 1_000_000_000;
 /// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing more is tried.
 const NEARLY: f64 = 1e-6;
 const FAR: f64 = 1e-2;
