@@ -10,20 +10,7 @@ The functions compute what the command ``ambulo`` computes, with the same defaul
 
 from ambulo._ambulo import Model
 from ambulo._ambulo import version as _version
-from ambulo._batch import Batch, BatchTable
-from ambulo._calls import (
-    batch,
-    calibrate,
-    calibrate_person,
-    forces,
-    model,
-    open,
-    session,
-    simulate,
-    sweep,
-    validate,
-    walk,
-)
+from ambulo._calls import calibrate, calibrate_person, forces, model, open, simulate, sweep, validate, walk
 from ambulo._errors import AmbuloError, AmbuloWarning, InputError
 from ambulo._person import Person
 from ambulo._recording import Recording, coordinates, markers, read
@@ -36,8 +23,6 @@ __version__: str = _version()
 __all__ = [
     "AmbuloError",
     "AmbuloWarning",
-    "Batch",
-    "BatchTable",
     "InputError",
     "Model",
     "Person",
@@ -45,7 +30,6 @@ __all__ = [
     "Result",
     "Stream",
     "Table",
-    "batch",
     "calibrate",
     "calibrate_person",
     "coordinates",
@@ -54,7 +38,6 @@ __all__ = [
     "model",
     "open",
     "read",
-    "session",
     "simulate",
     "sweep",
     "validate",

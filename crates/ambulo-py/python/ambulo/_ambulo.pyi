@@ -1,6 +1,5 @@
 from collections.abc import Sequence
 from os import PathLike
-from pathlib import Path
 from typing import Any, TypedDict, final, type_check_only
 
 import numpy as np
@@ -11,7 +10,6 @@ __all__ = [
     "Results",
     "Stream",
     "arrow_stream",
-    "batch",
     "calibrate",
     "command",
     "forces",
@@ -19,7 +17,6 @@ __all__ = [
     "read",
     "read_markers",
     "read_table",
-    "session",
     "simulate",
     "sweep",
     "validate",
@@ -154,8 +151,6 @@ def walk(words: Sequence[str], files: _Files) -> Results: ...
 def simulate(words: Sequence[str], files: _Files) -> Results: ...
 def sweep(words: Sequence[str], files: _Files) -> Results: ...
 def validate(words: Sequence[str], files: _Files) -> Results: ...
-def batch(words: Sequence[str], files: _Files) -> Path: ...
-def session(words: Sequence[str], files: _Files) -> Results: ...
 def calibrate(words: Sequence[str], files: _Files) -> bytes: ...
 def open(folder: _Path) -> Results: ...
 def read(path: _Path) -> bytes: ...

@@ -5,7 +5,6 @@
 
 mod block;
 mod contract;
-mod live;
 mod session;
 mod shell;
 mod view;
@@ -15,7 +14,6 @@ use contract::FORMAT;
 
 pub use block::Block;
 pub use contract::*;
-pub use live::{LivePageError, live_page};
 
 /// Writes `report.html` for a folder, compared with up to two other folders.
 ///
@@ -33,5 +31,5 @@ pub fn report_page(folders: &[Folder<'_>]) -> Result<String, ResultsError> {
     }
     let title = sessions.iter().map(|session| session.name.as_str()).collect::<Vec<_>>().join(" / ");
     let page = Page { format: FORMAT, program: env!("CARGO_PKG_VERSION").to_owned(), title, sessions };
-    shell::html(&page, &block, shell::Kind::Report)
+    shell::html(&page, &block)
 }

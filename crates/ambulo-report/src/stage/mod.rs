@@ -22,8 +22,7 @@ mod torque;
 mod trunk;
 
 pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
-pub use path::quaternion;
-pub(crate) use path::{BodyPath, upward_to};
+pub(crate) use path::BodyPath;
 
 use super::page::ViewShape;
 use ambulo::model::Side;

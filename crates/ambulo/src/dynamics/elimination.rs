@@ -33,7 +33,7 @@
 //! Cost: linear in bodies on forests.
 //! Pinned by: tests/elimination.rs
 
-use super::block::{Block, BodyTerms, Six, Symmetric, carry, factor_small, solve_small, transport};
+use super::block::{Block, BodyTerms, Six, carry, factor_small, solve_small, transport};
 use super::elimination_order::{BlockRef, Elimination, Link, LinkTerms, Step};
 use crate::spatial::Vec3;
 use std::ops::Range;
@@ -45,7 +45,7 @@ const ROUNDING: f64 = 1e-14;
 #[derive(Debug, Clone, Default)]
 pub struct EliminationWorkspace {
     /// A_cc at the time when the body is eliminated.
-    diagonal: Vec<Symmetric>,
+    diagonal: Vec<Block>,
     off: Vec<Block>,
     /// G_p, one row per coordinate.
     g_parent: Vec<Six>,
@@ -65,7 +65,7 @@ impl EliminationWorkspace {
         assert_eq!(bodies.len(), elimination.bodies(), "one entry per body");
         let coordinates = elimination.coordinates();
         self.inertialess = 0;
-        self.diagonal.resize(bodies.len(), Symmetric::ZERO);
+        self.diagonal.resize(bodies.len(), Block::ZERO);
         self.carried.clear();
         self.carried.resize(bodies.len(), (0.0, 0.0));
         self.g_parent.resize(coordinates, Six::zeros());
@@ -77,12 +77,18 @@ impl EliminationWorkspace {
             *row = [0.0; 6];
         }
         for (block, body) in self.diagonal.iter_mut().zip(bodies) {
-            *block = Symmetric::of(body);
+            *block = Block::ZERO;
+            for i in 0..3 {
+                for j in 0..3 {
+                    block.0[i][j] = body.inertia[(i, j)];
+                }
+                block.0[3 + i][3 + i] = body.mass;
+            }
         }
     }
 
     /// The diagonal block of a body.
-    pub(crate) fn diagonal_mut(&mut self, body: usize) -> &mut Symmetric {
+    pub(crate) fn diagonal_mut(&mut self, body: usize) -> &mut Block {
         &mut self.diagonal[body]
     }
 
@@ -108,7 +114,8 @@ impl EliminationWorkspace {
     /// Adds the size of a body's diagonal to its parent's.
     #[inline(always)]
     fn hang(&mut self, body: usize, parent: usize, arm: &Vec3) {
-        let (angular, linear) = self.diagonal[body].traces();
+        let Block(own) = &self.diagonal[body];
+        let (angular, linear) = (own[0][0] + own[1][1] + own[2][2], own[3][3] + own[4][4] + own[5][5]);
         self.carried[parent].0 += linear;
         self.carried[parent].1 += angular + linear * arm.norm_squared();
     }
@@ -155,7 +162,9 @@ impl Elimination {
             w.g_parent[k] = carry(&u, arm);
             passed.add_outer(&u, &u, -inverse);
         }
-        w.diagonal[parent].add(&passed.carried(arm));
+        passed.carry_rows(arm);
+        passed.carry_columns(arm);
+        w.diagonal[parent].add(&passed);
         w.hang(body, parent, arm);
     }
 
@@ -190,13 +199,16 @@ impl Elimination {
             for k in 0..f {
                 w.g_parent[range.start + k] = carry(&u[k], arm);
             }
-            let mut passed = own.carried(arm);
+            let mut passed = own;
+            passed.carry_rows(arm);
+            passed.carry_columns(arm);
             if let Some(mut block) = with_parent {
                 for k in 0..f {
                     w.g_parent[range.start + k] += block.transpose_times(&s[k]);
                 }
                 block.carry_rows(arm);
-                passed.add_with_transpose(&block);
+                passed.add(&block);
+                passed.add_transposed(&block);
             }
             w.diagonal[parent].add(&passed);
             w.hang(step.body, parent, arm);

@@ -12,8 +12,6 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-use crate::numerics::elementary::{powf, sin_cos};
-
 /// A number with two time derivatives: x [unit], x' [unit/s], x'' [unit/s²].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Jet {
@@ -50,7 +48,7 @@ impl Jet {
     /// xᵖ for x > 0.
     #[must_use]
     pub fn power(self, p: f64) -> Jet {
-        let value = powf(self.value, p);
+        let value = self.value.powf(p);
         let slope = p * value / self.value;
         self.through([value, slope, (p - 1.0) * slope / self.value])
     }
@@ -65,7 +63,7 @@ impl Jet {
     /// Sine and cosine of an angle [rad].
     #[must_use]
     pub fn sin_cos(self) -> (Jet, Jet) {
-        let (sin, cos) = sin_cos(self.value);
+        let (sin, cos) = self.value.sin_cos();
         (self.through([sin, cos, -sin]), self.through([cos, -sin, -cos]))
     }
 }

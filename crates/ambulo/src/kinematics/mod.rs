@@ -11,6 +11,7 @@ mod body_motion;
 mod clinical_angles;
 mod flight_gravity;
 pub(crate) mod lanes;
+mod sin_cos;
 pub(crate) mod skeleton_body;
 pub(crate) mod sweep;
 

@@ -12,7 +12,7 @@
 use super::knots::Knots;
 
 /// Cubic spline through knots, with linear extrapolation.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct SimmSpline {
     knots: Knots,
     /// Second derivative at each knot.

@@ -2,8 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use crate::numerics::elementary::{self, sin_cos};
-
 /// Mean and harmonics of values over whole cycles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Harmonics {
@@ -27,18 +25,14 @@ impl Harmonics {
             };
             (1..=count).map(part).collect()
         };
-        Harmonics {
-            mean: values.iter().sum::<f64>() / samples,
-            cosine: along(elementary::cos),
-            sine: along(elementary::sin),
-        }
+        Harmonics { mean: values.iter().sum::<f64>() / samples, cosine: along(f64::cos), sine: along(f64::sin) }
     }
 
     /// The value at a phase [cycles].
     #[must_use]
     pub fn at(&self, phase: f64) -> f64 {
         let waves = self.cosine.iter().zip(&self.sine).zip(1..).map(|((cosine, sine), k)| {
-            let (sin, cos) = sin_cos(TAU * f64::from(k) * phase);
+            let (sin, cos) = (TAU * f64::from(k) * phase).sin_cos();
             cosine * cos + sine * sin
         });
         self.mean + waves.sum::<f64>()

@@ -3,7 +3,6 @@
 use super::error::OptimalWalkError;
 use crate::model::anthropometry::Human;
 use crate::model::{Model, ModelError, Side};
-use crate::numerics::elementary::atan;
 use crate::spatial::Vec3;
 use crate::toml_reader::{Source, Table, TomlError, listed};
 
@@ -152,7 +151,7 @@ impl WalkConditions {
     /// Angle of the ground [rad]; positive is uphill.
     #[must_use]
     pub fn incline(&self) -> f64 {
-        atan(self.slope)
+        self.slope.atan()
     }
 
     /// As [`WalkConditions::of_joints`], with all numbers in their ranges.

@@ -1,6 +1,5 @@
 //! The base of support in the horizontal plane, and the distance of a point outside it.
 
-use crate::numerics::elementary::hypot;
 use crate::spatial::Vec3;
 
 /// Convex hull of discs around sole points.
@@ -38,7 +37,7 @@ impl BaseOfSupport {
 }
 
 fn length([x, y]: [f64; 2]) -> f64 {
-    hypot(x, y)
+    x.hypot(y)
 }
 
 /// Twice the area of a triangle, positive if counterclockwise.

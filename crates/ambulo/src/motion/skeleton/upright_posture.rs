@@ -10,7 +10,6 @@ use super::body_joints::{BodyJoint, BodyJoints};
 use super::poses::Skeleton;
 use crate::findings::{Code, Findings};
 use crate::model::Side;
-use crate::numerics::elementary::asin;
 use crate::spatial::{Pose, Vec3};
 
 /// Largest number of frames in the mean posture.
@@ -136,7 +135,7 @@ fn name_of_pose(poses: &[Pose], body_joints: &BodyJoints, up: Vec3) -> Option<&'
         if is_straight.iter().any(|cosine| *cosine < STRAIGHT) {
             return None;
         }
-        below.push(-asin(arm.dot(&up).clamp(-1.0, 1.0)));
+        below.push(-arm.dot(&up).clamp(-1.0, 1.0).asin());
     }
     let [one, other] = below[..] else { return None };
     let is_pose =

@@ -4,7 +4,6 @@ use super::gain::{Gain, GainError, rounded};
 use super::outcome::{Sums, TrialOutcome};
 use super::push::{PUSH_S, Push};
 use crate::model::anthropometry::Human;
-use crate::numerics::elementary::{exp, ln};
 use crate::optimal::Solution;
 use crate::simulation::StepSettings;
 use crate::simulation::control::riccati::StepMap;
@@ -90,11 +89,11 @@ impl TuningProblem {
         let (mut settings, mut outside) = (self.start.clone(), 0.0);
         for (gain, &wanted) in self.gains.iter().zip(point) {
             let start = gain.value(&self.start);
-            let [least, most] = gain.bounds.map(|bound| ln(bound / start));
+            let [least, most] = gain.bounds.map(|bound| (bound / start).ln());
             let x = wanted.clamp(least, most);
             outside += (wanted - x).powi(2);
             if x.abs() > 0.0 {
-                gain.set(&mut settings, rounded(start * exp(x)));
+                gain.set(&mut settings, rounded(start * x.exp()));
             }
         }
         (settings, outside)

@@ -1,2 +1,0 @@
-export function program(): string;
-export function makePages(folder: string): string;
