@@ -8,7 +8,7 @@ const repository = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const recording = join(repository, "crates/ambulo-cli/tests/recording");
 
 /** Path of the program: the variable AMBULO, or else the program built last. */
-function program() {
+export function program() {
   const built = ["release", "debug"].map((profile) => join(repository, "target", profile, "ambulo")).filter(existsSync);
   built.sort((a, b) => statSync(b).mtimeMs - statSync(a).mtimeMs);
   const found = process.env.AMBULO ?? built[0];

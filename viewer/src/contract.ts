@@ -696,3 +696,91 @@ place: [number, number, number],
  * Whose side.
  */
 side: PageSide | null, };
+
+export type LivePage = { 
+/**
+ * Frame rate [Hz].
+ */
+rate_hz: number, 
+/**
+ * Time from a frame to its results [ms].
+ */
+delay_ms: number, 
+/**
+ * Ground forces on the feet, in the order of `forces` of the view.
+ */
+forces: Array<LiveForce>, 
+/**
+ * Curves of the last seconds.
+ */
+panels: Array<LivePanel>, };
+
+export type LiveForce = { 
+/**
+ * The force, world [N]: x, y, z.
+ */
+force: [number, number, number], 
+/**
+ * Its centre of pressure, world [m].
+ */
+point: [number, number, number], };
+
+export type LivePanel = { 
+/**
+ * `Knee moment`.
+ */
+title: string, 
+/**
+ * Unit of the values.
+ */
+unit: string, 
+/**
+ * A curve per side.
+ */
+curves: Array<LiveCurve>, };
+
+export type LiveCurve = { 
+/**
+ * Whose side.
+ */
+side: PageSide, 
+/**
+ * Place of its value.
+ */
+column: number, 
+/**
+ * Place of its standard deviation.
+ */
+sd: number | null, };
+
+export type LiveFrame = { 
+/**
+ * Its number.
+ */
+frame: number, 
+/**
+ * Its time [s].
+ */
+time_s: number, 
+/**
+ * The values of its results.
+ */
+values: Array<number>, 
+/**
+ * Position [m] and orientation of every body of the view, as there: 7 numbers each; nothing while the body is not known.
+ */
+poses: Array<number>, 
+/**
+ * Frames that did not arrive so far.
+ */
+lost: number, };
+
+export type LiveState = { 
+/**
+ * `waiting`, `running` or `ended`.
+ */
+state: string, 
+/**
+ * The same in a sentence.
+ */
+message: string, };

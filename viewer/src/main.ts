@@ -10,6 +10,7 @@ import { about, header } from "./header";
 import { helpDialog } from "./help";
 import { listenToKeys } from "./keyboard";
 import { legend } from "./legend";
+import { live, livePage } from "./live";
 import { machines } from "./machines";
 import { Panels } from "./panels";
 import { prepareForPaper } from "./paper";
@@ -39,6 +40,11 @@ async function main(root: HTMLElement): Promise<void> {
   const [first] = page.sessions;
   if (!first) {
     throw new Error("This report contains no motion. Make the report again with `ambulo report`.");
+  }
+  const arriving = livePage();
+  if (arriving) {
+    live(root, page, numbers, arriving);
+    return ready();
   }
   document.documentElement.toggleAttribute("data-compared", page.sessions.length > 1);
   const context: Context = { page, first, numbers, clock: new Clock(first.time), display: new Display() };

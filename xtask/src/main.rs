@@ -13,6 +13,7 @@ mod house;
 mod measured;
 mod mutants;
 mod python;
+mod stream_cost;
 mod sweep;
 mod web;
 mod workspace;
@@ -40,6 +41,8 @@ usage: cargo xtask <command>
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   batch-cost        measure processor time, memory and bytes per trial of `ambulo batch`, and print what 70 h and 288 h of motion cost
                     [--kills: and compute 10,000 trials with ten kills]
+  stream-cost       measure latency, processor time and memory of `ambulo stream` from end to end, in real time  [--seconds S]
+                    [--hours H: and the memory over so many hours of motion, as fast as they are taken]
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/measured/BENCHMARKS.md] [--without-peers]
@@ -74,8 +77,19 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 10] =
-    ["check", "house", "build-time", "measured", "mutants", "python", "web", "dist", "sweep", "batch-cost"];
+const OWN: [&str; 11] = [
+    "check",
+    "house",
+    "build-time",
+    "measured",
+    "mutants",
+    "python",
+    "web",
+    "dist",
+    "sweep",
+    "batch-cost",
+    "stream-cost",
+];
 
 /// Commands of the crate `xtask-measure`.
 const MEASUREMENTS: [&str; 21] = [
@@ -119,6 +133,7 @@ fn main() -> ExitCode {
         ("dist", _) => dist::run(rest),
         ("sweep", []) => sweep::run(),
         ("batch-cost", _) => batch_cost::run(rest),
+        ("stream-cost", _) => stream_cost::run(rest),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),
         ("help" | "--help" | "-h", []) => {

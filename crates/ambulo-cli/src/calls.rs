@@ -12,7 +12,7 @@ use ambulo::study::LaboratoryFile;
 use ambulo_formats::table::Table;
 use anyhow::Result as AnyResult;
 use clap::Parser;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The results of `ambulo forces` with these words.
 ///
@@ -65,6 +65,34 @@ pub fn sweep(words: &[String], caller: &Caller) -> Result<Results, Failure> {
 pub fn validate(words: &[String], caller: &Caller) -> Result<Results, Failure> {
     named(words, || match parsed("validate", words)? {
         Command::Validate(args) => Ok(commands::validate::compute(&args, caller)?.into()),
+        _ => Err(other_verb()),
+    })
+}
+
+/// Computes what `ambulo batch` computes with these words, and returns the folder of its tables. Nothing is printed if the words have `--quiet`.
+///
+/// # Errors
+/// Those of the command; a batch that the caller stopped.
+pub fn batch(words: &[String], caller: &Caller) -> Result<PathBuf, Failure> {
+    named(words, || match parsed("batch", words)? {
+        Command::Batch(args) => {
+            commands::batch::compute(&args, caller)?;
+            Ok(args.output)
+        }
+        _ => Err(other_verb()),
+    })
+}
+
+/// Computes what `ambulo session` computes with these words, and returns the results in its folder. Nothing is printed if the words have `--quiet`.
+///
+/// # Errors
+/// Those of the command; a session that the caller stopped.
+pub fn session(words: &[String], caller: &Caller) -> Result<Results, Failure> {
+    named(words, || match parsed("session", words)? {
+        Command::Session(args) => {
+            commands::session::compute(&args, caller)?;
+            Ok(Results::of_folder(&args.output)?)
+        }
         _ => Err(other_verb()),
     })
 }

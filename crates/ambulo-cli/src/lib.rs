@@ -4,6 +4,11 @@
 //! verbs of these names from the same words and return the results instead of writing them, for bindings to other languages; [`open`] reads a
 //! folder again.
 
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
+)]
+
 mod args;
 mod bug_report;
 mod caller;
@@ -18,7 +23,9 @@ mod record;
 mod replacement;
 
 pub use caller::Caller;
-pub use calls::{calibrate, forces, laboratory, model, open, read, simulate, sweep, table, validate, walk};
+pub use calls::{
+    batch, calibrate, forces, laboratory, model, open, read, session, simulate, sweep, table, validate, walk,
+};
 pub use commands::Results;
 pub use failure::Failure;
 

@@ -8,6 +8,8 @@
 //! | shards compute every trial once                                                        | exact                            |
 //! | another batch, changed inputs, a run at the same time, a full disk are refused by name | exact                            |
 //! | a motion that is spoiled is ranked before the good one, with the reason                 | exact                            |
+//! | a part without results has no file of frames, and stays closed                          | exact                            |
+//! | a model that is read and scaled once gives each trial the results of `ambulo forces`     | single precision                 |
 //! | the page is written when all shards are complete, with the same bytes                  | exact                            |
 //! | the error against one plate is in the column of the foot that stood on it              | exact                            |
 
@@ -148,6 +150,84 @@ fn shards_compute_every_trial_once() {
     for wrong in ["2/2", "-1/2", "1", "0/0", "a/b"] {
         bench.run(&["batch", "set", "--shard", wrong]).refused(&["I/N", "0/4"]);
     }
+}
+
+#[test]
+fn a_part_without_results_has_no_frames_and_stays_closed() {
+    let bench = set("batch_part_without_results");
+    // The second trial of the list is alone in its part and cannot be computed.
+    bench.write("list.csv", "file,model\nset/person 0/walk.mot,set/person 0/figure.osim\nset/person 1/broken.c3d,\n");
+    let words = ["batch", "list.csv", "--part", "1", "--quiet", "-o", "out", "--resume"];
+    bench.run(&words).done();
+    let found = tables(&bench, "out");
+    let names: Vec<&str> = found.keys().map(String::as_str).filter(|name| name.contains("00001")).collect();
+    assert_eq!(names, ["cycles", "events", "trials"].map(|table| format!("{table}/part-000-00001.parquet")));
+    let closed =
+        |part: &str| fs::metadata(bench.folder.join(format!("out/trials/{part}"))).unwrap().modified().unwrap();
+    let before = closed("part-000-00001.parquet");
+    // What an interrupted run may have left of an open part goes.
+    fs::remove_file(bench.folder.join("out/trials/part-000-00000.parquet")).unwrap();
+    bench.run(&words).done();
+    assert_eq!(closed("part-000-00001.parquet"), before, "a part that is closed is not computed again");
+    fs::remove_file(bench.folder.join("out/trials/part-000-00001.parquet")).unwrap();
+    bench.write("out/frames/part-000-00001.parquet", "torn");
+    bench.run(&words).done();
+    assert!(tables(&bench, "out") == found);
+}
+
+/// The markers of a TRC at rest where they are in the first frame.
+fn frozen(trc: &str) -> String {
+    let is_row = |line: &str| line.split('\t').next().is_some_and(|cell| cell.parse::<u32>().is_ok());
+    let place = |line: &str| line.splitn(3, '\t').nth(2).unwrap_or_default().to_owned();
+    // The third line also begins with a number: rates and counts.
+    let first = trc.lines().skip(3).find(|line| is_row(line)).map(place).unwrap();
+    let row = |(k, line): (usize, &str)| match k >= 3 && is_row(line) {
+        true => format!("{}\t{first}\n", line.splitn(3, '\t').take(2).collect::<Vec<_>>().join("\t")),
+        false => format!("{line}\n"),
+    };
+    trc.lines().enumerate().map(row).collect()
+}
+
+#[test]
+fn trials_that_share_a_scaled_model_have_the_results_of_each_alone() {
+    let bench = Workbench::empty("batch_one_model").removed_at_the_end();
+    bench.run(&["demo", "-o", "demo", "--quiet", "--keep", "recording"]).done();
+    bench.write("figure.osim", bench.read("demo/input/figure.osim"));
+    bench.write("standing.trc", frozen(&bench.text("demo/input/walk.trc")));
+    // Two trials of one person, and the same with another mass.
+    let lines = [70, 70, 90].iter().enumerate().map(|(k, mass)| {
+        bench.write(&format!("walk{k}.trc"), bench.read("demo/input/walk.trc"));
+        format!("walk{k}.trc,figure.osim,standing.trc,{mass}\n")
+    });
+    let list = "file,model,static,mass\n".to_owned() + &lines.collect::<String>();
+    bench.write("list.csv", &list);
+    bench.run(&["batch", "list.csv", "-o", "out", "--quiet", "--jobs", "1"]).done();
+    let table = ParquetTable::read(&bench.read("out/trials/part-000-00000.parquet")).unwrap();
+    let frames = ParquetTable::read(&bench.read("out/frames/part-000-00000.parquet")).unwrap();
+    let (keys, rows) = (texts(&table, "key"), texts(&frames, "key"));
+    let findings = texts(&table, "findings");
+    let Some(ColumnValues::Single(found)) = frames.column("knee_angle_r_moment") else { panic!("no moments") };
+    let of = |k: usize| -> Vec<f32> {
+        rows.iter().zip(found).filter(|(key, _)| **key == keys[k]).map(|(_, value)| *value).collect()
+    };
+    let own = |k: usize, mass: &str| {
+        let folder = format!("one{k}");
+        let walk = format!("walk{k}.trc");
+        let words =
+            ["forces", &walk, "--model", "figure.osim", "--static", "standing.trc", "--mass", mass, "-o", &folder];
+        bench.run(&words).done();
+        let table = bench.table(&format!("{folder}/moments.sto"));
+        table.columns().find(|(name, _)| *name == "knee_angle_r_moment").unwrap().1.to_vec()
+    };
+    for (k, mass) in ["70", "70", "90"].into_iter().enumerate() {
+        let expected: Vec<f32> = own(k, mass).iter().map(|value| *value as f32).collect();
+        assert_eq!(of(k), expected, "trial {k}");
+    }
+    assert_eq!(of(0), of(1), "the same trial twice");
+    assert_ne!(of(1), of(2), "another mass is another body");
+    // Findings of reading and scaling are those of each trial.
+    let scaled = |k: usize| findings[k].as_ref().unwrap().matches("the model was scaled to the standing trial").count();
+    assert_eq!([scaled(0), scaled(1), scaled(2)], [1; 3], "{findings:?}");
 }
 
 #[test]

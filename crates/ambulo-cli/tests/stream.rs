@@ -5,9 +5,15 @@
 //! | a replayed recording has the forces of `ambulo forces` on all of it           | 8 % of body weight, as docs/STREAMING.md says |
 //! | lines and records, standard input, TCP and UDP have the same numbers          | exact; records of single precision 0.5 N     |
 //! | lost, doubled, late and broken frames: each is named, the others have results | exact                                        |
+//! | markers of a C3D from another process have the forces of the batch           | 60 N                                         |
+//! | the live page gets the results; an idle browser changes none                  | exact                                        |
 //! | a port in use and a wrong address are refused by name                         | exact                                        |
 
+use crate::shared_data::data;
 use crate::workbench::Workbench;
+use ambulo::findings::Findings;
+use ambulo::motion::{MarkerPath, MarkerRecording, markers_from_c3d};
+use ambulo_formats::c3d::C3d;
 use ambulo_formats::table::Table;
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Read, Write};
@@ -261,4 +267,126 @@ fn what_cannot_be_streamed_is_refused_by_name() {
     let (answers, _) = piped(&bench, vec!["{\"coordinates\": [\"elbow\"]}\n".to_owned()]);
     let message = answers[1]["message"].as_str().unwrap();
     assert!(message.contains("no coordinate `elbow`") && message.contains("hip_flexion_r"), "{message}");
+}
+
+/// Lines of the markers of a C3D: names and unit, then a frame each.
+fn marker_lines(recording: &MarkerRecording, axes: &str) -> Vec<String> {
+    let names: Vec<&str> = recording.markers.iter().map(|marker| marker.name.as_str()).collect();
+    let place = |frame: usize, marker: &MarkerPath| {
+        let at = marker.positions[frame] * 1000.0;
+        if at.x.is_finite() { json!([at.x, at.y, at.z]) } else { Value::Null }
+    };
+    let line = |frame: usize| {
+        let places: Vec<Value> = recording.markers.iter().map(|marker| place(frame, marker)).collect();
+        format!("{}\n", json!({ "frame": frame, "markers": places }))
+    };
+    let heading = format!("{}\n", json!({ "markers": names, "unit": "mm", "axes": axes }));
+    [heading].into_iter().chain((0..recording.frames()).map(line)).collect()
+}
+
+#[test]
+fn the_markers_of_a_c3d_from_another_process_have_the_forces_of_the_batch() {
+    let Some(data) = data() else { return };
+    let bench = Workbench::empty("stream_markers").removed_at_the_end();
+    let file = |name: &str| data.join("biomechzoo-HC032A").join(name).display().to_string();
+    let (walk, standing) = (file("HC032A03.c3d"), file("HC032A01.c3d"));
+    let batch =
+        ["forces", &walk, "--static", &standing, "--predict", "--keep", "tables,model", "--quiet", "-o", "whole"];
+    assert_eq!(bench.run(&batch).code, Some(0));
+    let (c3d, _) = C3d::read(&std::fs::read(&walk).unwrap()).unwrap();
+    let recording = markers_from_c3d(&c3d, &mut Findings::default()).unwrap();
+    let rate = recording.rate_hz.to_string();
+    let mut command = bench.command(&["stream", "whole/subject.osim", "--rate", &rate, "--markers"]);
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let lines = marker_lines(&recording, "+y,+z");
+    let sender = std::thread::spawn(move || lines.iter().for_each(|line| input.write_all(line.as_bytes()).unwrap()));
+    let output = child.wait_with_output().unwrap();
+    sender.join().unwrap();
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{errors}");
+    let answers = answers(&output.stdout);
+    let results = results(&answers);
+    assert!(results.len() + 10 > recording.frames(), "{} of {}: {errors}", results.len(), recording.frames());
+    let columns: Vec<&str> = answers[0]["columns"].as_array().unwrap().iter().map(|c| c.as_str().unwrap()).collect();
+    let whole: Table = bench.table("whole/grf.mot");
+    let times = whole.column("time").unwrap();
+    for name in ["ground_force_r_vy", "ground_force_l_vy"] {
+        let place = columns.iter().position(|column| *column == name).unwrap();
+        let expected = whole.column(name).unwrap();
+        let (mut squares, mut count, mut largest) = (0.0, 0.0, 0.0_f64);
+        for (time, force) in times.iter().zip(expected).filter(|(time, _)| **time > times[0] + 0.8) {
+            let frame = ((time - recording.times[0]) * recording.rate_hz).round() as u64;
+            let Some((_, values)) = results.iter().find(|(number, _)| *number == frame) else { continue };
+            squares += (values[place] - force).powi(2);
+            count += 1.0;
+            largest = largest.max(values[place]);
+        }
+        let difference = f64::sqrt(squares / count);
+        println!("{name}: {difference:.0} N from the batch over {count} frames, largest {largest:.0} N");
+        assert!(count > 100.0 && largest > 400.0 && difference < 60.0, "{name}: {difference}");
+    }
+}
+
+#[test]
+fn frames_of_markers_are_checked_and_missing_markers_survived() {
+    let bench = Workbench::new("stream_marker_frames");
+    let refused = bench.run(&["stream", "figure.osim", "--rate", "100", "--unit", "mm"]);
+    assert!(refused.code == Some(2) && refused.stderr.contains("--markers"), "{}", refused.stderr);
+    let axes = bench.run(&["stream", "figure.osim", "--rate", "100", "--markers", "--axes", "+y,-y"]);
+    assert!(axes.code == Some(2) && axes.stderr.contains("+y,+z"), "{}", axes.stderr);
+    let (answers, _) = piped(&bench, vec!["{\"frame\": 0, \"markers\": [[0, 0, 0]]}\n".to_owned()]);
+    assert!(answers[1]["message"].as_str().unwrap().contains("--markers takes markers"), "{answers:?}");
+}
+
+/// The address of the live page that the first line names.
+fn page_address(child: &mut Child) -> SocketAddr {
+    let mut errors = BufReader::new(child.stderr.take().unwrap());
+    let mut first = String::new();
+    errors.read_line(&mut first).unwrap();
+    std::thread::spawn(move || errors.read_to_end(&mut Vec::new()));
+    let address =
+        first.split("http://").nth(1).and_then(|rest| rest.split('/').next()).unwrap_or_else(|| panic!("{first}"));
+    address.parse().unwrap()
+}
+
+fn get(address: SocketAddr, path: &str) -> TcpStream {
+    let mut link = TcpStream::connect(address).unwrap();
+    link.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+    write!(link, "GET {path} HTTP/1.1\r\nHost: {address}\r\n\r\n").unwrap();
+    link
+}
+
+#[test]
+fn the_live_page_gets_the_results_and_an_idle_browser_changes_none() {
+    let bench = Workbench::new("stream_page");
+    let lines = replay(&bench, FEW);
+    let (without, _) = piped(&bench, lines.clone());
+    let mut child = started(&bench, &["--page"]);
+    let mut input = child.stdin.take().unwrap();
+    let address = page_address(&mut child);
+    let mut page = String::new();
+    get(address, "/").read_to_string(&mut page).unwrap();
+    assert!(page.starts_with("HTTP/1.1 200 OK") && page.contains("id=\"ambulo-live\""), "{}", &page[..200]);
+    let _idle = get(address, "/events");
+    let mut events = BufReader::new(get(address, "/events")).lines().map(Result::unwrap);
+    let mut data = |kind: &str| {
+        let is_kind = |line: &String| *line == format!("event: {kind}");
+        events.by_ref().find(is_kind).unwrap();
+        serde_json::from_str::<Value>(events.next().unwrap().strip_prefix("data: ").unwrap()).unwrap()
+    };
+    assert_eq!(data("state")["state"], "waiting");
+    let in_use = bench.run(&[&STREAM[..], &[&format!("--page={}", address.port())]].concat());
+    in_use.refused(&["page port", "is in use by another program"]);
+    let sender = std::thread::spawn(move || lines.iter().for_each(|line| input.write_all(line.as_bytes()).unwrap()));
+    assert_eq!(data("state")["state"], "running");
+    let output = child.wait_with_output().unwrap();
+    sender.join().unwrap();
+    assert_eq!(answers(&output.stdout), without, "the page changes no result");
+    let shown = data("frame");
+    let expected = results(&without).into_iter().find(|(frame, _)| Some(*frame) == shown["frame"].as_u64()).unwrap();
+    let values: Vec<f64> = shown["values"].as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect();
+    assert_eq!(values, expected.1);
+    assert_eq!(shown["poses"].as_array().unwrap().len() % 7, 0);
+    assert_eq!(data("state")["state"], "ended");
 }

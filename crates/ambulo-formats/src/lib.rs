@@ -19,6 +19,11 @@
 //! | `parquet` (with the feature of this name) | columns of Apache Parquet `.parquet` | yes | yes |
 //! | [`setup`] | OpenSim set-ups of scaling, inverse kinematics and inverse dynamics | yes | no |
 
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
+)]
+
 pub mod b3d;
 pub mod bids_motion;
 pub mod bvh;

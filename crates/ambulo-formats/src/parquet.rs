@@ -9,14 +9,14 @@
 use crate::error::Error;
 use bytes::Bytes;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::column::writer::ColumnWriter;
-use parquet::data_type::ByteArray;
+use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
-use parquet::record::Field;
 use parquet::schema::types::Type;
 use std::sync::Arc;
 
@@ -89,8 +89,14 @@ impl ParquetTable {
         self.bytes().map_err(|error| failed(&error))
     }
 
+    /// Number of rows: values of the first column.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+
     fn check(&self) -> Result<(), Error> {
-        let rows = self.columns.first().map_or(0, |column| column.values.len());
+        let rows = self.rows();
         for (k, column) in self.columns.iter().enumerate() {
             let found = column.values.len();
             if found != rows {
@@ -178,7 +184,14 @@ impl ParquetTable {
         let schema = metadata.schema_descr();
         let mut columns = Vec::with_capacity(schema.num_columns());
         for column in schema.columns() {
+            let nested = column.max_rep_level() > 0 || column.max_def_level() > 1;
             let values = match column.physical_type() {
+                _ if nested => {
+                    return Err(Error::Record {
+                        found: format!("the nested column `{}`", column.path()),
+                        expected: "one value per row and column".into(),
+                    });
+                }
                 Physical::BYTE_ARRAY => ColumnValues::Text(Vec::new()),
                 Physical::INT64 => ColumnValues::Whole(Vec::new()),
                 Physical::DOUBLE => ColumnValues::Double(Vec::new()),
@@ -192,10 +205,12 @@ impl ParquetTable {
             };
             columns.push(Column { name: column.name().to_owned(), values });
         }
-        for row in reader.get_row_iter(None).map_err(|error| failed(&error))? {
-            let row = row.map_err(|error| failed(&error))?;
-            for (column, (_, field)) in columns.iter_mut().zip(row.get_column_iter()) {
-                column.values.push(field);
+        for k in 0..reader.num_row_groups() {
+            let group = reader.get_row_group(k).map_err(|error| failed(&error))?;
+            let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+            for (i, column) in columns.iter_mut().enumerate() {
+                let values = group.get_column_reader(i).and_then(|values| column.values.extend(values, rows));
+                values.map_err(|error| failed(&error))?;
             }
         }
         Ok(ParquetTable { columns, about })
@@ -215,19 +230,43 @@ impl ParquetTable {
 }
 
 impl ColumnValues {
-    /// Adds a value, missing if it is of another type.
-    fn push(&mut self, field: &Field) {
-        match (self, field) {
-            (ColumnValues::Text(values), Field::Str(text)) => values.push(Some(text.clone())),
-            (ColumnValues::Text(values), _) => values.push(None),
-            (ColumnValues::Whole(values), Field::Long(value)) => values.push(Some(*value)),
-            (ColumnValues::Whole(values), _) => values.push(None),
-            (ColumnValues::Double(values), Field::Double(value)) => values.push(*value),
-            (ColumnValues::Double(values), _) => values.push(f64::NAN),
-            (ColumnValues::Single(values), Field::Float(value)) => values.push(*value),
-            (ColumnValues::Single(values), _) => values.push(f32::NAN),
+    /// Adds the values of a group of rows. Columns are read whole, not row by row: readers of rows are a large part of the crate.
+    fn extend(&mut self, reader: ColumnReader, rows: usize) -> Result<(), ParquetError> {
+        match (self, reader) {
+            (ColumnValues::Text(values), ColumnReader::ByteArrayColumnReader(reader)) => {
+                for value in known(reader, rows)? {
+                    values.push(value.map(|text| text.as_utf8().map(str::to_owned)).transpose()?);
+                }
+            }
+            (ColumnValues::Whole(values), ColumnReader::Int64ColumnReader(reader)) => {
+                values.extend(known(reader, rows)?);
+            }
+            (ColumnValues::Double(values), ColumnReader::DoubleColumnReader(reader)) => {
+                values.extend(known(reader, rows)?.into_iter().map(|value| value.unwrap_or(f64::NAN)));
+            }
+            (ColumnValues::Single(values), ColumnReader::FloatColumnReader(reader)) => {
+                values.extend(known(reader, rows)?.into_iter().map(|value| value.unwrap_or(f32::NAN)));
+            }
+            // The column was made from the type in the file.
+            _ => return Err(ParquetError::General("a column of another type".to_owned())),
         }
+        Ok(())
     }
+}
+
+/// One value per row; `None` is missing.
+fn known<T: DataType>(mut reader: ColumnReaderImpl<T>, rows: usize) -> Result<Vec<Option<T::T>>, ParquetError> {
+    let (mut present, mut levels) = (Vec::new(), Vec::new());
+    let (read, _, _) = reader.read_records(rows, Some(&mut levels), None, &mut present)?;
+    if read < rows {
+        return Err(ParquetError::General(format!("a column with {read} values instead of {rows}")));
+    }
+    let mut present = present.into_iter();
+    // A column in which no value can be missing has no levels.
+    if levels.is_empty() {
+        return Ok(present.map(Some).collect());
+    }
+    Ok(levels.into_iter().map(|level| if level > 0 { present.next() } else { None }).collect())
 }
 
 #[cfg(test)]

@@ -66,6 +66,18 @@ pub(crate) fn validate(py: Python<'_>, words: Vec<String>, files: Files) -> PyRe
     computed(py, ambulo_cli::validate, words, &files).map(Results)
 }
 
+/// `ambulo batch`: the folder of its tables.
+#[pyfunction]
+pub(crate) fn batch(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<PathBuf> {
+    computed(py, ambulo_cli::batch, words, &files)
+}
+
+/// `ambulo session`: the results in its folder.
+#[pyfunction]
+pub(crate) fn session(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Results> {
+    computed(py, ambulo_cli::session, words, &files).map(Results)
+}
+
 /// `ambulo calibrate`: the content of its file.
 #[pyfunction]
 pub(crate) fn calibrate(py: Python<'_>, words: Vec<String>, files: Files) -> PyResult<Bound<'_, PyBytes>> {

@@ -16,7 +16,7 @@ mod _ambulo {
     #[pymodule_export]
     use super::arrow::arrow_stream;
     #[pymodule_export]
-    use super::calls::{calibrate, command, forces, open, simulate, sweep, validate, version, walk};
+    use super::calls::{batch, calibrate, command, forces, open, session, simulate, sweep, validate, version, walk};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

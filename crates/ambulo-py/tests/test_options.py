@@ -23,6 +23,8 @@ VERBS = {
     "forces": ambulo.forces,
     "calibrate": ambulo.calibrate_person,
     "validate": ambulo.validate,
+    "batch": ambulo.batch,
+    "session": ambulo.session,
     "walk": ambulo.walk,
     "simulate": ambulo.simulate,
     "sweep": ambulo.sweep,
@@ -37,8 +39,10 @@ def test_every_option_of_the_command_is_an_argument(verb, function, tmp_path):
     arguments = inspect.signature(function).parameters
     assert len(options) > 4
     assert options - OF_COMMANDS - DOUBLED <= set(arguments)
+    # A function that writes a folder names it.
+    assert verb not in ("batch", "session") or "output" in arguments
     # The first arguments are those that the command takes without an option; no option is invented.
-    positional = {"recording", "trials", "folder", "scene"}
+    positional = {"recording", "trials", "folder", "scene", "source", "output", "options"}
     assert set(arguments) <= options | positional
     assert all(value.default in (None, False, inspect.Parameter.empty) or name in RENAMED.values() for name, value in arguments.items())
     for name in arguments:

@@ -1,5 +1,10 @@
 //! Presents results: clinical curves with normative data, figures, the report page, and exchange formats.
 
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
+)]
+
 mod batch;
 pub mod clinical;
 mod clinical_file;
@@ -35,5 +40,6 @@ pub use session::{
     ReferenceSummary, RepresentativeSummary, SESSION_FORMAT, SESSION_PAGE, Session, SessionFacts, SessionSummary,
     SessionTrial, Spread, TrialSummary, VariableSummary, session_from_files,
 };
+pub use stage::quaternion;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
 pub use validation::{ListedTrial, listed_section, validation_files};

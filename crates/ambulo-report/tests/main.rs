@@ -2,6 +2,7 @@
 //!
 //! All are modules of one program, which links faster and takes less space than a program each.
 
+#![allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 

@@ -74,6 +74,11 @@
 //! SI units and radians; world x forward, y up, z to the right; body quantities at the centre of mass in world axes, angular part
 //! before linear; joint moments act from the parent on the child, with the sign of the model's own coordinate (docs/CONVENTIONS.md).
 
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
+)]
+
 /// Readers and writers of files, so that one dependency is enough.
 pub use ambulo_formats as formats;
 

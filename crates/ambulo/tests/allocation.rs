@@ -1,5 +1,6 @@
 //! Nothing is allocated per frame after the first, and what a prediction and a stream hold is bounded: counted by an allocator of this
 //! process.
+#![allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")]
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,

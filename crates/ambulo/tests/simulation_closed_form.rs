@@ -233,6 +233,49 @@ fn every_kind_of_tree_joint_has_its_constraints_and_free_motions() {
 }
 
 #[test]
+fn whatever_turns_inside_a_tree_its_mass_centre_flies_freely() {
+    let missed = |kind: JointKind, pull: Vec3| {
+        let r = &mut Random::new(7);
+        let (mut world, _) = joined(kind, false, r);
+        for body in &mut world.bodies {
+            body.twist = Twist { angular: r.vector(8.0), linear: r.vector(2.0) };
+            body.load = Wrench { moment: r.vector(0.5), force: pull };
+        }
+        let mass: f64 = world.bodies.iter().map(|b| b.mass).sum();
+        let center = |poses: &[Pose]| -> Vec3 {
+            world.bodies.iter().zip(poses).map(|(body, pose)| pose.translation * body.mass).sum::<Vec3>() / mass
+        };
+        let start: Vec<Pose> = world.bodies.iter().map(|b| b.pose).collect();
+        let velocity = world.bodies.iter().map(|b| b.twist.linear * b.mass).sum::<Vec3>() / mass;
+        let (h, t) = (1e-3, 0.3);
+        let mut run = Run::new(world.clone(), h);
+        run.to(t);
+        let expected = center(&start) + velocity * t - v(0.0, 0.5 * G * t * (t + h), 0.0);
+        (center(&run.state.poses) - expected).norm()
+    };
+    for kind in KINDS {
+        let missed = missed(kind, O);
+        assert!(missed < ROUNDING, "{kind:?}: {missed:e}");
+    }
+    assert!(missed(JointKind::Ball, v(0.0, 0.0, 1e-3)) > 1e-6, "a force of 1 mN must show");
+}
+
+#[test]
+fn joints_stay_closed_however_fast_bodies_turn() {
+    for kind in KINDS {
+        let r = &mut Random::new(3);
+        let (mut world, _) = joined(kind, false, r);
+        for body in &mut world.bodies {
+            body.twist.angular = r.vector(300.0);
+        }
+        let mut run = Run::new(world, 1e-3);
+        run.to(0.1);
+        let error = largest_joint_error(&run.world, &run.state);
+        assert!(error < 1e-12, "{kind:?}: {error:e}");
+    }
+}
+
+#[test]
 fn every_kind_of_closure_has_its_constraints_and_free_motions() {
     // A step turns bodies by h ω < 0.03 rad and leaves (h ω)² r/2 of drift, of which the linearised projection leaves the
     // square again: 2e-7.

@@ -1,7 +1,6 @@
 import { Vector3 } from "three";
 import type { Clock } from "../clock";
 import type { Page, View } from "../contract";
-import type { Numbers } from "../numbers";
 import { onThemeChange, theme } from "../style";
 import { type CameraKind, CameraRig } from "./camera";
 import { say } from "./empty";
@@ -9,6 +8,7 @@ import { listen, touchAction } from "./gestures";
 import { addAll, release } from "./layers";
 import { FIRST_OPTIONS, type ViewOptions } from "./options";
 import { palette } from "./palette";
+import type { SeriesReader } from "./reader";
 import { Stage } from "./stage";
 import { toggleBar, togglesOf } from "./toggles";
 import { World } from "./world";
@@ -37,7 +37,7 @@ const NO_WEBGL = "This browser has no WebGL, so the figure cannot be shown in 3-
 const NO_VIEW = "No figure can be shown: the report contains no body poses.";
 
 /** Adds a canvas to the host and keeps it at the clock's time. */
-export function createView(host: HTMLElement, page: Page, numbers: Numbers, clock: Clock): View3D {
+export function createView(host: HTMLElement, page: Page, numbers: SeriesReader, clock: Clock): View3D {
   const view = page.sessions[0]?.view;
   if (!view || view.bodies.length === 0) {
     return nothing(host, NO_VIEW);
@@ -68,7 +68,7 @@ class Picture implements View3D {
     private readonly host: HTMLElement,
     page: Page,
     view: View,
-    numbers: Numbers,
+    numbers: SeriesReader,
     private readonly clock: Clock,
   ) {
     const session = page.sessions[0] as Page["sessions"][number];

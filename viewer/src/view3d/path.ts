@@ -27,7 +27,8 @@ export class Path {
     this.thighs = leading.map((one) => new Motion(one, numbers));
     const half = timeline.step > 0 ? Math.round(HALF_WINDOW_S / timeline.step) : 0;
     const series = body ? [numbers.read(body.position[0]), numbers.read(body.position[2])] : [];
-    const [x, z] = series.map((values) => smoothed(filled(values), half));
+    // A single instant may be that of a stream: its numbers change, so they are not copied.
+    const [x, z] = timeline.frames > 1 ? series.map((values) => smoothed(filled(values), half)) : series;
     this.smoothX = x ?? new Float64Array(1);
     this.smoothZ = z ?? new Float64Array(1);
     this.heading = this.direction(timeline);

@@ -1,5 +1,7 @@
 //! Commands of `cargo xtask` that need the library: benchmarks, validations and fits. Each command is a file of this folder.
 
+#![allow(clippy::disallowed_methods, reason = "measurements are made on one machine")]
+
 mod bench;
 mod claim_shares;
 mod figures;

@@ -17,7 +17,7 @@ pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Adjusted, CalibrateArgs, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use session::SessionArgs;
-pub(crate) use stream::{StreamArgs, StreamFormat};
+pub(crate) use stream::{LabAxes, MarkerUnit, StreamArgs, StreamFormat};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
 pub(crate) use trial_files::TrialFiles;
 pub(crate) use validate::ValidateArgs;

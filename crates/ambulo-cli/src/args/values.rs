@@ -391,13 +391,20 @@ pub(super) fn endpoint(text: &str) -> Result<Endpoint, String> {
         return Ok(Endpoint::Stdin);
     }
     let (kind, place) = text.split_once(':').ok_or(EXPECTED)?;
-    let local = |port: u16| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-    let address = place.parse().map(local).or_else(|_| place.parse()).map_err(|_| EXPECTED)?;
+    let address = local_address(place).map_err(|_| EXPECTED)?;
     match kind {
         "tcp" => Ok(Endpoint::Tcp(address)),
         "udp" => Ok(Endpoint::Udp(address)),
         _ => Err(EXPECTED.into()),
     }
+}
+
+/// A port of this computer, or an address with a port.
+pub(super) fn local_address(text: &str) -> Result<SocketAddr, String> {
+    let local = |port: u16| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+    let address = text.parse().map(local).or_else(|_| text.parse());
+    address
+        .map_err(|_| "expected a port, or an address of this computer with a port, such as 0.0.0.0:8080 for all".into())
 }
 
 /// A time in milliseconds; the library checks its range.

@@ -46,7 +46,7 @@ fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
 
 /// R = Rx(a) Ry(b) Rz(c): body-fixed rotations about x, then the new y, then the new z, as OpenSim's `orientation`.
 fn body_fixed_xyz([a, b, c]: [f64; 3]) -> [[f64; 3]; 3] {
-    let ((sa, ca), (sb, cb), (sc, cc)) = (a.sin_cos(), b.sin_cos(), c.sin_cos());
+    let ((sa, ca), (sb, cb), (sc, cc)) = (libm::sincos(a), libm::sincos(b), libm::sincos(c));
     [
         [cb * cc, -cb * sc, sb],
         [ca * sc + sa * sb * cc, ca * cc - sa * sb * sc, -sa * cb],

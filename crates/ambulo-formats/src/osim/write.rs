@@ -169,8 +169,8 @@ fn frame(name: &str, frame: &OsimFrame) -> Result<String, Error> {
 fn angles(r: &[[f64; 3]; 3]) -> [f64; 3] {
     // Turns -0 into 0, which is different as text.
     let plain = |angle: f64| angle + 0.0;
-    let b = r[0][2].clamp(-1.0, 1.0).asin();
-    [plain((-r[1][2]).atan2(r[2][2])), plain(b), plain((-r[0][1]).atan2(r[0][0]))]
+    let b = libm::asin(r[0][2].clamp(-1.0, 1.0));
+    [plain(libm::atan2(-r[1][2], r[2][2])), plain(b), plain(libm::atan2(-r[0][1], r[0][0]))]
 }
 
 fn axis(number: usize, axis: &OsimAxis) -> Result<String, Error> {

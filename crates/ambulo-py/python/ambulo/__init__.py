@@ -10,7 +10,20 @@ The functions compute what the command ``ambulo`` computes, with the same defaul
 
 from ambulo._ambulo import Model
 from ambulo._ambulo import version as _version
-from ambulo._calls import calibrate, calibrate_person, forces, model, open, simulate, sweep, validate, walk
+from ambulo._batch import Batch, BatchTable
+from ambulo._calls import (
+    batch,
+    calibrate,
+    calibrate_person,
+    forces,
+    model,
+    open,
+    session,
+    simulate,
+    sweep,
+    validate,
+    walk,
+)
 from ambulo._errors import AmbuloError, AmbuloWarning, InputError
 from ambulo._person import Person
 from ambulo._recording import Recording, coordinates, markers, read
@@ -23,6 +36,8 @@ __version__: str = _version()
 __all__ = [
     "AmbuloError",
     "AmbuloWarning",
+    "Batch",
+    "BatchTable",
     "InputError",
     "Model",
     "Person",
@@ -30,6 +45,7 @@ __all__ = [
     "Result",
     "Stream",
     "Table",
+    "batch",
     "calibrate",
     "calibrate_person",
     "coordinates",
@@ -38,6 +54,7 @@ __all__ = [
     "model",
     "open",
     "read",
+    "session",
     "simulate",
     "sweep",
     "validate",

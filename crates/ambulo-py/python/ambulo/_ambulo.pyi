@@ -1,5 +1,6 @@
 from collections.abc import Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, TypedDict, final, type_check_only
 
 import numpy as np
@@ -10,6 +11,7 @@ __all__ = [
     "Results",
     "Stream",
     "arrow_stream",
+    "batch",
     "calibrate",
     "command",
     "forces",
@@ -17,6 +19,7 @@ __all__ = [
     "read",
     "read_markers",
     "read_table",
+    "session",
     "simulate",
     "sweep",
     "validate",
@@ -151,6 +154,8 @@ def walk(words: Sequence[str], files: _Files) -> Results: ...
 def simulate(words: Sequence[str], files: _Files) -> Results: ...
 def sweep(words: Sequence[str], files: _Files) -> Results: ...
 def validate(words: Sequence[str], files: _Files) -> Results: ...
+def batch(words: Sequence[str], files: _Files) -> Path: ...
+def session(words: Sequence[str], files: _Files) -> Results: ...
 def calibrate(words: Sequence[str], files: _Files) -> bytes: ...
 def open(folder: _Path) -> Results: ...
 def read(path: _Path) -> bytes: ...

@@ -7,11 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ambulo import _ambulo
+from ambulo._batch import Batch
 from ambulo._errors import InputError
 from ambulo._person import Person
 from ambulo._recording import Recording
 from ambulo._result import Result
-from ambulo._words import Words, joined, listed
+from ambulo._words import Words, joined, listed, of_forces
 
 if TYPE_CHECKING:
     from ambulo._ambulo import Model
@@ -395,6 +396,125 @@ def validate(
     words.options({"mass": mass, "height": height, "figure": figure, "markers": markers, "track": track, "jobs": jobs})
     words.option("quiet", True)
     return _computed(_ambulo.validate, words)
+
+
+def batch(
+    source: _Path,
+    output: _Path,
+    *,
+    options: Mapping[str, Any] | None = None,
+    jobs: int | None = None,
+    shard: str | None = None,
+    resume: bool = False,
+    keep: Sequence[str] | None = None,
+    part: int | None = None,
+    limit: int | None = None,
+) -> Batch:
+    """Compute all recordings of a folder or a list into Parquet tables: ``ambulo batch``.
+
+    An option that is None has the default of the command (``ambulo batch --help``).
+
+    Parameters
+    ----------
+    source : str or path-like
+        A folder with recordings, a list of trials (``.csv``, ``.jsonl``) or a subject of AddBiomechanics (``.b3d``).
+    output : str or path-like
+        Folder for the tables: a new one, or with `resume` that of an interrupted batch.
+    options : mapping of str to object, optional
+        Options of `forces` for every trial, by their names: ``{"predict": True, "start": 0.5}``. Files are paths.
+    jobs : int, optional
+        Trials that are computed at the same time; the tables do not depend on it.
+    shard : str, optional
+        The share of this machine: ``"0/4"`` is the first of four.
+    resume : bool, optional
+        Continue an interrupted batch in its folder.
+    keep : sequence of str, optional
+        Tables of frames that are written, and ``"cycles"`` and ``"events"``.
+    part : int, optional
+        Trials in one file of each table.
+    limit : int, optional
+        Compute only the first trials.
+
+    Returns
+    -------
+    Batch
+        The tables `trials`, `frames`, `cycles` and `events`, for polars, pandas, pyarrow and DuckDB. A trial that cannot be computed is a row of
+        `trials` with its error.
+
+    Raises
+    ------
+    InputError
+        A source without trials, a folder with another batch, or no trial that could be computed; the message is the one of the command.
+
+    Notes
+    -----
+    Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the parts that are closed are kept, and `resume` continues. Which files are
+    trials, and the columns of the tables: docs/BATCH.md.
+    """
+    words = Words()
+    words.input(source, "source")
+    words.option("output", os.fspath(output))
+    words.options({"jobs": jobs, "shard": shard, "resume": resume, "keep": listed(keep), "part": part, "limit": limit})
+    words.option("quiet", True)
+    words.rest(of_forces(options))
+    return Batch(_ambulo.batch(words.words, words.listed()))
+
+
+def session(
+    folder: _Path,
+    output: _Path,
+    *,
+    options: Mapping[str, Any] | None = None,
+    compare: _Path | None = None,
+    norm: _Path | None = None,
+    anonymous: bool = False,
+    jobs: int | None = None,
+    force: bool = False,
+) -> Result:
+    """Compute the trials of a visit with one body, and pool their gait cycles: ``ambulo session``.
+
+    An option that is None has the default of the command (``ambulo session --help``).
+
+    Parameters
+    ----------
+    folder : str or path-like
+        The folder with the recordings of the visit: the trials of one person, with at most one standing trial.
+    output : str or path-like
+        Folder for the results. An earlier session of the same recordings in it is replaced.
+    options : mapping of str to object, optional
+        Options of `forces` for every trial, by their names: ``{"mass": 75, "height": 1.75}``. Files are paths.
+    compare : str or path-like, optional
+        An earlier session of the person (its `output`), to compute what changed.
+    norm : str or path-like, optional
+        Own reference group: ``norm.json`` of an earlier run, or a folder with the recordings or the sessions of healthy people.
+    anonymous : bool, optional
+        Write no name, no path and no date into any file.
+    jobs : int, optional
+        Trials that are computed at the same time; the results do not depend on it.
+    force : bool, optional
+        Also replace files in `output` that no run wrote.
+
+    Returns
+    -------
+    Result
+        Its tables are ``cycles``, ``times_and_distances`` and ``deviations`` (`Result.table`), its summary has trials, cycles and scores, and its
+        page is that of the session. The files in `output` are read when they are asked for.
+
+    Raises
+    ------
+    InputError
+        A folder without a cycle that counts, or with several persons; the message is the one of the command.
+
+    Notes
+    -----
+    Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`, and nothing is written. Rules and definitions: docs/SESSION.md.
+    """
+    words = Words()
+    words.input(folder, "folder")
+    words.option("output", os.fspath(output))
+    words.options({"compare": compare, "norm": norm, "anonymous": anonymous, "jobs": jobs, "force": force, "quiet": True})
+    words.rest(of_forces(options))
+    return Result(_ambulo.session(words.words, words.listed()))
 
 
 def walk(

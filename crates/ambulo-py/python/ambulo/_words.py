@@ -6,7 +6,7 @@ The functions have no defaults of their own: an option that is None is not passe
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ambulo import _ambulo
@@ -22,6 +22,7 @@ class Words:
     def __init__(self) -> None:
         self._words: list[str] = []
         self._inputs: list[str] = []
+        self._rest: list[str] | None = None
         self.files: dict[str, bytes] = {}
 
     def path(self, value: Any, name: str) -> str:
@@ -69,14 +70,37 @@ class Words:
         for name, value in values.items():
             self.option(name.replace("_", "-"), value)
 
+    def rest(self, words: Sequence[str]) -> None:
+        """Add words after `--`: options of another command."""
+        self._rest = list(words)
+
     @property
     def words(self) -> list[str]:
         """The words of the command line; a name that begins with a hyphen is no option."""
+        if self._rest is not None:
+            return [*self._words, *map(_plain, self._inputs), "--", *self._rest]
         return [*self._words, "--", *self._inputs] if self._inputs else self._words
 
     def listed(self) -> list[tuple[str, bytes]]:
         """Return the files in memory."""
         return list(self.files.items())
+
+
+def _plain(path: str) -> str:
+    """Return a path that is no option."""
+    return os.path.join(os.curdir, path) if path.startswith("-") else path
+
+
+def of_forces(options: Mapping[str, Any] | None) -> list[str]:
+    """Return options of `forces` by their names in Python as words of the command."""
+    values = dict(options or {})
+    plates, ground = values.pop("plates", None) or {}, values.pop("ground", True)
+    renamed = {"start": "from", "end": "to"}
+    words = Words()
+    words.options({renamed.get(name, name): value for name, value in values.items()})
+    words.option("plate", [f"{plate}={foot}" for plate, foot in plates.items()])
+    words.option("no-ground", not ground)
+    return words.words
 
 
 def joined(value: Any) -> Any:

@@ -10,6 +10,7 @@
 use ambulo::kinematics::{Trajectory, each_body_motion};
 use ambulo::model::anatomy::Leg;
 use ambulo::model::{BodyId, Model, Side};
+use ambulo::numerics::elementary::{asin, atan2};
 use ambulo::spatial::{Mat3, Pose, Vec3};
 use ambulo_formats::Error;
 use ambulo_formats::bvh::{Bvh, Channel, ChannelKind, Joint};
@@ -105,8 +106,8 @@ fn channels(slides: bool) -> Vec<Channel> {
 
 /// z, x, y [degrees].
 fn angles_deg(r: &Mat3) -> [f64; 3] {
-    let x = r[(2, 1)].clamp(-1.0, 1.0).asin();
-    let (y, z) = ((-r[(2, 0)]).atan2(r[(2, 2)]), (-r[(0, 1)]).atan2(r[(1, 1)]));
+    let x = asin(r[(2, 1)].clamp(-1.0, 1.0));
+    let (y, z) = (atan2(-r[(2, 0)], r[(2, 2)]), atan2(-r[(0, 1)], r[(1, 1)]));
     [z, x, y].map(f64::to_degrees)
 }
 

@@ -1,5 +1,7 @@
 //! Draws the axes of a panel and converts numbers to positions in the figure.
 
+use ambulo::numerics::elementary::{log10, powf, powi};
+
 use super::svg::{Anchor, Drawing, Letters, Stroke, text_width};
 use crate::style::Style;
 
@@ -193,7 +195,7 @@ fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
     if !(rough > 0.0 && rough.is_finite()) {
         return (Vec::new(), 0);
     }
-    let power = 10.0_f64.powf(rough.log10().floor());
+    let power = powf(10.0_f64, log10(rough).floor());
     // 25 is rounder than 20, but 0.25 needs a digit more than 0.2.
     let quarter = if power >= 10.0 { 2.5 } else { 2.0 };
     let step =
@@ -201,7 +203,7 @@ fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
     let hidden = 1e-9 * step;
     let (first, last) = (((low - hidden) / step).ceil(), ((high + hidden) / step).floor());
     let mut digits = 0;
-    while digits < 9 && ((step * 10.0_f64.powi(digits)).round() - step * 10.0_f64.powi(digits)).abs() > 1e-6 {
+    while digits < 9 && ((step * powi(10.0_f64, digits)).round() - step * powi(10.0_f64, digits)).abs() > 1e-6 {
         digits += 1;
     }
     ((0..=(last - first).max(0.0) as usize).map(|k| (first + k as f64) * step).collect(), digits as usize)
@@ -223,8 +225,8 @@ fn round_labels([low, high]: [f64; 2]) -> Labels {
     let size = low.abs().max(high.abs());
     let written_in_full = !size.is_normal() || (SMALLEST..LARGEST).contains(&size);
     // Multiples of three, as for prefixes of units.
-    let power = if written_in_full { 0 } else { 3 * (size.log10() / 3.0).floor() as i32 };
-    let scale = 10.0_f64.powi(power);
+    let power = if written_in_full { 0 } else { 3 * (log10(size) / 3.0).floor() as i32 };
+    let scale = powi(10.0_f64, power);
     let (numbers, digits) = ticks([low / scale, high / scale]);
     let ticks = numbers.into_iter().map(|number| (scale * number, number_text(number, digits))).collect();
     Labels { ticks, power }

@@ -3,6 +3,7 @@
 use super::FigureError;
 use super::chart::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};
 use ambulo::analysis::SceneVerdict;
+use ambulo::numerics::elementary::log10;
 use ambulo::simulation::scene::{Plot, Scene, SceneFrame};
 use ambulo_results::OutputFile;
 use std::collections::BTreeMap;
@@ -72,7 +73,7 @@ impl SceneCurves {
         let Some(forces) = &frame.forces else { return };
         self.solver[0].push([t, forces.convergence.iterations as f64]);
         if forces.convergence.residual > 0.0 {
-            self.solver[1].push([t, forces.convergence.residual.log10()]);
+            self.solver[1].push([t, log10(forces.convergence.residual)]);
         }
         for (number, joint) in world.joints.iter().enumerate() {
             for (k, name) in joint.kind.coordinate_names().iter().enumerate() {

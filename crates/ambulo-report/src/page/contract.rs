@@ -598,6 +598,80 @@ pub struct ViewContact {
     pub side: Option<PageSide>,
 }
 
+/// What a page shows of a motion that is arriving; places are those in the values of a [`LiveFrame`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct LivePage {
+    /// Frame rate [Hz].
+    pub rate_hz: f64,
+    /// Time from a frame to its results [ms].
+    pub delay_ms: f64,
+    /// Ground forces on the feet, in the order of `forces` of the view.
+    pub forces: Vec<LiveForce>,
+    /// Curves of the last seconds.
+    pub panels: Vec<LivePanel>,
+}
+
+/// Places of a ground force.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct LiveForce {
+    /// The force, world [N]: x, y, z.
+    pub force: [usize; 3],
+    /// Its centre of pressure, world [m].
+    pub point: [usize; 3],
+}
+
+/// A panel of a motion that is arriving.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct LivePanel {
+    /// `Knee moment`.
+    pub title: String,
+    /// Unit of the values.
+    pub unit: String,
+    /// A curve per side.
+    pub curves: Vec<LiveCurve>,
+}
+
+/// A curve of a motion that is arriving.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct LiveCurve {
+    /// Whose side.
+    pub side: PageSide,
+    /// Place of its value.
+    pub column: usize,
+    /// Place of its standard deviation.
+    pub sd: Option<usize>,
+}
+
+/// Event `frame`: a frame with its results.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct LiveFrame {
+    /// Its number.
+    pub frame: u64,
+    /// Its time [s].
+    pub time_s: f64,
+    /// The values of its results.
+    pub values: Vec<f32>,
+    /// Position [m] and orientation of every body of the view, as there: 7 numbers each; nothing while the body is not known.
+    pub poses: Vec<f32>,
+    /// Frames that did not arrive so far.
+    pub lost: u64,
+}
+
+/// Event `state`: what happens to the stream.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct LiveState {
+    /// `waiting`, `running` or `ended`.
+    pub state: String,
+    /// The same in a sentence.
+    pub message: String,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -649,6 +723,12 @@ mod tests {
             ViewForce::decl(&config),
             ViewTorque::decl(&config),
             ViewContact::decl(&config),
+            LivePage::decl(&config),
+            LiveForce::decl(&config),
+            LivePanel::decl(&config),
+            LiveCurve::decl(&config),
+            LiveFrame::decl(&config),
+            LiveState::decl(&config),
         ];
         for declaration in declarations {
             expected += &format!("\nexport {declaration}\n");

@@ -5,6 +5,7 @@
 
 mod block;
 mod contract;
+mod live;
 mod session;
 mod shell;
 mod view;
@@ -14,6 +15,7 @@ use contract::FORMAT;
 
 pub use block::Block;
 pub use contract::*;
+pub use live::{LivePageError, live_page};
 
 /// Writes `report.html` for a folder, compared with up to two other folders.
 ///
@@ -31,5 +33,5 @@ pub fn report_page(folders: &[Folder<'_>]) -> Result<String, ResultsError> {
     }
     let title = sessions.iter().map(|session| session.name.as_str()).collect::<Vec<_>>().join(" / ");
     let page = Page { format: FORMAT, program: env!("CARGO_PKG_VERSION").to_owned(), title, sessions };
-    shell::html(&page, &block)
+    shell::html(&page, &block, shell::Kind::Report)
 }

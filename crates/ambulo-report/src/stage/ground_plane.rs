@@ -1,10 +1,10 @@
 //! Draws infinite ground planes: a level plane as the floor, a tilted one as a slab under the moving bodies.
 
 use super::Stage;
+use super::path::upward_to;
 use crate::page::ViewShape;
 use crate::scene_shapes::{GroundPlane, SceneShapes};
 use ambulo::spatial::Vec3;
-use nalgebra::UnitQuaternion;
 
 /// Cosine of the tilt below which ground counts as level: 0.5 degrees.
 const LEVEL: f64 = 0.999_96;
@@ -46,7 +46,6 @@ fn slab(plane: &GroundPlane, low: Vec3, high: Vec3) -> ViewShape {
     let middle = (low + high) * 0.5;
     let below = middle - normal * (middle - point).dot(&normal) - normal * HALF_THICKNESS;
     let reach = 0.5 * (high - low).norm() + MARGIN;
-    let turn = UnitQuaternion::rotation_between(&Vec3::y(), &normal)
-        .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI));
-    ViewShape::Box { center: below.into(), half: [reach, HALF_THICKNESS, reach], turn: turn.coords.into() }
+    let turn = upward_to(&normal).coords.into();
+    ViewShape::Box { center: below.into(), half: [reach, HALF_THICKNESS, reach], turn }
 }

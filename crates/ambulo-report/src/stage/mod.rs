@@ -22,7 +22,8 @@ mod torque;
 mod trunk;
 
 pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
-pub(crate) use path::BodyPath;
+pub use path::quaternion;
+pub(crate) use path::{BodyPath, upward_to};
 
 use super::page::ViewShape;
 use ambulo::model::Side;

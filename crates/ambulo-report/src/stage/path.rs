@@ -1,7 +1,24 @@
 //! Poses of a body over time.
 
-use ambulo::spatial::{Pose, Vec3};
+use ambulo::spatial::{Pose, Vec3, rotation_between};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+
+/// A turn that takes the upward axis y to a direction: the smallest one, or half a turn about x if the direction is down.
+pub(crate) fn upward_to(direction: &Vec3) -> UnitQuaternion<f64> {
+    let half_a_turn = || Matrix3::from_diagonal(&Vec3::new(1.0, -1.0, -1.0));
+    let turn = rotation_between(&Vec3::y(), direction).unwrap_or_else(half_a_turn);
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn))
+}
+
+/// A rotation as a unit quaternion: x, y, z, w, as in the 3-D view of a page.
+#[must_use]
+pub fn quaternion(rotation: &Matrix3<f64>) -> [f64; 4] {
+    unit_quaternion(rotation).coords.into()
+}
+
+fn unit_quaternion(rotation: &Matrix3<f64>) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation))
+}
 
 /// Positions and orientations, one entry per instant.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -20,11 +37,7 @@ impl BodyPath {
 
     /// Adds the next instant.
     pub(crate) fn push(&mut self, pose: &Pose) {
-        let matrix: Matrix3<f64> = pose.rotation;
-        self.push_turned(
-            pose.translation,
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix)),
-        );
+        self.push_turned(pose.translation, unit_quaternion(&pose.rotation));
     }
 
     /// Adds the next instant. q and -q are the same orientation: the one nearer to the last is stored, so that linear interpolation between

@@ -210,7 +210,7 @@ pub struct MarkerTrial<'a> {
     pub trial: &'a LaboratoryRecording,
     /// The standing trial of the same person.
     pub standing: Option<&'a LaboratoryRecording>,
-    /// Bodies that were calibrated from this standing trial; `None` calibrates one.
+    /// Bodies that were calibrated or scaled from this standing trial; `None` makes one.
     pub bodies: Option<&'a KnownBodies>,
     /// The body.
     pub body: BodySource<'a>,
@@ -252,10 +252,8 @@ pub(crate) fn fit_body_to_markers(
         let standing = standing.map(|found| Keypoints::recognised(&found, set).map_or(found, |points| points.smooth));
         Subject::of_source(body, moving, standing.as_ref(), findings)
     };
-    let subject = match (body, standing, bodies) {
-        (BodySource::BuiltIn { person, set }, Some(_), Some(bodies)) => {
-            bodies.subject(person, *set, findings, calibrated)?
-        }
+    let subject = match (standing, bodies) {
+        (Some(_), Some(bodies)) => bodies.subject(body, findings, calibrated)?,
         _ => calibrated(findings)?,
     };
     progress.end(Stage::Body)?;

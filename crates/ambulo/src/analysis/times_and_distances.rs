@@ -21,6 +21,7 @@ use crate::kinematics::each_body_motion;
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{TimeGrid, interpolate};
+use crate::numerics::elementary::acos;
 use crate::spatial::Vec3;
 
 /// A floor velocity below this share of the walking speed is taken as zero.
@@ -247,7 +248,7 @@ pub fn times_and_distances(model: &Model, soles: &BySide<Option<Sole>>, analysis
 /// Between any two directions [rad]; `None` of fewer than two.
 fn largest_angle(directions: &[Vec3]) -> Option<f64> {
     let pairs = directions.iter().enumerate().flat_map(|(i, a)| directions[i + 1..].iter().map(move |b| (a, b)));
-    pairs.map(|(a, b)| a.dot(b).clamp(-1.0, 1.0).acos()).max_by(f64::total_cmp)
+    pairs.map(|(a, b)| acos(a.dot(b).clamp(-1.0, 1.0))).max_by(f64::total_cmp)
 }
 
 fn times(events: &[Event], side: Side, kind: EventKind) -> Vec<f64> {

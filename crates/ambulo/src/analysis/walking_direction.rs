@@ -7,7 +7,7 @@
 use crate::ground::footfalls::Footfalls;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::Model;
-use crate::spatial::Vec3;
+use crate::spatial::{Vec3, angle_between};
 
 /// A smaller angle is sway, not a turn [rad]: 20 degrees.
 const STRAIGHT_RAD: f64 = 0.349;
@@ -44,7 +44,7 @@ impl WalkingDirection {
         };
         let displacement = b - a - self.floor_velocity * (self.times[end - 1] - self.times[first]);
         let displacement = displacement - self.up * displacement.dot(&self.up);
-        if displacement.norm() < STANDING_M || displacement.angle(&Vec3::x()) < STRAIGHT_RAD {
+        if displacement.norm() < STANDING_M || angle_between(&displacement, &Vec3::x()) < STRAIGHT_RAD {
             return straight;
         }
         [displacement.normalize(), displacement.normalize().cross(&self.up)]

@@ -31,7 +31,9 @@
 //! Not handled: radii that change over the contact; load sharing between spheres.
 //! Pinned by: tests/contact_geometry.rs
 
+use crate::numerics::elementary;
 use crate::spatial::Vec3;
+use std::f64::consts::SQRT_2;
 
 /// Parameters of the Hunt-Crossley contact law; the module describes each.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -192,9 +194,10 @@ impl HuntCrossley {
         if ends_at_touch && depth <= 0.0 {
             return [0.0; 3];
         }
-        let k = 0.5 * self.stiffness.powf(2.0 / 3.0);
+        // 4/3 k √(R k) (d²)^(3/4) with k = ½ E^(2/3): k √k = E/√8, and no power but roots is left.
         let square = depth * depth + self.depth_offset;
-        let hertz = 4.0 / 3.0 * k * (radius * k).sqrt() * square.powf(0.75);
+        let root = square.sqrt();
+        let hertz = SQRT_2 / 3.0 * self.stiffness * radius.sqrt() * root * root.sqrt();
         let hertz_slope = hertz * 1.5 * depth / square;
         let c = 1.5 * self.dissipation;
         let damping = 1.0 + c * depth_rate;
@@ -267,6 +270,6 @@ pub struct ContactSlopes {
 
 /// A smooth step from 0 to 1 around x = 0, with its derivative.
 fn step(x: f64) -> (f64, f64) {
-    let tanh = x.tanh();
+    let tanh = elementary::tanh(x);
     (0.5 * tanh + 0.5, 0.5 - 0.5 * tanh * tanh)
 }

@@ -1,5 +1,7 @@
 //! The active set of the proximal method: which rows push, stick or slip, first by a guess and then by the forces.
 
+use crate::numerics::elementary::hypot;
+
 use super::constraint::{ConstraintGraph, ConstraintGroup, Law};
 use super::curvature::{Curvature, diagonal};
 
@@ -35,7 +37,7 @@ pub(super) fn share_of_least_squares(
                 let past = before[start + k];
                 past + s * (lambda[start + k] - past)
             });
-            x.hypot(y) <= WITHIN * friction * n
+            hypot(x, y) <= WITHIN * friction * n
         };
         if inside(share) {
             continue;
@@ -68,7 +70,7 @@ pub(super) fn guess(
                 diagonal(group, |row| if lambda[row] > least && lambda[row] < most { h(row) } else { 0.0 })
             }
             Law::Contact { friction, .. } => {
-                let tangential = lambda[first + 1].hypot(lambda[first + 2]);
+                let tangential = hypot(lambda[first + 1], lambda[first + 2]);
                 let pushing = lambda[first] > 0.0;
                 let slips = tangential >= friction * lambda[first] * (1.0 - 1e-9);
                 let sticks = pushing && !slips;

@@ -106,16 +106,127 @@ impl Block {
             self.0[2][j] += arm.x * y - arm.y * x;
         }
     }
+}
 
-    /// B X: the transposed operation, applied to each row.
+/// Entries of a symmetric 3 x 3 matrix: xx, xy, xz, yy, yz, zz.
+type Triangle = [f64; 6];
+
+/// Rows and columns of the entries of a [`Triangle`].
+const PLACES: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
+/// y += T x.
+#[inline(always)]
+fn add_product(t: &Triangle, x: [f64; 3], y: &mut [f64]) {
+    y[0] += t[0] * x[0] + t[1] * x[1] + t[2] * x[2];
+    y[1] += t[1] * x[0] + t[3] * x[1] + t[4] * x[2];
+    y[2] += t[2] * x[0] + t[4] * x[1] + t[5] * x[2];
+}
+
+/// A symmetric 6 x 6 block, such as the inertia of a body with all that hangs on it: [A B; Bᵀ C], angular part first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Symmetric {
+    angular: Triangle,
+    coupling: [[f64; 3]; 3],
+    linear: Triangle,
+}
+
+impl Symmetric {
+    pub(crate) const ZERO: Symmetric = Symmetric { angular: [0.0; 6], coupling: [[0.0; 3]; 3], linear: [0.0; 6] };
+
+    /// The inertia of one body about its mass centre.
     #[inline(always)]
-    pub(crate) fn carry_columns(&mut self, arm: &Vec3) {
-        for row in &mut self.0 {
-            let (x, y, z) = (row[3], row[4], row[5]);
-            row[0] += arm.y * z - arm.z * y;
-            row[1] += arm.z * x - arm.x * z;
-            row[2] += arm.x * y - arm.y * x;
+    pub(crate) fn of(body: &BodyTerms) -> Symmetric {
+        Symmetric {
+            angular: PLACES.map(|place| body.inertia[place]),
+            coupling: [[0.0; 3]; 3],
+            linear: [body.mass, 0.0, 0.0, body.mass, 0.0, body.mass],
         }
+    }
+
+    /// Sums of the angular and of the linear part of the diagonal.
+    #[inline(always)]
+    pub(crate) fn traces(&self) -> (f64, f64) {
+        let trace = |t: &Triangle| t[0] + t[3] + t[5];
+        (trace(&self.angular), trace(&self.linear))
+    }
+
+    #[inline(always)]
+    pub(crate) fn times(&self, x: &Six) -> Six {
+        let (turn, slide) = ([x[0], x[1], x[2]], [x[3], x[4], x[5]]);
+        let mut y = [0.0; 6];
+        for i in 0..3 {
+            for j in 0..3 {
+                y[i] += self.coupling[i][j] * slide[j];
+                y[3 + j] += self.coupling[i][j] * turn[i];
+            }
+        }
+        add_product(&self.angular, turn, &mut y[..3]);
+        add_product(&self.linear, slide, &mut y[3..]);
+        Six::from(y)
+    }
+
+    #[inline(always)]
+    pub(crate) fn add(&mut self, other: &Symmetric) {
+        for k in 0..6 {
+            self.angular[k] += other.angular[k];
+            self.linear[k] += other.linear[k];
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                self.coupling[i][j] += other.coupling[i][j];
+            }
+        }
+    }
+
+    /// Adds `factor` x yᵀ; the sum of all that is added must be symmetric.
+    #[inline(always)]
+    pub(crate) fn add_outer(&mut self, x: &Six, y: &Six, factor: f64) {
+        let scaled = x * factor;
+        for (k, (i, j)) in PLACES.into_iter().enumerate() {
+            self.angular[k] += scaled[i] * y[j];
+            self.linear[k] += scaled[3 + i] * y[3 + j];
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                self.coupling[i][j] += scaled[i] * y[3 + j];
+            }
+        }
+    }
+
+    /// Adds B + Bᵀ.
+    pub(crate) fn add_with_transpose(&mut self, Block(b): &Block) {
+        for (k, (i, j)) in PLACES.into_iter().enumerate() {
+            self.angular[k] += b[i][j] + b[j][i];
+            self.linear[k] += b[3 + i][3 + j] + b[3 + j][3 + i];
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                self.coupling[i][j] += b[i][3 + j] + b[3 + j][i];
+            }
+        }
+    }
+
+    /// Xᵀ S X: the block as the parent moves with it. With R x = arm × x: B' = B + R C and A' = A + R Bᵀ + B' Rᵀ.
+    #[inline(always)]
+    pub(crate) fn carried(&self, arm: &Vec3) -> Symmetric {
+        let Symmetric { angular, coupling, linear } = *self;
+        let cross =
+            |x: [f64; 3]| [arm.y * x[2] - arm.z * x[1], arm.z * x[0] - arm.x * x[2], arm.x * x[1] - arm.y * x[0]];
+        let [xx, xy, xz, yy, yz, zz] = linear;
+        // C is symmetric: its columns are its rows.
+        let columns = [cross([xx, xy, xz]), cross([xy, yy, yz]), cross([xz, yz, zz])];
+        let mut moved = coupling;
+        for i in 0..3 {
+            for j in 0..3 {
+                moved[i][j] += columns[j][i];
+            }
+        }
+        let (before, after) = (coupling.map(cross), moved.map(cross));
+        let mut turned = angular;
+        for (k, (i, j)) in PLACES.into_iter().enumerate() {
+            turned[k] += before[j][i] + after[i][j];
+        }
+        Symmetric { angular: turned, coupling: moved, linear }
     }
 }
 

@@ -109,19 +109,11 @@ pub(super) fn project(
 ) {
     let graph = problem.graph;
     let mut rounds = Rounds { graph, problem, w: workspace, contradicted: false, rounds: 0 };
-    rounds.w.forces.fill(0.0);
-    rounds.displace(Offsets::Prescribed);
-    let mut asked = 0.0_f64;
-    for group in &graph.groups {
-        for row in group.rows.clone() {
-            let there = graph.reading(group, row, &rounds.w.motions, &rounds.w.coordinates);
-            rounds.w.left[row] = targets[row] - there;
-            asked = asked.max(rounds.w.left[row].abs());
-        }
-    }
+    rounds.w.left.copy_from_slice(targets);
+    let asked = targets.iter().fold(0.0_f64, |most, target| most.max(target.abs()));
     rounds.descend(DISPLACEMENT_SHARE * asked, &mut Convergence::default());
     rounds.w.forces.copy_from_slice(&rounds.w.change);
-    rounds.displace(Offsets::Prescribed);
+    rounds.displace(Offsets::None);
     motions.clone_from(&workspace.motions);
     coordinates.clone_from(&workspace.coordinates);
 }

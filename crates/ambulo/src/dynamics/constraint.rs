@@ -268,10 +268,25 @@ impl ConstraintGraph {
 /// of the second moves at v + ω × from_second.
 #[must_use]
 pub fn relative_rows(axes: [Vec3; 3], to_first: Vec3, from_second: Vec3) -> [Constraint; 6] {
-    let six = |angular: Vec3, linear: Vec3| Six::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z);
-    let rigid = |on_first, on_second| Constraint { on_first, on_second, target: 0.0, compliance: 0.0 };
-    let angular = |e: Vec3| rigid(six(e, Vec3::zeros()), six(-e, Vec3::zeros()));
-    let linear = |e: Vec3| rigid(six(-to_first.cross(&e), e), six(-from_second.cross(&e), -e));
+    let linear = |e: Vec3| relative_slide(e, to_first, from_second);
     let [x, y, z] = axes;
-    [angular(x), angular(y), angular(z), linear(x), linear(y), linear(z)]
+    [relative_turn(x), relative_turn(y), relative_turn(z), linear(x), linear(y), linear(z)]
+}
+
+/// The row of an angular velocity along `axis`.
+#[inline]
+pub(crate) fn relative_turn(axis: Vec3) -> Constraint {
+    rigid_row((axis, Vec3::zeros()), (-axis, Vec3::zeros()))
+}
+
+/// The row of the velocity of a point along `axis`.
+#[inline]
+pub(crate) fn relative_slide(axis: Vec3, to_first: Vec3, from_second: Vec3) -> Constraint {
+    rigid_row((-to_first.cross(&axis), axis), (-from_second.cross(&axis), -axis))
+}
+
+#[inline]
+fn rigid_row(first: (Vec3, Vec3), second: (Vec3, Vec3)) -> Constraint {
+    let six = |(w, v): (Vec3, Vec3)| Six::new(w.x, w.y, w.z, v.x, v.y, v.z);
+    Constraint { on_first: six(first), on_second: six(second), target: 0.0, compliance: 0.0 }
 }

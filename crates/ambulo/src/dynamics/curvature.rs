@@ -5,6 +5,8 @@
 //! For a row, Π clamps. For the friction of a contact, it shortens z = λ° - ρ u to the radius r, and H is ρ (r / |z|) across z.
 //! Symbols as in [`super::proximal`].
 
+use crate::numerics::elementary::hypot;
+
 use super::block::Block;
 use super::constraint::{ActsOn, ConstraintGraph, ConstraintGroup, Law};
 use super::elimination::EliminationWorkspace;
@@ -85,7 +87,7 @@ impl Proximal<'_> {
                 let (force, normal) = clamped(start, 0.0, bound);
                 lambda[start] = force;
                 let z = [1, 2].map(|k| self.center[start + k] - self.rho * u(start + k));
-                let sticks = radius > 0.0 && z[0].hypot(z[1]) <= radius;
+                let sticks = radius > 0.0 && hypot(z[0], z[1]) <= radius;
                 let (forces, tangential) = friction(z, radius, self.rho, sticks);
                 (lambda[start + 1], lambda[start + 2]) = (forces[0], forces[1]);
                 Curvature::Contact { normal, tangential, sticks }
@@ -161,7 +163,7 @@ fn friction(z: [f64; 2], radius: f64, rho: f64, sticks: bool) -> ([f64; 2], [f64
     if sticks {
         return (z, [rho, 0.0, rho]);
     }
-    let length = z[0].hypot(z[1]);
+    let length = hypot(z[0], z[1]);
     if length <= 0.0 {
         return ([0.0; 2], [0.0; 3]);
     }

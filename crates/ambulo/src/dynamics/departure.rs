@@ -9,6 +9,8 @@
 //! | `mobility` | W       | 1/kg, 1/(kg.m²) | one per row |
 //! | `scale`    |         | as the motion   | one number  |
 
+use crate::numerics::elementary::hypot;
+
 use super::block::Six;
 use super::constraint::{ActsOn, ConstraintGraph, ConstraintGroup, Convergence, Law};
 
@@ -107,7 +109,7 @@ impl Departures {
             Law::Contact { friction, .. } => {
                 let radius = friction * lambda[start].max(0.0);
                 let z = [1, 2].map(|k| lambda[start + k] - self.u[start + k] / w);
-                let length = z[0].hypot(z[1]);
+                let length = hypot(z[0], z[1]);
                 let shrink = if length > radius { radius / length } else { 1.0 };
                 w * (lambda[row] - z[row - start - 1] * shrink).abs()
             }

@@ -33,7 +33,7 @@
 //! Cost: linear in bodies on forests.
 //! Pinned by: tests/elimination.rs
 
-use super::block::{Block, BodyTerms, Six, carry, factor_small, solve_small, transport};
+use super::block::{Block, BodyTerms, Six, Symmetric, carry, factor_small, solve_small, transport};
 use super::elimination_order::{BlockRef, Elimination, Link, LinkTerms, Step};
 use crate::spatial::Vec3;
 use std::ops::Range;
@@ -45,7 +45,7 @@ const ROUNDING: f64 = 1e-14;
 #[derive(Debug, Clone, Default)]
 pub struct EliminationWorkspace {
     /// A_cc at the time when the body is eliminated.
-    diagonal: Vec<Block>,
+    diagonal: Vec<Symmetric>,
     off: Vec<Block>,
     /// G_p, one row per coordinate.
     g_parent: Vec<Six>,
@@ -65,7 +65,7 @@ impl EliminationWorkspace {
         assert_eq!(bodies.len(), elimination.bodies(), "one entry per body");
         let coordinates = elimination.coordinates();
         self.inertialess = 0;
-        self.diagonal.resize(bodies.len(), Block::ZERO);
+        self.diagonal.resize(bodies.len(), Symmetric::ZERO);
         self.carried.clear();
         self.carried.resize(bodies.len(), (0.0, 0.0));
         self.g_parent.resize(coordinates, Six::zeros());
@@ -77,18 +77,12 @@ impl EliminationWorkspace {
             *row = [0.0; 6];
         }
         for (block, body) in self.diagonal.iter_mut().zip(bodies) {
-            *block = Block::ZERO;
-            for i in 0..3 {
-                for j in 0..3 {
-                    block.0[i][j] = body.inertia[(i, j)];
-                }
-                block.0[3 + i][3 + i] = body.mass;
-            }
+            *block = Symmetric::of(body);
         }
     }
 
     /// The diagonal block of a body.
-    pub(crate) fn diagonal_mut(&mut self, body: usize) -> &mut Block {
+    pub(crate) fn diagonal_mut(&mut self, body: usize) -> &mut Symmetric {
         &mut self.diagonal[body]
     }
 
@@ -114,8 +108,7 @@ impl EliminationWorkspace {
     /// Adds the size of a body's diagonal to its parent's.
     #[inline(always)]
     fn hang(&mut self, body: usize, parent: usize, arm: &Vec3) {
-        let Block(own) = &self.diagonal[body];
-        let (angular, linear) = (own[0][0] + own[1][1] + own[2][2], own[3][3] + own[4][4] + own[5][5]);
+        let (angular, linear) = self.diagonal[body].traces();
         self.carried[parent].0 += linear;
         self.carried[parent].1 += angular + linear * arm.norm_squared();
     }
@@ -162,9 +155,7 @@ impl Elimination {
             w.g_parent[k] = carry(&u, arm);
             passed.add_outer(&u, &u, -inverse);
         }
-        passed.carry_rows(arm);
-        passed.carry_columns(arm);
-        w.diagonal[parent].add(&passed);
+        w.diagonal[parent].add(&passed.carried(arm));
         w.hang(body, parent, arm);
     }
 
@@ -199,16 +190,13 @@ impl Elimination {
             for k in 0..f {
                 w.g_parent[range.start + k] = carry(&u[k], arm);
             }
-            let mut passed = own;
-            passed.carry_rows(arm);
-            passed.carry_columns(arm);
+            let mut passed = own.carried(arm);
             if let Some(mut block) = with_parent {
                 for k in 0..f {
                     w.g_parent[range.start + k] += block.transpose_times(&s[k]);
                 }
                 block.carry_rows(arm);
-                passed.add(&block);
-                passed.add_transposed(&block);
+                passed.add_with_transpose(&block);
             }
             w.diagonal[parent].add(&passed);
             w.hang(step.body, parent, arm);

@@ -1,5 +1,7 @@
 //! Whether a contact sticks or slips, from its force and its slip.
 
+use crate::numerics::elementary::hypot;
+
 /// Relative distance from the surface of the cone within which friction counts as being on it.
 const EDGE: f64 = 1e-10;
 /// Slip speed, in units of friction times mobility, above which the direction of friction is fixed.
@@ -19,11 +21,11 @@ pub(super) enum Friction {
 /// State of friction: sticking inside the cone, and on it if friction would support the slip. Without friction so far, it slips if
 /// the friction that this point alone would need exceeds the limit.
 pub(super) fn friction_state(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobility: f64) -> Friction {
-    let length = force[0].hypot(force[1]);
+    let length = hypot(force[0], force[1]);
     if radius <= 0.0 {
         return Friction::Given;
     }
-    let speed = u[0].hypot(u[1]);
+    let speed = hypot(u[0], u[1]);
     if speed > RIGID * radius * mobility {
         return Friction::Given;
     }

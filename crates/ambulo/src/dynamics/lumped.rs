@@ -30,8 +30,6 @@ pub(super) struct LumpedGraph {
     pub(super) solution: GraphSolution,
     /// Displacements of the lumped bodies.
     pub(super) displacements: Vec<Six>,
-    /// Targets of displacements, minus the effect of the offsets.
-    pub(super) targets: Vec<f64>,
     /// The lumped body that each body belongs to.
     of: Vec<usize>,
     /// The body with freedom in each lumped body.
@@ -210,32 +208,11 @@ impl LumpedGraph {
         }
     }
 
-    /// Prepares displacements from the current offsets of the full graph and the targets.
-    pub(super) fn begin_displacements(
-        &mut self,
-        full: &ConstraintGraph,
-        outwards: &[(usize, Option<usize>)],
-        targets: &[f64],
-    ) {
-        self.take_offsets(full, outwards);
-        self.displacements.clone_from(&self.inertial);
-        self.targets.clear();
-        self.targets.extend(targets.iter().zip(&self.shift).map(|(target, shift)| target - shift));
-    }
-
-    /// Prepares displacements of bodies that are already placed and turned, `off` from the positions that follow from their motion: the linear
-    /// part alone counts.
-    pub(super) fn begin_placed(&mut self, full: &ConstraintGraph, off: &[Six]) {
-        self.graph.terms.offset.fill(Six::zeros());
+    /// Prepares displacements, in which joints prescribe nothing.
+    pub(super) fn begin_displacements(&mut self) {
         self.beyond.fill(Six::zeros());
         self.displacements.clear();
         self.displacements.resize(self.first.len(), Six::zeros());
-        for (body, off) in off.iter().enumerate() {
-            // Placed bodies are off by a translation: M off is a force at the mass centre.
-            let (force, arm) = (Vec3::new(off[3], off[4], off[5]) * full.bodies[body].mass, &self.arm[body]);
-            let moment = arm.cross(&force);
-            self.displacements[self.of[body]] -= Six::new(moment.x, moment.y, moment.z, force.x, force.y, force.z);
-        }
     }
 
     /// Motions of all bodies: a_c = X a_C + W_c.

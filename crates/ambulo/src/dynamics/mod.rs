@@ -36,6 +36,7 @@ pub use block::{BodyTerms, Six};
 pub use constraint::{
     ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, relative_rows,
 };
+pub(crate) use constraint::{relative_slide, relative_turn};
 pub use elimination::{EliminationWorkspace, Offsets};
 pub use elimination_order::{Elimination, Link, LinkError, LinkTerms};
 pub(crate) use inverse::each_root_reaction;
@@ -48,5 +49,5 @@ pub(crate) use inverse_derivatives::{DerivativeKernel, Spatial};
 pub use joint_powers::JointPowers;
 pub use problem::{Method, SolverSettings};
 pub(crate) use roots::Roots;
+pub(crate) use solve::project_displacements;
 pub use solve::{GraphWorkspace, solve_graph, undetermined_rows};
-pub(crate) use solve::{project_displacements, project_placed};

@@ -26,17 +26,18 @@ use super::departure::BestIterate;
 use super::problem::Problem;
 use super::within_law::confine;
 use crate::numerics::DenseLu;
+use crate::numerics::elementary::hypot;
 
 /// More rows are not attempted: the factors of 400 rows cost some 20 million products.
 pub(super) const MOST_ROWS: usize = 400;
 /// Number of turns, and the largest number of Newton steps in a turn.
-const TURNS: usize = 48;
+const TURNS: usize = 200;
 const STEPS: usize = 40;
 /// ρ W of the turns, over and over: another ρ makes another |F|², which has its own places without descent.
 const SCALES: [f64; 8] = [1.0, 0.1, 10.0, 1.0, 0.01, 100.0, 1.0, 0.3];
-/// Every turn of this number starts without forces, after so many sweeps: about as much work as its steps.
-const FRESH: usize = 4;
-const FRESH_SWEEPS: usize = 1000;
+/// Every turn of this number starts after so many sweeps more from no forces: about as much work as its steps.
+const FRESH: usize = 6;
+const FRESH_SWEEPS: usize = 2000;
 /// The others start at the best forces so far, each changed by up to this share, after a few sweeps. Few, since many lead back
 /// to where the last descent ended.
 const CHANGE: f64 = 0.25;
@@ -64,6 +65,8 @@ pub(super) struct NonsmoothWorkspace {
     inertia: Vec<f64>,
     rho: Vec<f64>,
     lambda: Vec<f64>,
+    /// Forces to which sweeps without an earlier start have led.
+    swept: Vec<f64>,
     trial: Vec<f64>,
     u: Vec<f64>,
     left: Vec<f64>,
@@ -112,6 +115,8 @@ impl NonsmoothWorkspace {
         }
         self.lambda.clear();
         self.lambda.extend_from_slice(lambda);
+        self.swept.clear();
+        self.swept.resize(lambda.len(), 0.0);
         self.inertia.clear();
         self.inertia.resize(lambda.len(), 0.0);
         for group in &graph.groups {
@@ -154,11 +159,13 @@ impl Nonsmooth<'_, '_> {
 
     /// Moves the forces to another place to descend from.
     fn start_again(&mut self, turn: usize) {
-        let NonsmoothWorkspace { lambda, best, .. } = &mut *self.w;
+        let NonsmoothWorkspace { lambda, best, swept, .. } = &mut *self.w;
         // Nothing was kept if no residual was a number.
         let Some(kept) = best.lambda().filter(|_| !turn.is_multiple_of(FRESH)) else {
-            lambda.fill(0.0);
+            // Sweeps converge slowly but hardly ever fail: they go on where those of the last such turn ended.
+            lambda.copy_from_slice(swept);
             self.sweep(FRESH_SWEEPS);
+            self.w.swept.copy_from_slice(&self.w.lambda);
             return;
         };
         lambda.copy_from_slice(kept);
@@ -309,7 +316,7 @@ fn move_rows(delassus: &Delassus, row: usize, change: f64, u: &mut [f64]) {
 fn rubbing(start: usize, friction: f64, bound: f64, rho: &[f64], lambda: &[f64], u: &[f64]) -> ([f64; 2], f64, f64) {
     let z = [1, 2].map(|k| lambda[start + k] - rho[start + k] * u[start + k]);
     let radius = friction * (lambda[start] - rho[start] * u[start]).clamp(0.0, bound);
-    (z, z[0].hypot(z[1]), radius)
+    (z, hypot(z[0], z[1]), radius)
 }
 
 /// F of one group.

@@ -41,6 +41,8 @@
 //! Long because it is one algorithm: its steps share the notation above.
 //! Pinned by: tests/constraint_graph.rs
 
+use crate::numerics::elementary::hypot;
+
 use super::active_set::{self, WITHIN, has_past};
 use super::block::Six;
 use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
@@ -68,9 +70,9 @@ const PATIENCE: usize = 12;
 const STALLED: usize = 30;
 /// Maximum number of Newton steps after the convex problem.
 const POLISH: usize = 20;
-/// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and tenths of a second.
+/// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and a second.
 const FIRST_PRODUCTS: usize = 10_000_000;
-const LAST_PRODUCTS: usize = 150_000_000;
+const LAST_PRODUCTS: usize = 1_000_000_000;
 /// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing more is tried.
 const NEARLY: f64 = 1e-6;
 const FAR: f64 = 1e-2;
@@ -148,7 +150,7 @@ pub(super) fn project(
         }
     }
     graph.push(lambda, motions, coordinates);
-    problem.elimination.solve(&graph.terms, Offsets::Prescribed, motions, coordinates, problem.factors);
+    problem.elimination.solve(&graph.terms, Offsets::None, motions, coordinates, problem.factors);
 }
 
 /// Removes from `rows` the part that forces of active rows can produce: r := (1 + ρ W)⁻¹ r, computed as
@@ -386,7 +388,7 @@ impl Newton<'_, '_> {
             if let (Law::Contact { friction, .. }, false) = (group.law, has_past(group, before)) {
                 let center = &mut center[group.rows.clone()];
                 center[0] = center[0].max(0.0);
-                let (length, radius) = (center[1].hypot(center[2]), WITHIN * friction * center[0]);
+                let (length, radius) = (hypot(center[1], center[2]), WITHIN * friction * center[0]);
                 if length > radius {
                     center[1..].iter_mut().for_each(|x| *x *= radius / length);
                 }

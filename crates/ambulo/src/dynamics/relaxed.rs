@@ -20,6 +20,7 @@ use super::departure::stiffness;
 use super::elimination::Offsets;
 use super::problem::{Problem, inertial_slope, lowest};
 use crate::contact::project_onto_cone;
+use crate::numerics::elementary::hypot;
 
 /// ρ relative to Newton's method: more rounds, but longer steps between cones.
 const SOFTER: f64 = 1e-2;
@@ -129,7 +130,7 @@ impl Relaxed<'_, '_> {
         let u = &self.problem.departures.u;
         slip.clear();
         slip.extend(self.problem.graph.groups.iter().map(|group| match group.law {
-            Law::Contact { friction, .. } => friction * u[group.rows.start + 1].hypot(u[group.rows.start + 2]),
+            Law::Contact { friction, .. } => friction * hypot(u[group.rows.start + 1], u[group.rows.start + 2]),
             Law::Bounded { .. } => 0.0,
         }));
         let change = shift.iter().zip(&*slip).fold(0.0, |m: f64, (old, new)| m.max((old - new).abs()));

@@ -79,7 +79,7 @@ pub fn solve_graph(
 }
 
 /// Displacements that bring the rows active at the last solution to `targets` with the least motion of mass: M δ = Jᵀ ν,
-/// J δ = targets, with the current joint offsets of the graph. Uses the last factorisation and the last method.
+/// J δ = targets, within the free directions of the joints. Uses the last factorisation and the last method.
 pub(crate) fn project_displacements(
     graph: &ConstraintGraph,
     targets: &[f64],
@@ -91,8 +91,8 @@ pub(crate) fn project_displacements(
     coordinates.resize(graph.efforts.len(), 0.0);
     if workspace.is_lumped {
         let mut lumped = std::mem::take(&mut workspace.lumped);
-        lumped.begin_displacements(graph, &workspace.outwards, targets);
-        let LumpedGraph { graph: less, displacements, targets, .. } = &mut lumped;
+        lumped.begin_displacements();
+        let LumpedGraph { graph: less, displacements, .. } = &mut lumped;
         workspace.with_problem(less, |mut problem, newton, _| {
             proximal::project(&mut problem, newton, targets, displacements, coordinates);
         });
@@ -108,29 +108,6 @@ pub(crate) fn project_displacements(
             conjugate_gradient::project(&mut problem, conjugate, targets, motions, coordinates);
         }
     });
-}
-
-/// [`project_displacements`] for bodies that are already placed, `off` from the positions that follow from their motion: the
-/// displacements start at the placed positions and minimise the distance from those of the motion. For graphs that were solved
-/// in lumped form.
-pub(crate) fn project_placed(
-    graph: &ConstraintGraph,
-    off: &[Six],
-    targets: &[f64],
-    workspace: &mut GraphWorkspace,
-    motions: &mut Vec<Six>,
-    coordinates: &mut Vec<f64>,
-) {
-    coordinates.clear();
-    coordinates.resize(graph.efforts.len(), 0.0);
-    let mut lumped = std::mem::take(&mut workspace.lumped);
-    lumped.begin_placed(graph, off);
-    let LumpedGraph { graph: less, displacements, .. } = &mut lumped;
-    workspace.with_problem(less, |mut problem, newton, _| {
-        proximal::project(&mut problem, newton, targets, displacements, coordinates);
-    });
-    lumped.spread(&lumped.displacements, motions);
-    workspace.lumped = lumped;
 }
 
 /// Active rows of the last solution whose forces the motion does not determine, because some combination of them with others
@@ -218,11 +195,6 @@ impl GraphWorkspace {
         Ok(())
     }
 
-    /// Whether the last graph was solved in its lumped form.
-    pub(crate) fn is_lumped(&self) -> bool {
-        self.is_lumped
-    }
-
     /// The bodies of the last graph with their parents, parents first.
     #[must_use]
     pub fn outwards(&self) -> &[(usize, Option<usize>)] {
@@ -245,6 +217,7 @@ impl GraphWorkspace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::block::transport;
     use crate::dynamics::{BodyTerms, Constraint, Law};
     use crate::spatial::{Mat3, Vec3};
 
@@ -319,45 +292,24 @@ mod tests {
 
     #[test]
     fn displacements_of_bodies_that_follow_are_those_of_a_method_that_knows_them_one_by_one() {
-        let mut graph = carrying();
+        let graph = carrying();
         let targets = [1e-3, -2e-3, 5e-4, 3e-3, -1e-3];
         let mut found = Vec::new();
         for method in [Method::Newton, Method::ConjugateGradient] {
             let settings = SolverSettings { method, ..SolverSettings::default() };
             let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());
             solve_graph(&graph, &settings, &mut workspace, &mut solution).unwrap();
-            assert_eq!(workspace.is_lumped(), method == Method::Newton);
-            // The displacements have other offsets than the motion.
-            graph.terms.offset[2] = Six::new(0.0, 1e-4, 0.0, 2e-4, 0.0, 3e-4);
+            assert_eq!(workspace.is_lumped, method == Method::Newton);
             let (mut motions, mut coordinates) = (Vec::new(), Vec::new());
             project_displacements(&graph, &targets, &mut workspace, &mut motions, &mut coordinates);
+            // The offset of the motion is none of the displacement.
+            let arm = graph.terms.arm[2];
+            assert!((motions[2] - transport(&motions[1], &arm)).norm() < 1e-15);
             found.push(motions);
-            graph.terms.offset[2] = carrying().terms.offset[2];
         }
         for (one, other) in found[0].iter().zip(&found[1]) {
             // With a stiffness of 1e6 per row, 1e-5 of 3 mm remain where rows share a body.
             assert!((one - other).norm() < 3e-7, "{one:?} {other:?}");
-        }
-    }
-
-    #[test]
-    fn bodies_already_placed_are_shifted_as_if_they_were_not() {
-        // To first order, an offset of a placed body is equivalent to an offset prescribed by its joint.
-        let mut graph = carrying();
-        let targets = [0.0; 5];
-        let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());
-        solve_graph(&graph, &SolverSettings::default(), &mut workspace, &mut solution).unwrap();
-        let off = Six::new(0.0, 0.0, 0.0, 2e-4, 1e-4, 3e-4);
-        graph.terms.offset[2] = off;
-        let (mut drawn, mut coordinates) = (Vec::new(), Vec::new());
-        project_displacements(&graph, &targets, &mut workspace, &mut drawn, &mut coordinates);
-        let mut placed = Vec::new();
-        let shifts = [Six::zeros(), Six::zeros(), off];
-        // Its own row is then off by as much.
-        let left = [0.0, 0.0, 0.0, 0.0, -graph.rows[4].on_first.dot(&off)];
-        project_placed(&graph, &shifts, &left, &mut workspace, &mut placed, &mut coordinates);
-        for (body, (one, other)) in drawn.iter().zip(&placed).enumerate() {
-            assert!((one - (other + shifts[body])).norm() < 1e-9, "body {body}: {one:?} {other:?}");
         }
     }
 

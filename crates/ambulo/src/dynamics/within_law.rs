@@ -1,5 +1,7 @@
 //! Forces of a group within the limits of its law.
 
+use crate::numerics::elementary::hypot;
+
 use super::constraint::{ConstraintGraph, ConstraintGroup, Law};
 
 /// R of a row; friction has none.
@@ -20,7 +22,7 @@ pub(super) fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
         Law::Contact { friction, bound } => {
             lambda[start] = lambda[start].clamp(0.0, bound);
             let radius = friction * lambda[start];
-            let length = lambda[start + 1].hypot(lambda[start + 2]);
+            let length = hypot(lambda[start + 1], lambda[start + 2]);
             if length > radius {
                 lambda[start + 1] *= radius / length;
                 lambda[start + 2] *= radius / length;
@@ -41,7 +43,7 @@ pub(super) fn fill_friction(
     let start = group.rows.start;
     let radius = friction * before[start];
     let toward = [radius * along[0] + turn[0], radius * along[1] + turn[1]];
-    let length = toward[0].hypot(toward[1]);
+    let length = hypot(toward[0], toward[1]);
     let longer = if length > 0.0 { friction * lambda[start] / length } else { 0.0 };
     lambda[start + 1] = longer * toward[0];
     lambda[start + 2] = longer * toward[1];

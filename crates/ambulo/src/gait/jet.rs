@@ -12,6 +12,8 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
+use crate::numerics::elementary::{powf, sin_cos};
+
 /// A number with two time derivatives: x [unit], x' [unit/s], x'' [unit/s²].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Jet {
@@ -48,7 +50,7 @@ impl Jet {
     /// xᵖ for x > 0.
     #[must_use]
     pub fn power(self, p: f64) -> Jet {
-        let value = self.value.powf(p);
+        let value = powf(self.value, p);
         let slope = p * value / self.value;
         self.through([value, slope, (p - 1.0) * slope / self.value])
     }
@@ -63,7 +65,7 @@ impl Jet {
     /// Sine and cosine of an angle [rad].
     #[must_use]
     pub fn sin_cos(self) -> (Jet, Jet) {
-        let (sin, cos) = self.value.sin_cos();
+        let (sin, cos) = sin_cos(self.value);
         (self.through([sin, cos, -sin]), self.through([cos, -sin, -cos]))
     }
 }

@@ -19,6 +19,8 @@
 //! Thalmann 1990), 0.577 fitted to the five speeds of those children; 0.4 for style 1997, whose authors say that people lengthen
 //! the step rather than raise the cadence (they give no number).
 
+use crate::numerics::elementary::powf;
+
 use super::jet::Jet;
 use super::speed_law::GRAVITY;
 
@@ -73,7 +75,7 @@ impl StrideLaw {
     /// Step length [m] at a law speed.
     #[must_use]
     pub fn step_length(&self, law_speed: f64) -> f64 {
-        let preferred = FREE_SPEED / FREE_CADENCE * (law_speed / FREE_SPEED).powf(1.0 - self.exponent);
+        let preferred = FREE_SPEED / FREE_CADENCE * powf(law_speed / FREE_SPEED, 1.0 - self.exponent);
         preferred * self.length_scale * self.leg_length
     }
 
@@ -93,14 +95,14 @@ impl StrideLaw {
     #[must_use]
     pub fn law_speed_of_frequency(&self, frequency: f64) -> Option<f64> {
         let ratio = frequency * self.leg_time() / FREE_CADENCE;
-        (self.exponent > 0.0).then(|| FREE_SPEED * ratio.powf(1.0 / self.exponent))
+        (self.exponent > 0.0).then(|| FREE_SPEED * powf(ratio, 1.0 / self.exponent))
     }
 
     /// The law speed at which a step length [m] is the preferred one.
     #[must_use]
     pub fn law_speed_of_step(&self, step_length: f64) -> f64 {
         let ratio = step_length / self.leg_length * FREE_CADENCE / FREE_SPEED;
-        FREE_SPEED * ratio.powf(1.0 / (1.0 - self.exponent))
+        FREE_SPEED * powf(ratio, 1.0 / (1.0 - self.exponent))
     }
 }
 

@@ -12,6 +12,7 @@ use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{ForceRecording, TimeGrid};
+use crate::numerics::elementary::hypot;
 use crate::spatial::{Vec3, level_distance};
 
 /// Largest distance of the lower end of a sole from the surface that carries it [m].
@@ -119,6 +120,6 @@ impl FootPaths {
     fn distance(&self, [rear, tip]: &[Vec3; 2], center: Vec3) -> [f64; 2] {
         let above = (rear - center).dot(&self.up).min((tip - center).dot(&self.up));
         let level = level_distance(center, [*rear, *tip], self.up);
-        [level.hypot((above.abs() - OFF_SURFACE_M).max(0.0)), level]
+        [hypot(level, (above.abs() - OFF_SURFACE_M).max(0.0)), level]
     }
 }

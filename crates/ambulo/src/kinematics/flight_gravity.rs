@@ -10,6 +10,7 @@
 
 use crate::model::Model;
 use crate::motion::{MarkerRecording, Motion};
+use crate::numerics::elementary::powi;
 use crate::numerics::median;
 use crate::spatial::STANDARD_GRAVITY;
 use std::ops::Range;
@@ -107,7 +108,7 @@ fn gravity_of(times: &[f64], heights: &[f64]) -> Option<f64> {
     let (first, last) = (times.first()?, times.last()?);
     let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
     let s: Vec<f64> = times.iter().map(|t| (t - middle) / half).collect();
-    let rows = nalgebra::DMatrix::from_fn(s.len(), 3, |i, power| s[i].powi(power as i32));
+    let rows = nalgebra::DMatrix::from_fn(s.len(), 3, |i, power| powi(s[i], power as i32));
     let values = nalgebra::DVector::from_column_slice(heights);
     let normal = rows.tr_mul(&rows).try_inverse()?;
     let fit = normal * rows.tr_mul(&values);

@@ -21,8 +21,7 @@ use crate::model::full_body::full_body;
 use crate::model::marker_set::{Landmark, MarkerDefinition, NamedMarker, RecognisedMarkers, Segment};
 use crate::motion::{Heading, MarkerRecording};
 use crate::numerics::median;
-use crate::spatial::{Pose, Vec3};
-use nalgebra::Rotation3;
+use crate::spatial::{Pose, Vec3, rotation_about};
 use std::f64::consts::FRAC_PI_2;
 
 /// Most frames that are compared.
@@ -137,7 +136,7 @@ impl Reference {
         let turns = if heading == Heading::Unknown { 4 } else { 1 };
         let tries = (0..turns).flat_map(|turn| (0..=count).map(move |k| (turn, k)));
         let bodies = tries.filter_map(|(turn, k)| {
-            let turn = *Rotation3::from_axis_angle(&Vec3::y_axis(), FRAC_PI_2 * f64::from(turn)).matrix();
+            let turn = rotation_about(Vec3::y(), FRAC_PI_2 * f64::from(turn));
             Reference::of_stature(least + 0.05 * f64::from(k), frame, Pose { rotation: turn, translation: at })
         });
         let cost = |reference: &Reference| {

@@ -11,7 +11,6 @@ mod body_motion;
 mod clinical_angles;
 mod flight_gravity;
 pub(crate) mod lanes;
-mod sin_cos;
 pub(crate) mod skeleton_body;
 pub(crate) mod sweep;
 

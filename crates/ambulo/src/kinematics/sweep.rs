@@ -20,8 +20,8 @@
 
 use super::lanes::{Lanes, M3, V3};
 use super::plan::{Axis, Direction, Plan, PlannedEnd, Segment, Source, Spherical};
-use super::sin_cos::sin_cos;
 use crate::model::arc;
+use crate::numerics::sin_cos::sin_cos;
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 
 /// Motion of one body in N frames: axes of M and mass centre.

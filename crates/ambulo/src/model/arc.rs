@@ -17,6 +17,7 @@
 //! forces do not belong to its motion. Here they do.
 //! Pinned by: tests/arc_joint.rs, places against OpenSim 4.6 in tests/opensim_joints.rs
 
+use crate::numerics::elementary::{acos, cos, sin, tan};
 use crate::spatial::Vec3;
 
 /// Series are used above this cosine, θ < 0.2: the first terms left out are below 1e-14.
@@ -51,8 +52,8 @@ pub(crate) fn factor(c: f64) -> [f64; 3] {
 }
 
 fn closed(c: f64) -> [f64; 3] {
-    let x = 0.5 * c.acos();
-    let (t, s, cosine) = (x.tan(), (2.0 * x).sin(), (2.0 * x).cos());
+    let x = 0.5 * acos(c);
+    let (t, s, cosine) = (tan(x), sin(2.0 * x), cos(2.0 * x));
     let secant = 1.0 + t * t;
     // df/dx, d²f/dx² and dx/dc = -1 / (2 sin 2x).
     let g = (x * secant - t) / (2.0 * x * x);
@@ -62,7 +63,7 @@ fn closed(c: f64) -> [f64; 3] {
 }
 
 fn by_series(c: f64) -> [f64; 3] {
-    let y = (0.5 * c.acos()).powi(2);
+    let y = (0.5 * acos(c)).powi(2);
     let [tangent, slope, bend] = series(&TANGENT, y);
     // 2x / sin 2x, and its derivative by y = x².
     let [u, du, _] = series(&COSECANT, 4.0 * y);

@@ -18,6 +18,7 @@
 //! Pinned by: tests/bushings.rs, against OpenSim 4.6
 
 use super::BodyId;
+use crate::numerics::elementary::{asin, atan2, sin_cos};
 use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
 /// A spring and a damper between two frames.
@@ -78,12 +79,12 @@ pub(crate) fn load(stiffness: &Resistance, damping: &Resistance, poses: [Pose; 2
 
 /// Body-fixed X-Y-Z angles of a rotation, R = Rx(a) Ry(b) Rz(c) [rad].
 fn body_fixed_angles(r: &Mat3) -> Vec3 {
-    Vec3::new((-r.m23).atan2(r.m33), r.m13.clamp(-1.0, 1.0).asin(), (-r.m12).atan2(r.m11))
+    Vec3::new(atan2(-r.m23, r.m33), asin(r.m13.clamp(-1.0, 1.0)), atan2(-r.m12, r.m11))
 }
 
 /// N of the equations: rates of the angles by the angular velocity in axes of the turned frame.
 fn rates_by_spin(angles: &Vec3) -> Mat3 {
-    let ((sb, cb), (sc, cc)) = (angles.y.sin_cos(), angles.z.sin_cos());
+    let ((sb, cb), (sc, cc)) = (sin_cos(angles.y), sin_cos(angles.z));
     let cb = cb.max(LEAST_COSINE);
     Mat3::new(cc / cb, -sc / cb, 0.0, sc, cc, 0.0, -cc * sb / cb, sc * sb / cb, 1.0)
 }

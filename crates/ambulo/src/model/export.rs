@@ -5,12 +5,11 @@ use super::{
     Body, BodyId, Bushing, Coordinate, CoordinateId, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds,
     Knots, Marker, Model,
 };
-use crate::spatial::{Pose, Vec3};
+use crate::spatial::{Pose, Vec3, rotation};
 use ambulo_formats::osim::{
     OsimAxis, OsimBody, OsimBushing, OsimConstraint, OsimCoordinate, OsimFunction, OsimJoint, OsimJointKind,
     OsimMarker, OsimModel,
 };
-use nalgebra::Rotation3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Why a model cannot be written.
@@ -166,7 +165,7 @@ fn arc_angles(joint: &Joint) -> Option<[f64; 3]> {
 fn standing(joint: &Joint) -> Option<Pose> {
     let mut pose = Pose::IDENTITY;
     for (axis, value) in fixed(&joint.rotations)? {
-        pose.rotation *= Rotation3::new(axis * value).into_inner();
+        pose.rotation *= rotation(&(axis * value));
     }
     pose.translation = fixed(&joint.translations)?.into_iter().map(|(axis, value)| axis * value).sum();
     Some(pose)

@@ -3,9 +3,10 @@
 use super::knots::Knots;
 use super::simm_spline::SimmSpline;
 use crate::numerics::NaturalSpline;
+use crate::numerics::elementary::sin_cos;
 
 /// y = f(x), with dy/dx and d²y/dx².
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Function {
     /// y = value.
     Constant(f64),
@@ -63,7 +64,7 @@ impl Function {
             Function::PiecewiseConstant(knots) => [knots.y()[knots.before(x)], 0.0, 0.0],
             Function::Step { start, end } => step(*start, *end, x),
             Function::Sine { amplitude, omega, phase, offset } => {
-                let (s, c) = (omega * x + phase).sin_cos();
+                let (s, c) = sin_cos(omega * x + phase);
                 [amplitude * s + offset, amplitude * omega * c, -amplitude * omega * omega * s]
             }
             Function::Scaled(scale, function) => function.at(x).map(|y| scale * y),

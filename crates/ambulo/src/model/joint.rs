@@ -14,7 +14,7 @@ use super::{BodyId, CoordinateId, Function};
 use crate::spatial::{Pose, Vec3};
 
 /// A joint between a body and its parent.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// Name of the joint.
     pub name: String,
@@ -33,7 +33,7 @@ pub struct Joint {
 }
 
 /// One axis of a joint, with the displacement of the child about or along it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct JointAxis {
     /// Unit direction.
     pub direction: Vec3,
@@ -42,7 +42,7 @@ pub struct JointAxis {
 }
 
 /// Displacement about or along an axis.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Displacement {
     /// Constant.
     Fixed(f64),

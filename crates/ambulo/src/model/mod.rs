@@ -36,6 +36,7 @@ pub use side::Side;
 pub use simm_spline::SimmSpline;
 
 use crate::numerics::Shown;
+use crate::numerics::elementary::{cos, sin};
 use crate::spatial::{Inertia, InertiaError, Vec3};
 use std::sync::Arc;
 
@@ -64,7 +65,7 @@ impl CoordinateId {
 }
 
 /// A rigid segment and the joint to its parent.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Body {
     /// Name of the body.
     pub name: String,
@@ -75,7 +76,7 @@ pub struct Body {
 }
 
 /// A generalised coordinate.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Coordinate {
     /// Name of the coordinate.
     pub name: String,
@@ -114,7 +115,7 @@ impl CoordinateKind {
 }
 
 /// How the value of a coordinate is determined.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Drive {
     /// By the recording.
     Free,
@@ -140,7 +141,7 @@ pub struct Marker {
 }
 
 /// A tree of bodies, its coordinates and markers.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     name: String,
     gravity: Vec3,
@@ -423,7 +424,7 @@ impl Model {
     #[must_use]
     pub fn on_slope(&self, angle: f64) -> Model {
         let forward = Vec3::x() - self.up * self.up.dot(&Vec3::x());
-        let gravity = (self.up * angle.cos() + forward * angle.sin()) * -self.gravity.norm();
+        let gravity = (self.up * cos(angle) + forward * sin(angle)) * -self.gravity.norm();
         Model { gravity, ..self.clone() }
     }
 

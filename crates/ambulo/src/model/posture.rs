@@ -5,7 +5,7 @@
 
 use super::arc;
 use super::{BodyId, CoordinateId, Displacement, Drive, Joint, JointAxis, JointSpeeds, Model};
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spatial::{Mat3, Pose, Vec3, rotation_about};
 
 impl JointAxis {
     /// Displacement along or about the axis [rad or m] and its derivative by a coordinate.
@@ -25,7 +25,7 @@ impl Joint {
     pub(crate) fn parent_from_child(&self, q: &[f64]) -> Pose {
         let mut rotation = Mat3::identity();
         for axis in &self.rotations {
-            rotation *= turn(axis.direction, axis.at(q, None).0);
+            rotation *= rotation_about(axis.direction, axis.at(q, None).0);
         }
         let mut translation: Vec3 = self.translations.iter().map(|axis| axis.direction * axis.at(q, None).0).sum();
         if let JointSpeeds::Ellipsoid(radii) = self.speeds {
@@ -43,7 +43,7 @@ impl Joint {
         for axis in &self.rotations {
             let (angle, slope) = axis.at(q, Some(id));
             angular += turned * axis.direction * slope;
-            turned *= turn(axis.direction, angle);
+            turned *= rotation_about(axis.direction, angle);
         }
         let mut linear: Vec3 = self.translations.iter().map(|axis| axis.direction * axis.at(q, Some(id)).1).sum();
         let sliding = |axis: usize| turned.column(axis).into_owned();
@@ -54,10 +54,6 @@ impl Joint {
         }
         [angular, linear].map(|v| self.parent_from_joint.rotation * v)
     }
-}
-
-fn turn(axis: Vec3, angle: f64) -> Mat3 {
-    *nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_unchecked(axis), angle).matrix()
 }
 
 impl Model {

@@ -8,7 +8,8 @@
 //! Pinned by: tests/opensim_joints.rs, against OpenSim 4.6
 
 use super::osim_frame::{frame, pose};
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::numerics::elementary::{cos, sin};
+use crate::spatial::{Mat3, Pose, Vec3, rotation_about};
 use ambulo_formats::osim::{OsimBody, OsimFrame, OsimJoint, OsimJointKind, OsimModel};
 use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
@@ -58,13 +59,13 @@ pub(super) fn divided(document: &OsimModel) -> (Cow<'_, OsimModel>, Vec<String>)
 
 /// The frame of the winging pin in the joint frame: z along the winging axis.
 fn winging([x, y]: [f64; 2], direction_rad: f64) -> Pose {
-    let axis = Vec3::new(-direction_rad.sin(), direction_rad.cos(), 0.0);
+    let axis = Vec3::new(-sin(direction_rad), cos(direction_rad), 0.0);
     let across = axis.cross(&Vec3::z());
     Pose { rotation: Mat3::from_columns(&[Vec3::z(), across, axis]), translation: Vec3::new(x, y, 0.0) }
 }
 
 fn about_z(angle: f64) -> Mat3 {
-    *nalgebra::Rotation3::from_axis_angle(&Vec3::z_axis(), angle).matrix()
+    rotation_about(Vec3::z(), angle)
 }
 
 fn moved(stated: &OsimFrame, by: Pose) -> OsimFrame {

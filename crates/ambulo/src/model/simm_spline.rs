@@ -12,7 +12,7 @@
 use super::knots::Knots;
 
 /// Cubic spline through knots, with linear extrapolation.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SimmSpline {
     knots: Knots,
     /// Second derivative at each knot.

@@ -27,6 +27,7 @@
 //! Pinned by: tests/filters.rs
 
 use crate::numerics::Shown;
+use crate::numerics::elementary::{sin, tan};
 use std::f64::consts::PI;
 
 /// Highest order: the sections of higher orders ring.
@@ -165,7 +166,7 @@ fn check(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<(), FilterErr
 }
 
 fn run_both_ways(mut samples: Vec<f64>, rate_hz: f64, filter: LowPass) -> Vec<f64> {
-    let sections = Section::cascade(filter.order, (PI * filter.cutoff_hz / rate_hz).tan());
+    let sections = Section::cascade(filter.order, tan(PI * filter.cutoff_hz / rate_hz));
     for _ in 0..2 {
         run(&sections, &mut samples);
         samples.reverse();
@@ -200,8 +201,8 @@ impl Section {
     /// The poles of 1/|H|² = 1 + (s/jΩ)^(2 order) in the left half plane lie at angles (2k-1)π/(2 order) from the
     /// imaginary axis: pairs s² + 2 sin(angle) Ω s + Ω², and for an odd order s + Ω.
     fn cascade(order: usize, omega: f64) -> Vec<Self> {
-        let pairs = (1..=order / 2)
-            .map(|k| Self::second_order(omega, 2.0 * ((2 * k - 1) as f64 * PI / (2 * order) as f64).sin()));
+        let pairs =
+            (1..=order / 2).map(|k| Self::second_order(omega, 2.0 * sin((2 * k - 1) as f64 * PI / (2 * order) as f64)));
         let single = (order % 2 == 1).then(|| Self::first_order(omega));
         pairs.chain(single).collect()
     }

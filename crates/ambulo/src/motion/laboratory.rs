@@ -15,6 +15,7 @@ use super::marker_recording::{MarkerPath, MarkerRecording};
 use super::segment_poses::SegmentPoses;
 use crate::findings::{Code, Findings};
 use crate::model::Side;
+use crate::numerics::elementary::{atan2, cos};
 use crate::numerics::median;
 use crate::spatial::{Mat3, Vec3};
 
@@ -67,7 +68,7 @@ impl Laboratory {
     /// Whether this direction of the laboratory is upwards.
     #[must_use]
     pub fn has_up(&self, direction: Vec3) -> bool {
-        (self.world_from_lab * direction).dot(&Vec3::y()) > UPRIGHT_DEG.to_radians().cos()
+        (self.world_from_lab * direction).dot(&Vec3::y()) > cos(UPRIGHT_DEG.to_radians())
     }
 
     /// The same laboratory with the axes of the ground of a model as those of the world; `unit` is for the statement.
@@ -378,7 +379,7 @@ fn nearest_axis(direction: Vec3) -> (Vec3, f64) {
 }
 
 fn angle_deg(a: Vec3, b: Vec3) -> f64 {
-    a.cross(&b).norm().atan2(a.dot(&b)).to_degrees()
+    atan2(a.cross(&b).norm(), a.dot(&b)).to_degrees()
 }
 
 /// The mean direction; `None` if the directions do not agree.

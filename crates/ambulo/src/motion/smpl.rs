@@ -18,11 +18,11 @@
 use super::skeleton::{SkeletonError, SkeletonRecording, skeleton_from_bvh};
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, BuildError, Dimensions};
+use crate::numerics::elementary::{asin, atan2};
 use crate::numerics::median;
-use crate::spatial::{Mat3, Vec3};
+use crate::spatial::{Mat3, Vec3, rotation, rotation_between};
 use ambulo_formats::bvh::{Bvh, Channel, ChannelKind, Joint};
 use ambulo_formats::npz::{Data, Npz};
-use nalgebra::Rotation3;
 
 /// Frame rates of recordings [Hz].
 const RATES_HZ: [f64; 2] = [5.0, 2000.0];
@@ -298,7 +298,7 @@ impl SmplMotion {
             let place = turned * (translation + body.joints[0]);
             let mut values: Vec<f64> = place.iter().copied().collect();
             for k in &order {
-                let own = Rotation3::new(rotations[*k]).into_inner();
+                let own = rotation(&rotations[*k]);
                 values.extend(angles_zxy(&if *k == 0 { turned * own } else { own }).map(f64::to_degrees));
             }
             values
@@ -310,12 +310,11 @@ impl SmplMotion {
 
     /// A rotation by quarter turns that brings the mean upward direction of the pelvis to y.
     fn upright_from_file(&self) -> Mat3 {
-        let up = |rotations: &[Vec3; JOINTS]| Rotation3::new(rotations[0]) * Vec3::y();
+        let up = |rotations: &[Vec3; JOINTS]| rotation(&rotations[0]) * Vec3::y();
         let mean: Vec3 = self.rotations.iter().map(up).filter(|up| up.iter().all(|x| x.is_finite())).sum();
         let axis = mean.iamax();
         let nearest = Vec3::ith(axis, mean[axis].signum());
-        Rotation3::rotation_between(&nearest, &Vec3::y())
-            .map_or_else(|| Mat3::from_diagonal(&Vec3::new(1.0, -1.0, -1.0)), Rotation3::into_inner)
+        rotation_between(&nearest, &Vec3::y()).unwrap_or_else(|| Mat3::from_diagonal(&Vec3::new(1.0, -1.0, -1.0)))
     }
 }
 
@@ -331,8 +330,8 @@ fn depth_first() -> Vec<usize> {
 
 /// Angles about z, then x, then y: R = Rz Rx Ry [rad].
 fn angles_zxy(r: &Mat3) -> [f64; 3] {
-    let about_x = r[(2, 1)].clamp(-1.0, 1.0).asin();
-    [(-r[(0, 1)]).atan2(r[(1, 1)]), about_x, (-r[(2, 0)]).atan2(r[(2, 2)])]
+    let about_x = asin(r[(2, 1)].clamp(-1.0, 1.0));
+    [atan2(-r[(0, 1)], r[(1, 1)]), about_x, atan2(-r[(2, 0)], r[(2, 2)])]
 }
 
 impl SmplBody {

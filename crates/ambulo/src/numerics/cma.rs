@@ -27,6 +27,8 @@ use super::random::Random;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::elementary::{exp, ln, powf, powi};
+
 /// Least eigenvalue of C relative to its largest: beyond it rounding decides.
 const LEAST_EIGENVALUE: f64 = 1e-20;
 
@@ -72,9 +74,9 @@ struct Constants {
 impl Constants {
     fn of(count: usize) -> Constants {
         let n = count as f64;
-        let candidates = 4 + (3.0 * n.ln()) as usize;
+        let candidates = 4 + (3.0 * ln(n)) as usize;
         let parents = candidates / 2;
-        let raw: Vec<f64> = (1..=parents).map(|i| (parents as f64 + 0.5).ln() - (i as f64).ln()).collect();
+        let raw: Vec<f64> = (1..=parents).map(|i| ln(parents as f64 + 0.5) - ln(i as f64)).collect();
         let sum: f64 = raw.iter().sum();
         let weights: Vec<f64> = raw.iter().map(|weight| weight / sum).collect();
         let effective = 1.0 / weights.iter().map(|weight| weight * weight).sum::<f64>();
@@ -184,7 +186,7 @@ impl Cma {
         let length = path_sigma.norm_squared() / n;
         // |p_σ|²/n is 1 on average, from the first generation on by this divisor; while it is larger, C does not follow the mean.
         let begun =
-            1.0 - (1.0 - own.c_sigma).powi(i32::try_from(self.generations).unwrap_or(i32::MAX).saturating_mul(2));
+            1.0 - powi(1.0 - own.c_sigma, i32::try_from(self.generations).unwrap_or(i32::MAX).saturating_mul(2));
         let follows = if length / begun < 2.0 + 4.0 / (n + 1.0) { 1.0 } else { 0.0 };
         let path = smoothed(&self.path, own.c_path, own.effective, &(&step * follows));
 
@@ -195,7 +197,7 @@ impl Cma {
             covariance += step * step.transpose() * (own.c_mu * *weight);
         }
         self.mean = (mean + step * self.sigma).as_slice().to_vec();
-        self.sigma *= (own.c_sigma / own.damping * (length - 1.0) / 2.0).min(1.0).exp();
+        self.sigma *= exp((own.c_sigma / own.damping * (length - 1.0) / 2.0).min(1.0));
         self.covariance = covariance.as_slice().to_vec();
         self.path_sigma = path_sigma.as_slice().to_vec();
         self.path = path.as_slice().to_vec();
@@ -209,7 +211,7 @@ impl Cma {
     fn power_of_covariance(&self, power: f64) -> DMatrix<f64> {
         let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(self.matrix());
         let least = LEAST_EIGENVALUE * eigenvalues.max();
-        let powers = eigenvalues.map(|value| value.max(least).powf(power));
+        let powers = eigenvalues.map(|value| powf(value.max(least), power));
         &eigenvectors * DMatrix::from_diagonal(&powers) * eigenvectors.transpose()
     }
 }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::numerics::elementary::{self, sin_cos};
+
 /// Mean and harmonics of values over whole cycles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Harmonics {
@@ -25,14 +27,18 @@ impl Harmonics {
             };
             (1..=count).map(part).collect()
         };
-        Harmonics { mean: values.iter().sum::<f64>() / samples, cosine: along(f64::cos), sine: along(f64::sin) }
+        Harmonics {
+            mean: values.iter().sum::<f64>() / samples,
+            cosine: along(elementary::cos),
+            sine: along(elementary::sin),
+        }
     }
 
     /// The value at a phase [cycles].
     #[must_use]
     pub fn at(&self, phase: f64) -> f64 {
         let waves = self.cosine.iter().zip(&self.sine).zip(1..).map(|((cosine, sine), k)| {
-            let (sin, cos) = (TAU * f64::from(k) * phase).sin_cos();
+            let (sin, cos) = sin_cos(TAU * f64::from(k) * phase);
             cosine * cos + sine * sin
         });
         self.mean + waves.sum::<f64>()

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
+use crate::numerics::elementary::{cos, ln};
+
 /// Splitmix64 (Steele, Lea, Flood 2014; unverified). Its state is one number, so that a computation can be stopped and resumed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Random(u64);
@@ -25,8 +27,8 @@ impl Random {
 
     /// Normally distributed, with mean 0 and standard deviation 1 (Box and Muller 1958; unverified).
     pub fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.share()).ln()).sqrt();
-        radius * (TAU * self.share()).cos()
+        let radius = (-2.0 * ln(1.0 - self.share())).sqrt();
+        radius * cos(TAU * self.share())
     }
 }
 

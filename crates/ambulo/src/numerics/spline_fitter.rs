@@ -28,6 +28,8 @@
 //! Not handled: sample weights, one p shared by several columns (Woltring's K data sets).
 //! Pinned by: tests/splines.rs
 
+use crate::numerics::elementary::{exp, ln, powi};
+
 use super::banded::BandedLdl;
 use super::natural_spline::{NaturalSpline, SmoothingUsed, SplineDegree, SplineError};
 use super::spline_grid::SplineGrid;
@@ -62,7 +64,7 @@ pub enum Smoothing {
 /// The p (s^(2m-1)) whose fit halves a sine of `cutoff_hz` on samples at `rate_hz`, which a Butterworth filter run
 /// forwards and backwards with this cut-off does too. p = (2π cutoff)^(-2m) rate.
 pub fn smoothing_parameter_for_cutoff(degree: SplineDegree, cutoff_hz: f64, rate_hz: f64) -> f64 {
-    rate_hz * (std::f64::consts::TAU * cutoff_hz).powi(-2 * degree.half_order() as i32)
+    rate_hz * powi(std::f64::consts::TAU * cutoff_hz, -2 * degree.half_order() as i32)
 }
 
 /// Fits natural splines of one degree on one time grid.
@@ -161,7 +163,7 @@ impl SplineFitter {
 
     /// h^(2m-1): p in seconds for p in steps.
     fn seconds(&self) -> f64 {
-        self.grid.step.powi(self.degree.degree() as i32)
+        powi(self.grid.step, self.degree.degree() as i32)
     }
 
     /// γ and the residuals y - g = p Q γ, refined once by a solve for the misfit Qᵀ (y - p Q γ) - R γ.
@@ -200,7 +202,7 @@ impl SplineFitter {
 
     /// For each column the p of least score: first over a coarse range shared by all columns, then by golden section.
     fn search(&self, columns: &[&[f64]], smoothing: Smoothing) -> Result<Vec<NaturalSpline>, SplineError> {
-        let ratio = SEARCH_RATIO.powi(2 * self.grid.half_order as i32);
+        let ratio = powi(SEARCH_RATIO, 2 * self.grid.half_order as i32);
         let mut best = vec![(f64::INFINITY, WEAKEST_SMOOTHING / self.penalty_norm); columns.len()];
         let mut p = WEAKEST_SMOOTHING / self.penalty_norm;
         while p * self.penalty_norm <= STRONGEST_SMOOTHING {
@@ -221,9 +223,9 @@ impl SplineFitter {
     fn search_near(&self, y: &[f64], p: f64, ratio: f64, smoothing: Smoothing) -> Result<NaturalSpline, SplineError> {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         let score = |ln_p: f64| {
-            self.candidate(ln_p.exp()).map_or(f64::INFINITY, |candidate| self.score(y, &candidate, smoothing))
+            self.candidate(exp(ln_p)).map_or(f64::INFINITY, |candidate| self.score(y, &candidate, smoothing))
         };
-        let (mut low, mut high) = (p.ln() - ratio.ln(), p.ln() + ratio.ln());
+        let (mut low, mut high) = (ln(p) - ln(ratio), ln(p) + ln(ratio));
         let (mut left, mut right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
         let (mut left_score, mut right_score) = (score(left), score(right));
         while high - low > SEARCH_TOLERANCE {
@@ -237,7 +239,7 @@ impl SplineFitter {
                 right_score = score(right);
             }
         }
-        Ok(self.smooth(y, &self.candidate((0.5 * (low + high)).exp())?))
+        Ok(self.smooth(y, &self.candidate(exp(0.5 * (low + high)))?))
     }
 
     /// The objective of a search.

@@ -26,6 +26,8 @@
 
 use std::sync::Arc;
 
+use crate::numerics::elementary::powi;
+
 use super::banded::SymmetricBand;
 use super::natural_spline::{SplineDegree, SplineError};
 
@@ -223,7 +225,7 @@ impl SplineGrid {
         let mut sum = 0.0;
         for r in 0..m {
             let exponent = power + r + 1;
-            sum += binomial_over_factorial * reach.powi((m - 1 - r) as i32) * width.powi(exponent as i32)
+            sum += binomial_over_factorial * powi(reach, (m - 1 - r) as i32) * powi(width, exponent as i32)
                 / exponent as f64;
             binomial_over_factorial *= -((m - 1 - r) as f64) / (r + 1) as f64;
         }
@@ -245,7 +247,7 @@ impl SplineGrid {
         let n = g.len();
         let top: Vec<[f64; M]> = (0..n - 1).map(|i| self.top_derivative(i, gamma)).collect();
         // aₘ₊ₖ = (k-th coefficient of f⁽ᵐ⁾) k!/(m+k)!; all in units of 1/h per order.
-        let per_second: Vec<f64> = (0..2 * M).map(|k| self.step.powi(-(k as i32))).collect();
+        let per_second: Vec<f64> = (0..2 * M).map(|k| powi(self.step, -(k as i32))).collect();
         let integrated: [f64; M] =
             std::array::from_fn(|k| per_second[M + k] / (k + 1..=M + k).map(|factor| factor as f64).product::<f64>());
         let mut out = vec![0.0; n * 2 * M];
@@ -296,7 +298,7 @@ fn integral_of_product(a: &Piece, b: &Piece, width: f64) -> f64 {
     for (p, ap) in a.iter().enumerate() {
         for (q, bq) in b.iter().enumerate() {
             let exponent = p + q + 1;
-            sum += ap * bq * width.powi(exponent as i32) / exponent as f64;
+            sum += ap * bq * powi(width, exponent as i32) / exponent as f64;
         }
     }
     sum

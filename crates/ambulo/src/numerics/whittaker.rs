@@ -11,6 +11,8 @@
 use super::{BandFactor, BandMatrix};
 use std::f64::consts::{PI, TAU};
 
+use crate::numerics::elementary::{cos, powi, sin};
+
 const ORDER: usize = 3;
 const THIRD: [f64; ORDER + 1] = [-1.0, 3.0, -3.0, 1.0];
 /// Keeps the matrix positive definite where fewer than three samples have weight.
@@ -28,7 +30,7 @@ impl Whittaker {
     #[must_use]
     pub fn new(count: usize) -> Whittaker {
         let one = |i: usize| {
-            if i < ORDER { 0.0 } else { (2.0 - 2.0 * (PI * i as f64 / count as f64).cos()).powi(ORDER as i32) }
+            if i < ORDER { 0.0 } else { powi(2.0 - 2.0 * cos(PI * i as f64 / count as f64), ORDER as i32) }
         };
         Whittaker { eigenvalues: (0..count).map(one).collect() }
     }
@@ -36,7 +38,7 @@ impl Whittaker {
     /// The λ that halves a sine of this frequency [Hz] in samples at `rate_hz`.
     #[must_use]
     pub fn lambda_at(cutoff_hz: f64, rate_hz: f64) -> f64 {
-        (2.0 * (0.5 * TAU * cutoff_hz / rate_hz).sin()).powi(-2 * ORDER as i32)
+        powi(2.0 * sin(0.5 * TAU * cutoff_hz / rate_hz), -2 * ORDER as i32)
     }
 
     /// Number of values that a smoothed series follows with equal weights: the trace of the matrix that gives f from y.

@@ -3,6 +3,7 @@
 use super::error::OptimalWalkError;
 use crate::model::anthropometry::Human;
 use crate::model::{Model, ModelError, Side};
+use crate::numerics::elementary::atan;
 use crate::spatial::Vec3;
 use crate::toml_reader::{Source, Table, TomlError, listed};
 
@@ -151,7 +152,7 @@ impl WalkConditions {
     /// Angle of the ground [rad]; positive is uphill.
     #[must_use]
     pub fn incline(&self) -> f64 {
-        self.slope.atan()
+        atan(self.slope)
     }
 
     /// As [`WalkConditions::of_joints`], with all numbers in their ranges.

@@ -3,6 +3,7 @@
 use super::instant::Instant;
 use crate::model::anatomy::Anatomy;
 use crate::model::{CoordinateId, Movement, Side};
+use crate::numerics::elementary::{exp, hypot};
 
 /// What muscles do at a joint: its generalised force without those of tissue, a spring, a damper, and a device,
 ///
@@ -39,7 +40,7 @@ impl Exponential {
     /// The force, and its derivative by the exponent.
     fn value(&self, at: &Instant) -> (f64, f64) {
         let exponent = self.constant + self.rates.iter().map(|(id, a)| a * at.posture[0][id.index()]).sum::<f64>();
-        let value = self.scale * exponent.min(STEEPEST).exp();
+        let value = self.scale * exp(exponent.min(STEEPEST));
         (value * (1.0 + (exponent - STEEPEST).max(0.0)), value)
     }
 }
@@ -75,7 +76,7 @@ impl Effort {
 
 /// √(p₊ P₊ + p₋ P₋) of a mechanical power P, and its derivative by P.
 pub(super) fn root_power(power: f64, [positive, negative]: [f64; 2], smooth_w: f64) -> (f64, f64) {
-    let smooth = power.hypot(smooth_w);
+    let smooth = hypot(power, smooth_w);
     let (above, below) = (0.5 * (smooth + power), 0.5 * (smooth - power));
     let root = (positive * above + negative * below).sqrt();
     (root, (positive * above - negative * below) / (2.0 * root * smooth))

@@ -15,6 +15,7 @@ use crate::dynamics::CurvedJointError;
 use crate::gait::{FREE_SPEED, JointMoments, Walk};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, CoordinateKind, Model, Movement, Side};
+use crate::numerics::elementary::powf;
 use crate::spatial::Vec3;
 use crate::toml_reader::TomlError;
 use targets::{Target, Targets, settled_s};
@@ -147,7 +148,7 @@ impl WalkCosts {
     /// The costs at a dimensionless speed.
     fn at(self, speed: f64) -> WalkCosts {
         let [forward, up] = self.force;
-        let grown = |exponent: f64| (speed / FREE_SPEED).powf(exponent);
+        let grown = |exponent: f64| powf(speed / FREE_SPEED, exponent);
         let force = [forward * grown(self.force_exponent), up];
         WalkCosts { force, slip: self.slip * grown(self.slip_exponent), ..self }
     }

@@ -5,6 +5,8 @@
 //! for 20 ms around the impacts of both walks; and the integral of the torque since the start of that cycle, impacts included. Both are root
 //! mean squares in percent of the range over the cycle.
 
+use crate::numerics::elementary::ln;
+
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, RATES_HZ, Scope};
 use super::mode::Run;
@@ -59,8 +61,8 @@ fn measure(evidence: &Evidence, what: &str, of: fn(&Distance) -> f64) -> Numbers
 
 /// Slope of log error against log time step, by least squares.
 fn order(errors: &[f64]) -> f64 {
-    let x: Vec<f64> = RATES_HZ.iter().map(|rate| -rate.ln()).collect();
-    let y: Vec<f64> = errors.iter().map(|error| error.max(1e-12).ln()).collect();
+    let x: Vec<f64> = RATES_HZ.iter().map(|rate| -ln(*rate)).collect();
+    let y: Vec<f64> = errors.iter().map(|error| ln(error.max(1e-12))).collect();
     let (x0, y0) = (mean(&x), mean(&y));
     let products = |f: &dyn Fn(f64, f64) -> f64| x.iter().zip(&y).map(|(x, y)| f(x - x0, y - y0)).sum::<f64>();
     products(&|x, y| x * y) / products(&|x, _| x * x)

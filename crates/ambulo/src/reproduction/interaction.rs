@@ -4,6 +4,7 @@
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::Scope;
 use crate::findings::Findings;
+use crate::numerics::elementary::ln;
 use crate::simulation::scene::{RunStatistics, Scene, SceneFile, SceneFrame, SceneSettings};
 use std::fmt::Write;
 use std::sync::LazyLock;
@@ -141,7 +142,7 @@ fn loop_costs() -> Option<Numbers> {
         let solves = RUNGS.iter().map(|rungs| solves_per_step(*rungs, closed)).collect::<Option<Vec<f64>>>()?;
         let costs: Vec<f64> = RUNGS.iter().zip(&solves).map(|(rungs, solves)| *rungs as f64 * solves).collect();
         let last = RUNGS.len() - 1;
-        let exponent = (costs[last] / costs[0]).ln() / (RUNGS[last] as f64 / RUNGS[0] as f64).ln();
+        let exponent = ln(costs[last] / costs[0]) / ln(RUNGS[last] as f64 / RUNGS[0] as f64);
         all.push((format!("exponent_{name}"), exponent));
         all.push((format!("solves_per_step_{name}"), solves[last]));
     }

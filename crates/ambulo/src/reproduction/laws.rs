@@ -5,6 +5,7 @@ use super::evidence::{GAITS, Scope};
 use super::figures::REFERENCE_LEG;
 use crate::findings::Findings;
 use crate::gait::{CyclicCurve, Gait, GaitError, Jet, LegAngles, Pace, PaceChange, Speed, Style, Walk};
+use crate::numerics::elementary::ln;
 
 /// Distance from an instant at which both sides of it are compared [s].
 const BESIDE_S: f64 = 1e-6;
@@ -56,7 +57,7 @@ pub(super) const SPEED_LAW: Statement = Statement {
     measure: |_| {
         let [Ok(slow), Ok(fast)] = [1.0, 1.6].map(|speed| at_speed(speed, Vec::new())) else { return Numbers::new() };
         let product = |walk: &Walk| walk.step_length() * 2.0 / walk.cycle_s() / walk.speed() - 1.0;
-        let share = (fast.step_length() / slow.step_length()).ln() / (fast.speed() / slow.speed()).ln();
+        let share = ln(fast.step_length() / slow.step_length()) / ln(fast.speed() / slow.speed());
         numbers([
             ("share_of_step_length", share),
             ("departure_from_product", product(&slow).abs().max(product(&fast).abs())),

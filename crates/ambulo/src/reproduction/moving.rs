@@ -1,5 +1,7 @@
 //! A walk as a moving stick figure: one steady cycle, relative to the middle of the hips.
 
+use crate::numerics::elementary::hypot;
+
 use super::figures::{STICKS, SeriesKind, at_row, place};
 use super::mode::Run;
 use super::steady::Steady;
@@ -81,5 +83,5 @@ pub fn moving_figure(run: &Run) -> Option<MovingFigure> {
 
 /// Centre and radius of a head between neck and vertex, relative to the hips [m].
 fn head(([x, y], [top_x, top_y]): ([f64; 2], [f64; 2]), hips: f64) -> ([f64; 2], f64) {
-    ([0.5 * (x + top_x) - hips, 0.5 * (y + top_y)], 0.5 * (top_x - x).hypot(top_y - y))
+    ([0.5 * (x + top_x) - hips, 0.5 * (y + top_y)], 0.5 * hypot(top_x - x, top_y - y))
 }

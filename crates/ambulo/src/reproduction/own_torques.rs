@@ -10,6 +10,7 @@ use super::paper_human::paper_human;
 use crate::findings::Findings;
 use crate::gait::{Gait, Walk};
 use crate::model::anthropometry::Human;
+use crate::numerics::elementary::{atan, sin_cos};
 use crate::simulation::StepSettings;
 use crate::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 use crate::simulation::control::{ControlSettings, PhysicalWalk, TorqueCurves, WalkController};
@@ -96,7 +97,7 @@ fn push(walk: &mut PhysicalWalk, human: &Human) -> Option<()> {
 
 /// Inclines gravity instead of the ground.
 fn incline(walk: &mut PhysicalWalk) {
-    let (sin, cos) = SLOPE.atan().sin_cos();
+    let (sin, cos) = sin_cos(atan(SLOPE));
     let world = walk.world_mut();
     world.gravity = Vec3::new(-sin, -cos, 0.0) * world.gravity.norm();
 }

@@ -11,6 +11,7 @@ use super::statements::judgements;
 use crate::contact::HuntCrossley;
 use crate::gait::Style;
 use crate::numerics::Random;
+use crate::numerics::elementary::powf;
 use crate::simulation::ImpactLaw;
 use std::sync::LazyLock;
 
@@ -81,7 +82,7 @@ impl OpenValues {
         let of = |name: &str| self.named().find(|(own, _)| *own == name).map_or(f64::NAN, |(_, value)| value);
         let on = |name: &str| of(name) > 0.5;
         let shoes = HuntCrossley::FALISSE_2022;
-        let stiffness = shoes.stiffness * 10.0_f64.powf(of("soft_shoe_stiffness_log10_factor"));
+        let stiffness = shoes.stiffness * powf(10.0_f64, of("soft_shoe_stiffness_log10_factor"));
         PaperSettings {
             height: Some(of("stature_m")),
             thickness: of("cross_section_factor"),

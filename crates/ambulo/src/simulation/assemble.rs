@@ -12,12 +12,14 @@
 //!
 //! A drive moves its coordinate to the value of its signal at the end of the step: q̇ = (s(t + h) - q)/h.
 
-use super::joint::{Coordinates, Frames, JointKind, MOST, rotation_vector};
+use super::joint::{Constrained, Coordinates, Frames, JointKind, MOST};
 use super::signal::Instant;
 use super::state::{RowKey, WorldState, rates};
 use super::world::{Closure, JointCoordinate, TreeJoint, World};
-use crate::dynamics::{ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows};
-use crate::spatial::{Mat3, Pose, Twist, Vec3};
+use crate::dynamics::{
+    ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_slide, relative_turn,
+};
+use crate::spatial::{Mat3, Pose, Twist, Vec3, rotation_vector};
 
 /// Drives that give way beyond their limit in this step: (joint, coordinate, limit).
 pub(crate) type Yielding = Vec<(usize, usize, f64)>;
@@ -92,6 +94,8 @@ pub(crate) struct Assembly {
     pub(crate) directions: Vec<[Six; MOST]>,
     /// Joint of each body.
     pub(crate) joint_of: Vec<Option<usize>>,
+    /// First coordinate of the graph of each body.
+    pub(crate) first: Vec<usize>,
     /// Angular velocities at which the gyroscopic moments of bodies are taken [rad/s]; without one it is predicted from the body alone.
     pub(crate) spins: Vec<Option<Vec3>>,
 }
@@ -155,6 +159,7 @@ impl Assembly {
     ) {
         self.begin(world);
         for body in 0..world.bodies.len() {
+            self.first.push(self.slots.len());
             self.add_body(world, state, body, span);
             match self.joint_of[body] {
                 Some(joint) => self.add_joint(world, state, prescribed, yielding, joint, span),
@@ -179,11 +184,11 @@ impl Assembly {
         for (number, closure) in world.closures.iter().enumerate().filter(|(_, c)| c.active) {
             let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
             let frames = Frames {
-                parent: parent * closure.second_from_joint,
-                child: state.poses[closure.first] * closure.first_from_joint,
+                parent: parent.with(&closure.second_from_joint),
+                child: state.poses[closure.first].with(&closure.first_from_joint),
             };
             let centers = (state.poses[closure.first].translation, closure.second.map(|p| state.poses[p].translation));
-            self.close(number, closure, closing_rows(closure.kind, &frames, centers));
+            self.close(number, closure, closing_rows(&closure.kind.constrained(&frames), &frames, centers));
         }
     }
 
@@ -192,6 +197,7 @@ impl Assembly {
         self.graph.clear();
         self.keys.clear();
         self.slots.clear();
+        self.first.clear();
         self.directions.resize(world.joints.len(), [Six::zeros(); MOST]);
         self.joint_of.clear();
         self.joint_of.resize(world.bodies.len(), None);
@@ -201,12 +207,12 @@ impl Assembly {
     }
 
     /// Adds the rows of a closure, if it has any.
-    pub(crate) fn close(&mut self, number: usize, closure: &Closure, rows: Vec<Constraint>) {
-        if rows.is_empty() {
-            return;
-        }
+    pub(crate) fn close(&mut self, number: usize, closure: &Closure, rows: impl Iterator<Item = Constraint>) {
         let start = self.graph.rows.len();
         self.graph.rows.extend(rows);
+        if self.graph.rows.len() == start {
+            return;
+        }
         let on = ActsOn::Bodies { first: closure.first, second: closure.second };
         self.graph.groups.push(ConstraintGroup { on, rows: start..self.graph.rows.len(), law: Law::EQUALITY });
         self.keys.push(RowKey::Closure(number));
@@ -214,7 +220,7 @@ impl Assembly {
 
     fn add_body(&mut self, world: &World, state: &WorldState, body: usize, Span { h, halfway, .. }: Span) {
         let (about, pose, twist) = (&world.bodies[body], &state.poses[body], &state.twists[body]);
-        let inertia = pose.rotation * about.inertia * pose.rotation.transpose();
+        let inertia = turned_inertia(&pose.rotation, &about.inertia);
         let momentum = match self.spins.get(body).copied().flatten() {
             Some(spin) => inertia * twist.angular - spin.cross(&(inertia * spin)) * h,
             None => {
@@ -274,7 +280,7 @@ impl Assembly {
         // During an impact, drives keep their rates.
         let (displacement, h) = match (instant, joint.kind) {
             (true, _) => (rates(state, joint, &state.frames(joint)), 1.0),
-            (false, JointKind::Ball | JointKind::Free) => {
+            (false, JointKind::Ball | JointKind::Free) if joint.coordinates.iter().any(|c| c.drive.is_some()) => {
                 let goal = std::array::from_fn(|k| match q.get(k) {
                     Some(q) => drive_of(k).map_or(*q, |_| prescribed.value(number, k)),
                     None => 0.0,
@@ -372,6 +378,15 @@ fn write_directions(joint: &TreeJoint, state: &WorldState, directions: &mut [Six
     joint.kind.write_directions(axis, of_child, &to_center, directions);
 }
 
+/// R I Rᵀ of a symmetric I.
+#[inline(always)]
+fn turned_inertia(r: &Mat3, inertia: &Mat3) -> Mat3 {
+    let half = r * inertia;
+    let entry = |i: usize, j: usize| half.row(i).dot(&r.row(j));
+    let [xx, xy, xz, yy, yz, zz] = [entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)];
+    Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
 /// ω - ω⁻ of a free body: Newton steps of I (ω - ω⁻) + h ω × I ω = 0, from ω⁻ on.
 fn gyroscopic_change(inertia: &Mat3, before: &Vec3, h: f64, rounds: usize) -> Vec3 {
     let mut change = Vec3::zeros();
@@ -383,8 +398,14 @@ fn gyroscopic_change(inertia: &Mat3, before: &Vec3, h: f64, rounds: usize) -> Ve
             break;
         }
         let slope = inertia + (omega.cross_matrix() * inertia - momentum.cross_matrix()) * h;
-        let Some(inverse) = slope.try_inverse() else { break };
-        change -= inverse * off;
+        let [x, y, z] = [0, 1, 2].map(|k| slope.column(k).into_owned());
+        let across = y.cross(&z);
+        let determinant = x.dot(&across);
+        if determinant == 0.0 {
+            break;
+        }
+        // Cramer's rule.
+        change -= Vec3::new(across.dot(&off), z.cross(&x).dot(&off), x.cross(&y).dot(&off)) / determinant;
     }
     change
 }
@@ -409,12 +430,15 @@ fn carried_along(state: &WorldState, joint: &TreeJoint) -> Six {
 }
 
 /// Rows of a closure, with targets of zero.
-pub(crate) fn closing_rows(kind: JointKind, frames: &Frames, (first, second): (Vec3, Option<Vec3>)) -> Vec<Constraint> {
+pub(crate) fn closing_rows(
+    constrained: &Constrained,
+    frames: &Frames,
+    (first, second): (Vec3, Option<Vec3>),
+) -> impl Iterator<Item = Constraint> {
     let point = frames.child.translation;
     let from_second = second.map_or(Vec3::zeros(), |c| point - c);
-    let (turns, slides) = kind.constrained(frames);
-    let rows = |axis: Vec3| relative_rows([axis, axis, axis], first - point, from_second);
-    turns.into_iter().map(|e| rows(e)[0]).chain(slides.into_iter().map(|e| rows(e)[3])).collect()
+    let slides = constrained.slides().map(move |e| relative_slide(e, first - point, from_second));
+    constrained.turns().map(relative_turn).chain(slides)
 }
 
 /// Twist of a body from the six numbers of the solver.

@@ -3,13 +3,14 @@
 //! Each rotation of a joint is a hinge of the world, so that every angle of the model has a motor of its own; between the hinges of one joint are
 //! links without mass. The root of a planar figure is a planar joint, that of a figure in three dimensions is a free body.
 
-use super::joint::{JointKind, rotation};
+use super::joint::JointKind;
 use super::state::rates;
 use super::{JointCoordinate, Owner, RigidBody, Surface, TreeJoint, World, WorldState};
 use crate::contact::{Shape, ShapeError};
 use crate::kinematics::{BodyMotion, Posture, angles_zxy, body_motion};
 use crate::model::{BodyId, CoordinateId, Displacement, JointAxis, JointSpeeds, Model};
-use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
+use crate::numerics::elementary::{atan2, sin_cos};
+use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench, rotation};
 
 /// Tolerance for rounding of slopes and directions.
 const SLACK: f64 = 1e-9;
@@ -158,7 +159,7 @@ impl FigureTree {
         let at_joint = pose * center_from(&self.model, BodyId(0)) * joint.child_from_joint;
         let [a, b, c] = angles_zxy(&(in_ground * at_joint.rotation));
         let w = rotation(&(Vec3::z() * -a)) * (in_ground * twist.angular);
-        let (sin, cos) = b.sin_cos();
+        let (sin, cos) = sin_cos(b);
         // Where the pelvis lies on its side, the other two angles are not defined.
         let c_rate = w.y / cos.max(f64::EPSILON);
         let place = in_ground * (at_joint.translation - joint.parent_from_joint.translation);
@@ -306,5 +307,5 @@ fn with_z_along(direction: Vec3) -> Mat3 {
     if sine <= SLACK {
         return if direction.z > 0.0 { Mat3::identity() } else { rotation(&(Vec3::x() * std::f64::consts::PI)) };
     }
-    rotation(&(across * (sine.atan2(direction.z) / sine)))
+    rotation(&(across * (atan2(sine, direction.z) / sine)))
 }

@@ -2,8 +2,8 @@
 //!
 //!   1. contact points and constraints: the graph at (x, v⁻)
 //!   2. v, λ from the graph                                        (dynamics::solve_graph)
-//!   3. x := x + h v, rotations by exp(h ω)
-//!   4. linearised displacements: M δ = Jᵀ ν, J δ = -error, with the factor of 2; then tree joints are placed exactly
+//!   3. q := q + h q̇, and bodies are placed along their trees        (`projection`)
+//!   4. linearised displacements: M δ = Jᵀ ν, J δ = -error, with the factor of 2
 //!
 //! The multipliers λ/h are the forces of joints, drives, contacts and friction.
 //!
@@ -68,16 +68,13 @@ fn prescribed_step(
     }
     state.time_s += h;
     w.remember(state);
-    if settings.projection && w.only_translates(world) {
-        w.place_translated(world, state, prescribed, h);
+    if settings.projection {
+        w.place(world, state, prescribed, h);
     } else {
         for (pose, twist) in state.poses.iter_mut().zip(&state.twists) {
             advance(pose, twist, h);
         }
-        if settings.projection {
-            w.project(world, state, prescribed, h);
-        }
-        w.place_joints(world, state, prescribed, settings.projection);
+        w.measure_joints(world, state);
     }
     if settings.projection && !closing {
         w.close(world, state, prescribed, settings)?;

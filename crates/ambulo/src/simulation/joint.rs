@@ -16,8 +16,10 @@
 //! Functions that run for every joint in every step are inlined, for the same reason as those of `Pose`.
 
 use crate::dynamics::Six;
-use crate::spatial::{Mat3, Pose, Twist, Vec3};
+use crate::numerics::elementary::{atan2, sin_cos};
+use crate::spatial::{Mat3, Pose, Twist, Vec3, rotation, rotation_vector};
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// The motions that a joint leaves free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,6 +53,29 @@ pub(crate) struct Frames {
     pub(crate) parent: Pose,
     /// `world_from_C`.
     pub(crate) child: Pose,
+}
+
+/// Directions that a joint forbids, world axes.
+#[derive(Debug, Clone)]
+pub(crate) struct Constrained {
+    /// The axes of the parent's frame.
+    axes: [Vec3; 3],
+    /// For a universal joint: the normal of its two axes, about which it cannot turn.
+    normal: Option<Vec3>,
+    turns: Range<usize>,
+    slides: Range<usize>,
+}
+
+impl Constrained {
+    /// Axes about which nothing turns.
+    pub(crate) fn turns(&self) -> impl Iterator<Item = Vec3> + '_ {
+        self.axes[self.turns.clone()].iter().map(|axis| self.normal.unwrap_or(*axis))
+    }
+
+    /// Axes along which nothing slides.
+    pub(crate) fn slides(&self) -> impl Iterator<Item = Vec3> + '_ {
+        self.axes[self.slides.clone()].iter().copied()
+    }
 }
 
 impl JointKind {
@@ -98,7 +123,10 @@ impl JointKind {
             JointKind::Weld => Pose::IDENTITY,
             JointKind::Revolute => turn(about_z(q[0])),
             JointKind::Prismatic => Pose::at(Vec3::new(0.0, 0.0, q[0])),
-            JointKind::Universal => turn(rotation(&Vec3::new(q[0], 0.0, 0.0)) * rotation(&Vec3::new(0.0, q[1], 0.0))),
+            JointKind::Universal => {
+                let ((sa, ca), (sb, cb)) = (sin_cos(q[0]), sin_cos(q[1]));
+                turn(Mat3::new(cb, 0.0, sb, sa * sb, ca, -sa * cb, -ca * sb, sa, ca * cb))
+            }
             JointKind::Ball => turn(rotation(&Vec3::new(q[0], q[1], q[2]))),
             JointKind::Planar => Pose { rotation: about_z(q[2]), translation: Vec3::new(q[0], q[1], 0.0) },
             JointKind::Free => {
@@ -126,17 +154,17 @@ impl JointKind {
         let mut q = [0.0; MOST];
         match self {
             JointKind::Weld => {}
-            JointKind::Revolute => q[0] = near(f64::atan2(r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]), 0),
+            JointKind::Revolute => q[0] = near(atan2(r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]), 0),
             JointKind::Prismatic => q[0] = p.z,
             // R_x(a) R_y(b): third column is (sin b, -sin a cos b, cos a cos b), second is (0, cos a, sin a).
             JointKind::Universal => {
-                q[0] = near(f64::atan2(r[(2, 1)], r[(1, 1)]), 0);
-                q[1] = near(f64::atan2(r[(0, 2)], r[(0, 0)]), 1);
+                q[0] = near(atan2(r[(2, 1)], r[(1, 1)]), 0);
+                q[1] = near(atan2(r[(0, 2)], r[(0, 0)]), 1);
             }
             JointKind::Ball => q[..3].copy_from_slice(near_vector(rotation_vector(r), last).as_slice()),
             JointKind::Planar => {
                 (q[0], q[1]) = (p.x, p.y);
-                q[2] = near(f64::atan2(r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]), 2);
+                q[2] = near(atan2(r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]), 2);
             }
             JointKind::Free => {
                 q[..3].copy_from_slice(near_vector(rotation_vector(r), last).as_slice());
@@ -158,6 +186,20 @@ impl JointKind {
             displacement[..3].copy_from_slice(rotation_vector(&(then * now.transpose())).as_slice());
         }
         displacement
+    }
+
+    /// Coordinates after a displacement along the free directions: their sum; for rotation vectors, that of the rotation after the other.
+    #[inline(always)]
+    pub(crate) fn moved(self, q: &[f64], along: &Coordinates) -> Coordinates {
+        let mut moved = [0.0; MOST];
+        for (moved, (q, along)) in moved.iter_mut().zip(q.iter().zip(along)) {
+            *moved = q + along;
+        }
+        if matches!(self, JointKind::Ball | JointKind::Free) {
+            let [turn, then] = [along.as_slice(), q].map(|v| rotation(&Vec3::new(v[0], v[1], v[2])));
+            moved[..3].copy_from_slice(near_vector(rotation_vector(&(turn * then)), q).as_slice());
+        }
+        moved
     }
 
     /// T without its drift: the nearest pose that the joint allows.
@@ -208,20 +250,23 @@ impl JointKind {
     }
 
     /// Constrained directions, world axes: rotations that the joint forbids, then translations.
-    pub(crate) fn constrained(self, frames: &Frames) -> (Vec<Vec3>, Vec<Vec3>) {
+    #[inline(always)]
+    pub(crate) fn constrained(self, frames: &Frames) -> Constrained {
         let [x, y, z] = [0, 1, 2].map(|k| frames.parent.rotation.column(k).into_owned());
-        match self {
-            JointKind::Weld => (vec![x, y, z], vec![x, y, z]),
-            JointKind::Revolute => (vec![x, y], vec![x, y, z]),
-            JointKind::Prismatic => (vec![x, y, z], vec![x, y]),
+        let (turns, slides) = match self {
+            JointKind::Weld => (0..3, 0..3),
+            JointKind::Revolute => (0..2, 0..3),
+            JointKind::Prismatic => (0..3, 0..2),
             JointKind::Universal => {
-                let normal = x.cross(&frames.child.rotation.column(1));
-                (normal.try_normalize(1e-9).into_iter().collect(), vec![x, y, z])
+                let normal = x.cross(&frames.child.rotation.column(1)).try_normalize(1e-9);
+                let turns = 0..usize::from(normal.is_some());
+                return Constrained { axes: [x, y, z], normal, turns, slides: 0..3 };
             }
-            JointKind::Ball => (vec![], vec![x, y, z]),
-            JointKind::Planar => (vec![x, y], vec![z]),
-            JointKind::Free => (vec![], vec![]),
-        }
+            JointKind::Ball => (0..0, 0..3),
+            JointKind::Planar => (0..2, 2..3),
+            JointKind::Free => (0..0, 0..0),
+        };
+        Constrained { axes: [x, y, z], normal: None, turns, slides }
     }
 }
 
@@ -233,10 +278,13 @@ pub(crate) fn drift(kind: JointKind, frames: &Frames, last: &[f64]) -> (Vec3, Ve
         let (p, c) = (frames.parent.rotation.column(2), frames.child.rotation.column(2));
         let across = p.cross(&c);
         let (sine, cosine) = (across.norm(), p.dot(&c));
-        let stretch = if sine <= 1e-6 { 1.0 } else { sine.atan2(cosine) / sine };
+        let stretch = if sine <= 1e-6 { 1.0 } else { atan2(sine, cosine) / sine };
         if cosine > 0.0 {
             return (across * stretch, frames.child.translation - frames.parent.translation);
         }
+    }
+    if kind == JointKind::Ball {
+        return (Vec3::zeros(), frames.child.translation - frames.parent.translation);
     }
     let t = frames.parent.inverse() * frames.child;
     let allowed = kind.without_drift(&t, last);
@@ -244,45 +292,15 @@ pub(crate) fn drift(kind: JointKind, frames: &Frames, last: &[f64]) -> (Vec3, Ve
     (frames.parent.rotation * turn, frames.parent.rotation * (t.translation - allowed.translation))
 }
 
-/// exp of a rotation vector [rad] (Rodrigues).
-#[inline(always)]
-pub(crate) fn rotation(v: &Vec3) -> Mat3 {
-    let squared = v.norm_squared();
-    // sin θ/θ and (1 - cos θ)/θ²; below 0.03 rad the next terms of the series are under 1e-17.
-    let (a, b) = if squared < 1e-3 {
-        let s = squared;
-        let a = 1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0)));
-        (a, 0.5 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * (1.0 - s / 90.0)))))
-    } else {
-        let angle = squared.sqrt();
-        let (sin, cos) = angle.sin_cos();
-        (sin / angle, (1.0 - cos) / squared)
-    };
-    // 1 + a [v]× + b [v]×², where [v]×² = v vᵀ - v² 1.
-    let (x, y, z) = (v.x, v.y, v.z);
-    let (xy, xz, yz) = (b * x * y, b * x * z, b * y * z);
-    Mat3::new(
-        1.0 - b * (y * y + z * z),
-        xy - a * z,
-        xz + a * y,
-        xy + a * z,
-        1.0 - b * (x * x + z * z),
-        yz - a * x,
-        xz - a * y,
-        yz + a * x,
-        1.0 - b * (x * x + y * y),
-    )
-}
-
 fn about_z(angle: f64) -> Mat3 {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = sin_cos(angle);
     Mat3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
 /// R R_z(angle).
 #[inline(always)]
 fn turned(r: &Mat3, angle: f64) -> Mat3 {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = sin_cos(angle);
     let [x, y, z] = [0, 1, 2].map(|k| r.column(k).into_owned());
     Mat3::from_columns(&[x * cos + y * sin, y * cos - x * sin, z])
 }
@@ -296,24 +314,6 @@ fn nearest_about_z(r: &Mat3) -> Mat3 {
     }
     let (sin, cos) = (y / length, x / length);
     Mat3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
-}
-
-/// log of a rotation: a vector of length at most π [rad].
-pub(crate) fn rotation_vector(r: &Mat3) -> Vec3 {
-    let twice_sine = Vec3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
-    let sine = 0.5 * twice_sine.norm();
-    let cosine = 0.5 * (r.trace() - 1.0);
-    if sine <= 1e-6 && cosine > 0.0 {
-        return twice_sine * 0.5;
-    }
-    let angle = sine.atan2(cosine);
-    if sine > 1e-6 {
-        return twice_sine * (0.5 * angle / sine);
-    }
-    // Near half a turn: the axis is the largest column of R + 1 = 2 u uᵀ.
-    let m = r + Mat3::identity();
-    let k = (0..3).max_by(|a, b| m[(*a, *a)].total_cmp(&m[(*b, *b)])).unwrap_or(0);
-    m.column(k).into_owned().try_normalize(0.0).map_or(Vec3::zeros(), |u| u * angle)
 }
 
 /// Moves a pose with a twist at its origin for a time `h` [s].

@@ -88,17 +88,18 @@ impl StepWorkspace {
         self.touch.detect(world, &middle, &self.obstacles, half);
         self.solve_halfway(world, &middle, half, settings, prescribed, findings)?;
         self.remember(state);
-        for ((pose, twist_now), motion) in state.poses.iter_mut().zip(&mut state.twists).zip(&self.solution.motions) {
+        for (twist_now, motion) in state.twists.iter_mut().zip(&self.solution.motions) {
             *twist_now = twist(motion);
-            advance(pose, twist_now, 2.0 * half);
         }
         state.time_s += 2.0 * half;
         if settings.projection {
-            self.project(world, state, prescribed, 2.0 * half);
-        }
-        self.place_joints(world, state, prescribed, settings.projection);
-        if settings.projection {
+            self.place(world, state, prescribed, 2.0 * half);
             self.close(world, state, prescribed, settings)?;
+        } else {
+            for (pose, twist) in state.poses.iter_mut().zip(&state.twists) {
+                advance(pose, twist, 2.0 * half);
+            }
+            self.measure_joints(world, state);
         }
         let bodies = state.twists.iter_mut().zip(&state.poses).zip(middle.twists.iter().zip(&middle.poses));
         for ((mean, pose), (before, middle)) in bodies {

@@ -1,26 +1,23 @@
-//! Positions at the end of a step of impulses: drift is removed along M⁻¹ Jᵀ, and tree joints are placed exactly.
+//! Positions at the end of a step: bodies are placed along their trees, then moved until contact points and loops close.
 //!
-//! Most steps reuse the factor of the velocities: one solve of M δ = Jᵀ ν, J δ = -error gives the displacements.
+//! **Trees.** Coordinates advance by their rates, q := q + h q̇, driven ones to the values of their drives, and every body is placed by its joint,
+//! parents first; a body without a joint moves by its own velocity. Joints are therefore closed to rounding, however far bodies turn in a step.
+//! Placed like this, the mass centre of a tree is off from where the velocities take it, to second order in h. If the root may translate, the
+//! tree is translated by the difference: nothing but forces from outside moves the mass centre.
 //!
-//! **Figures that only translate.** If all joints of a figure follow a motion and its root does not turn freely (a walker with a
-//! driven trunk), every posture is placed exactly. One projection then translates the figure so that its mass centre has moved
-//! as the velocities say, or as closely as loaded contact points allow:
+//! **Contact points, limits, loops.** From the posture as placed, one solve of M δ = Jᵀ ν, J δ = -error with the factor of the velocities gives
+//! the displacements with the least motion of mass, and the trees are placed again by them. Gaps are those after bodies have turned, so loaded
+//! points lie on their surface to rounding, not to second order in the step.
 //!
-//!   min ½ Σ m |e + d|²,  d = x(exact) - (x + h v)          j e = -gap of the posture as placed
-//!
-//! Gaps are taken after the bodies have turned, so loaded points lie on their surface to rounding, not to second order in the
-//! step.
-//!
-//! **Loops.** These displacements suffice while bodies turn little in a step. Loops that are still open are solved again at the
-//! present positions, a few times (Gauss-Newton, moving the least mass).
+//! **Loops that are still open** are solved again at the present positions, a few times (Gauss-Newton, moving the least mass): displacements along
+//! the directions at the start of a step suffice only while bodies turn little in it.
 
-use super::assemble::{Prescribed, Span, twist};
-use super::joint::{Coordinates, Frames, JointKind, MOST, advance, drift, orthonormal, rotation_vector};
+use super::assemble::{Assembly, Prescribed, Span, twist};
+use super::joint::{Coordinates, Frames, JointKind, MOST, advance, drift, orthonormal};
 use super::state::{RowKey, WorldState};
-use super::touch::Touch;
 use super::workspace::{StepSettings, StepWorkspace};
 use super::world::{TreeJoint, World};
-use crate::dynamics::{LinkError, Six, project_displacements, project_placed, solve_graph};
+use crate::dynamics::{GraphSolution, LinkError, Six, project_displacements, solve_graph};
 use crate::spatial::{Pose, Vec3};
 
 /// Largest speed at which position projection closes loops or separates bodies [m/s, rad/s].
@@ -33,92 +30,72 @@ const CLOSED: f64 = 1e-7;
 const FAR: f64 = 1e-4;
 /// Largest number of rounds.
 const ROUNDS: usize = 8;
+/// Errors up to this are the rounding of positions of some metres [m, rad].
+const ROUNDING: f64 = 1e-15;
+/// A driven angle of a rotation vector takes the value of its drive if it is this near to it [rad]: rates of rotation vectors are no velocities.
+const NEARLY_DRIVEN: f64 = 1e-3;
 
-impl StepWorkspace {
-    /// Removes drift along M⁻¹ Jᵀ after motions of duration `h`; contact points were found `step_s` before their end.
-    pub(super) fn project(&mut self, world: &World, state: &mut WorldState, prescribed: &Prescribed, h: f64) {
-        let most = CLOSING_SPEED * h;
-        for (body, joint) in self.assembly.joint_of.iter().enumerate() {
-            self.assembly.graph.terms.offset[body] = match joint {
-                None => Six::zeros(),
-                Some(number) => {
-                    let joint = &world.joints[*number];
-                    joint_correction(state, joint, &state.coordinates[*number], prescribed)
-                }
-            };
-        }
-        let graph = &self.assembly.graph;
-        self.targets.clear();
-        self.targets.resize(graph.rows.len(), 0.0);
-        for (key, group) in self.assembly.keys.iter().zip(&graph.groups) {
-            if let RowKey::Closure(number) = key {
-                let (_, errors) = closure_errors(world, state, *number);
-                for (row, error) in group.rows.clone().zip(errors) {
-                    self.targets[row] = -error.clamp(-most, most);
-                }
-            } else if let Some((joint, k, limit)) = limit_of(world, *key) {
-                let row = group.rows.start;
-                let rate = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates);
-                self.targets[row] = (limit - state.coordinates[joint][k] - h * rate).clamp(-most, most);
-            }
-        }
-        for touch in self.touch.touches.iter().filter(|t| t.rigid) {
-            let (group, row) = (&graph.groups[touch.rows.group], touch.rows.normal);
-            let u = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates) - touch.surface_speed;
-            let gap = touch.at.gap + self.step_s * u;
-            self.targets[row] = (-gap).clamp(-most, most);
-        }
-        self.displace(world, state);
-    }
+/// A motion of all trees: the parts of a solution, and the share of them to apply.
+#[derive(Debug, Clone, Copy)]
+struct Travel<'a> {
+    motions: &'a [Six],
+    coordinates: &'a [f64],
+    share: f64,
+}
 
-    /// Moves bodies by the displacements that carry rows to their targets.
-    fn displace(&mut self, world: &World, state: &mut WorldState) {
-        let graph = &self.assembly.graph;
-        project_displacements(graph, &self.targets, &mut self.solver, &mut self.displacements, &mut self.shifts);
-        let offsets = &self.assembly.graph.terms.offset;
-        let share = share_of_displacements(&self.targets, offsets, &self.displacements);
-        for (body, (pose, displacement)) in state.poses.iter_mut().zip(&self.displacements).enumerate() {
-            // Bodies without freedom are placed by their joints next.
-            let free = graph.links[body].freedom > 0 || self.assembly.joint_of[body].is_none();
-            let straight = |number: usize| goes_straight(world.joints[number].kind);
-            if free || !self.assembly.joint_of[body].is_some_and(straight) {
-                advance(pose, &twist(displacement), share);
-            }
-        }
-    }
+/// Where drives take their coordinates.
+#[derive(Debug, Clone, Copy)]
+struct Drives<'a> {
+    prescribed: &'a Prescribed,
+    /// Rows of the step; some belong to drives that gave way.
+    keys: &'a [RowKey],
+    yielded: bool,
+    /// Whether coordinates with a drive that gave way are coordinates of the graph.
+    frees: bool,
+}
 
-    /// Places every child exactly as its joint's coordinates say; without projection, only measures the coordinates.
-    pub(super) fn place_joints(&self, world: &World, state: &mut WorldState, prescribed: &Prescribed, exactly: bool) {
-        for &(body, _) in self.solver.outwards() {
-            if let Some(number) = self.assembly.joint_of[body] {
-                self.place_joint(world, state, prescribed, (body, number), exactly);
-            }
-        }
-    }
-
-    /// Places one body by the joint that carries it.
+impl Drives<'_> {
     #[inline(always)]
-    fn place_joint(
-        &self,
-        world: &World,
-        state: &mut WorldState,
-        prescribed: &Prescribed,
-        (body, number): (usize, usize),
-        exactly: bool,
-    ) {
-        let joint = &world.joints[number];
-        let mut q = [0.0; MOST];
-        if joint.follows.is_none() {
-            q = self.coordinates(state, joint, number, prescribed, exactly);
-            state.coordinates[number].copy_from_slice(&q[..joint.kind.freedom()]);
+    fn gave_way(&self, joint: usize, k: usize) -> bool {
+        self.yielded && self.keys.contains(&RowKey::Drive(joint, k))
+    }
+
+    /// Value of a coordinate with a drive that did not give way.
+    #[inline(always)]
+    fn goal(&self, joint: &TreeJoint, number: usize, k: usize) -> Option<f64> {
+        let holds = joint.coordinates[k].drive.is_some() && !self.gave_way(number, k);
+        holds.then(|| self.prescribed.value(number, k))
+    }
+}
+
+/// Bodies and joints that a motion moves, with the graph that it was computed in.
+struct Trees<'a> {
+    world: &'a World,
+    assembly: &'a Assembly,
+    outwards: &'a [(usize, Option<usize>)],
+    drives: Drives<'a>,
+}
+
+impl Trees<'_> {
+    /// Moves all coordinates and bodies.
+    fn place(&self, state: &mut WorldState, travel: Travel<'_>) {
+        for &(body, _) in self.outwards {
+            match self.assembly.joint_of[body] {
+                Some(number) => self.place_by_joint(state, travel, body, number),
+                None => advance(&mut state.poses[body], &twist(&travel.motions[body]), travel.share),
+            }
         }
-        if !exactly {
-            return;
-        }
+    }
+
+    #[inline(always)]
+    fn place_by_joint(&self, state: &mut WorldState, travel: Travel<'_>, body: usize, number: usize) {
+        let joint = &self.world.joints[number];
         let parent = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]);
-        state.poses[body] = match prescribed.goal(joint) {
+        state.poses[body] = match self.drives.prescribed.goal(joint) {
             Some(goal) => parent * goal,
             None => {
+                let q = self.advanced(joint, number, &state.coordinates[number], travel);
+                state.coordinates[number].copy_from_slice(&q[..joint.kind.freedom()]);
                 let child_frame = joint.kind.child_frame(&parent.with(&joint.parent_from_joint), &q);
                 let pose = child_frame.without(&joint.child_from_joint);
                 Pose { rotation: orthonormal(&pose.rotation), ..pose }
@@ -126,119 +103,163 @@ impl StepWorkspace {
         };
     }
 
-    /// Coordinates of a joint, measured from the poses; with `exactly`, driven coordinates have the values of their drives,
-    /// unless the drive gave way.
+    /// Coordinates of a joint after the motion.
     #[inline(always)]
-    fn coordinates(
-        &self,
-        state: &WorldState,
-        joint: &TreeJoint,
-        number: usize,
-        prescribed: &Prescribed,
-        exactly: bool,
-    ) -> Coordinates {
-        let held = |k: usize| exactly && joint.coordinates[k].drive.is_some() && !self.gave_way(number, k);
-        let drives = 0..joint.kind.freedom();
-        let mut q = if goes_straight(joint.kind) && drives.clone().all(held) {
-            [0.0; MOST]
-        } else {
-            state.measured(joint, &state.coordinates[number])
-        };
-        for k in drives {
-            let target = prescribed.value(number, k);
-            if held(k) && (goes_straight(joint.kind) || (target - q[k]).abs() < 1e-3) {
-                q[k] = target;
+    fn advanced(&self, joint: &TreeJoint, number: usize, q: &[f64], travel: Travel<'_>) -> Coordinates {
+        let mut slot = self.assembly.first[joint.child];
+        let mut along = [0.0; MOST];
+        let mut driven = false;
+        for k in 0..q.len() {
+            let is_free = joint.coordinates[k].drive.is_none();
+            if is_free || (self.drives.frees && self.drives.gave_way(number, k)) {
+                along[k] = travel.share * travel.coordinates[slot];
+                slot += 1;
             }
+            driven |= !is_free;
         }
-        q
+        if !driven {
+            return joint.kind.moved(q, &along);
+        }
+        let goals: [Option<f64>; MOST] =
+            std::array::from_fn(|k| if k < q.len() { self.drives.goal(joint, number, k) } else { None });
+        let goal = std::array::from_fn(|k| goals[k].unwrap_or(q.get(k).copied().unwrap_or(0.0)));
+        let displacement = joint.kind.displacement(q, &goal);
+        for k in 0..q.len() {
+            along[k] = if goals[k].is_some() { displacement[k] } else { along[k] };
+        }
+        let mut moved = joint.kind.moved(q, &along);
+        for (value, goal) in moved.iter_mut().zip(goals) {
+            *value = goal.filter(|goal| (goal - *value).abs() < NEARLY_DRIVEN).unwrap_or(*value);
+        }
+        moved
     }
 
-    fn gave_way(&self, joint: usize, coordinate: usize) -> bool {
-        self.yielded && self.assembly.keys.contains(&RowKey::Drive(joint, coordinate))
+    /// Translates the trees whose roots may translate, so that their mass centres are where they move to along straight lines; `off` has the
+    /// difference of each body from its own line, and becomes the sum over its tree.
+    fn center(&self, state: &mut WorldState, off: &mut [Vec3], masses: &mut Vec<f64>) {
+        masses.clear();
+        masses.extend(self.world.bodies.iter().map(|body| body.mass));
+        for (body, off) in off.iter_mut().enumerate() {
+            *off *= masses[body];
+        }
+        for &(body, parent) in self.outwards.iter().rev() {
+            if let Some(parent) = parent {
+                masses[parent] += masses[body];
+                let sum = off[body];
+                off[parent] += sum;
+            }
+        }
+        for &(body, parent) in self.outwards {
+            off[body] = match parent {
+                Some(parent) => off[parent],
+                None if masses[body] > 0.0 => self.slide(state, body, off[body] / -masses[body]),
+                None => Vec3::zeros(),
+            };
+            state.poses[body].translation += off[body];
+        }
+    }
+
+    /// The part of a translation that a root allows; its coordinates take it.
+    fn slide(&self, state: &mut WorldState, root: usize, shift: Vec3) -> Vec3 {
+        let Some(number) = self.assembly.joint_of[root] else { return shift };
+        let joint = &self.world.joints[number];
+        let mut allowed = Vec3::zeros();
+        for (k, axis) in slides(joint) {
+            if joint.coordinates[k].drive.is_none() || self.drives.gave_way(number, k) {
+                let axis = joint.parent_from_joint.rotation.column(axis);
+                let along = axis.dot(&shift);
+                state.coordinates[number][k] += along;
+                allowed += axis * along;
+            }
+        }
+        allowed
+    }
+
+    /// Whether a tree of several bodies has a root that may translate.
+    fn floats(&self) -> bool {
+        let may_slide = |root: usize| match self.assembly.joint_of[root] {
+            None => true,
+            Some(number) => slides(&self.world.joints[number]).next().is_some(),
+        };
+        let carries = |(body, parent): &(usize, Option<usize>)| parent.is_none() && may_slide(*body);
+        self.outwards.iter().any(|(_, parent)| parent.is_some()) && self.outwards.iter().any(carries)
     }
 }
 
+/// Coordinates along which a joint slides, with the axes of the parent's frame.
+fn slides(joint: &TreeJoint) -> impl Iterator<Item = (usize, usize)> {
+    let (first, axes) = match joint.kind {
+        _ if joint.follows.is_some() => (0, 0..0),
+        JointKind::Prismatic => (0, 2..3),
+        JointKind::Planar => (0, 0..2),
+        JointKind::Free => (3, 0..3),
+        JointKind::Weld | JointKind::Revolute | JointKind::Universal | JointKind::Ball => (0, 0..0),
+    };
+    axes.enumerate().map(move |(k, axis)| (first + k, axis))
+}
+
 impl StepWorkspace {
-    /// Whether every body is carried by a joint that follows a motion, or is a root that only translates.
-    pub(super) fn only_translates(&self, world: &World) -> bool {
-        let driven =
-            |number: usize, k: usize| world.joints[number].coordinates[k].drive.is_some() && !self.gave_way(number, k);
-        let fits = |(number, joint): (usize, &TreeJoint)| match (joint.parent, joint.kind) {
-            _ if joint.follows.is_some() => true,
-            (None, JointKind::Planar) => driven(number, 2),
-            (None, JointKind::Prismatic) => true,
-            (_, kind) => goes_straight(kind) && (0..kind.freedom()).all(|k| driven(number, k)),
-        };
-        let hangs = self.assembly.joint_of.iter().all(Option::is_some);
-        hangs && self.solver.is_lumped() && world.closures.is_empty() && world.joints.iter().enumerate().all(fits)
-    }
-
-    /// Places all bodies of figures that only translate at the end of a step.
-    pub(super) fn place_translated(&mut self, world: &World, state: &mut WorldState, prescribed: &Prescribed, h: f64) {
-        self.displacements.clear();
-        self.displacements.resize(world.bodies.len(), Six::zeros());
-        for at in 0..self.solver.outwards().len() {
-            let (body, parent) = self.solver.outwards()[at];
-            let pose = &mut state.poses[body];
-            let straight = pose.translation + state.twists[body].linear * h;
-            if parent.is_none() {
-                advance(pose, &state.twists[body], h);
+    /// Places all bodies at the end of a motion of duration `h` with the velocities of the last solution; contact points were found `step_s` before
+    /// its end.
+    pub(super) fn place(&mut self, world: &World, state: &mut WorldState, prescribed: &Prescribed, h: f64) {
+        let drives = Drives { prescribed, keys: &self.assembly.keys, yielded: self.yielded, frees: true };
+        let trees = Trees { world, assembly: &self.assembly, outwards: self.solver.outwards(), drives };
+        let GraphSolution { motions, coordinates, .. } = &self.solution;
+        let travel = Travel { motions, coordinates, share: h };
+        if trees.floats() {
+            self.off.clear();
+            self.off.extend(
+                state.poses.iter().zip(motions).map(|(pose, motion)| pose.translation + twist(motion).linear * h),
+            );
+            trees.place(state, travel);
+            for (off, pose) in self.off.iter_mut().zip(&state.poses) {
+                *off = pose.translation - *off;
             }
-            if let Some(number) = self.assembly.joint_of[body] {
-                self.place_joint(world, state, prescribed, (body, number), true);
-            }
-            let off = state.poses[body].translation - straight;
-            self.displacements[body] = Six::new(0.0, 0.0, 0.0, off.x, off.y, off.z);
+            trees.center(state, &mut self.off, &mut self.masses);
+        } else {
+            trees.place(state, travel);
         }
-        self.targets.clear();
-        self.targets.resize(self.assembly.graph.rows.len(), 0.0);
-        for (key, group) in self.assembly.keys.iter().zip(&self.assembly.graph.groups) {
-            if let Some((joint, k, limit)) = limit_of(world, *key) {
-                self.targets[group.rows.start] = limit - state.coordinates[joint][k];
-            }
-        }
-        for number in 0..self.touch.touches.len() {
-            let touch = &self.touch.touches[number];
-            if touch.rigid {
-                let row = touch.rows.normal;
-                self.targets[row] = -self.gap_as_placed(world, state, touch, h);
-            }
-        }
-        self.shift(world, state, h);
-    }
-
-    /// Gap of a contact point at the present poses [m].
-    fn gap_as_placed(&self, world: &World, state: &WorldState, touch: &Touch, h: f64) -> f64 {
-        let moved = |surface: usize| self.touch.moved(world, state, surface);
-        match (moved(touch.surfaces.0), moved(touch.surfaces.1)) {
-            (Some(first), Some(second)) => touch.at.gap + touch.at.normal.dot(&(first - second)),
-            _ => {
-                let graph = &self.assembly.graph;
-                let (group, row) = (&graph.groups[touch.rows.group], touch.rows.normal);
-                let u = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates);
-                let placed = graph.reading(group, row, &self.displacements, &self.solution.coordinates);
-                touch.at.gap + h * (u - touch.surface_speed) + placed
-            }
+        self.aim(world, state, h);
+        if self.targets.iter().any(|target| target.abs() > ROUNDING) {
+            self.displace(world, state, prescribed);
         }
     }
 
-    /// Translates each figure with its root.
-    fn shift(&mut self, world: &World, state: &mut WorldState, h: f64) {
+    /// Sets the displacements that rows ask for at the present positions.
+    fn aim(&mut self, world: &World, state: &WorldState, h: f64) {
         let most = CLOSING_SPEED * h;
-        self.targets.iter_mut().for_each(|target| *target = target.clamp(-most, most));
         let graph = &self.assembly.graph;
-        let off = std::mem::take(&mut self.displacements);
-        project_placed(graph, &off, &self.targets, &mut self.solver, &mut self.displacements, &mut self.shifts);
-        let share = share_of_displacements(&self.targets, &off, &self.displacements);
-        for (pose, displacement) in state.poses.iter_mut().zip(&self.displacements) {
-            pose.translation += twist(displacement).linear * share;
-        }
-        for (number, joint) in world.joints.iter().enumerate().filter(|(_, joint)| joint.parent.is_none()) {
-            let measured = state.measured(joint, &state.coordinates[number]);
-            let free = |k: &usize| joint.coordinates[*k].drive.is_none();
-            for k in (0..joint.kind.freedom()).filter(free) {
-                state.coordinates[number][k] = measured[k];
+        self.targets.clear();
+        self.targets.resize(graph.rows.len(), 0.0);
+        for (key, group) in self.assembly.keys.iter().zip(&graph.groups) {
+            if let RowKey::Closure(number) = key {
+                for (row, error) in group.rows.clone().zip(closure_errors(world, state, *number)) {
+                    self.targets[row] = -error.clamp(-most, most);
+                }
+            } else if let Some((joint, k, limit)) = limit_of(world, *key) {
+                self.targets[group.rows.start] = (limit - state.coordinates[joint][k]).clamp(-most, most);
             }
+        }
+        for touch in self.touch.touches.iter().filter(|t| t.rigid) {
+            let gap = self.touch.gap_now(world, state, touch, self.step_s);
+            self.targets[touch.rows.normal] = (-gap).clamp(-most, most);
+        }
+    }
+
+    /// Moves bodies by the displacements that carry rows to their targets.
+    fn displace(&mut self, world: &World, state: &mut WorldState, prescribed: &Prescribed) {
+        let graph = &self.assembly.graph;
+        project_displacements(graph, &self.targets, &mut self.solver, &mut self.displacements, &mut self.shifts);
+        let share = share_of_displacements(&self.targets, &self.displacements);
+        let drives = Drives { prescribed, keys: &self.assembly.keys, yielded: self.yielded, frees: true };
+        let trees = Trees { world, assembly: &self.assembly, outwards: self.solver.outwards(), drives };
+        trees.place(state, Travel { motions: &self.displacements, coordinates: &self.shifts, share });
+    }
+
+    /// Measures the coordinates of all joints from the poses.
+    pub(super) fn measure_joints(&self, world: &World, state: &mut WorldState) {
+        for number in (0..world.joints.len()).filter(|number| world.joints[*number].follows.is_none()) {
+            state.measure(world, number);
         }
     }
 }
@@ -273,17 +294,16 @@ impl StepWorkspace {
                 _ => None,
             });
             for (group, number) in graph.groups.iter().zip(numbers) {
-                for (row, error) in group.rows.clone().zip(closure_errors(world, state, number).1) {
+                for (row, error) in group.rows.clone().zip(closure_errors(world, state, number)) {
                     (graph.rows[row].target, self.targets[row]) = (-error, -error);
                 }
             }
             solution.lambda.clear();
             solve_graph(graph, &settings.solver, &mut self.closing, solution)?;
-            let share = share_of_displacements(&self.targets, &[], &solution.motions);
-            for (pose, displacement) in state.poses.iter_mut().zip(&solution.motions) {
-                advance(pose, &twist(displacement), share);
-            }
-            self.place_joints(world, state, prescribed, true);
+            let share = share_of_displacements(&self.targets, &solution.motions);
+            let drives = Drives { prescribed, keys: &self.assembly.keys, yielded: self.yielded, frees: false };
+            let trees = Trees { world, assembly, outwards: self.closing.outwards(), drives };
+            trees.place(state, Travel { motions: &solution.motions, coordinates: &solution.coordinates, share });
         }
         Ok(())
     }
@@ -299,7 +319,7 @@ impl StepWorkspace {
 
 /// Largest error of a closure [m, rad].
 fn largest_error(world: &World, state: &WorldState, number: usize) -> f64 {
-    closure_errors(world, state, number).1.iter().fold(0.0, |m: f64, e| m.max(e.abs()))
+    closure_errors(world, state, number).fold(0.0, |most: f64, error| most.max(error.abs()))
 }
 
 /// Whether a closure is still closing, as after it was added by an event: such closures close at limited speed.
@@ -307,16 +327,11 @@ pub(super) fn still_closing(world: &World, state: &WorldState) -> bool {
     (0..world.closures.len()).any(|number| world.closures[number].active && largest_error(world, state, number) > FAR)
 }
 
-/// Whether a constant rate moves a coordinate exactly by rate times duration; not where rotations do not commute.
-fn goes_straight(kind: JointKind) -> bool {
-    matches!(kind, JointKind::Weld | JointKind::Revolute | JointKind::Prismatic | JointKind::Planar)
-}
-
 /// The share of the displacements to apply: all of them, unless they are far larger than the errors that they remove. In
 /// stretched loops a small error along the loop needs a large displacement across it, beyond the linear range.
-fn share_of_displacements(targets: &[f64], offsets: &[Six], displacements: &[Six]) -> f64 {
+fn share_of_displacements(targets: &[f64], displacements: &[Six]) -> f64 {
     let slide = |six: &Six| six.fixed_rows::<3>(3).amax();
-    let error = targets.iter().map(|t| t.abs()).chain(offsets.iter().map(slide)).fold(0.0, f64::max);
+    let error = targets.iter().map(|t| t.abs()).fold(0.0, f64::max);
     let largest = displacements.iter().map(slide).fold(0.0, f64::max);
     if largest > MOST_LEVERAGE * error { MOST_LEVERAGE * error / largest } else { 1.0 }
 }
@@ -331,34 +346,30 @@ fn limit_of(world: &World, key: RowKey) -> Option<(usize, usize, f64)> {
     }
 }
 
-/// The displacement of a child's mass centre relative to its parent that removes its drift.
-fn joint_correction(state: &WorldState, joint: &TreeJoint, last: &[f64], prescribed: &Prescribed) -> Six {
-    let frames = state.frames(joint);
-    let (turn, shift) = match prescribed.goal(joint) {
-        None => drift(joint.kind, &frames, last),
-        Some(goal) => {
-            let target = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]) * goal * joint.child_from_joint;
-            let turn = rotation_vector(&(frames.child.rotation * target.rotation.transpose()));
-            (turn, frames.child.translation - target.translation)
-        }
-    };
-    let to_center = state.poses[joint.child].translation - frames.child.translation;
-    let linear = -shift - turn.cross(&to_center);
-    Six::new(-turn.x, -turn.y, -turn.z, linear.x, linear.y, linear.z)
-}
-
-/// Frames of a closure, and its errors along its rows [rad, m].
-pub(crate) fn closure_errors(world: &World, state: &WorldState, number: usize) -> (Frames, Vec<f64>) {
+/// Frames of a closure.
+pub(crate) fn closure_frames(world: &World, state: &WorldState, number: usize) -> Frames {
     let closure = &world.closures[number];
     let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
-    let frames = Frames {
-        parent: parent * closure.second_from_joint,
-        child: state.poses[closure.first] * closure.first_from_joint,
-    };
-    let (turn, shift) = drift(closure.kind, &frames, &[]);
-    let (turns, slides) = closure.kind.constrained(&frames);
-    let errors = turns.iter().map(|e| e.dot(&turn)).chain(slides.iter().map(|e| e.dot(&shift))).collect();
-    (frames, errors)
+    Frames {
+        parent: parent.with(&closure.second_from_joint),
+        child: state.poses[closure.first].with(&closure.first_from_joint),
+    }
+}
+
+/// Errors of a closure along its rows [rad, m].
+pub(crate) fn closure_errors(world: &World, state: &WorldState, number: usize) -> impl Iterator<Item = f64> {
+    let kind = world.closures[number].kind;
+    let frames = closure_frames(world, state, number);
+    let (turn, shift) = drift(kind, &frames, &[]);
+    let mut errors = [0.0; MOST];
+    let constrained = kind.constrained(&frames);
+    let all = constrained.turns().map(|e| e.dot(&turn)).chain(constrained.slides().map(|e| e.dot(&shift)));
+    let mut count = 0;
+    for error in all {
+        errors[count] = error;
+        count += 1;
+    }
+    errors.into_iter().take(count)
 }
 
 /// Largest position error of any joint or active closure [m].
@@ -371,8 +382,7 @@ pub fn largest_joint_error(world: &World, state: &WorldState) -> f64 {
         });
     joints
         .chain((0..world.closures.len()).filter(|c| world.closures[*c].active).map(|closure| {
-            let (frames, _) = closure_errors(world, state, closure);
-            let (_, shift): (Vec3, Vec3) = drift(world.closures[closure].kind, &frames, &[]);
+            let (_, shift) = drift(world.closures[closure].kind, &closure_frames(world, state, closure), &[]);
             shift.norm()
         }))
         .fold(0.0, f64::max)

@@ -3,6 +3,7 @@
 use super::samples::Samples;
 use crate::model::Function;
 use crate::numerics::NaturalSpline;
+use crate::numerics::elementary::sin_cos;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -72,7 +73,7 @@ impl Signal {
             Signal::Constant(value) => [*value, 0.0, 0.0],
             Signal::Sine { amplitude, frequency_hz, phase, offset } => {
                 let omega = TAU * frequency_hz;
-                let (sin, cos) = (omega * t + phase).sin_cos();
+                let (sin, cos) = sin_cos(omega * t + phase);
                 [offset + amplitude * sin, amplitude * omega * cos, -amplitude * omega * omega * sin]
             }
             Signal::Stops(stops) => between_stops(stops, t),

@@ -20,8 +20,8 @@
 //! Source: the classical method of Runge and Kutta; Munthe-Kaas 1998, "Runge-Kutta methods on Lie groups" (unverified page).
 
 use super::assemble::{Assembly, Slot, closing_rows, twist};
-use super::joint::{Frames, JointKind, MOST, orthonormal, rotation, rotation_vector};
-use super::projection::closure_errors;
+use super::joint::{Frames, JointKind, MOST, orthonormal};
+use super::projection::{closure_errors, closure_frames};
 use super::state::{RowKey, WorldState, rates};
 use super::world::{Figure, TreeJoint, World};
 use crate::dynamics::{
@@ -29,7 +29,7 @@ use crate::dynamics::{
     solve_graph,
 };
 use crate::kinematics::{BodyMotion, Posture, body_motion};
-use crate::spatial::{Pose, Twist, Vec3};
+use crate::spatial::{Pose, Twist, Vec3, rotation, rotation_vector};
 
 /// A body and the joint that carries it; a free body has a joint with six coordinates.
 struct Branch {
@@ -229,11 +229,12 @@ impl Tree {
             branch.fill(world, state, motion, &goals, slope, assembly);
         }
         for (number, closure) in world.closures.iter().enumerate().filter(|(_, c)| c.active) {
-            let (frames, _) = closure_errors(world, state, number);
+            let frames = closure_frames(world, state, number);
             let centers = (state.poses[closure.first].translation, closure.second.map(|p| state.poses[p].translation));
-            let mut rows = closing_rows(closure.kind, &frames, centers);
+            let constrained = closure.kind.constrained(&frames);
+            let mut rows: Vec<Constraint> = closing_rows(&constrained, &frames, centers).collect();
             aim(&mut rows, world, state, number, &frames);
-            assembly.close(number, closure, rows);
+            assembly.close(number, closure, rows.into_iter());
         }
     }
 
@@ -273,7 +274,7 @@ impl Tree {
         let mut targets = Vec::with_capacity(graph.rows.len());
         for key in &stage.assembly.keys {
             if let RowKey::Closure(number) = key {
-                targets.extend(closure_errors(world, state, *number).1.into_iter().map(|error| -error));
+                targets.extend(closure_errors(world, state, *number).map(|error| -error));
             }
         }
         graph.terms.offset.iter_mut().for_each(|w| *w = Six::zeros());
@@ -520,19 +521,19 @@ fn aim(rows: &mut [Constraint], world: &World, state: &WorldState, number: usize
     let u = c.velocity_at(-r) - p.velocity_at(s);
     let (w_c, w_p) = (c.angular, p.angular);
     let linear = w_c.cross(&w_c.cross(&r)) + w_p.cross(&w_p.cross(&s)) + w_p.cross(&u) * 2.0;
-    let (turns, slides) = closure.kind.constrained(frames);
+    let constrained = closure.kind.constrained(frames);
     let relative = w_c - w_p;
     let universal = closure.kind == JointKind::Universal;
-    for (row, e) in rows.iter_mut().zip(&turns) {
+    for (row, e) in rows.iter_mut().zip(constrained.turns()) {
         let turned = if universal {
             let (x, y) = (frames.parent.rotation.column(0).into_owned(), frames.child.rotation.column(1).into_owned());
             (w_p.cross(&x).cross(&y) + x.cross(&w_c.cross(&y))) / x.cross(&y).norm()
         } else {
-            w_p.cross(e)
+            w_p.cross(&e)
         };
         row.target = -turned.dot(&relative);
     }
-    for (row, e) in rows.iter_mut().skip(turns.len()).zip(&slides) {
+    for (row, e) in rows.iter_mut().skip(constrained.turns().count()).zip(constrained.slides()) {
         row.target = e.dot(&linear);
     }
 }

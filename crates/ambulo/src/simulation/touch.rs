@@ -16,12 +16,11 @@
 //! restitution zero by default).
 
 use super::assemble::{Span, presses};
-use super::joint::rotation_vector;
 use super::state::{RowKey, WorldState};
 use super::world::{ContactLaw, ImpactLaw, Material, Obstacle, Owner, Surface, World};
 use crate::contact::{ContactPoint, HuntCrossley, candidate_pairs, contacts};
 use crate::dynamics::{ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Law, Six};
-use crate::spatial::{Pose, Twist, Vec3};
+use crate::spatial::{Pose, Twist, Vec3, rotation_vector};
 
 /// Surfaces nearer than this are examined even if nothing moves [m].
 const MARGIN_M: f64 = 1e-4;
@@ -141,17 +140,22 @@ impl TouchWorkspace {
         }
     }
 
-    /// Displacement of a surface's origin since detection [m]. Known for surfaces whose contact points move with the origin:
-    /// spheres, and obstacles at rest.
-    pub(crate) fn moved(&self, world: &World, state: &WorldState, surface: usize) -> Option<Vec3> {
-        let about = &world.surfaces[surface];
-        match about.owner {
-            Owner::Body(body) if about.shape.is_sphere() => {
-                Some(state.poses[body].place(about.owner_from_shape.translation) - self.poses[surface].translation)
+    /// Gap of a contact point at the present poses of the bodies [m], `h` after detection. To first order in the turn of a surface; exact for the centres
+    /// of spheres.
+    pub(crate) fn gap_now(&self, world: &World, state: &WorldState, touch: &Touch, h: f64) -> f64 {
+        let moved = |surface: usize| {
+            let about = &world.surfaces[surface];
+            let Owner::Body(body) = about.owner else { return Vec3::zeros() };
+            let before = &self.poses[surface];
+            if about.shape.is_sphere() {
+                return state.poses[body].place(about.owner_from_shape.translation) - before.translation;
             }
-            Owner::Obstacle(obstacle) if world.obstacles[obstacle].path.is_none() => Some(Vec3::zeros()),
-            _ => None,
-        }
+            let now = state.poses[body] * about.owner_from_shape;
+            let turn = rotation_vector(&(now.rotation * before.rotation.transpose()));
+            now.translation - before.translation + turn.cross(&(touch.at.point - before.translation))
+        };
+        let (first, second) = touch.surfaces;
+        touch.at.gap + touch.at.normal.dot(&(moved(first) - moved(second))) - h * touch.surface_speed
     }
 
     /// Removes all contact points.

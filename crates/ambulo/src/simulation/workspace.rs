@@ -75,6 +75,9 @@ pub struct StepWorkspace {
     pub(crate) targets: Vec<f64>,
     pub(crate) displacements: Vec<Six>,
     pub(crate) shifts: Vec<f64>,
+    /// Distances of mass centres from straight lines, and masses, summed over trees.
+    pub(crate) off: Vec<Vec3>,
+    pub(crate) masses: Vec<f64>,
     pub(crate) obstacles: ObstaclePoses,
     pub(crate) prescribed: Prescribed,
     /// Contact points before any is dropped.

@@ -5,7 +5,7 @@ use super::signal::Signal;
 use crate::contact::{HuntCrossley, Shape};
 use crate::kinematics::{Posture, body_motion};
 use crate::model::Model;
-use crate::spatial::{Mat3, Pose, STANDARD_GRAVITY, Twist, Vec3, Wrench};
+use crate::spatial::{Mat3, Pose, STANDARD_GRAVITY, Twist, Vec3, Wrench, rotation};
 
 /// Everything that is simulated. Change it only between steps; joints and closures may then be added and removed.
 #[derive(Debug, Clone)]
@@ -219,7 +219,7 @@ impl Obstacle {
         let [x, y, z] = [0, 1, 2].map(|k| path.shift[k].at(t));
         let [turn, rate, _] = path.turn.at(t);
         let pose = Pose {
-            rotation: super::joint::rotation(&(path.axis * turn)) * self.pose.rotation,
+            rotation: rotation(&(path.axis * turn)) * self.pose.rotation,
             translation: self.pose.translation + Vec3::new(x[0], y[0], z[0]),
         };
         (pose, Twist { angular: path.axis * rate, linear: Vec3::new(x[1], y[1], z[1]) })

@@ -4,10 +4,12 @@
 
 mod inertia;
 mod pose;
+mod rotation;
 mod wrench;
 
 pub use inertia::{Inertia, InertiaError};
 pub use pose::Pose;
+pub use rotation::{angle_between, rotation, rotation_about, rotation_between, rotation_vector};
 pub use wrench::{Twist, Wrench};
 
 /// Standard gravity [m/s²] (CGPM 1901).

@@ -10,6 +10,7 @@ use crate::analysis::MassSource;
 use crate::findings::{Code, Findings};
 use crate::motion::PlateRecording;
 use crate::motion::force_plate::standing_weight_n;
+use crate::numerics::elementary::hypot;
 use crate::spatial::STANDARD_GRAVITY;
 use serde::{Deserialize, Serialize};
 
@@ -141,7 +142,7 @@ impl MassEstimate {
 
     /// Whether another mass can be that of the same person.
     fn agrees(&self, other: &MassEstimate) -> bool {
-        let error_kg = self.error_kg.hypot(other.error_kg);
+        let error_kg = hypot(self.error_kg, other.error_kg);
         (self.kg - other.kg).abs() <= (SAME_PERSON * self.kg.max(other.kg)).max(STANDARD_ERRORS * error_kg)
     }
 
@@ -356,7 +357,7 @@ fn standing_estimate(plates: &[PlateRecording]) -> Option<MassEstimate> {
     Some(MassEstimate {
         by: MassWitness::Standing,
         kg,
-        error_kg: scatter_kg.hypot(PLATE_ERROR * kg),
+        error_kg: hypot(scatter_kg, PLATE_ERROR * kg),
         times: 1,
         time_s: None,
     })

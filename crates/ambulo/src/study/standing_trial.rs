@@ -4,7 +4,7 @@ use super::laboratory_file::LaboratoryFile;
 use crate::analysis::KnownBodies;
 use std::ops::Deref;
 
-/// A standing trial with the bodies that were calibrated from it: trials that share it calibrate the person once.
+/// A standing trial with the bodies that were calibrated or scaled from it: trials that share it calibrate the person, or scale a model, once.
 ///
 /// ```
 /// use ambulo::model::anthropometry::SegmentTable;
@@ -29,7 +29,7 @@ pub struct StandingTrial {
 }
 
 impl StandingTrial {
-    /// A standing trial from which no body was calibrated yet.
+    /// A standing trial from which no body was made yet.
     #[must_use]
     pub fn new(file: LaboratoryFile) -> StandingTrial {
         StandingTrial { file, bodies: KnownBodies::default() }

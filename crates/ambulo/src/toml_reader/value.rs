@@ -2,8 +2,8 @@
 
 use super::error::{Place, TomlError};
 use super::words::{listed, nearest};
-use crate::spatial::{Mat3, Pose, Vec3};
-use nalgebra::{Quaternion, Rotation3, Unit, UnitQuaternion};
+use crate::spatial::{Mat3, Pose, Vec3, rotation_about};
+use nalgebra::{Quaternion, UnitQuaternion};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -184,7 +184,7 @@ impl<'t> Value<'t> {
             table.only(&[&["axis", "angle_deg", "angle", "quaternion"]])?;
             let axis = table.need("axis", "the direction to turn about")?.direction()?;
             let angle = table.angle("angle")?.ok_or_else(|| table.missing("angle_deg", "the angle to turn by"))?;
-            return Ok(Rotation3::from_axis_angle(&Unit::new_unchecked(axis), angle).into_inner());
+            return Ok(rotation_about(axis, angle));
         };
         table.only(&[&["quaternion"]])?;
         const EXPECTED: &str = "a quaternion [w, x, y, z] longer than zero";

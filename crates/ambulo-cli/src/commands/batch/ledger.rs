@@ -3,7 +3,7 @@
 //! | file | content |
 //! |---|---|
 //! | `batch.json` | what the batch is: version, number of shards, trials in a part, tables, options |
-//! | `frames/part-SSS-PPPPP.parquet`, `cycles/`, `events/` | tables of part P of shard S |
+//! | `frames/part-SSS-PPPPP.parquet`, `cycles/`, `events/` | tables of part P of shard S; none in `frames/` if no trial of the part has results |
 //! | `trials/part-SSS-PPPPP.parquet` | the trials of the part; it appears last and closes the part |
 //! | `summary.html` | the page of the batch, made from the tables of trials when all parts of all shards are closed |
 //!
@@ -22,7 +22,8 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 const DESCRIPTION: &str = "batch.json";
-const TABLES: [&str; 4] = ["frames", "cycles", "events", TRIALS];
+const TABLES: [&str; 4] = [FRAMES, "cycles", "events", TRIALS];
+const FRAMES: &str = "frames";
 const TRIALS: &str = "trials";
 /// Folder of the locks of the shards.
 const LOCKS: &str = ".shards";
@@ -179,23 +180,41 @@ impl Ledger {
     }
 
     /// Writes the tables of a part; the trials are last and close it.
+    ///
+    /// The columns of frames are those of the trials. A part without results would have a file without them, which Spark and polars do not read
+    /// together with the others: it has none.
     pub(super) fn close(&self, part: usize, tables: &PartTables) -> Result<()> {
         let PartTables { trials, frames, cycles, events } = tables;
         for (name, table) in TABLES.into_iter().zip([frames, cycles, events, trials]) {
             let path = self.place(name, part);
-            let new = path.with_extension("parquet.new");
-            let written = write_through(&new, &table.write()?).and_then(|()| fs::rename(&new, &path));
-            if let Err(error) = written {
-                let _ = fs::remove_file(&new);
-                return Err(error).with_context(|| {
-                    format!(
-                        "{}: cannot be written; the parts that are closed are kept. hint: --resume continues",
-                        path.display()
-                    )
-                });
-            }
+            let put = match name == FRAMES && frames.rows() == 0 {
+                true => removed(&path),
+                false => written(&path, &table.write()?),
+            };
+            put.with_context(|| {
+                format!(
+                    "{}: cannot be written; the parts that are closed are kept. hint: --resume continues",
+                    path.display()
+                )
+            })?;
         }
         Ok(())
+    }
+}
+
+/// Writes a file that appears when it is complete.
+fn written(path: &Path, content: &[u8]) -> std::io::Result<()> {
+    let new = path.with_extension("parquet.new");
+    write_through(&new, content).and_then(|()| fs::rename(&new, path)).inspect_err(|_| {
+        let _ = fs::remove_file(&new);
+    })
+}
+
+/// Removes what an interrupted run left.
+fn removed(path: &Path) -> std::io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
     }
 }
 

@@ -9,6 +9,7 @@ use super::side_by_side::{processors, side_by_side};
 use super::trials::{Plan, PlannedTrial, Wanted, files_in, plan, planned_by};
 use crate::Completion;
 use crate::args::BatchArgs;
+use crate::caller::Caller;
 use crate::files::ending;
 use crate::printer::{self, BatchCounts, BatchRow};
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
@@ -28,10 +29,16 @@ const SCHEDULERS: [&str; 4] = ["SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "SGE_TA
 const QUOTED: usize = 3;
 
 pub(crate) fn run(args: &BatchArgs) -> Result<Completion> {
+    compute(args, &Caller::default())
+}
+
+/// Computes a batch into its folder. A caller that stops it leaves the open part open.
+pub(crate) fn compute(args: &BatchArgs, caller: &Caller) -> Result<Completion> {
     let in_job = SCHEDULERS.iter().any(|name| env::var_os(name).is_some());
     let threads = args.jobs.map_or_else(|| if in_job { 1 } else { processors() }, |jobs| jobs as usize);
     let (root, mut plan) = planned(args, threads)?;
-    let work = Work { root, words: args.options.clone(), keep: args.keep.clone(), ..Work::default() };
+    let (words, keep, caller) = (args.options.clone(), args.keep.clone(), caller.clone());
+    let work = Work { root, words, keep, caller, ..Work::default() };
     let Some(first) = plan.trials.first() else { bail!("{}", nothing_found(args, &plan)) };
     let [mass, height] = work.check(first)?;
     plan.take_size(&args.source, mass, height)?;
@@ -150,6 +157,10 @@ impl Batch<'_> {
             self.say(computed, in_part.fetch_add(1, Ordering::Relaxed) + 1);
             found
         });
+        // A trial that was stopped has an error that is none of its own.
+        if self.work.caller.is_stopped() {
+            bail!("the batch was stopped; the parts that are closed are kept. hint: --resume continues");
+        }
         let rows: Vec<Row<'_>> =
             trials.iter().zip(keys).zip(found).map(|((trial, key), found)| Row { trial, key, found }).collect();
         let tables = part_tables(&rows, &about());

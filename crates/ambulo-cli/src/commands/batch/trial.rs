@@ -31,6 +31,8 @@ pub(super) struct Work {
     pub(super) words: Vec<OsString>,
     /// Tables that are kept.
     pub(super) keep: Vec<String>,
+    /// Who may stop the computation.
+    pub(super) caller: Caller,
     /// What trials share.
     pub(super) shared: Shared,
     /// SHA-256 of files that several trials may have.
@@ -144,7 +146,7 @@ impl Work {
     }
 
     fn computed(&self, trial: &PlannedTrial) -> Result<Computed> {
-        let run = forces::compute_with(&self.options(trial)?, &Caller::default(), &self.shared)?;
+        let run = forces::compute_with(&self.options(trial)?, &self.caller, &self.shared)?;
         let keep = Keep::of_names(&self.keep);
         let (files, mut summary) = run.tables_for(&keep)?;
         let Analysis { events, .. } = &run.outcome.analysis;

@@ -25,7 +25,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     }
     reject_marker_options(args)?;
     size::check(&args.subject)?;
-    let model = read_model(model_path, reading)?;
+    let model = read_model(model_path, None, reading)?;
     reading.clock.lap("read_model");
     let motion = read_motion(&model, args.recording(), reading)?;
     reading.clock.lap("read_motion");

@@ -1,6 +1,6 @@
 //! Reads markers (`.c3d`, `.trc`) or poses of segments (`.c3d`, `.mvnx`), with a standing trial or a model.
 
-use super::{Reading, added_mass, ground_table, read_model_with_markers, size};
+use super::{Reading, added_mass, ground_table, read_model, size};
 use crate::args::{ForcesArgs, PlateFoot, SubjectArgs};
 use crate::caller::Caller;
 use crate::commands::bids;
@@ -34,7 +34,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
 pub(super) fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBody> {
     let SubjectArgs { mass, height, figure, markers, .. } = &args.subject;
     if let Some(path) = args.model_file() {
-        let model = read_model_with_markers(path, args.subject.marker_set.as_deref(), reading)?;
+        let model = read_model(path, args.subject.marker_set.as_deref(), reading)?;
         let setups = reading.setups.clone();
         reading.tracked = setups.tasks(&model, reading)?;
         let protocol = setups.protocol(&model, reading)?;

@@ -4,11 +4,11 @@ mod coordinates;
 mod errors;
 mod ground_table;
 pub(crate) mod markers;
+mod read_once;
 mod sensors;
 mod setup;
 mod size;
 mod skeleton;
-mod standing_trials;
 pub(crate) mod subject;
 
 use super::bids;
@@ -33,7 +33,7 @@ use ambulo_formats::osim::{OsimMarkerSet, OsimModel};
 use ambulo_formats::table::Table;
 use ambulo_results::{GroundSource, Input, Keep, OutputFile};
 use anyhow::{Context, Result, bail};
-pub(crate) use standing_trials::StandingTrials;
+use read_once::{ModelFiles, Models, StandingTrials};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -71,6 +71,8 @@ pub(crate) fn compute(args: &ForcesArgs, caller: &Caller) -> Result<MotionRun> {
 pub(crate) struct Shared {
     /// Standing trials, read once.
     pub(crate) standing_trials: StandingTrials,
+    /// Models, read once.
+    pub(crate) models: Models,
     /// A body that was calibrated before, for markers with the built-in body.
     pub(crate) body: Option<Subject>,
 }
@@ -79,6 +81,7 @@ pub(crate) struct Shared {
 pub(crate) fn compute_with(args: &ForcesArgs, caller: &Caller, shared: &Shared) -> Result<MotionRun> {
     let mut reading = Reading {
         standing_trials: shared.standing_trials.clone(),
+        models: shared.models.clone(),
         caller: caller.clone(),
         findings: Findings::default(),
         clock: Stopwatch::new(),
@@ -175,6 +178,7 @@ impl RecordingKind {
 /// Collected while the input files are read.
 struct Reading {
     standing_trials: StandingTrials,
+    models: Models,
     caller: Caller,
     findings: Findings,
     clock: Stopwatch,
@@ -189,7 +193,8 @@ struct Reading {
 }
 
 fn studied(args: &ForcesArgs, source: Source, reading: Reading) -> Result<MotionRun> {
-    let Reading { caller, mut findings, mut clock, read, ground, tracked, setups: _, standing_trials: _ } = reading;
+    let Reading { caller, mut findings, mut clock, read, ground, tracked, setups: _, standing_trials: _, models: _ } =
+        reading;
     let mut settings = settings(args, tracked)?;
     settings.prediction.person = read_person(args, &caller)?;
     let mut watch = |stage: study::Stage| {
@@ -263,29 +268,48 @@ fn input(args: &ForcesArgs, ground: Option<&Path>, stated: SubjectParameters, ou
     }
 }
 
-fn read_model(path: &Path, reading: &mut Reading) -> Result<Model> {
-    let document = read_document(path, reading)?;
-    from_osim(&document, &mut reading.findings).with_context(|| path.display().to_string())
+/// The model of a file, with the markers of `--marker-set`.
+fn read_model(path: &Path, set: Option<&Path>, reading: &mut Reading) -> Result<Model> {
+    let Reading { models, caller, findings, setups, read, .. } = reading;
+    read.push(path.to_owned());
+    read.extend(set.map(Path::to_owned));
+    let from = ModelFiles {
+        path: path.to_owned(),
+        marker_set: set.map(Path::to_owned),
+        without: setups.excluded_forces().to_vec(),
+    };
+    let model = models.get(from, findings, |findings| {
+        let document = document_with_markers(path, set, caller, setups, findings)?;
+        from_osim(&document, findings).with_context(|| path.display().to_string())
+    })?;
+    Ok(Model::clone(&model))
 }
 
-/// The model with the markers of `--marker-set`.
-fn read_model_with_markers(path: &Path, set: Option<&Path>, reading: &mut Reading) -> Result<Model> {
-    let Some(set_path) = set else { return read_model(path, reading) };
-    let document = read_document(path, reading)?;
+fn document_with_markers(
+    path: &Path,
+    set: Option<&Path>,
+    caller: &Caller,
+    setups: &setup::Setups,
+    findings: &mut Findings,
+) -> Result<OsimModel> {
+    let document = document_of(path, caller, setups)?;
+    let Some(set_path) = set else { return Ok(document) };
     let shown = set_path.display().to_string();
-    let set = OsimMarkerSet::read(&files::read_input(&reading.caller, set_path)?).with_context(|| shown.clone())?;
-    reading.read.push(set_path.to_owned());
-    files::note_remarks(&shown, &set.remarks, &mut reading.findings);
-    let document = document.with_marker_set(&set).context(shown)?;
-    from_osim(&document, &mut reading.findings).with_context(|| path.display().to_string())
+    let set = OsimMarkerSet::read(&files::read_input(caller, set_path)?).with_context(|| shown.clone())?;
+    files::note_remarks(&shown, &set.remarks, findings);
+    document.with_marker_set(&set).context(shown)
 }
 
 /// The document of a model, without the forces that a set-up excludes.
 fn read_document(path: &Path, reading: &mut Reading) -> Result<OsimModel> {
-    let bytes = files::read_input(&reading.caller, path)?;
     reading.read.push(path.to_owned());
-    let mut document = OsimModel::read(&bytes).with_context(|| path.display().to_string())?;
-    reading.setups.exclude_forces(&mut document);
+    document_of(path, &reading.caller, &reading.setups)
+}
+
+fn document_of(path: &Path, caller: &Caller, setups: &setup::Setups) -> Result<OsimModel> {
+    let mut document =
+        OsimModel::read(&files::read_input(caller, path)?).with_context(|| path.display().to_string())?;
+    setups.exclude_forces(&mut document);
     Ok(document)
 }
 

@@ -9,6 +9,7 @@ use ambulo::kinematics::sensor_fit::{SensorAxes, SensorHeading};
 use ambulo::model::anthropometry::Build;
 use ambulo::model::from_osim;
 use ambulo::motion::{SensorRecording, sensors_from_table};
+use ambulo::numerics::elementary::sin_cos;
 use ambulo::spatial::Mat3;
 use ambulo::study::{Recording, SensorBody, SensorSource, Source, standing_sensors_of};
 use ambulo_formats::osim::OsimModel;
@@ -106,7 +107,7 @@ fn axes(args: &ForcesArgs) -> SensorAxes {
 /// The rotation about x, then y, then z, which stay where they are [rad].
 fn about_fixed_axes([x, y, z]: [f64; 3]) -> Mat3 {
     let turn = |angle: f64, [a, b]: [usize; 2]| {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = sin_cos(angle);
         let mut turn = Mat3::identity();
         (turn[(a, a)], turn[(b, b)], turn[(b, a)], turn[(a, b)]) = (cos, cos, sin, -sin);
         turn

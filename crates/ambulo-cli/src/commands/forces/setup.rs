@@ -122,6 +122,11 @@ impl Setups {
         (!weights.is_empty()).then(tracked)
     }
 
+    /// Names of forces of the model that a set-up excludes.
+    pub(super) fn excluded_forces(&self) -> &[String] {
+        self.dynamics.as_ref().map_or(&[], |dynamics| &dynamics.setup.forces_to_exclude)
+    }
+
     /// Removes forces of the model that a set-up excludes.
     pub(super) fn exclude_forces(&self, document: &mut OsimModel) {
         if let Some(dynamics) = &self.dynamics {

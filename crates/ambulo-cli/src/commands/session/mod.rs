@@ -29,6 +29,11 @@ const NORM: &str = "norm.json";
 const QUOTED: usize = 3;
 
 pub(crate) fn run(args: &SessionArgs) -> Result<Completion> {
+    compute(args, &Caller::default())
+}
+
+/// Computes a session into its folder. A caller that stops it leaves the folder as it was.
+pub(crate) fn compute(args: &SessionArgs, caller: &Caller) -> Result<Completion> {
     let threads = args.jobs.map_or_else(processors, |jobs| jobs as usize);
     let plan = visit::planned(&args.folder, threads)?;
     visit::check_person(&args.folder, &plan)?;
@@ -41,7 +46,7 @@ pub(crate) fn run(args: &SessionArgs) -> Result<Completion> {
     other_sessions::check_output(args, &recordings)?;
     let earlier = args.compare.as_deref().map(other_sessions::read).transpose()?;
     let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
-    let computing = Computing { words: &args.options, threads, print: args.print };
+    let computing = Computing { words: &args.options, threads, print: args.print, caller };
     let group = args.norm.as_deref().map(|norm| other_sessions::group(norm, &computing)).transpose()?;
     let person = computing.person(&args.folder, &plan, &trials)?;
     if !person.session.has_cycles() {
@@ -63,6 +68,8 @@ struct Computing<'a> {
     words: &'a [OsString],
     threads: usize,
     print: crate::args::PrintArgs,
+    /// Who may stop the computation.
+    caller: &'a Caller,
 }
 
 /// A session of one person, and the names in the recordings.
@@ -76,13 +83,16 @@ impl Computing<'_> {
     fn person(&self, root: &Path, plan: &Plan, trials: &[&PlannedTrial]) -> Result<PersonSession> {
         visit::check_stated(root, trials)?;
         visit::check_standing(root, plan, trials)?;
-        let visit = Visit { root, trials, words: self.words, threads: self.threads };
+        let visit = Visit { root, trials, words: self.words, threads: self.threads, caller: self.caller };
         visit.check()?;
         let begun = AtomicUsize::new(0);
         let computed = visit.compute(&|k| {
             let count = begun.fetch_add(1, Ordering::Relaxed) + 1;
             printer::progress(&format!("{count} of {}: {}", trials.len(), trials[k].name), self.print);
         });
+        if self.caller.is_stopped() {
+            bail!("the session was stopped; nothing was written");
+        }
         let mut named: Vec<(&PlannedTrial, String)> = Vec::new();
         for (trial, run) in trials.iter().copied().zip(&computed.runs) {
             named.extend(run.as_ref().ok().and_then(|run| Some((trial, run.input.person.clone()?))));

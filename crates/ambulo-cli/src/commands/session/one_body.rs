@@ -28,6 +28,8 @@ pub(super) struct Visit<'a> {
     /// Options of `ambulo forces`.
     pub(super) words: &'a [OsString],
     pub(super) threads: usize,
+    /// Who may stop the computation.
+    pub(super) caller: &'a Caller,
 }
 
 /// Every trial, computed with one body or with the reason why not.
@@ -84,7 +86,7 @@ impl Visit<'_> {
             Some(reason) => Err(Error::msg(reason.clone())),
             None => self.options(trial).and_then(|mut args| {
                 args.subject.mass = mass_kg.or(args.subject.mass);
-                forces::compute_with(&args, &Caller::default(), shared)
+                forces::compute_with(&args, self.caller, shared)
             }),
         };
         computed.map_err(|error| {

@@ -1,14 +1,14 @@
 //! The frames of one sender and the answers to them.
 
 use super::Setup;
-use super::formats::{
-    AngleUnit, Answer, Description, Message, from_json, from_record, record_bytes, to_json, to_record,
-};
+use super::coordinates::CoordinateFrames;
+use super::formats::{Answer, Description, Message, from_json, from_record, record_bytes, to_json, to_record};
+use super::live_view::LiveView;
+use super::markers::MarkerFrames;
 use super::numbering::{Numbering, Place};
-use crate::args::StreamFormat;
+use crate::args::{StreamArgs, StreamFormat};
 use ambulo::ground::predict::PredictError;
 use ambulo::ground::stream::{Stream, StreamError, StreamFrame};
-use ambulo::model::CoordinateKind;
 use ambulo_results::{stream_columns, stream_row};
 use anyhow::{Result, bail};
 
@@ -19,11 +19,10 @@ const NEW_SEQUENCE_S: f64 = 1.0;
 /// So many notices of a kind are printed; all are counted and, as JSON, answered.
 const PRINTED: u64 = 5;
 
-/// A value of a frame: the coordinate of the model that it belongs to, and its unit in that of the model.
-#[derive(Debug, Clone, Copy)]
-struct Slot {
-    coordinate: usize,
-    unit: f64,
+/// What the frames of a sender have.
+enum FrameKind {
+    Coordinates(CoordinateFrames),
+    Markers(Box<MarkerFrames>),
 }
 
 /// Counts for the last line.
@@ -42,7 +41,8 @@ pub(super) struct Conversation<'a> {
     numbering: Numbering,
     /// Number of the sender for frame 0 of the stream.
     origin: u64,
-    slots: Vec<Slot>,
+    frames: FrameKind,
+    page: Option<LiveView<'a>>,
     /// Answers that were not sent yet.
     pub(super) out: Vec<u8>,
     counts: Counts,
@@ -50,9 +50,16 @@ pub(super) struct Conversation<'a> {
 
 impl<'a> Conversation<'a> {
     pub(super) fn new(setup: &'a Setup<'a>) -> Result<Conversation<'a>> {
-        let slots = (0..setup.model.coordinates().len()).map(|coordinate| Slot { coordinate, unit: 1.0 }).collect();
+        let StreamArgs { markers, rate, unit, axes, .. } = *setup.args;
+        let frames = match markers {
+            false => FrameKind::Coordinates(CoordinateFrames::new(&setup.model)),
+            true => FrameKind::Markers(Box::new(MarkerFrames::new(&setup.model, rate, unit, axes)?)),
+        };
+        let stream = setup.stream()?;
+        let view = |server| LiveView::new(server, &setup.model, rate, stream.delay_frames());
+        let page = setup.page.as_ref().map(view);
         let (numbering, counts) = (Numbering::default(), Counts::default());
-        Ok(Conversation { setup, stream: setup.stream()?, numbering, origin: 0, slots, out: Vec::new(), counts })
+        Ok(Conversation { setup, stream, numbering, origin: 0, frames, page, out: Vec::new(), counts })
     }
 
     /// The description of frames and results that the sender gets first.
@@ -63,7 +70,14 @@ impl<'a> Conversation<'a> {
             model: model.name().to_owned(),
             rate_hz: self.setup.settings.rate_hz,
             delay_frames: self.stream.delay_frames(),
-            coordinates: self.slots.iter().map(|slot| model.coordinates()[slot.coordinate].name.clone()).collect(),
+            coordinates: match &self.frames {
+                FrameKind::Coordinates(frames) => Some(frames.names(model)),
+                FrameKind::Markers(_) => None,
+            },
+            markers: match &self.frames {
+                FrameKind::Coordinates(_) => None,
+                FrameKind::Markers(frames) => Some(frames.description()),
+            },
             columns,
             units,
         }
@@ -80,7 +94,15 @@ impl<'a> Conversation<'a> {
     pub(super) fn message_bytes(&self) -> Option<usize> {
         match self.setup.args.format {
             StreamFormat::Json => None,
-            StreamFormat::F32 => Some(record_bytes(self.slots.len())),
+            StreamFormat::F32 => Some(record_bytes(self.values())),
+        }
+    }
+
+    /// Values of a frame.
+    fn values(&self) -> usize {
+        match &self.frames {
+            FrameKind::Coordinates(frames) => frames.values(),
+            FrameKind::Markers(frames) => frames.values(),
         }
     }
 
@@ -92,7 +114,7 @@ impl<'a> Conversation<'a> {
         let message = match self.setup.args.format {
             StreamFormat::Json if bytes.trim_ascii().is_empty() => return Ok(()),
             StreamFormat::Json => from_json(bytes),
-            StreamFormat::F32 => from_record(bytes, self.slots.len()),
+            StreamFormat::F32 => from_record(bytes, self.values()),
         };
         let taken = message.and_then(|message| self.take(&message));
         self.survive(taken)
@@ -111,15 +133,9 @@ impl<'a> Conversation<'a> {
     }
 
     fn take(&mut self, message: &Message) -> Result<()> {
-        if message.coordinates.is_some() || message.angles.is_some() {
-            self.name_values(message)?;
-        }
-        let Some(values) = &message.q else { return Ok(()) };
-        let expected = self.slots.len();
-        if values.len() != expected {
-            bail!("a frame with {} values; expected {expected}, one per coordinate", values.len());
-        }
-        let q = self.in_model_order(values)?;
+        self.name_values(message)?;
+        let Some(values) = message.values() else { return Ok(()) };
+        let q = self.checked(&values)?;
         let number = self.number(message)?;
         self.counts.frames += 1;
         let rate_hz = self.setup.settings.rate_hz;
@@ -141,11 +157,37 @@ impl<'a> Conversation<'a> {
                 let message = format!("frame {number} follows frame {}: a new sequence begins", expected - 1);
                 self.notice("restarted", Some(number), message);
                 self.restart(number)?;
+                if let FrameKind::Markers(frames) = &mut self.frames {
+                    frames.restart(&self.setup.model)?;
+                }
             }
+        }
+        let q = self.fitted(q, number)?;
+        if let Some(page) = &mut self.page {
+            page.arrived(number, &q);
         }
         let forces = self.stream.push(&q)?;
         self.answer(forces);
         Ok(())
+    }
+
+    /// The coordinates of a frame that has them; markers are only checked, because they are fitted in the order of the frames.
+    fn checked(&mut self, values: &[Option<f64>]) -> Result<Vec<f64>> {
+        match &mut self.frames {
+            FrameKind::Coordinates(frames) => frames.in_model_order(&self.setup.model, values),
+            FrameKind::Markers(frames) => frames.take(values).map(|()| Vec::new()),
+        }
+    }
+
+    /// The coordinates of a frame; those of markers are fitted now.
+    fn fitted(&mut self, q: Vec<f64>, number: u64) -> Result<Vec<f64>> {
+        let FrameKind::Markers(frames) = &mut self.frames else { return Ok(q) };
+        if let Some(q) = frames.fit()? {
+            return Ok(q);
+        }
+        let message = format!("frame {number} has too few visible markers for a posture");
+        self.notice("unfitted", Some(number), message);
+        Ok(vec![f64::NAN; self.setup.model.coordinates().len()])
     }
 
     /// The number of a frame, from its number, its time, or the frame before.
@@ -167,6 +209,12 @@ impl<'a> Conversation<'a> {
     fn bridge(&mut self, from: u64, missing: u64, number: u64) -> Result<()> {
         let lost = if missing == 1 { format!("frame {from}") } else { format!("frames {from} to {}", number - 1) };
         self.notice("lost", Some(from), format!("{lost} did not arrive"));
+        if let FrameKind::Markers(frames) = &mut self.frames {
+            frames.skip(missing);
+        }
+        if let Some(page) = &mut self.page {
+            page.lost(missing);
+        }
         if missing as f64 > LONGEST_GAP_S * self.setup.settings.rate_hz {
             return self.restart(number);
         }
@@ -203,55 +251,37 @@ impl<'a> Conversation<'a> {
         self.setup.say(&message);
         self.send(&Answer::Notice { notice: "ended", frame: None, message });
         self.numbering = Numbering::default();
+        if let Some(page) = &mut self.page {
+            page.ended();
+        }
         Ok(())
     }
 
-    /// Sets which values a frame has, and their units.
+    /// Takes the names of what frames have, and units, from a message that has some.
     fn name_values(&mut self, message: &Message) -> Result<()> {
         let model = &self.setup.model;
-        let coordinates: Vec<usize> = match &message.coordinates {
-            None => self.slots.iter().map(|slot| slot.coordinate).collect(),
-            Some(names) => names.iter().map(|name| self.coordinate(name)).collect::<Result<_>>()?,
-        };
-        let is_degrees = message.angles == Some(AngleUnit::Deg);
-        let slot = |coordinate: usize| {
-            let is_angle = model.coordinates()[coordinate].kind != CoordinateKind::Translation;
-            Slot { coordinate, unit: if is_angle && is_degrees { 1_f64.to_radians() } else { 1.0 } }
-        };
-        self.slots = coordinates.into_iter().map(slot).collect();
-        let is_named = |place: usize| self.slots.iter().any(|slot| slot.coordinate == place);
-        let others = model.coordinates().iter().enumerate().filter(|(place, _)| !is_named(*place));
-        let others: Vec<&str> = others.map(|(_, coordinate)| coordinate.name.as_str()).collect();
-        if !others.is_empty() {
-            let message = format!("no values for {}; the defaults of the model are used", others.join(", "));
-            self.notice("defaults", None, message);
+        match &mut self.frames {
+            FrameKind::Coordinates(frames) if message.names_coordinates() => {
+                let others = frames.name_values(model, message)?;
+                if !others.is_empty() {
+                    let message = format!("no values for {}; the defaults of the model are used", others.join(", "));
+                    self.notice("defaults", None, message);
+                }
+            }
+            FrameKind::Markers(frames) if message.names_markers() => {
+                if let Some(message) = frames.name_markers(model, message)? {
+                    self.notice("markers", None, message);
+                }
+            }
+            FrameKind::Markers(_) if message.names_coordinates() || message.q.is_some() && !message.is_record => {
+                bail!("coordinates in a stream of markers; expected {{\"markers\": [...]}}. hint: leave out --markers")
+            }
+            FrameKind::Coordinates(_) if message.names_markers() || message.markers.is_some() => {
+                bail!("markers in a stream of coordinates; expected {{\"q\": [...]}}. hint: --markers takes markers")
+            }
+            _ => {}
         }
         Ok(())
-    }
-
-    fn coordinate(&self, name: &str) -> Result<usize> {
-        let model = &self.setup.model;
-        match model.coordinate(name) {
-            Some(id) => Ok(id.index()),
-            None => {
-                let names: Vec<&str> = model.coordinates().iter().map(|c| c.name.as_str()).collect();
-                bail!("no coordinate `{name}` in the model; expected some of {}", names.join(", "))
-            }
-        }
-    }
-
-    /// One value per coordinate of the model, not-a-number where it is missing.
-    fn in_model_order(&self, values: &[Option<f64>]) -> Result<Vec<f64>> {
-        let coordinates = self.setup.model.coordinates();
-        let mut q: Vec<f64> = coordinates.iter().map(|c| c.default_value).collect();
-        for (slot, value) in self.slots.iter().zip(values) {
-            let value = value.map_or(f64::NAN, |value| value * slot.unit);
-            if value.is_infinite() {
-                bail!("`{}` is {value}; expected a finite number, or none", coordinates[slot.coordinate].name);
-            }
-            q[slot.coordinate] = value;
-        }
-        Ok(q)
     }
 
     fn answer(&mut self, forces: Option<StreamFrame>) {
@@ -259,6 +289,9 @@ impl<'a> Conversation<'a> {
         self.counts.results += 1;
         let frame = self.origin + forces.frame as u64;
         let values: Vec<f32> = stream_row(&self.setup.model, &forces).into_iter().map(|value| value as f32).collect();
+        if let Some(page) = &mut self.page {
+            page.results(frame, &values);
+        }
         match self.setup.args.format {
             StreamFormat::F32 => to_record(frame, &values, &mut self.out),
             StreamFormat::Json => {

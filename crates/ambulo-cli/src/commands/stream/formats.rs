@@ -1,10 +1,11 @@
 //! Messages of a stream: lines of JSON, or records of 32-bit numbers.
 
+use crate::args::{LabAxes, MarkerUnit};
 use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
 /// A message to the command.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Message {
     /// Names of the coordinates in the order of the values that follow.
@@ -17,6 +18,54 @@ pub(super) struct Message {
     pub(super) time: Option<f64>,
     /// Its values; missing ones are null, or not-a-number in a record.
     pub(super) q: Option<Vec<Option<f64>>>,
+    /// Names of the markers, or their positions in a frame.
+    pub(super) markers: Option<Markers>,
+    /// Unit of positions that follow.
+    pub(super) unit: Option<MarkerUnit>,
+    /// Axes of positions that follow: which of the laboratory's points forward and which up.
+    pub(super) axes: Option<LabAxes>,
+    /// Whether the values come from a record, in which they have no name.
+    #[serde(skip)]
+    pub(super) is_record: bool,
+}
+
+/// Names of markers or their positions.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Markers {
+    Names(Vec<String>),
+    /// Null for a marker that is not seen.
+    Positions(Vec<Option<[Option<f64>; 3]>>),
+}
+
+impl Message {
+    /// Whether the message says which coordinates frames have, or in which unit.
+    pub(super) fn names_coordinates(&self) -> bool {
+        self.coordinates.is_some() || self.angles.is_some()
+    }
+
+    /// Whether the message says which markers frames have, or their unit and axes.
+    pub(super) fn names_markers(&self) -> bool {
+        self.marker_names().is_some() || self.unit.is_some() || self.axes.is_some()
+    }
+
+    /// Names of the markers of frames.
+    pub(super) fn marker_names(&self) -> Option<&[String]> {
+        match &self.markers {
+            Some(Markers::Names(names)) => Some(names),
+            _ => None,
+        }
+    }
+
+    /// The values of a frame one after the other; `None` if the message has no frame.
+    pub(super) fn values(&self) -> Option<Vec<Option<f64>>> {
+        match (&self.q, &self.markers) {
+            (None, Some(Markers::Positions(positions))) => {
+                Some(positions.iter().flat_map(|place| place.unwrap_or_default()).collect())
+            }
+            (q, _) => q.clone(),
+        }
+    }
 }
 
 /// Unit of angles.
@@ -34,10 +83,24 @@ pub(crate) struct Description {
     pub(crate) rate_hz: f64,
     pub(crate) delay_frames: usize,
     /// Coordinates of a frame.
-    pub(crate) coordinates: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) coordinates: Option<Vec<String>>,
+    /// Markers of a frame, with their unit and axes.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub(crate) markers: Option<MarkerDescription>,
     /// Names and units of the values of a result.
     pub(crate) columns: Vec<String>,
     pub(crate) units: Vec<&'static str>,
+}
+
+/// Describes frames of markers.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct MarkerDescription {
+    /// Their names.
+    pub(crate) markers: Vec<String>,
+    pub(crate) unit: MarkerUnit,
+    /// Axes of the laboratory that point forward and up.
+    pub(crate) axes: LabAxes,
 }
 
 /// A message of the command besides the description.
@@ -77,7 +140,7 @@ pub(super) fn from_record(record: &[u8], values: usize) -> Result<Message> {
     let mut words = record.chunks_exact(4).map(|word| [word[0], word[1], word[2], word[3]]);
     let frame = words.next().map(|word| u64::from(u32::from_le_bytes(word)));
     let q = words.map(f32::from_le_bytes).map(|x| (!x.is_nan()).then_some(f64::from(x))).collect();
-    Ok(Message { coordinates: None, angles: None, frame, time: None, q: Some(q) })
+    Ok(Message { frame, q: Some(q), is_record: true, ..Message::default() })
 }
 
 /// Appends a line.

@@ -69,7 +69,7 @@ fn is_gone(kind: ErrorKind) -> bool {
 /// # Errors
 /// A port that cannot be used, a model that cannot be streamed.
 pub(super) fn serve_tcp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
-    let listener = TcpListener::bind(address).map_err(|error| not_bound(error, "TCP", address))?;
+    let listener = bound(address, "TCP")?;
     say_listening(setup, "TCP", listener.local_addr()?);
     loop {
         let (connection, peer) = listener.accept().context("connections cannot be accepted")?;
@@ -134,9 +134,21 @@ pub(super) fn serve_udp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     }
 }
 
+/// A server on an address; `kind` is for the message.
+///
+/// # Errors
+/// A port that cannot be used.
+pub(super) fn bound(address: SocketAddr, kind: &str) -> Result<TcpListener> {
+    TcpListener::bind(address).map_err(|error| not_bound(error, kind, address))
+}
+
+/// Who can connect to an address.
+pub(super) fn reach(address: SocketAddr) -> &'static str {
+    if address.ip().is_loopback() { "this computer only" } else { "every computer that reaches it" }
+}
+
 fn say_listening(setup: &Setup<'_>, kind: &str, address: SocketAddr) {
-    let who = if address.ip().is_loopback() { "this computer only" } else { "every computer that reaches it" };
-    setup.say(&format!("waiting for frames on {kind} {address} ({who})"));
+    setup.say(&format!("waiting for frames on {kind} {address} ({})", reach(address)));
 }
 
 fn not_bound(error: std::io::Error, kind: &str, address: SocketAddr) -> anyhow::Error {

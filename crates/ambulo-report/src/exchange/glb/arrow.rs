@@ -3,11 +3,9 @@
 use super::material::Paint;
 use super::mesh::{Triangles, frame};
 use super::{GlbBuilder, METRES_PER_NEWTON};
-use crate::stage::{BodyPath, ForceRole, Stage, StageForce};
+use crate::stage::{BodyPath, ForceRole, Stage, StageForce, upward_to};
 use ambulo::spatial::Vec3;
-use nalgebra::UnitQuaternion;
 use serde_json::json;
-use std::f64::consts::PI;
 
 /// Radius of the shaft and of the head, and where the head begins [m].
 const SHAFT: f64 = 0.009;
@@ -46,9 +44,7 @@ fn moving(force: &StageForce) -> Moving {
         if length > 0.0 {
             (place, direction) = (*row.0, *row.1);
         }
-        let turn = UnitQuaternion::rotation_between(&Vec3::y(), &direction)
-            .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vec3::x_axis(), PI));
-        path.push_turned(place, turn);
+        path.push_turned(place, upward_to(&direction));
         let width = if length > 0.0 { 1.0 } else { 0.0 };
         scale.push([width, length, width]);
     }

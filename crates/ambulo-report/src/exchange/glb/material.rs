@@ -2,6 +2,7 @@
 
 use crate::style::{Style, style};
 use ambulo::model::Side;
+use ambulo::numerics::elementary::powf;
 use serde_json::{Value, json};
 
 /// Colour of a mesh; its number is the index of the material.
@@ -53,7 +54,7 @@ fn linear(color: &str) -> [f64; 4] {
     let channel = |k: usize| {
         let byte = color.get(2 * k + 1..2 * k + 3).and_then(|text| u8::from_str_radix(text, 16).ok()).unwrap_or(128);
         let share = f64::from(byte) / 255.0;
-        if share <= 0.040_45 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+        if share <= 0.040_45 { share / 12.92 } else { powf((share + 0.055) / 1.055, 2.4) }
     };
     [channel(0), channel(1), channel(2), 1.0]
 }

@@ -1,6 +1,7 @@
 //! Triangles of shapes, with normals.
 
 use crate::page::ViewShape;
+use ambulo::numerics::elementary::{cos, sin};
 use ambulo::spatial::Vec3;
 use nalgebra::{Quaternion, UnitQuaternion};
 use std::f64::consts::{PI, TAU};
@@ -59,7 +60,7 @@ impl Triangles {
     pub(super) fn ring(&mut self, center: Vec3, [across, aside, along]: [Vec3; 3], radius: f64, lean: f64) {
         for side in 0..=SIDES {
             let angle = TAU * side as f64 / SIDES as f64;
-            let outward = across * angle.cos() + aside * angle.sin();
+            let outward = across * cos(angle) + aside * sin(angle);
             self.points.push((center + outward * radius).into());
             self.normals.push((outward * (1.0 - lean * lean).max(0.0).sqrt() + along * lean).into());
         }
@@ -107,7 +108,7 @@ fn capsule(from: Vec3, to: Vec3, radius: f64) -> Triangles {
     let angles = (0..=RINGS).map(|k| (from, -0.5 * PI * (RINGS - k) as f64 / RINGS as f64));
     let upper = (0..=RINGS).map(|k| (to, 0.5 * PI * k as f64 / RINGS as f64));
     for (number, (center, angle)) in angles.chain(upper).enumerate() {
-        all.ring(center + along * (radius * angle.sin()), axes, radius * angle.cos(), angle.sin());
+        all.ring(center + along * (radius * sin(angle)), axes, radius * cos(angle), sin(angle));
         if number > 0 {
             all.band();
         }

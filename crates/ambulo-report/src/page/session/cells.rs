@@ -1,5 +1,7 @@
 //! Builds tables and their cells from lists of results.
 
+use ambulo::numerics::elementary::powi;
+
 use crate::page::contract::{Cell, Table};
 use ambulo_results::SpreadSummary;
 
@@ -20,7 +22,7 @@ pub(super) fn number(value: Option<f64>, digits: usize, range: Option<[f64; 2]>)
 
 /// Rounds to the digits shown before comparing, as a reader does.
 fn is_outside(x: f64, range: [f64; 2], digits: usize) -> bool {
-    let scale = 10_f64.powi(i32::try_from(digits).unwrap_or(0));
+    let scale = powi(10_f64, i32::try_from(digits).unwrap_or(0));
     let [x, low, high] = [x, range[0], range[1]].map(|x| (x * scale).round());
     x < low || x > high
 }

@@ -4,6 +4,7 @@ use super::results::Results;
 use super::size::{BodySize, SourcedLength};
 use crate::page::contract::{Fact, PageSource};
 use ambulo::analysis::{MassSource, StrideQuantity};
+use ambulo::numerics::elementary::{atan2, hypot};
 use ambulo::study::MassState;
 use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary};
 
@@ -148,8 +149,8 @@ fn direction(results: &Results) -> Option<Fact> {
     let [forward, right] = walking.pelvis_velocity_m_s?;
     let value = match walking.belt_speed_m_s {
         Some(belt) => format!("in place, on a treadmill at {belt:.2} m/s"),
-        None if forward.hypot(right) < STANDING_M_S => "none: the body stays in place".to_owned(),
-        None => along(right.atan2(forward).to_degrees()),
+        None if hypot(forward, right) < STANDING_M_S => "none: the body stays in place".to_owned(),
+        None => along(atan2(right, forward).to_degrees()),
     };
     Some(fact("Walking direction", value, Some("world: x forward, y up, z to the right".to_owned())))
 }

@@ -30,7 +30,8 @@ pub(super) fn view(folder: &Folder<'_>, block: &mut Block) -> Result<Viewed, Res
     }
 }
 
-fn drawn(stage: Stage, block: &mut Block) -> Viewed {
+/// The view of a stage; its numbers go into `block`.
+pub(super) fn drawn(stage: Stage, block: &mut Block) -> Viewed {
     let view = View {
         // The numbers of a body are freed when they are packed.
         bodies: stage.bodies.into_iter().map(|body| of_body(body, block)).collect(),

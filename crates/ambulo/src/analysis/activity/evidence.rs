@@ -6,6 +6,7 @@ use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::anatomy::{Movement, Sole};
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
+use crate::numerics::elementary::atan2;
 use crate::numerics::median;
 use crate::spatial::Vec3;
 
@@ -133,7 +134,7 @@ fn mass_center(model: &Model, bodies: &[BodyMotion]) -> Vec3 {
 fn heading(forward: Vec3, up: Vec3) -> f64 {
     let reference = if up.x.abs() < 0.5 { Vec3::x() } else { Vec3::z() };
     let ahead = (reference - up * reference.dot(&up)).normalize();
-    forward.dot(&up.cross(&ahead)).atan2(forward.dot(&ahead))
+    atan2(forward.dot(&up.cross(&ahead)), forward.dot(&ahead))
 }
 
 /// Length of the path in pieces [m].

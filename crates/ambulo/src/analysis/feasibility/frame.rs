@@ -9,6 +9,7 @@ use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
 use crate::kinematics::BodyMotion;
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, CoordinateId, CoordinateKind, Drive, Model, Side};
+use crate::numerics::elementary::{hypot, tan};
 use crate::optimal::{Hill, StrengthCurve};
 use crate::spatial::{Vec3, Wrench, level_distance};
 
@@ -174,7 +175,7 @@ impl FeasibilityLimits {
         let sideways = (from_heel.norm_squared() - forward * forward).max(0.0).sqrt();
         let is_in_reach = from_heel.norm() <= length.norm() + margin;
         is_in_reach
-            && sideways <= forward.max(0.0) * TURNED_RAD.tan() + margin
+            && sideways <= forward.max(0.0) * tan(TURNED_RAD) + margin
             && height_beyond(points, place, self.up) == 0.0
     }
 
@@ -352,7 +353,7 @@ fn distance_to_sole(limits: &FeasibilityLimits, frame: &Frame<'_>, sole: &Sole, 
     let [rear, ball, tip] = points;
     let to_part = |part: [Vec3; 2]| level_distance(place, part, limits.up);
     let outside = to_part([rear, ball]).min(to_part([ball, tip])) - sole.half_width;
-    outside.max(0.0).hypot(height_beyond(points, place, limits.up))
+    hypot(outside.max(0.0), height_beyond(points, place, limits.up))
 }
 
 /// Distance in height of the lowest point of a sole from a place, beyond [`OFF_GROUND_M`] [m].

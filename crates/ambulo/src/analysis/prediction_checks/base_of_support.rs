@@ -1,5 +1,6 @@
 //! The base of support in the horizontal plane, and the distance of a point outside it.
 
+use crate::numerics::elementary::hypot;
 use crate::spatial::Vec3;
 
 /// Convex hull of discs around sole points.
@@ -37,7 +38,7 @@ impl BaseOfSupport {
 }
 
 fn length([x, y]: [f64; 2]) -> f64 {
-    x.hypot(y)
+    hypot(x, y)
 }
 
 /// Twice the area of a triangle, positive if counterclockwise.

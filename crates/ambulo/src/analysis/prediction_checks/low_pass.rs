@@ -5,6 +5,7 @@
 //! p is the centre of pressure, F and M₀ the ground's wrench averaged with a Gaussian window over time, h the mean height of the ground.
 
 use super::record::Record;
+use crate::numerics::elementary::exp;
 use crate::spatial::{Vec3, Wrench};
 
 /// Frequency at which half the amplitude passes [Hz]. Soft tissue of the trunk vibrates faster after a foot strike.
@@ -49,8 +50,7 @@ pub(super) struct Instant {
 pub(super) fn low_passed(record: &Record) -> LowPassed {
     let sigma = (0.5 * std::f64::consts::LN_2).sqrt() / (std::f64::consts::PI * BANDWIDTH_HZ);
     let reach = record.frames_in(REACH * sigma);
-    let weights: Vec<f64> =
-        (0..=reach).map(|i| (-0.5 * (i as f64 * record.grid.step_s / sigma).powi(2)).exp()).collect();
+    let weights: Vec<f64> = (0..=reach).map(|i| exp(-0.5 * (i as f64 * record.grid.step_s / sigma).powi(2))).collect();
     let stride = record.frames_in(EVERY_S);
     let end = record.grid.frames.saturating_sub(reach);
     let instants = (reach..end).step_by(stride).map(|frame| instant(record, frame, &weights)).collect();

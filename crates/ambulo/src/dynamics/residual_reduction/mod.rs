@@ -48,6 +48,7 @@ use super::{LoadSeries, Roots, Workspace};
 use crate::findings::{Code, Findings};
 use crate::kinematics::Trajectory;
 use crate::model::{BodyId, Model};
+use crate::numerics::elementary::hypot;
 use adjustable_body::AdjustableBody;
 use frame::{FootPose, FrameEvaluator};
 use problem::{ReductionProblem, Termination, Unknowns};
@@ -205,7 +206,7 @@ impl ReductionProblem<'_> {
             let places = self.evaluator.evaluate(&mut workspace, &instant, &[]).feet;
             for (away, (place, before)) in away.iter_mut().zip(places.iter().zip(recorded_feet)) {
                 let [x, y, z, a, b, c] = place.displacement_from(before);
-                away.push([x.hypot(y).hypot(z), a.hypot(b).hypot(c)]);
+                away.push([hypot(hypot(x, y), z), hypot(hypot(a, b), c)]);
             }
         }
         let inside = self.region.window.start - self.region.frames.start;

@@ -7,6 +7,7 @@ use super::settings::{ResidualReductionError, ResidualReductionSettings};
 use super::splines::{CorrectionSplines, Instant, Region, SplineWeights};
 use crate::dynamics::{BodyLoad, LoadSeries, Workspace};
 use crate::kinematics::Trajectory;
+use crate::numerics::elementary::powi;
 use crate::spatial::Wrench;
 
 /// Step of the finite differences by parameters of the body [share or m].
@@ -91,7 +92,7 @@ impl ReductionProblem<'_> {
         dy: &[f64],
     ) -> Result<Option<(Unknowns, f64)>, ResidualReductionError> {
         for halving in 0..HALVINGS {
-            let share = 0.5_f64.powi(halving as i32);
+            let share = powi(0.5_f64, halving as i32);
             let moved = |x: &[f64], d: &[f64]| x.iter().zip(d).map(|(x, d)| x + share * d).collect();
             let there = Unknowns { coefficients: moved(&at.coefficients, dx), numbers: moved(&at.numbers, dy) };
             let there_cost = self.cost(&there)?;

@@ -13,6 +13,7 @@
 
 use super::{AppliedForce, BaselineInput, FootPoints, at_height};
 use crate::model::{BySide, Side};
+use crate::numerics::elementary::exp;
 use crate::spatial::Vec3;
 
 /// λ [m].
@@ -23,7 +24,7 @@ const FLOOR_PERCENTILE: f64 = 0.05;
 /// Shares of the weight on the right and the left foot, by their heights above the floor [m].
 #[must_use]
 pub fn shares(heights: BySide<f64>) -> BySide<f64> {
-    let weights = heights.map(|height| (-height.max(0.0) / HEIGHT_M).exp());
+    let weights = heights.map(|height| exp(-height.max(0.0) / HEIGHT_M));
     let sum: f64 = Side::BOTH.iter().map(|side| weights[*side]).sum();
     weights.map(|weight| if sum > 0.0 { weight / sum } else { 0.5 })
 }

@@ -24,28 +24,29 @@
 use super::{AppliedForce, BaselineInput, FootPoints, at_height};
 use crate::ground::footfalls::Footfall;
 use crate::model::{BySide, Side};
+use crate::numerics::elementary::{exp, sin};
 use crate::spatial::Vec3;
 use std::f64::consts::PI;
 
 /// The fore-aft force of the trailing foot over that at the strike; `time` in halves of the double support, 0 to 2.
 #[must_use]
 pub fn fore_aft(time: f64) -> f64 {
-    let k1 = (4.0_f64 / 9.0).exp();
-    let k2 = k1 * (-16.0_f64 / 9.0).exp() / 2.0;
-    k1 * (-(time - 2.0 / 3.0).powi(2)).exp() - k2 * time
+    let k1 = exp(4.0_f64 / 9.0);
+    let k2 = k1 * exp(-16.0_f64 / 9.0) / 2.0;
+    k1 * exp(-(time - 2.0 / 3.0).powi(2)) - k2 * time
 }
 
 /// The vertical and lateral force of the trailing foot over that at the strike.
 #[must_use]
 pub fn other(time: f64) -> f64 {
-    (-time.powi(3)).exp()
+    exp(-time.powi(3))
 }
 
 /// Share of the way from heel to ball at a share of the single support.
 #[must_use]
 pub fn roll(share: f64) -> f64 {
     let u = share.clamp(0.0, 1.0);
-    -2.0 / (3.0 * PI) * ((2.0 * PI * u).sin() - (4.0 * PI * u).sin() / 8.0 - 1.5 * PI * u)
+    -2.0 / (3.0 * PI) * (sin(2.0 * PI * u) - sin(4.0 * PI * u) / 8.0 - 1.5 * PI * u)
 }
 
 pub(super) fn forces(input: &BaselineInput<'_>, places: &BySide<Vec<FootPoints>>) -> BySide<AppliedForce> {

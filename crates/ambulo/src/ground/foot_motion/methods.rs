@@ -3,6 +3,7 @@
 use super::signals::{Foot, axis, rate};
 use super::{EventMethod, SLOWEST_WALK_M_S};
 use crate::motion::{Event, EventKind, MarkerRecording};
+use crate::numerics::elementary::hypot;
 use crate::spatial::Vec3;
 
 /// A peak of a distance or a velocity rises above its surroundings by this share of the signal's range.
@@ -67,7 +68,7 @@ fn foot_speed(
     }
     let speed = |path: &[Vec3]| {
         let (x, y) = (rate(&axis(path, 0), markers.rate_hz), rate(&axis(path, 1), markers.rate_hz));
-        x.iter().zip(&y).map(|(x, y)| (x - floor).hypot(*y)).collect::<Vec<_>>()
+        x.iter().zip(&y).map(|(x, y)| hypot(x - floor, *y)).collect::<Vec<_>>()
     };
     (falls_below(&speed(heel), HEEL_AT_REST * walking.abs()), rises_above(&speed(toe), TOE_LEFT * walking.abs()))
 }

@@ -19,6 +19,8 @@ use super::signals::{FootPath, Signals};
 use super::stationary::limit;
 use std::ops::Range;
 
+use crate::numerics::elementary::powf;
+
 /// A foot has landed when its speed is below this share of its speed of approach.
 const LANDED: f64 = 0.5;
 /// The fastest descent is searched this far from the strike by speed, in √(L/g): 0.09 s for an adult.
@@ -83,7 +85,7 @@ impl Search<'_> {
         let until = next.unwrap_or(frames);
         let leg_speed = self.signals.leg_speed;
         let going = (self.walking[run.end - 1] / leg_speed).max(SLOWEST);
-        let mut limit = self.off_speed.factor * leg_speed * going.powf(self.off_speed.power);
+        let mut limit = self.off_speed.factor * leg_speed * powf(going, self.off_speed.power);
         // The highest speed of a swing that the recording cuts is not known.
         if next.is_some() || until - run.end > self.signals.frames_in(self.signals.leg_time_s) {
             let fastest = (run.end..until).map(|frame| self.speed(point, frame)).fold(0.0, f64::max);

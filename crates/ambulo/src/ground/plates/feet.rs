@@ -3,6 +3,7 @@
 use super::super::foot_motion::FootMotion;
 use crate::model::Side;
 use crate::motion::{Landmarks, MarkerRecording, PlateRecording};
+use crate::numerics::elementary::hypot;
 use crate::spatial::{Vec3, level_distance};
 
 /// The foot reaches this share of the distance from heel to toe marker beyond the toe marker.
@@ -49,7 +50,7 @@ impl FeetInMotion<'_> {
         let line = self.line(side, time_s)?;
         let [heel, toe] = line;
         let foot = [heel, heel + (toe - heel) * (1.0 + BEYOND_TOE)];
-        Some(level_distance(point, foot, plate.up).hypot(off_level_m(&line, plate)))
+        Some(hypot(level_distance(point, foot, plate.up), off_level_m(&line, plate)))
     }
 
     /// Whether the foot is over the plate, at the height of a foot that stands on it.

@@ -20,6 +20,7 @@ use super::forefoot::share_of_ball;
 use super::geometry::FootPlace;
 use super::stances::{BodyScale, Stance};
 use crate::model::Side;
+use crate::numerics::elementary::{atan2, exp};
 use crate::spatial::Vec3;
 
 /// Lean at the beginning and at the end of the path [rad].
@@ -42,7 +43,7 @@ pub(super) fn center_path(
     let back = rear - along * (behind * body_scale.height_m);
     let front = ball + (tip - ball) * front;
     let share = match place.shank {
-        Some(shank) => share(shank.dot(&along).atan2(shank.dot(&up)), parameters.center_lean),
+        Some(shank) => share(atan2(shank.dot(&along), shank.dot(&up)), parameters.center_lean),
         None => stance.elapsed_share(time),
     };
     let share = if stance.is_on_forefoot(time) { share.max(share_of_ball(place, up)) } else { share };
@@ -51,7 +52,7 @@ pub(super) fn center_path(
 }
 
 fn share(lean: f64, [middle, width]: [f64; 2]) -> f64 {
-    let sigma = |lean: f64| 1.0 / (1.0 + ((middle - lean) / width).exp());
+    let sigma = |lean: f64| 1.0 / (1.0 + exp((middle - lean) / width));
     let [from, to] = LEANS.map(sigma);
     ((sigma(lean) - from) / (to - from)).clamp(0.0, 1.0)
 }

@@ -14,6 +14,7 @@
 use super::stances::{GaitType, Stance};
 use crate::motion::TimeGrid;
 use crate::motion::filter::LowPass;
+use crate::numerics::elementary::{cos, exp, powi};
 use std::f64::consts::{LN_2, PI, TAU};
 
 /// Spacing of the coefficients [s].
@@ -92,7 +93,7 @@ impl EvidenceFilter {
         let sigma = (0.5 * LN_2).sqrt() / (PI * bandwidth_hz);
         let (stride, step) = spacing(grid);
         let count = (REACH * sigma / step).ceil() as usize;
-        let weights = (0..=count).map(|i| (-0.5 * (i as f64 * step / sigma).powi(2)).exp()).collect();
+        let weights = (0..=count).map(|i| exp(-0.5 * (i as f64 * step / sigma).powi(2))).collect();
         EvidenceFilter { stride, weights }
     }
 
@@ -103,11 +104,11 @@ impl EvidenceFilter {
         let gains: Vec<[f64; 2]> = frequencies
             .map(|share| {
                 let frequency = share * bandwidth_hz;
-                let of_motion = 1.0 + (frequency / motion.cutoff_hz).powi(2 * motion.order as i32);
-                [TAU * frequency, (-LN_2 * share * share).exp() / of_motion * if frequency > 0.0 { 1.0 } else { 0.5 }]
+                let of_motion = 1.0 + powi(frequency / motion.cutoff_hz, 2 * motion.order as i32);
+                [TAU * frequency, exp(-LN_2 * share * share) / of_motion * if frequency > 0.0 { 1.0 } else { 0.5 }]
             })
             .collect();
-        let at = |time: f64| gains.iter().map(|[omega, gain]| gain * (omega * time).cos()).sum::<f64>();
+        let at = |time: f64| gains.iter().map(|[omega, gain]| gain * cos(omega * time)).sum::<f64>();
         let whole = at(0.0);
         let mut weights: Vec<f64> = (0..=(LONGEST_S / step) as usize).map(|i| at(i as f64 * step) / whole).collect();
         let last = weights.iter().rposition(|weight| weight.abs() > NEGLIGIBLE).unwrap_or(0);

@@ -13,6 +13,7 @@ use super::fitted_parameters::FittedParameters;
 use super::stance_curves::{AtSpeed, MeanAndDeviation, StanceCurves};
 use super::stances::{BodyScale, GaitType, Stance};
 use crate::model::Side;
+use crate::numerics::elementary::{exp, sin};
 use crate::spatial::Vec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -88,7 +89,7 @@ impl<'a> Expectation<'a> {
             }
             GaitType::Run => {
                 let peak = FRAC_PI_2 * (self.step_s / self.stance.duration_s()).clamp(0.5, 4.0);
-                let mean = peak * (PI * own).sin();
+                let mean = peak * sin(PI * own);
                 MeanAndDeviation { mean, deviation: RUN_SPREAD * peak * rise(own, 0.1) }
             }
             GaitType::Stand => {
@@ -150,7 +151,7 @@ impl<'a> Expectation<'a> {
 fn push_after_strike(phase: f64) -> f64 {
     const HIGHEST_AT: f64 = 0.05;
     let x = phase / HIGHEST_AT;
-    x * (0.5 * (1.0 - x * x)).exp()
+    x * exp(0.5 * (1.0 - x * x))
 }
 
 /// A ramp from (almost) 0 at both ends of the stance to 1 after a share of it.

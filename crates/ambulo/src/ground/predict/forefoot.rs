@@ -1,6 +1,7 @@
 //! Feet that come down forefoot first: while the heel is up, only the ball touches the ground.
 
 use super::geometry::FootPlace;
+use crate::numerics::elementary::atan2;
 use crate::spatial::Vec3;
 
 /// Slope of the sole up to which the heel may touch the ground, and from which on only the ball does [rad], 5 and 15 degrees: soles and heel
@@ -29,6 +30,6 @@ pub(super) fn share_of_ball(place: &FootPlace, up: Vec3) -> f64 {
     let [rear, ball, _] = place.sole;
     let along = ball - rear;
     let down = -along.dot(&up);
-    let slope = down.atan2((along + up * down).norm());
+    let slope = atan2(down, (along + up * down).norm());
     ((slope - HEEL_UP[0]) / (HEEL_UP[1] - HEEL_UP[0])).clamp(0.0, 1.0)
 }

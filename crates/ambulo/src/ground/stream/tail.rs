@@ -21,6 +21,7 @@ use crate::model::{CoordinateId, Model};
 use crate::motion::filter::{LowPass, extend_by_reflection, low_pass_unpadded};
 use crate::motion::gaps::fill_gaps;
 use crate::motion::{MotionError, SmoothMotion, SmoothSettings, Smoother, TimeGrid, Window, smooth};
+use crate::numerics::elementary::{ln, sin};
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
 use std::f64::consts::{PI, TAU};
 
@@ -168,8 +169,8 @@ impl TailSmoother {
 
 /// Time after which a filter has forgotten all but [`SETTLED`] of a sample [s].
 fn settling_s(filter: LowPass) -> f64 {
-    let slowest = TAU * filter.cutoff_hz * (PI / (2.0 * filter.order as f64)).sin();
-    -SETTLED.ln() / slowest
+    let slowest = TAU * filter.cutoff_hz * sin(PI / (2.0 * filter.order as f64));
+    -ln(SETTLED) / slowest
 }
 
 /// Weights of the neighbours in the derivatives of a quintic spline: the derivatives of the spline through a single 1.

@@ -1,5 +1,6 @@
 //! Rotations from directions, and points in frames.
 
+use crate::numerics::elementary::{asin, atan2, sin_cos};
 use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
 
@@ -54,25 +55,25 @@ pub(super) fn from_y_x(y: Vec3, x: Vec3) -> Option<Mat3> {
 
 /// Rotation about x [rad].
 pub(super) fn about_x(angle: f64) -> Mat3 {
-    let (s, c) = angle.sin_cos();
+    let (s, c) = sin_cos(angle);
     Mat3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c)
 }
 
 /// Rotation about y [rad].
 pub(super) fn about_y(angle: f64) -> Mat3 {
-    let (s, c) = angle.sin_cos();
+    let (s, c) = sin_cos(angle);
     Mat3::new(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c)
 }
 
 /// Rotation about z [rad].
 pub(super) fn about_z(angle: f64) -> Mat3 {
-    let (s, c) = angle.sin_cos();
+    let (s, c) = sin_cos(angle);
     Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 }
 
 /// Angles [rad] about z, x and y of a rotation R = R_z R_x R_y.
 pub(crate) fn angles_zxy(r: &Mat3) -> [f64; 3] {
-    [(-r.m12).atan2(r.m22), r.m32.clamp(-1.0, 1.0).asin(), (-r.m31).atan2(r.m33)]
+    [atan2(-r.m12, r.m22), asin(r.m32.clamp(-1.0, 1.0)), atan2(-r.m31, r.m33)]
 }
 
 /// Median of some points, coordinate by coordinate [m].

@@ -8,6 +8,7 @@ use crate::model::anthropometry::Dimensions;
 use crate::model::full_body::SolePlacement;
 use crate::model::marker_set::Landmark;
 use crate::model::{BySide, Side};
+use crate::numerics::elementary::{atan2, hypot};
 use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
 
@@ -249,12 +250,12 @@ fn fifth_percentile(mut values: Vec<f64>) -> f64 {
 
 /// Horizontal length [m].
 fn flat_length(v: Vec3) -> f64 {
-    v.x.hypot(v.z)
+    hypot(v.x, v.z)
 }
 
 /// Upright axes in which the line from rear to front has the direction that it has on the foot of the segment table.
 fn heading(ends: &Ends) -> Mat3 {
-    let angle = |v: Vec3| (-v.z).atan2(v.x);
+    let angle = |v: Vec3| atan2(-v.z, v.x);
     about_y(angle(ends.front - ends.rear) - angle(ends.table_front - ends.table_rear))
 }
 
@@ -276,7 +277,7 @@ fn ankle_axes(leg: &Leg, poses: &[Option<Pose>]) -> Mat3 {
 fn report_unusual_torsion(tibia_from_joint: &Mat3, side: Side, assumptions: &mut Vec<String>) {
     let axis = tibia_from_joint.column(2);
     let out = if side == Side::Right { 1.0 } else { -1.0 };
-    let outwards = (-axis.x * out).atan2(axis.z).to_degrees();
+    let outwards = atan2(-axis.x * out, axis.z).to_degrees();
     if !(TORSIONS_DEG[0]..=TORSIONS_DEG[1]).contains(&outwards) {
         assumptions.push(format!(
             "the {side} ankle axis is rotated outwards by {outwards:.0} degrees relative to the knee axis (usual: 10 to 30): a wand or a knee marker may be misplaced, which affects the moments about these axes"

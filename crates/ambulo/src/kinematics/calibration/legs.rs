@@ -8,6 +8,7 @@ use super::person::PersonMeasurements;
 use crate::model::anthropometry::{Build, BuildError, SegmentTable};
 use crate::model::marker_set::Landmark;
 use crate::model::{BySide, Side};
+use crate::numerics::elementary::sin;
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
@@ -261,7 +262,7 @@ fn chord(upper: Vec3, lateral: Vec3, wand: Vec3, half: f64) -> Option<Vec3> {
 fn bending_axis(hip: Vec3, knee: Vec3, ankle: Vec3) -> Option<Vec3> {
     let (thigh, shank) = (direction(knee - hip)?, direction(ankle - knee)?);
     let normal = shank.cross(&thigh);
-    (normal.norm() > BENT.sin()).then(|| normal.normalize())
+    (normal.norm() > sin(BENT)).then(|| normal.normalize())
 }
 
 fn leg(finder: &Finder<'_>, pelvis: &Pelvis, knee: Method, ankle: Method) -> Result<Leg, CalibrationError> {

@@ -7,6 +7,7 @@ use super::person::PersonMeasurements;
 use crate::model::anthropometry::Dimensions;
 use crate::model::marker_set::{Landmark, Segment};
 use crate::model::{BySide, Side};
+use crate::numerics::elementary::{atan2, cos, hypot, sin};
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
@@ -161,9 +162,9 @@ impl Finder<'_> {
         let lift = if self.are_arms_raised(&poses) { self.lift(&poses, 0.5 * (right.y + left.y)) } else { 0.0 };
         let [right, left] = [right, left].map(|s| s - Vec3::y() * lift);
         let middle = (right + left) * 0.5;
-        let turn = about_z((-middle.x).atan2(middle.y));
+        let turn = about_z(atan2(-middle.x, middle.y));
         let poses = poses.into_iter().map(|pose| pose.map(|p| Pose { rotation: p.rotation * turn, ..p })).collect();
-        let factor = (middle.x.hypot(middle.y) / self.length()).clamp(FACTORS[0], FACTORS[1]);
+        let factor = (hypot(middle.x, middle.y) / self.length()).clamp(FACTORS[0], FACTORS[1]);
         let shoulders = BySide { right, left }.map(|s| turn.transpose() * s);
         Trunk { poses, factor, shoulders, lift, arms: BySide::from_fn(|_| None) }
     }
@@ -178,7 +179,7 @@ impl Finder<'_> {
             }
         };
         let all = Side::BOTH.into_iter().flat_map(|side| poses.iter().zip(self.frames).filter_map(cosine(side)));
-        median(all).is_some_and(|cosine| cosine < RAISED.cos())
+        median(all).is_some_and(|cosine| cosine < cos(RAISED))
     }
 
     /// Height of the shoulders above that expected for hanging arms from neck markers and segment table [m].
@@ -293,5 +294,5 @@ impl Finder<'_> {
 fn bending_axis(shoulder: Vec3, elbow: Vec3, wrist: Vec3) -> Option<Vec3> {
     let (upper, lower) = (direction(elbow - shoulder)?, direction(wrist - elbow)?);
     let normal = upper.cross(&lower);
-    (normal.norm() > BENT.sin()).then(|| normal.normalize())
+    (normal.norm() > sin(BENT)).then(|| normal.normalize())
 }

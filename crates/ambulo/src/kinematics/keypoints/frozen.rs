@@ -7,7 +7,7 @@ use crate::model::Side;
 use crate::model::marker_set::{Landmark, RecognisedMarkers};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
-use crate::spatial::Vec3;
+use crate::spatial::{Vec3, angle_between};
 
 /// Distances are the same if they differ by less within [`SPAN_S`] [m]: the rounding of files that have tenths of a millimetre.
 const SAME_M: f64 = 0.0002;
@@ -42,7 +42,7 @@ impl FrozenLegs {
                 if leg.travel(frames.clone()) > MOVES_M {
                     moving += 1;
                     if leg.is_rigid(frames) {
-                        angles.push((hip.positions[first] - knee.positions[first]).angle(&Vec3::y()));
+                        angles.push(angle_between(&(hip.positions[first] - knee.positions[first]), &Vec3::y()));
                     }
                 }
             }

@@ -59,12 +59,17 @@ impl Budget {
 
     /// The posture of the first frame is found.
     pub(super) fn end_beginning(&mut self) {
-        self.granted = self.spent + self.left().min(LEFT_OF_BEGINNING);
+        self.limit_rest();
     }
 
     /// Adds what one more frame may take.
     pub(super) fn grant_frame(&mut self) {
         self.granted += PER_FRAME;
+    }
+
+    /// Limits what was not needed so far, so that a frame of a stream without end takes no longer than one of a recording.
+    pub(super) fn limit_rest(&mut self) {
+        self.granted = self.spent + self.left().min(LEFT_OF_BEGINNING);
     }
 
     /// Adds what all frames may take after each was fitted once.

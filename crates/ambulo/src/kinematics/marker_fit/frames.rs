@@ -4,6 +4,7 @@ use super::problem::FitProblem;
 use super::solve::Outcome;
 use crate::motion::MarkerPath;
 use crate::spatial::Vec3;
+use std::borrow::Cow;
 
 /// Minimum number of markers per frame: fewer do not even determine one rigid body.
 pub(super) const FEWEST: usize = 3;
@@ -70,13 +71,17 @@ impl Frames {
     }
 
     /// Uses the positions of these paths, one per marker, wherever they are recorded.
-    pub(super) fn observe(&mut self, paths: &[&MarkerPath]) {
-        for frame in 0..self.count() {
-            for (i, path) in paths.iter().enumerate() {
-                self.seen[frame * self.markers + i] = path.is_seen(frame);
-            }
+    pub(super) fn observe(&mut self, paths: &[Cow<'_, MarkerPath>]) {
+        (0..self.count()).for_each(|frame| self.observe_frame(frame, paths));
+    }
+
+    /// The same in one frame.
+    pub(super) fn observe_frame(&mut self, frame: usize, paths: &[Cow<'_, MarkerPath>]) {
+        for (i, path) in paths.iter().enumerate() {
+            let place = frame * self.markers + i;
+            self.seen[place] = path.is_seen(frame);
+            self.used[place] = self.seen[place];
         }
-        self.used.clone_from(&self.seen);
     }
 
     /// Number of frames.

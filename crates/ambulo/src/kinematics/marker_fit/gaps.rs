@@ -252,7 +252,7 @@ fn judge(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize, usual: &[f
 }
 
 /// Stores which unknowns the loaded markers do not determine at the current posture.
-fn judge_loaded(problem: &mut FitProblem<'_>, frame: usize, usual: &[f64], states: &mut [Determination]) {
+pub(super) fn judge_loaded(problem: &mut FitProblem<'_>, frame: usize, usual: &[f64], states: &mut [Determination]) {
     let unknowns = usual.len();
     let mut gains = vec![0.0; unknowns];
     problem.uncertainty(&mut gains);
@@ -392,7 +392,7 @@ fn known_offsets(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize) ->
 }
 
 /// Fits a frame to the visible markers and to the missing ones where the posture has them at their offsets.
-fn fit_as_if_seen(problem: &mut FitProblem<'_>, frames: &mut Frames, frame: usize) {
+pub(super) fn fit_as_if_seen(problem: &mut FitProblem<'_>, frames: &mut Frames, frame: usize) {
     if problem.solver.budget.is_spent() {
         return frames.leave_unfinished(frame);
     }

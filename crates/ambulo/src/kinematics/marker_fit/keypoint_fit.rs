@@ -24,6 +24,7 @@ use crate::kinematics::keypoints::{KeypointReport, Keypoints};
 use crate::model::{Model, Movement, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
+use std::borrow::Cow;
 
 /// Distance of a joint centre of a network from that of the body, besides noise [m].
 const MODEL_ERROR_M: f64 = 0.010;
@@ -52,7 +53,7 @@ pub(crate) fn fit_keypoints(
     let Keypoints { observed, smooth, mut report } = keypoints;
     let mut problem = FitProblem::new(model, &smooth, settings, findings)?;
     smoothing::check(problem.frames(), problem.tree.unknowns())?;
-    let number = |path: &&MarkerPath| smooth.markers.iter().position(|marker| marker.name == path.name);
+    let number = |path: &Cow<'_, MarkerPath>| smooth.markers.iter().position(|marker| marker.name == path.name);
     let numbers: Vec<usize> = problem.paths.iter().filter_map(number).collect();
     let mut frames = Frames::new(&problem);
     report::missing(&problem, &frames, findings);
@@ -73,7 +74,7 @@ pub(crate) fn fit_keypoints(
     report.thigh_rotation = thigh_rotation(model, &problem, &sensitivities);
     let prior = prior(settings.method, median(noise).unwrap_or(0.0))
         .map(|prior| recorded_noise::with_smoothness(prior, model, &problem, &frames, &sensitivities));
-    problem.paths = numbers.iter().map(|&i| &observed.markers[i]).collect();
+    problem.paths = numbers.iter().map(|&i| Cow::Borrowed(&observed.markers[i])).collect();
     frames.observe(&problem.paths);
     if let Some(prior) = prior {
         problem.bounds.stiffness.clone_from(&springs);
@@ -132,7 +133,7 @@ fn prior(method: FitMethod, noise_m: f64) -> Option<SmoothnessPrior> {
 /// Stiffness of the springs that hold unknowns near zero; 0 for none.
 fn springs(model: &Model, problem: &FitProblem<'_>) -> Vec<f64> {
     let trunk = model.anatomy().trunk();
-    let is_on_trunk = |path: &&MarkerPath| {
+    let is_on_trunk = |path: &Cow<'_, MarkerPath>| {
         model.markers().iter().any(|marker| marker.name == path.name && marker.body == trunk && trunk.is_some())
     };
     let upright = if problem.paths.iter().any(is_on_trunk) { f64::INFINITY } else { UPRIGHT_RAD };

@@ -44,11 +44,13 @@ mod skin_motion;
 mod smoothing;
 
 mod keypoint_fit;
+mod live_fit;
 mod recorded_noise;
 mod report;
 pub(crate) mod rows;
 
 pub(crate) use keypoint_fit::{FollowedKeypoints, fit_keypoints};
+pub use live_fit::LiveMarkerFit;
 pub use result::{FitError, MarkerFit, MarkerResidual};
 pub use settings::{
     CoordinateTask, FitMethod, FitSettings, JointLimits, OutlierDetection, SmoothnessPrior, TaskTarget,

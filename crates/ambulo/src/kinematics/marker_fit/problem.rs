@@ -10,6 +10,7 @@ use crate::findings::{Code, Findings};
 use crate::model::{Drive, Function, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
+use std::borrow::Cow;
 
 /// Maximum number of names in an error message.
 const MOST_NAMES: usize = 20;
@@ -25,9 +26,9 @@ pub(super) struct FitProblem<'a> {
     /// The markers of the model.
     pub(super) points: Vec<Point>,
     /// The recorded markers, in the same order.
-    pub(super) paths: Vec<&'a MarkerPath>,
+    pub(super) paths: Vec<Cow<'a, MarkerPath>>,
     pub(super) weights: Vec<f64>,
-    pub(super) times: &'a [f64],
+    pub(super) times: Cow<'a, [f64]>,
     /// Coordinates that are functions of time.
     prescribed: Vec<(usize, Function)>,
     tasks: Vec<HeldUnknown>,
@@ -63,14 +64,40 @@ impl<'a> FitProblem<'a> {
             shifted: points.clone(),
             positions: vec![Vec3::zeros(); points.len()],
             frame_weights: vec![0.0; points.len()],
-            paths: common.iter().map(|c| c.path).collect(),
+            paths: common.iter().map(|c| Cow::Borrowed(c.path)).collect(),
             weights: common.iter().map(|c| c.weight).collect(),
-            times: &recording.times,
+            times: Cow::Borrowed(&recording.times),
             prescribed: prescribed.collect(),
             tasks: held_unknowns(model, &tree, &settings.tasks, findings),
             points,
             tree,
         })
+    }
+
+    /// The same with a copy of the recording.
+    pub(super) fn into_owned(self) -> FitProblem<'static> {
+        FitProblem {
+            tree: self.tree,
+            solver: self.solver,
+            bounds: self.bounds,
+            points: self.points,
+            paths: self.paths.into_iter().map(|path| Cow::Owned(path.into_owned())).collect(),
+            weights: self.weights,
+            times: Cow::Owned(self.times.into_owned()),
+            prescribed: self.prescribed,
+            tasks: self.tasks,
+            shifted: self.shifted,
+            positions: self.positions,
+            frame_weights: self.frame_weights,
+        }
+    }
+
+    /// Replaces a frame of the recording: its time [s] and the position of each fitted marker, not-a-number where it is missing.
+    pub(super) fn record(&mut self, frame: usize, time_s: f64, positions: impl Iterator<Item = Vec3>) {
+        self.times.to_mut()[frame] = time_s;
+        for (path, position) in self.paths.iter_mut().zip(positions) {
+            path.to_mut().positions[frame] = position;
+        }
     }
 
     /// Number of frames.

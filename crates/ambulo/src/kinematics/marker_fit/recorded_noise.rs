@@ -50,7 +50,7 @@ const RATIO: f64 = std::f64::consts::SQRT_2;
 /// marker [m].
 pub(super) fn distances_in_band(problem: &mut FitProblem<'_>, frames: &Frames) -> Vec<f64> {
     let (count, markers) = (frames.count(), frames.markers());
-    let rate_hz = rate_hz(problem.times);
+    let rate_hz = rate_hz(&problem.times);
     let high_hz = HIGH_HZ.min(MOST_SHARE * rate_hz);
     let whittaker = Whittaker::new(count);
     let cutoffs = [LOW_HZ, high_hz].map(|cutoff_hz| Whittaker::lambda_at(cutoff_hz, rate_hz));
@@ -118,7 +118,7 @@ pub(super) fn with_smoothness(
         .filter(|series| series.values.iter().all(|value| value.is_finite()))
         .collect();
     let whittaker = Whittaker::new(frames.count());
-    let step_s = 1.0 / rate_hz(problem.times);
+    let step_s = 1.0 / rate_hz(&problem.times);
     let mut best = (f64::INFINITY, 1.0);
     let mut scale = LEAST_SCALE;
     while scale <= MOST_SCALE && !series.is_empty() {

@@ -94,7 +94,7 @@ pub(super) fn fit(
 
 /// What determines a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Leader {
+pub(super) enum Leader {
     /// Nothing: it moves no marker.
     Nothing,
     /// The model: a lock or a function of time.
@@ -103,7 +103,8 @@ enum Leader {
     Unknown(usize),
 }
 
-fn leaders(model: &Model, problem: &FitProblem<'_>) -> Vec<Leader> {
+/// What determines each coordinate of the model.
+pub(super) fn leaders(model: &Model, problem: &FitProblem<'_>) -> Vec<Leader> {
     let own = |c: usize| (0..problem.tree.unknowns()).find(|&u| problem.tree.coordinate(u) == c);
     let leader = |(i, drive): (usize, &Drive)| match drive {
         Drive::Free => own(i).map_or(Leader::Nothing, Leader::Unknown),

@@ -13,6 +13,7 @@ use super::problem::FitProblem;
 use super::settings::OutlierDetection;
 use super::solve::Outcome;
 use super::start;
+use crate::numerics::elementary::powi;
 use crate::spatial::Vec3;
 
 /// A frame is fitted again if an offset changes by more than this [m] plus the sliding of skin. A jump of 50 mm changes the offset
@@ -42,11 +43,11 @@ const FIRST_SWAP: f64 = 0.060;
 
 /// What earlier frames have shown.
 #[derive(Debug, Clone)]
-struct Tracking {
+pub(super) struct Tracking {
     /// The last two fitted frames.
-    last: [Option<usize>; 2],
+    pub(super) last: [Option<usize>; 2],
     /// Offset of each marker in the last frame in which it was used, and the time of that frame [s].
-    offsets: Vec<Vec3>,
+    pub(super) offsets: Vec<Vec3>,
     times: Vec<f64>,
     /// Offsets of excluded markers.
     rejected: Vec<Vec3>,
@@ -63,24 +64,30 @@ struct Tracking {
     usable: Vec<Vec3>,
 }
 
+impl Tracking {
+    /// Before the first frame; `default` is a value per unknown.
+    pub(super) fn new(markers: usize, default: &[f64]) -> Tracking {
+        Tracking {
+            last: [None; 2],
+            offsets: vec![Vec3::repeat(f64::NAN); markers],
+            times: vec![f64::NEG_INFINITY; markers],
+            rejected: vec![Vec3::zeros(); markers],
+            seen: vec![f64::NEG_INFINITY; markers],
+            used: vec![true; markers],
+            paths: (0..markers).collect(),
+            x: default.to_vec(),
+            trial: default.to_vec(),
+            distances: vec![f64::NAN; markers],
+            weights: vec![0.0; markers],
+            expected: vec![Vec3::zeros(); markers],
+            usable: vec![Vec3::zeros(); markers],
+        }
+    }
+}
+
 /// Fits every frame that has enough markers.
 pub(super) fn run(problem: &mut FitProblem<'_>, frames: &mut Frames, outliers: OutlierDetection, default: &[f64]) {
-    let markers = frames.markers();
-    let mut memory = Tracking {
-        last: [None; 2],
-        offsets: vec![Vec3::repeat(f64::NAN); markers],
-        times: vec![f64::NEG_INFINITY; markers],
-        rejected: vec![Vec3::zeros(); markers],
-        seen: vec![f64::NEG_INFINITY; markers],
-        used: vec![true; markers],
-        paths: (0..markers).collect(),
-        x: default.to_vec(),
-        trial: default.to_vec(),
-        distances: vec![f64::NAN; markers],
-        weights: vec![0.0; markers],
-        expected: vec![Vec3::zeros(); markers],
-        usable: vec![Vec3::zeros(); markers],
-    };
+    let mut memory = Tracking::new(frames.markers(), default);
     for frame in 0..frames.count() {
         fit_frame(problem, frames, &mut memory, frame, outliers, default);
     }
@@ -103,7 +110,8 @@ fn use_majority(frames: &mut Frames) {
     }
 }
 
-fn fit_frame(
+/// Fits a frame; it has no posture afterwards if it lacks too many markers.
+pub(super) fn fit_frame(
     problem: &mut FitProblem<'_>,
     frames: &mut Frames,
     memory: &mut Tracking,
@@ -296,7 +304,7 @@ fn robust(problem: &mut FitProblem<'_>, memory: &mut Tracking) {
     for k in 0..REWEIGHTINGS {
         note_distances(problem, memory);
         // From wide to narrow, so that a badly predicted posture excludes no marker.
-        let scale = SCALE * (4.0 * 0.5_f64.powi(k as i32)).max(1.0);
+        let scale = SCALE * (4.0 * powi(0.5_f64, k as i32)).max(1.0);
         for (i, r) in memory.distances.iter().enumerate() {
             let share = 1.0 + (r / scale).powi(2);
             problem.frame_weights[i] = if r.is_finite() { memory.weights[i] / (share * share) } else { 0.0 };

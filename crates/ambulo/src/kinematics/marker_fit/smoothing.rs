@@ -130,7 +130,7 @@ impl SmoothFit {
             positions[frame * markers..(frame + 1) * markers].copy_from_slice(&problem.positions);
             weights[frame * markers..(frame + 1) * markers].copy_from_slice(&problem.frame_weights);
         }
-        let times = problem.times;
+        let times = &problem.times;
         let step_s = (times[count - 1] - times[0]) / (count.max(2) - 1) as f64;
         let jerk = |u: usize| match model.coordinates()[problem.tree.coordinate(u)].kind {
             CoordinateKind::Translation => smoothing.translation_jerk,

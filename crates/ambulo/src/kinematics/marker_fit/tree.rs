@@ -18,6 +18,7 @@
 use crate::kinematics::plan::Source;
 use crate::model::arc;
 use crate::model::{BodyId, Drive, Function, Joint, JointAxis, JointSpeeds, Model};
+use crate::numerics::elementary::sin_cos;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 #[derive(Debug, Clone)]
@@ -355,7 +356,7 @@ fn displacement(source: &Source, q: &[f64], rates: &[f64]) -> (f64, f64) {
 
 /// Rotation by an angle about a unit axis (Rodrigues): c 1 + s [a]× + (1 - c) a aᵀ.
 fn turn(a: &Vec3, angle: f64) -> Mat3 {
-    let (s, c) = angle.sin_cos();
+    let (s, c) = sin_cos(angle);
     let t = 1.0 - c;
     let (x, y, z) = (a.x, a.y, a.z);
     Mat3::new(

@@ -12,8 +12,8 @@
 
 use super::super::calibration::angles_zxy;
 use crate::model::{Displacement, Joint};
-use crate::spatial::{Mat3, Vec3};
-use nalgebra::{Rotation3, Unit};
+use crate::numerics::elementary::atan2;
+use crate::spatial::{Mat3, Vec3, rotation_about};
 use std::f64::consts::{PI, TAU};
 
 /// Rounds over the axes; two axes at 60 degrees need about 30 to reach rounding.
@@ -35,7 +35,7 @@ pub(super) struct JointAngles {
 
 /// Rotation about an axis [rad].
 pub(super) fn turn_about(axis: Vec3, angle: f64) -> Mat3 {
-    *Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle).matrix()
+    rotation_about(axis.normalize(), angle)
 }
 
 impl JointAngles {
@@ -73,7 +73,7 @@ impl JointAngles {
                 let m = before.transpose() * wanted * after.transpose();
                 let axis = self.axes[k];
                 let v = Vec3::new(m.m32 - m.m23, m.m13 - m.m31, m.m21 - m.m12);
-                let best = axis.dot(&v).atan2(m.trace() - axis.dot(&(m * axis)));
+                let best = atan2(axis.dot(&v), m.trace() - axis.dot(&(m * axis)));
                 let best = near(best, self.angles[k]);
                 change = f64::max(change, (best - self.angles[k]).abs());
                 self.angles[k] = best;

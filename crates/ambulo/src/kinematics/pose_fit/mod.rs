@@ -27,9 +27,8 @@ use crate::findings::{Code, Findings};
 use crate::model::{Body, Model, Side};
 use crate::motion::gaps::bridge_gaps;
 use crate::motion::{MarkerRecording, Motion, PosedSegment, SegmentPoses};
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spatial::{Mat3, Pose, Vec3, rotation_between};
 use joint_angles::{JointAngles, turn_about};
-use nalgebra::Rotation3;
 use std::f64::consts::FRAC_PI_2;
 
 /// The poses of a recording, and their points, with the longest gap that is bridged.
@@ -182,7 +181,7 @@ impl<'m> Follower<'m> {
         let [right, left] = Side::BOTH.map(|side| poses.at(PosedSegment::UpperArm(side), frame));
         let (Some(right), Some(left), Some(shoulders)) = (right, left, self.shoulders) else { return trunk };
         let measured = (right.translation + left.translation) / 2.0 - lumbar;
-        Rotation3::rotation_between(&(trunk * shoulders), &measured).map_or(trunk, |turn| turn.matrix() * trunk)
+        rotation_between(&(trunk * shoulders), &measured).map_or(trunk, |turn| turn * trunk)
     }
 }
 

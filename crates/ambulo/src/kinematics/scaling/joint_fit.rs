@@ -31,6 +31,7 @@ use crate::kinematics::marker_fit::rows::{MarkerRow, MarkerRows};
 use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
 use crate::model::{BodyId, Model, Side};
 use crate::motion::MarkerRecording;
+use crate::numerics::elementary::{exp, ln_1p};
 use crate::numerics::{NormalEquations, Residuals, minimise};
 use crate::spatial::Vec3;
 
@@ -184,7 +185,7 @@ impl<'a> Problem<'a> {
     }
 
     fn factors(&self, z: &[f64]) -> Vec<Vec3> {
-        z[self.unknowns..].iter().map(|u| Vec3::repeat(u.exp())).collect()
+        z[self.unknowns..].iter().map(|u| Vec3::repeat(exp(*u))).collect()
     }
 
     /// Residuals of the markers for these sizes and this posture.
@@ -220,7 +221,7 @@ impl<'a> Problem<'a> {
 
 /// The residual r with r² = ln(1 + d²), and its derivative d / ((1 + d²) r).
 fn cauchy(d: f64) -> (f64, f64) {
-    let r = (d * d).ln_1p().sqrt().copysign(d);
+    let r = ln_1p(d * d).sqrt().copysign(d);
     (r, if r.abs() < 1e-6 { 1.0 } else { d / ((1.0 + d * d) * r) })
 }
 

@@ -4,8 +4,8 @@ use super::{PlacedSensor, SensorAxes, SensorError, SensorHeading, SensorTrial};
 use crate::findings::{Code, Findings};
 use crate::model::{BodyId, Model, ModelPosture, Side};
 use crate::motion::{PosedSegment, SensorRecording, posed_segment};
-use crate::spatial::{Mat3, Vec3};
-use nalgebra::{Rotation3, Unit, UnitQuaternion};
+use crate::numerics::elementary::{asin, atan2};
+use crate::spatial::{Mat3, Vec3, rotation_about, rotation_vector};
 
 /// Ending of the names of sensors, after the name of the body.
 const ENDING: &str = "_imu";
@@ -47,8 +47,8 @@ pub(super) fn calibrated(
     let up = model.up();
     let forward = level(posture.poses[0].rotation.column(0).into(), up).unwrap_or_else(Vec3::x);
     let facing = facing(model, trial, &standing, forward, up)?;
-    let heading = up.dot(&facing.cross(&forward)).atan2(facing.dot(&forward));
-    let turn = Rotation3::from_axis_angle(&Unit::new_normalize(up), heading).into_inner() * world_from_earth;
+    let heading = atan2(up.dot(&facing.cross(&forward)), facing.dot(&forward));
+    let turn = rotation_about(up.normalize(), heading) * world_from_earth;
     report_heading(&trial.axes.heading, heading, findings);
     let placed = standing.into_iter().map(|sensor| PlacedSensor {
         body_from_sensor: posture.poses[sensor.body.index()].rotation.transpose() * turn * sensor.earth_from_sensor,
@@ -180,7 +180,7 @@ fn facing(
                 return Err(SensorError::NoBaseSensor { found: sensor.clone(), known: known.join(", ") });
             };
             let ahead = world_from_earth * base.earth_from_sensor * axis;
-            let above = ahead.dot(&up).clamp(-1.0, 1.0).asin();
+            let above = asin(ahead.dot(&up).clamp(-1.0, 1.0));
             let odd = SensorError::HeadingAxis {
                 axis: axis_name(axis),
                 sensor: base.name.clone(),
@@ -231,11 +231,6 @@ fn mean_bending(model: &Model, trial: &SensorTrial<'_>, standing: &[Standing]) -
         }
     }
     (legs > 0).then(|| sum / f64::from(legs))
-}
-
-/// Axis times angle of a rotation, also of none [rad].
-fn rotation_vector(rotation: &Mat3) -> Vec3 {
-    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation)).scaled_axis()
 }
 
 /// The horizontal part of a direction, with unit length.

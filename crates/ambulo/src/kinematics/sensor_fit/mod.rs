@@ -39,7 +39,8 @@ use crate::findings::{Code, Findings};
 use crate::model::anatomy::Sole;
 use crate::model::{BodyId, BySide, Drive, JointSpeeds, Marker, Model, ModelPosture};
 use crate::motion::{MarkerPath, MarkerRecording, Motion, SensorPath, SensorRecording};
-use crate::spatial::{Mat3, Vec3};
+use crate::numerics::elementary::asin;
+use crate::spatial::{Mat3, Vec3, rotation_about};
 use calibration::{Calibration, calibrated};
 use std::f64::consts::FRAC_PI_2;
 
@@ -82,8 +83,7 @@ pub enum SensorHeading {
 impl Default for SensorAxes {
     /// An earth with z up, as that of most sensors.
     fn default() -> Self {
-        let turn = nalgebra::Rotation3::from_axis_angle(&Vec3::x_axis(), -FRAC_PI_2);
-        SensorAxes { world_from_earth: turn.into_inner(), heading: SensorHeading::Knees }
+        SensorAxes { world_from_earth: rotation_about(Vec3::x(), -FRAC_PI_2), heading: SensorHeading::Knees }
     }
 }
 
@@ -146,7 +146,7 @@ pub fn fit_sensors(
     let rms = |name: String| fit.errors.iter().find(|error| error.name == name).map_or(0.0, |error| error.rms_m);
     let angle = |name: &str| {
         let square: f64 = AXES.map(|axis| rms(tip(name, axis)).powi(2)).iter().sum();
-        2.0 * (square / 8.0).sqrt().min(1.0).asin()
+        2.0 * asin((square / 8.0).sqrt().min(1.0))
     };
     let angles: Vec<(String, f64)> = placed.iter().map(|sensor| (sensor.name.clone(), angle(&sensor.name))).collect();
     report_angles(&angles, findings);

@@ -19,6 +19,7 @@ use crate::findings::{Code, Findings};
 use crate::model::anatomy::{Sole, SolePoint};
 use crate::model::{BySide, Displacement, JointAxis, Model, ModelPosture};
 use crate::motion::Motion;
+use crate::numerics::elementary::exp;
 use crate::spatial::Vec3;
 
 /// ε: heights within which points of the soles share the contact [m]; soles of models are known to some millimetres.
@@ -134,7 +135,7 @@ fn contact_weights(times: &[f64], places: &[Vec<Vec3>], frame: usize, up: Vec3) 
     let weight = |k: usize| {
         let above = (heights[k] - heights[lowest]) / SHARED_M;
         let apart = (speed(k) - reference).norm() / ALIKE_M_S;
-        (-above - 0.5 * apart * apart).exp()
+        exp(-above - 0.5 * apart * apart)
     };
     let weights: Vec<f64> = (0..heights.len()).map(weight).collect();
     let sum: f64 = weights.iter().sum();

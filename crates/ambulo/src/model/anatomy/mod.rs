@@ -59,7 +59,7 @@ impl Leg {
 }
 
 /// Anatomical meaning of the parts of a model. See the [module](self).
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Anatomy {
     pelvis: Option<BodyId>,
     trunk: Option<BodyId>,
@@ -71,7 +71,7 @@ pub struct Anatomy {
 }
 
 /// The posture in which the anatomy was determined.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NeutralPosture {
     /// Forward, up and right in the world, as columns.
     pub(crate) axes: Mat3,

@@ -13,6 +13,7 @@
 use crate::model::full_body::STANDING_TILT;
 use crate::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers};
 use crate::model::{BodyId, Model, Side};
+use crate::numerics::elementary::sin_cos;
 use crate::spatial::{Mat3, Vec3};
 
 /// Smallest distance between spines that defines a direction [m].
@@ -86,7 +87,7 @@ impl PelvicFrame {
         let missing = || PelvicFrameError::NoPelvis { model: model.name().to_owned() };
         let pelvis = model.anatomy().pelvis().ok_or_else(missing)?;
         let neutral = model.anatomy().neutral().ok_or_else(missing)?;
-        let (sin, cos) = STANDING_TILT.sin_cos();
+        let (sin, cos) = sin_cos(STANDING_TILT);
         // Rotated forward about the axis to the right.
         let tilted = Mat3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0);
         Ok(PelvicFrame { pelvis, axes: neutral.poses[pelvis.index()].rotation.transpose() * neutral.axes * tilted })

@@ -4,6 +4,7 @@ use super::Leg;
 use crate::model::anthropometry::ContactSphere;
 use crate::model::anthropometry::dimensions::{ANKLE_HEIGHT, FOOT_LENGTH, FOOT_WIDTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
 use crate::model::{BodyId, Side};
+use crate::numerics::elementary::cbrt;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Length of thigh and shank of a model, joint centre to joint centre, divided by stature: Gait2392 and Rajagopal's model, scaled to
@@ -29,7 +30,7 @@ impl Stature {
         let (height_m, leg) = match thigh_and_shank_m {
             Some(leg) => (leg / THIGH_AND_SHANK, leg),
             None => {
-                let height = REFERENCE.1 * (mass_kg / REFERENCE.0).cbrt();
+                let height = REFERENCE.1 * cbrt(mass_kg / REFERENCE.0);
                 (height, THIGH_AND_SHANK * height)
             }
         };

@@ -4,6 +4,8 @@
 //! gyration about the mass centre, as transcribed in BMClab/BMC (`data/BSP_DempsterWinter.txt`), read. Lengths: Drillis and
 //! Contini 1966 as in Winter, figure 4.1 (unverified).
 
+use crate::numerics::elementary::hypot;
+
 use super::dimensions::{ANKLE_HEIGHT, BALL_RADIUS, FOOT_LENGTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
 use super::proportions::{Lengths, Proportions, RigidPart, Row};
 
@@ -69,6 +71,6 @@ pub(super) fn proportions() -> Proportions {
 fn foot() -> RigidPart {
     let along = (HEEL_TO_BALL - HEEL_TO_ANKLE) * LENGTHS.foot;
     let down = LENGTHS.ankle_height - BALL_RADIUS;
-    let radius = 0.475 * along.hypot(down);
+    let radius = 0.475 * hypot(along, down);
     RigidPart { mass: 0.0145, center: [0.5 * along, -0.5 * down], radii: [radius * FOOT_SLIMNESS, radius, radius] }
 }

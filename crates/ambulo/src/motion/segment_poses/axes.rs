@@ -7,6 +7,7 @@
 use super::labels::in_words;
 use super::{PosedSegment, SegmentPoseError, SegmentPoses, median_vector};
 use crate::model::Side;
+use crate::numerics::elementary::cos;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Largest angle between an axis and the direction that it must have [deg].
@@ -45,7 +46,7 @@ fn check(poses: &SegmentPoses) -> Result<(), SegmentPoseError> {
             [PosedSegment::Thigh, PosedSegment::Shank, PosedSegment::Foot, PosedSegment::Toes].map(|of| of(side));
         for (segment, child) in [(thigh, shank), (shank, foot)] {
             let found = direction(poses, segment, child)?;
-            refuse_if(-found.y < NEAR_DEG.to_radians().cos(), [segment, child], found, "below it, within 25 degrees")?;
+            refuse_if(-found.y < cos(NEAR_DEG.to_radians()), [segment, child], found, "below it, within 25 degrees")?;
         }
         if poses.of(toes).is_some() {
             let found = direction(poses, foot, toes)?;
@@ -93,7 +94,7 @@ fn nearest(direction: Vec3, what: &str) -> Result<Vec3, SegmentPoseError> {
     let largest = direction.iamax();
     let mut axis = Vec3::zeros();
     axis[largest] = direction[largest].signum();
-    if direction.dot(&axis) >= NEAR_DEG.to_radians().cos() {
+    if direction.dot(&axis) >= cos(NEAR_DEG.to_radians()) {
         return Ok(axis);
     }
     let expected = "along an axis of the segment, within 25 degrees";

@@ -17,9 +17,9 @@ use super::{FOOT_LENGTHS_M, PosedSegment, SegmentPoseError, SegmentPoses, axes, 
 use crate::findings::{Code, Findings};
 use crate::model::{BySide, Side};
 use crate::motion::gait_event::{Event, EventKind};
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spatial::{Mat3, Pose, Vec3, rotation_about};
 use ambulo_formats::mvnx::{Mvnx, MvnxFrame, MvnxPose};
-use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
+use nalgebra::{Quaternion, UnitQuaternion};
 use std::f64::consts::FRAC_PI_2;
 
 /// Range of the heights of contacts, between their tenths, above which the floor is not level [m].
@@ -118,14 +118,13 @@ fn pose_of(pose: &MvnxPose, turn: &Mat3) -> Pose {
 /// Turn from the axes of the T-pose to those of hanging arms with palms forward.
 fn hanging(segment: PosedSegment) -> Mat3 {
     let outward = |side: Side| if side == Side::Right { 1.0 } else { -1.0 };
-    let down = |side: Side| Rotation3::from_axis_angle(&Vec3::x_axis(), -outward(side) * FRAC_PI_2);
-    let palm = |side: Side| Rotation3::from_axis_angle(&Vec3::z_axis(), outward(side) * FRAC_PI_2);
-    let turn = match segment {
+    let down = |side: Side| rotation_about(Vec3::x(), -outward(side) * FRAC_PI_2);
+    let palm = |side: Side| rotation_about(Vec3::z(), outward(side) * FRAC_PI_2);
+    match segment {
         PosedSegment::UpperArm(side) => down(side),
         PosedSegment::Forearm(side) | PosedSegment::Hand(side) => down(side) * palm(side),
-        _ => Rotation3::identity(),
-    };
-    turn.into_inner()
+        _ => Mat3::identity(),
+    }
 }
 
 /// A point of the foot or the toes of a side: `pRightHeelFoot` of `RightFoot`.

@@ -10,8 +10,8 @@
 //!
 //! Derived by multiplying out; the best angle about axis k maximises the trace of R_k(c)ᵀ M: c = atan2(M_ji - M_ij, M_ii + M_jj).
 
-use crate::spatial::{Mat3, Vec3};
-use nalgebra::Rotation3;
+use crate::numerics::elementary::{asin, atan2, hypot};
+use crate::spatial::{Mat3, Vec3, rotation_about};
 use std::f64::consts::{PI, TAU};
 
 /// Below this cosine of the second angle the first one is not unique.
@@ -22,8 +22,7 @@ const SMALL: f64 = 1e-12;
 
 /// The rotation about one of the axes x, y, z by an angle [rad].
 pub(super) fn about(axis: usize, angle: f64) -> Mat3 {
-    let axis = [Vec3::x_axis(), Vec3::y_axis(), Vec3::z_axis()][axis];
-    Rotation3::from_axis_angle(&axis, angle).into_inner()
+    rotation_about(Vec3::ith(axis, 1.0), angle)
 }
 
 /// The rotation of these channels: the angles [rad] about the axes one after the other.
@@ -42,9 +41,9 @@ pub(super) fn angles(axes: &[usize], wanted: &Mat3, near: &[f64]) -> Vec<f64> {
 
 fn three([i, j, k]: [usize; 3], r: &Mat3, near: &[f64]) -> Vec<f64> {
     let e = if (i + 1) % 3 == j { 1.0 } else { -1.0 };
-    let cosine = r[(j, k)].hypot(r[(k, k)]);
-    let a = if cosine > UNIQUE { (-e * r[(j, k)]).atan2(r[(k, k)]) } else { near[0] };
-    let b = (e * r[(i, k)]).atan2(cosine);
+    let cosine = hypot(r[(j, k)], r[(k, k)]);
+    let a = if cosine > UNIQUE { atan2(-e * r[(j, k)], r[(k, k)]) } else { near[0] };
+    let b = atan2(e * r[(i, k)], cosine);
     let rest = (about(i, a) * about(j, b)).transpose() * r;
     let c = best_angle(k, &rest);
     let candidates = [[a, b, c], [a + PI, PI - b, c + PI]];
@@ -74,7 +73,7 @@ fn fewer(axes: &[usize], wanted: &Mat3, near: &[f64]) -> Vec<f64> {
 /// The angle about an axis whose rotation is nearest to a matrix.
 fn best_angle(axis: usize, m: &Mat3) -> f64 {
     let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-    (m[(j, i)] - m[(i, j)]).atan2(m[(i, i)] + m[(j, j)])
+    atan2(m[(j, i)] - m[(i, j)], m[(i, i)] + m[(j, j)])
 }
 
 /// The angle plus the whole turns that bring it nearest to another.
@@ -85,7 +84,7 @@ fn unwound(angle: f64, near: f64) -> f64 {
 /// The angle between two rotations [rad].
 pub(super) fn angle_between(a: &Mat3, b: &Mat3) -> f64 {
     // Accurate also for small angles, where the trace is flat: |A - B|² = 8 sin²(angle / 2).
-    2.0 * ((a - b).norm() / 8.0_f64.sqrt()).min(1.0).asin()
+    2.0 * asin(((a - b).norm() / 8.0_f64.sqrt()).min(1.0))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use super::error::SkeletonError;
 use super::poses::Skeleton;
 use crate::findings::{Code, Findings};
 use crate::model::Side;
+use crate::numerics::elementary::ln;
 
 /// Thigh and shank as a share of stature.
 const LEG_SHARE: f64 = 0.491;
@@ -55,7 +56,7 @@ impl Unit {
 
     fn of_stature(length: f64, height: f64, findings: &mut Findings) -> Unit {
         let expected = LEG_SHARE * height;
-        let off = |metres: f64| (length * metres / expected).ln().abs();
+        let off = |metres: f64| ln(length * metres / expected).abs();
         let nearest = UNITS.into_iter().min_by(|a, b| off(a.1).total_cmp(&off(b.1)));
         let expectation = format!("{expected:.3} m expected at a stature of {height:.2} m");
         if let Some((name, metres)) = nearest.filter(|(_, metres)| off(*metres) <= NEAR) {
@@ -74,7 +75,7 @@ impl Unit {
 
     fn from_usual_statures(length: f64) -> Result<Unit, SkeletonError> {
         let stature = |metres: f64| length * metres / LEG_SHARE;
-        let off = |metres: f64| (stature(metres) / USUAL_STATURE).ln().abs();
+        let off = |metres: f64| ln(stature(metres) / USUAL_STATURE).abs();
         let fits = |metres: f64| (STATURES[0]..=STATURES[1]).contains(&stature(metres));
         let nearest = UNITS.into_iter().filter(|unit| fits(unit.1)).min_by(|a, b| off(a.1).total_cmp(&off(b.1)));
         let Some((name, metres)) = nearest else {

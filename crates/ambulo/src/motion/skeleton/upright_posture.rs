@@ -10,6 +10,7 @@ use super::body_joints::{BodyJoint, BodyJoints};
 use super::poses::Skeleton;
 use crate::findings::{Code, Findings};
 use crate::model::Side;
+use crate::numerics::elementary::asin;
 use crate::spatial::{Pose, Vec3};
 
 /// Largest number of frames in the mean posture.
@@ -135,7 +136,7 @@ fn name_of_pose(poses: &[Pose], body_joints: &BodyJoints, up: Vec3) -> Option<&'
         if is_straight.iter().any(|cosine| *cosine < STRAIGHT) {
             return None;
         }
-        below.push(-arm.dot(&up).clamp(-1.0, 1.0).asin());
+        below.push(-asin(arm.dot(&up).clamp(-1.0, 1.0)));
     }
     let [one, other] = below[..] else { return None };
     let is_pose =

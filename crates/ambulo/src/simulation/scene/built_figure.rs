@@ -23,12 +23,11 @@ use crate::model::{
 };
 use crate::simulation::consistent_walk::{ConsistentWalkSettings, make_changing_walk};
 use crate::simulation::figure_tree::{FigureJointError, FigureTree};
-use crate::simulation::joint::rotation;
 use crate::simulation::signal::Signal;
 use crate::simulation::soles::{add_soles, lowest};
 use crate::simulation::walking::{GaitTargets, gait_signals};
 use crate::simulation::world::{ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Spring, World};
-use crate::spatial::Vec3;
+use crate::spatial::{Vec3, rotation};
 
 /// Grip point of a hand, as a share of the length from the wrist to the fingertips.
 const GRIP: f64 = 0.5;

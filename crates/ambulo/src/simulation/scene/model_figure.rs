@@ -16,10 +16,9 @@ use crate::findings::Code;
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::{Body, BodyId, CoordinateId, Displacement, Drive, JointAxis, Model};
 use crate::simulation::figure_tree::FigureTree;
-use crate::simulation::joint::rotation;
 use crate::simulation::signal::Signal;
 use crate::simulation::world::{Figure, Follows, JointCoordinate, Owner, RigidBody, Surface, TreeJoint, World};
-use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
+use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench, rotation};
 
 /// Largest cosine of the angle between axes that should be perpendicular.
 const SQUARE_SLACK: f64 = 1e-6;

@@ -7,8 +7,8 @@
 //! | others    | the world's axes                                                             |
 
 use super::joint::JointAxes;
-use crate::simulation::joint::{Coordinates, JointKind, MOST, orthonormal, rotation};
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::simulation::joint::{Coordinates, JointKind, MOST, orthonormal};
+use crate::spatial::{Mat3, Pose, Vec3, rotation};
 
 /// A joint with its frames in the world.
 pub(super) struct Placement {

@@ -13,7 +13,7 @@ use crate::numerics::Shown;
 use crate::simulation::energy::{Energy, energy};
 use crate::simulation::figure_tree::{FigurePlace, FigureTree};
 use crate::simulation::forces::{ContactForce, StepForces};
-use crate::simulation::projection::{closure_errors, largest_joint_error};
+use crate::simulation::projection::{closure_errors, closure_frames, largest_joint_error};
 use crate::simulation::state::{RowKey, WorldState};
 use crate::simulation::step::step;
 use crate::simulation::workspace::StepSettings;
@@ -379,9 +379,10 @@ impl Scene {
     /// Distance of the points of a closure along its constrained directions [m].
     #[must_use]
     pub fn closure_gap(&self, closure: usize) -> f64 {
-        let (frames, errors) = closure_errors(&self.world, &self.state, closure);
-        let (turns, _) = self.world.closures[closure].kind.constrained(&frames);
-        errors[turns.len()..].iter().map(|e| e * e).sum::<f64>().sqrt()
+        let frames = closure_frames(&self.world, &self.state, closure);
+        let turns = self.world.closures[closure].kind.constrained(&frames).turns().count();
+        let gaps = closure_errors(&self.world, &self.state, closure).skip(turns);
+        gaps.map(|gap| gap * gap).sum::<f64>().sqrt()
     }
 
     /// Largest position error of any joint or active closure [m].

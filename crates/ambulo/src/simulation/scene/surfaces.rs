@@ -5,9 +5,9 @@ use super::obstacle::ObstacleShape;
 use super::shape::Solid;
 use super::{Place, SceneError};
 use crate::contact::{HuntCrossley, Shape, ShapeError};
-use crate::simulation::joint::rotation;
+use crate::numerics::elementary::atan2;
 use crate::simulation::world::{ContactLaw, Material};
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spatial::{Mat3, Pose, Vec3, rotation};
 use std::f64::consts::PI;
 
 pub(super) fn material(entry: &MaterialEntry) -> Material {
@@ -73,7 +73,7 @@ fn refused(error: &ShapeError, place: &Place) -> SceneError {
 /// The smallest rotation that maps y to a unit vector.
 fn turning_y_to(normal: &Vec3) -> Mat3 {
     let across = Vec3::y().cross(normal);
-    let angle = across.norm().atan2(normal.y);
+    let angle = atan2(across.norm(), normal.y);
     match across.try_normalize(f64::MIN_POSITIVE) {
         Some(axis) => rotation(&(axis * angle)),
         None if normal.y < 0.0 => rotation(&(Vec3::x() * PI)),

@@ -3,6 +3,7 @@
 use super::figures::{Component, over_persons};
 use super::trial::JudgedTrial;
 use crate::analysis::ComparedSample;
+use crate::numerics::elementary::powi;
 
 /// Parts of the stance.
 const PARTS: usize = 25;
@@ -34,7 +35,7 @@ pub fn phase_errors(trials: &[&JudgedTrial], kind: &str, component: Component) -
     let of_part = |part: usize| {
         let mean = |of: &dyn Fn(&ComparedSample) -> f64, power: i32| {
             let inside = own.iter().filter(|(_, _, sample)| part_of(sample) == part);
-            over_persons(inside.map(|(person, unit, sample)| (*person, (unit * of(sample)).powi(power))))
+            over_persons(inside.map(|(person, unit, sample)| (*person, powi(unit * of(sample), power))))
         };
         let off = |s: &ComparedSample| s.predicted[axis] - s.measured[axis];
         PhaseError {

@@ -7,6 +7,7 @@ use crate::page::session::results::Results;
 use crate::page::session::sides;
 use ambulo::analysis::feasibility::{Check, Thresholds, least_load_n};
 use ambulo::model::Side;
+use ambulo::numerics::elementary::hypot;
 
 /// Both feet over time with the limit; `None` without ground forces.
 pub(super) fn friction(results: &Results, block: &mut Block) -> Option<Group> {
@@ -43,5 +44,5 @@ fn use_of(results: &Results, side: Side, least_n: f64) -> Option<Vec<f64>> {
     let table = results.ground.as_ref()?;
     let [x, y, z] = ["x", "y", "z"].map(|axis| table.column(&format!("ground_force_{}_v{axis}", side.letter())));
     let triples = x?.iter().zip(y?).zip(z?);
-    Some(triples.map(|((x, y), z)| if *y > least_n { x.hypot(*z) / y } else { f64::NAN }).collect())
+    Some(triples.map(|((x, y), z)| if *y > least_n { hypot(*x, *z) / y } else { f64::NAN }).collect())
 }

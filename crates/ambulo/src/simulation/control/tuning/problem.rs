@@ -4,6 +4,7 @@ use super::gain::{Gain, GainError, rounded};
 use super::outcome::{Sums, TrialOutcome};
 use super::push::{PUSH_S, Push};
 use crate::model::anthropometry::Human;
+use crate::numerics::elementary::{exp, ln};
 use crate::optimal::Solution;
 use crate::simulation::StepSettings;
 use crate::simulation::control::riccati::StepMap;
@@ -89,11 +90,11 @@ impl TuningProblem {
         let (mut settings, mut outside) = (self.start.clone(), 0.0);
         for (gain, &wanted) in self.gains.iter().zip(point) {
             let start = gain.value(&self.start);
-            let [least, most] = gain.bounds.map(|bound| (bound / start).ln());
+            let [least, most] = gain.bounds.map(|bound| ln(bound / start));
             let x = wanted.clamp(least, most);
             outside += (wanted - x).powi(2);
             if x.abs() > 0.0 {
-                gain.set(&mut settings, rounded(start * x.exp()));
+                gain.set(&mut settings, rounded(start * exp(x)));
             }
         }
         (settings, outside)

@@ -1,6 +1,7 @@
 //! Pushes at the trunk, drawn from a seed.
 
 use crate::numerics::Random;
+use crate::numerics::elementary::sin_cos;
 use crate::spatial::Vec3;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
@@ -29,7 +30,7 @@ pub struct Push {
 impl Push {
     /// The force on a figure [N]; x is forward, z to the right.
     pub(super) fn force(&self, mass: f64) -> Vec3 {
-        let (sin, cos) = self.direction.sin_cos();
+        let (sin, cos) = sin_cos(self.direction);
         Vec3::new(cos, 0.0, sin) * (self.force_n * mass / PUSHED_KG)
     }
 }

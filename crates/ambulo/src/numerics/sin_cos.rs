@@ -1,12 +1,12 @@
 //! Sine and cosine of many angles at once.
 //!
-//! The scalar sine and cosine of the math library take longer than all other arithmetic of a frame, and cannot be vectorised.
-//! Here every step is free of branches, so that the loop over a slice becomes vector code.
+//! The scalar sine and cosine of a mathematical library take longer than all other arithmetic of a frame, and cannot be vectorised.
+//! Here every step is free of branches, so that the loop over a slice becomes vector code. One angle alone is computed in the same way.
 //!
 //! x = k π/2 + r with |r| ≤ π/4 (Cody and Waite: π/2 in three parts of 33 bits, so that k times the first two is exact
 //! for |k| < 2²⁰); then the polynomials of the FreeBSD math library (msun `k_sin.c`, `k_cos.c`, `e_rem_pio2.c`; Sun
 //! Microsystems 1993), and the quadrant k mod 4 swaps them and sets the signs.
-//! Error: below 1 unit in the last place of 1 for |x| ≤ 10⁵ rad (tested); larger angles use the library.
+//! Error: below 1 unit in the last place of 1 for |x| ≤ 10⁵ rad (tested); larger angles use the crate `libm`.
 
 #![expect(clippy::excessive_precision, reason = "the constants are quoted as their source prints them")]
 
@@ -49,9 +49,15 @@ pub(crate) fn sin_cos(angle: &[f64], sin: &mut [f64], cos: &mut [f64]) {
     }
     if !all_small {
         for i in 0..n {
-            (sin[i], cos[i]) = angle[i].sin_cos();
+            (sin[i], cos[i]) = libm::sincos(angle[i]);
         }
     }
+}
+
+/// Sine and cosine of one angle [rad], with the bits of the slices except that the sine of -0 is -0.
+#[inline]
+pub(super) fn sin_cos_of(x: f64) -> (f64, f64) {
+    if x.abs() <= LARGEST && x != 0.0 { sin_cos_small(x) } else { libm::sincos(x) }
 }
 
 #[inline(always)]

@@ -1,0 +1,87 @@
+//! Frames of coordinates: which value belongs to which coordinate, and in which unit.
+
+use super::formats::{AngleUnit, Message};
+use ambulo::model::{CoordinateKind, Model};
+use anyhow::{Result, bail};
+
+/// A value of a frame: the coordinate of the model that it belongs to, and its unit in that of the model.
+#[derive(Debug, Clone, Copy)]
+struct Slot {
+    coordinate: usize,
+    unit: f64,
+}
+
+/// The values of a frame.
+pub(super) struct CoordinateFrames {
+    slots: Vec<Slot>,
+}
+
+impl CoordinateFrames {
+    /// All coordinates of the model, in its order and units.
+    pub(super) fn new(model: &Model) -> CoordinateFrames {
+        CoordinateFrames {
+            slots: (0..model.coordinates().len()).map(|coordinate| Slot { coordinate, unit: 1.0 }).collect(),
+        }
+    }
+
+    /// Number of values of a frame.
+    pub(super) fn values(&self) -> usize {
+        self.slots.len()
+    }
+
+    /// Names of the coordinates of a frame.
+    pub(super) fn names(&self, model: &Model) -> Vec<String> {
+        self.slots.iter().map(|slot| model.coordinates()[slot.coordinate].name.clone()).collect()
+    }
+
+    /// Sets which values a frame has, and their units. Returns the names of the other coordinates.
+    ///
+    /// # Errors
+    /// A name that the model does not have.
+    pub(super) fn name_values(&mut self, model: &Model, message: &Message) -> Result<Vec<String>> {
+        let coordinates: Vec<usize> = match &message.coordinates {
+            None => self.slots.iter().map(|slot| slot.coordinate).collect(),
+            Some(names) => names.iter().map(|name| coordinate(model, name)).collect::<Result<_>>()?,
+        };
+        let is_degrees = message.angles == Some(AngleUnit::Deg);
+        let slot = |coordinate: usize| {
+            let is_angle = model.coordinates()[coordinate].kind != CoordinateKind::Translation;
+            Slot { coordinate, unit: if is_angle && is_degrees { 1_f64.to_radians() } else { 1.0 } }
+        };
+        self.slots = coordinates.into_iter().map(slot).collect();
+        let is_named = |place: usize| self.slots.iter().any(|slot| slot.coordinate == place);
+        let others = model.coordinates().iter().enumerate().filter(|(place, _)| !is_named(*place));
+        Ok(others.map(|(_, coordinate)| coordinate.name.clone()).collect())
+    }
+
+    /// One value per coordinate of the model, not-a-number where it is missing.
+    ///
+    /// # Errors
+    /// Another number of values, an infinite one.
+    pub(super) fn in_model_order(&self, model: &Model, values: &[Option<f64>]) -> Result<Vec<f64>> {
+        let expected = self.slots.len();
+        if values.len() != expected {
+            bail!("a frame with {} values; expected {expected}, one per coordinate", values.len());
+        }
+        let coordinates = model.coordinates();
+        let mut q: Vec<f64> = coordinates.iter().map(|c| c.default_value).collect();
+        for (slot, value) in self.slots.iter().zip(values) {
+            let value = value.map_or(f64::NAN, |value| value * slot.unit);
+            if value.is_infinite() {
+                bail!("`{}` is {value}; expected a finite number, or none", coordinates[slot.coordinate].name);
+            }
+            q[slot.coordinate] = value;
+        }
+        Ok(q)
+    }
+}
+
+fn coordinate(model: &Model, name: &str) -> Result<usize> {
+    match model.coordinate(name) {
+        Some(id) => Ok(id.index()),
+        None => {
+            let names: Vec<&str> = model.coordinates().iter().map(|c| c.name.as_str()).collect();
+            bail!("no coordinate `{name}` in the model; expected some of {}", names.join(", "))
+        }
+    }
+}

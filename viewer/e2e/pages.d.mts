@@ -1,0 +1,2 @@
+export function program(): string;
+export function makePages(folder: string): string;
