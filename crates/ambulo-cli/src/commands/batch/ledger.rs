@@ -69,7 +69,7 @@ impl Ledger {
                 "{shown}: this folder has other files; expected a new folder, or that of a batch. hint: choose another one with -o"
             );
         }
-        let Some(lock) = FolderLock::take(&folder.join(LOCKS).join(format!("{:03}", shard.index)))? else {
+        let Some(lock) = FolderLock::take(&place_of_lock(folder, shard))? else {
             bail!(
                 "{shown}: another batch is writing shard {}/{} of this folder; expected one at a time. hint: wait until it has ended, or choose another folder with -o",
                 shard.index,
@@ -95,7 +95,8 @@ impl Ledger {
 
     /// Writes the description, or compares it with the one that is there.
     fn agree(&self, path: &Path, description: &Description) -> Result<()> {
-        let own = self.folder.join(format!(".{DESCRIPTION}-{:03}", self.shard.index));
+        // Beside the lock: after a kill the folder is still one without other files.
+        let own = place_of_lock(&self.folder, self.shard).join(DESCRIPTION);
         let text = serde_json::to_string_pretty(description)? + "\n";
         write_through(&own, text.as_bytes()).with_context(|| format!("{}: cannot be written", own.display()))?;
         // Of several shards that begin at once one is the first.
@@ -103,7 +104,7 @@ impl Ledger {
         let done = match linked {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
             // A file system without links.
-            Err(_) if !path.exists() => fs::copy(&own, path).map(|_| ()),
+            Err(_) if !path.exists() => fs::rename(&own, path),
             other => other,
         };
         let _ = fs::remove_file(&own);
@@ -216,6 +217,10 @@ fn removed(path: &Path) -> std::io::Result<()> {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
         _ => Ok(()),
     }
+}
+
+fn place_of_lock(folder: &Path, shard: Shard) -> PathBuf {
+    folder.join(LOCKS).join(format!("{:03}", shard.index))
 }
 
 /// The beginning of the names of all files of a shard.
