@@ -183,9 +183,10 @@ impl Workbench {
         self.run_after("ulimit -v 1048576", args)
     }
 
-    /// Runs the program with at most a gigabyte of address space and ten seconds of processor time, which a busy machine does not shorten.
+    /// Runs the program with at most a gigabyte of address space and half a minute of processor time, which a busy machine does not shorten. The
+    /// longest of these runs, a walk of a person of one metre, takes ten seconds.
     pub(crate) fn run_within_limits(&self, args: &[&str]) -> Run {
-        self.run_after("ulimit -v 1048576; ulimit -t 10", args)
+        self.run_after("ulimit -v 1048576; ulimit -t 30", args)
     }
 
     /// Runs the program after a command of the shell that limits it.
