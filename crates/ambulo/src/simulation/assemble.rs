@@ -90,14 +90,47 @@ pub(crate) struct Assembly {
     pub(crate) keys: Vec<RowKey>,
     /// The coordinate of the world for each coordinate of the graph.
     pub(crate) slots: Vec<Slot>,
-    /// All free directions of each joint, including driven ones.
-    pub(crate) directions: Vec<[Six; MOST]>,
+    pub(crate) directions: JointDirections,
     /// Joint of each body.
     pub(crate) joint_of: Vec<Option<usize>>,
     /// First coordinate of the graph of each body.
     pub(crate) first: Vec<usize>,
     /// Angular velocities at which the gyroscopic moments of bodies are taken [rad/s]; without one it is predicted from the body alone.
     pub(crate) spins: Vec<Option<Vec3>>,
+}
+
+/// Free directions of all joints at the mass centres of their children, including driven ones; joint by joint.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct JointDirections {
+    /// Index of the first direction of each joint.
+    first: Vec<usize>,
+    all: Vec<Six>,
+}
+
+impl JointDirections {
+    /// Takes the joints of a world; the caller sets the directions of each.
+    fn begin(&mut self, world: &World) {
+        self.first.clear();
+        let mut count = 0;
+        for joint in &world.joints {
+            self.first.push(count);
+            count += joint.kind.freedom();
+        }
+        self.all.resize(count, Six::zeros());
+    }
+
+    /// One direction of a joint.
+    #[inline(always)]
+    pub(crate) fn at(&self, joint: usize, coordinate: usize) -> &Six {
+        &self.all[self.first[joint] + coordinate]
+    }
+
+    /// Directions of a joint.
+    #[inline(always)]
+    pub(crate) fn of_mut(&mut self, joint: usize, kind: JointKind) -> &mut [Six] {
+        let first = self.first[joint];
+        &mut self.all[first..first + kind.freedom()]
+    }
 }
 
 /// Positions that drives and figures prescribe at one instant.
@@ -198,7 +231,7 @@ impl Assembly {
         self.keys.clear();
         self.slots.clear();
         self.first.clear();
-        self.directions.resize(world.joints.len(), [Six::zeros(); MOST]);
+        self.directions.begin(world);
         self.joint_of.clear();
         self.joint_of.resize(world.bodies.len(), None);
         for (number, joint) in world.joints.iter().enumerate() {
@@ -262,13 +295,12 @@ impl Assembly {
         let arm = joint.parent.map_or(Vec3::zeros(), |p| center - state.poses[p].translation);
         self.graph.terms.arm.push(arm);
         if let Some(goal) = prescribed.goal(joint) {
-            self.directions[number] = [Six::zeros(); MOST];
             self.graph.links.push(Link { parent: joint.parent, freedom: 0 });
             let offset = if instant { carried_along(state, joint) } else { following(state, joint, &goal, h) };
             self.graph.terms.offset.push(offset);
             return;
         }
-        let directions = &mut self.directions[number];
+        let directions = self.directions.of_mut(number, joint.kind);
         write_directions(joint, state, directions);
         let mut offset = Six::zeros();
         let mut freedom = 0;
@@ -370,7 +402,7 @@ impl Assembly {
 }
 
 /// Writes the directions of a joint's coordinates at the centre of its child.
-fn write_directions(joint: &TreeJoint, state: &WorldState, directions: &mut [Six; MOST]) {
+fn write_directions(joint: &TreeJoint, state: &WorldState, directions: &mut [Six]) {
     let (parent, child) = (joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]), &state.poses[joint.child]);
     let axis = |k: usize| parent.rotation * joint.parent_from_joint.rotation.column(k);
     let of_child = || child.rotation * joint.child_from_joint.rotation.column(1);

@@ -201,7 +201,7 @@ impl StepWorkspace {
             Owner::Body(body) => Some(carried[body]),
             Owner::Obstacle(_) => None,
         };
-        let direction = &self.assembly.directions[number][coordinate];
+        let direction = self.assembly.directions.at(number, coordinate);
         let along = |contact: ContactForce| {
             let force = match (side(contact.surfaces.0), side(contact.surfaces.1)) {
                 (Some(true), Some(false)) => contact.force,

@@ -229,7 +229,7 @@ impl JointKind {
         p: impl Fn(usize) -> Vec3,
         second_of_child: impl Fn() -> Vec3,
         to_center: &Vec3,
-        s: &mut [Six; MOST],
+        s: &mut [Six],
     ) {
         let turn = |e: Vec3| {
             let v = e.cross(to_center);
@@ -244,7 +244,8 @@ impl JointKind {
             JointKind::Ball => (s[0], s[1], s[2]) = (turn(p(0)), turn(p(1)), turn(p(2))),
             JointKind::Planar => (s[0], s[1], s[2]) = (slide(p(0)), slide(p(1)), turn(p(2))),
             JointKind::Free => {
-                *s = [turn(p(0)), turn(p(1)), turn(p(2)), slide(p(0)), slide(p(1)), slide(p(2))];
+                (s[0], s[1], s[2]) = (turn(p(0)), turn(p(1)), turn(p(2)));
+                (s[3], s[4], s[5]) = (slide(p(0)), slide(p(1)), slide(p(2)));
             }
         }
     }

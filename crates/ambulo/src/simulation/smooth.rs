@@ -214,7 +214,6 @@ impl Tree {
     /// Fills the graph of accelerations.
     fn fill(&self, world: &World, state: &WorldState, motion: &Motion, slope: &mut Motion, assembly: &mut Assembly) {
         assembly.begin(world);
-        assembly.directions.fill([Six::zeros(); MOST]);
         let goals = Goals::at(world, state.time_s);
         let mut of_body: Vec<Option<&Branch>> = vec![None; world.bodies.len()];
         self.outwards.iter().for_each(|branch| of_body[branch.body] = Some(branch));
@@ -472,7 +471,8 @@ impl Branch {
         graph.terms.arm.push(arm);
         graph.terms.offset.push(offset);
         if let (Some(number), None) = (self.joint, &goal) {
-            assembly.directions[number] = directions;
+            let freedom = self.kind.freedom();
+            assembly.directions.of_mut(number, self.kind).copy_from_slice(&directions[..freedom]);
         }
     }
 

@@ -96,7 +96,7 @@ fn keep_drives(world: &World, state: &WorldState, assembly: &mut Assembly) {
             // The rate of a driven rotation vector is not an angular velocity.
             let turns = matches!(joint.kind, JointKind::Ball | JointKind::Free) && k < 3;
             let rate = if turns { now[k] } else { drive.signal.at(state.time_s)[1] };
-            offset.axpy(rate, &assembly.directions[number][k], 1.0);
+            offset.axpy(rate, assembly.directions.at(number, k), 1.0);
         }
         assembly.graph.terms.offset[joint.child] = offset;
     }

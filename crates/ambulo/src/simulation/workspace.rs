@@ -112,10 +112,9 @@ impl StepWorkspace {
         };
         let effort = |number: usize| {
             let joint = &world.joints[number];
-            let directions = &self.assembly.directions[number];
             let of = |(k, acting): (usize, &JointCoordinate)| {
                 // Nothing acts on a free coordinate, not even rounding.
-                if acting.acts() { directions[k].dot(&wrenches[joint.child]) / h } else { 0.0 }
+                if acting.acts() { self.assembly.directions.at(number, k).dot(&wrenches[joint.child]) / h } else { 0.0 }
             };
             joint.coordinates.iter().enumerate().map(of).collect()
         };
@@ -176,7 +175,7 @@ impl StepWorkspace {
     /// Moment or force along a coordinate of a joint [N.m or N], from the wrenches as last read.
     #[inline(always)]
     pub(crate) fn effort(&self, child: usize, joint: usize, coordinate: usize) -> f64 {
-        self.assembly.directions[joint][coordinate].dot(&self.wrenches[child]) / self.step_s
+        self.assembly.directions.at(joint, coordinate).dot(&self.wrenches[child]) / self.step_s
     }
 
     fn contact_force(&self, touch: &Touch) -> ContactForce {
