@@ -62,7 +62,8 @@ fn build(folder: &Path) -> Result<Cost, String> {
     cargo(&["fetch", "--quiet", "--locked"])?;
     let (start, cpu_before) = (Instant::now(), children_cpu_s());
     let built = cargo(&["build", "--quiet", "--release", "--locked", "--bin", "ambulo"]);
-    let cpu_s = children_cpu_s().zip(cpu_before).map(|(after, before)| after - before);
+    let spent = |after: [f64; 2], before: [f64; 2]| after[0] + after[1] - before[0] - before[1];
+    let cpu_s = children_cpu_s().zip(cpu_before).map(|(after, before)| spent(after, before));
     let cost = Cost { wall_s: start.elapsed().as_secs_f64(), cpu_s };
     fs::remove_dir_all(&target).map_err(|e| format!("{}: cannot remove: {e}", target.display()))?;
     built.map(|()| cost)
@@ -73,17 +74,18 @@ fn finish(mut command: Command) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("cargo failed ({status}), see above")) }
 }
 
-/// CPU time of all children that have ended, and of theirs [s].
-fn children_cpu_s() -> Option<f64> {
-    children_ticks(&fs::read_to_string("/proc/self/stat").ok()?).map(|ticks| ticks / TICKS_PER_SECOND)
+/// CPU time of all children that have ended, and of theirs, in user mode and in the system [s].
+pub(crate) fn children_cpu_s() -> Option<[f64; 2]> {
+    let ticks = children_ticks(&fs::read_to_string("/proc/self/stat").ok()?)?;
+    Some(ticks.map(|ticks| ticks / TICKS_PER_SECOND))
 }
 
 /// User and system time of the children from a line of `/proc/self/stat`; the second field, a name, may contain blanks.
-fn children_ticks(stat: &str) -> Option<f64> {
+fn children_ticks(stat: &str) -> Option<[f64; 2]> {
     const USER: usize = 13;
     let after_name: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
     let ticks = |field: usize| after_name.get(field)?.parse::<f64>().ok();
-    Some(ticks(USER)? + ticks(USER + 1)?)
+    Some([ticks(USER)?, ticks(USER + 1)?])
 }
 
 #[cfg(test)]
@@ -93,7 +95,7 @@ mod tests {
     #[test]
     fn the_children_s_time_is_read_behind_the_name() {
         let stat = "77 (a (b) c) S 1 2 3 4 5 6 7 8 9 10 11 12 130 40 17 18";
-        assert_eq!(children_ticks(stat), Some(170.0));
+        assert_eq!(children_ticks(stat), Some([130.0, 40.0]));
         assert_eq!(children_ticks("77 (short) S 1"), None);
     }
 }

@@ -6,6 +6,7 @@
 mod batch_cost;
 mod build_time;
 mod check;
+mod command_cost;
 mod dist;
 #[cfg(test)]
 mod documents;
@@ -39,6 +40,7 @@ usage: cargo xtask <command>
   dist              build the archives of a release into target/archives, with checksums and the list of components, and try them
                     [--target TARGET].. [--runner PROGRAM: starts programs of another machine] [--tag TAG: must be the version]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
+  command-cost      processor time of `ambulo forces` against an earlier revision, and the time until the command starts  [--baseline REV]
   batch-cost        measure processor time, memory and bytes per trial of `ambulo batch`, and print what 70 h and 288 h of motion cost
                     [--kills: and compute 10,000 trials with ten kills]
   stream-cost       measure latency, processor time and memory of `ambulo stream` from end to end, in real time  [--seconds S]
@@ -51,6 +53,8 @@ usage: cargo xtask <command>
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
   claim-shares      sample the values that the 1997 paper does not give, and count how often its claims hold
                     [--settings N] [--seed S] [--write: crates/ambulo/data/reproduction/shares.csv]
+  roofline          count operations and bytes of the three hottest kernels, and compare their times with what this processor can do
+                    (needs valgrind and objdump)
   reproduction      recompute the 1997 paper and print its claims  [--write: docs/measured/REPRODUCTION.md]
   figures           draw docs/images/ again with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors
@@ -77,7 +81,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 11] = [
+const OWN: [&str; 12] = [
     "check",
     "house",
     "build-time",
@@ -87,12 +91,13 @@ const OWN: [&str; 11] = [
     "web",
     "dist",
     "sweep",
+    "command-cost",
     "batch-cost",
     "stream-cost",
 ];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 21] = [
+const MEASUREMENTS: [&str; 22] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -101,6 +106,7 @@ const MEASUREMENTS: [&str; 21] = [
     "oracle-c3d",
     "claim-shares",
     "reproduction",
+    "roofline",
     "figures",
     "fit-gait",
     "fit-ground",
@@ -132,6 +138,7 @@ fn main() -> ExitCode {
         ("web", _) => web::run(rest),
         ("dist", _) => dist::run(rest),
         ("sweep", []) => sweep::run(),
+        ("command-cost", _) => command_cost::run(rest),
         ("batch-cost", _) => batch_cost::run(rest),
         ("stream-cost", _) => stream_cost::run(rest),
         ("house", _) => house::run(rest),

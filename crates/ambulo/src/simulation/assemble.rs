@@ -12,7 +12,7 @@
 //!
 //! A drive moves its coordinate to the value of its signal at the end of the step: q̇ = (s(t + h) - q)/h.
 
-use super::joint::{Constrained, Coordinates, Frames, JointKind, MOST};
+use super::joint::{Constrained, Coordinates, Frames, JointKind};
 use super::signal::Instant;
 use super::state::{RowKey, WorldState, rates};
 use super::world::{Closure, JointCoordinate, TreeJoint, World};
