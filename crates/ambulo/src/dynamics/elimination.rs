@@ -126,10 +126,11 @@ impl Elimination {
         for step in &self.steps {
             let (body, link) = (step.body, self.links[step.body]);
             let range = self.first[body]..self.first[body] + link.freedom;
-            if step.with_parent.is_none() && step.neighbors.is_empty() && link.freedom <= 1 {
-                self.factor_hinge(body, link, range.start, terms, w);
-            } else {
-                self.factor_step(step, link, range, terms, w);
+            let alone = step.with_parent.is_none() && step.neighbors.is_empty();
+            match link.freedom {
+                0 | 1 if alone => self.factor_hinge(body, link, range.start, terms, w),
+                1 => self.factor_coupled_hinge(step, link, range.start, terms, w),
+                _ => self.factor_step(step, link, range, terms, w),
             }
         }
     }
@@ -157,6 +158,62 @@ impl Elimination {
         }
         w.diagonal[parent].add(&passed.carried(arm));
         w.hang(body, parent, arm);
+    }
+
+    /// One free direction and neighbours: what [`Elimination::factor_step`] does, without room for five more directions.
+    fn factor_coupled_hinge(
+        &self,
+        step: &Step,
+        link: Link,
+        k: usize,
+        terms: &LinkTerms,
+        w: &mut EliminationWorkspace,
+    ) {
+        let (s, arm) = (&terms.directions[k], &terms.arm[step.body]);
+        let own = w.diagonal[step.body];
+        let u = own.times(s);
+        let pivot = w.d[k][0] + s.dot(&u);
+        let moves = pivot > w.least(step.body, s);
+        let inverse = if moves { 1.0 / pivot } else { 0.0 };
+        w.inertialess += usize::from(!moves);
+        w.d[k][0] = inverse;
+        if let Some(parent) = link.parent {
+            let mut g = carry(&u, arm);
+            let mut passed = own.carried(arm);
+            if let Some(place) = step.with_parent {
+                let mut block = self.read(place, w);
+                g += block.transpose_times(s);
+                block.carry_rows(arm);
+                passed.add_with_transpose(&block);
+            }
+            passed.add_outer(&g, &(g * inverse), -1.0);
+            w.diagonal[parent].add(&passed);
+            w.hang(step.body, parent, arm);
+            w.g_parent[k] = g;
+        }
+        let mut pair = step.pairs.start;
+        for number in step.neighbors.clone() {
+            let neighbor = self.neighbors[number];
+            let mut block = self.read(neighbor.place, w);
+            let g = block.transpose_times(s);
+            let z = g * inverse;
+            if link.parent.is_some() {
+                block.carry_rows(arm);
+                block.add_outer(&w.g_parent[k], &z, -1.0);
+                self.write(neighbor.with_parent, &block, w);
+            }
+            w.diagonal[neighbor.body].add_outer(&g, &z, -1.0);
+            w.g_neighbor[number][0] = g;
+        }
+        for number in step.neighbors.clone() {
+            let z = w.g_neighbor[number][0] * inverse;
+            for later in number + 1..step.neighbors.end {
+                let BlockRef { block, transposed } = self.pairs[pair];
+                let (rows, columns) = if transposed { (&w.g_neighbor[later][0], &z) } else { (&z, &w.g_neighbor[later][0]) };
+                w.off[block].add_outer(rows, columns, -1.0);
+                pair += 1;
+            }
+        }
     }
 
     fn factor_step(
@@ -332,15 +389,15 @@ impl Elimination {
                 bodies[parent] -= self.times_transposed(place, offset, w);
             }
         }
+        if link.freedom == 1 {
+            self.gather_hinge(step, link, range.start, terms, bodies, coordinates, w);
+            return;
+        }
         let b = bodies[body];
         for k in range.clone() {
             coordinates[k] += terms.directions[k].dot(&b);
         }
-        if link.freedom == 1 {
-            coordinates[range.start] *= w.d[range.start][0];
-        } else {
-            solve_small(&w.d[range.clone()], &mut coordinates[range.clone()]);
-        }
+        solve_small(&w.d[range.clone()], &mut coordinates[range.clone()]);
         if let Some(parent) = link.parent {
             let mut passed = carry(&b, &terms.arm[body]);
             for k in range.clone() {
@@ -353,6 +410,32 @@ impl Elimination {
             for (k, g) in range.clone().zip(&w.g_neighbor[number]) {
                 bodies[other].axpy(-coordinates[k], g, 1.0);
             }
+        }
+    }
+
+    /// The common case of [`Elimination::gather`]: one free direction.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "those of the general case")]
+    fn gather_hinge(
+        &self,
+        step: &Step,
+        link: Link,
+        k: usize,
+        terms: &LinkTerms,
+        bodies: &mut [Six],
+        coordinates: &mut [f64],
+        w: &EliminationWorkspace,
+    ) {
+        let b = bodies[step.body];
+        let along = (coordinates[k] + terms.directions[k].dot(&b)) * w.d[k][0];
+        coordinates[k] = along;
+        if let Some(parent) = link.parent {
+            let mut passed = carry(&b, &terms.arm[step.body]);
+            passed.axpy(-along, &w.g_parent[k], 1.0);
+            bodies[parent] += passed;
+        }
+        for number in step.neighbors.clone() {
+            bodies[self.neighbors[number].body].axpy(-along, &w.g_neighbor[number][0], 1.0);
         }
     }
 
@@ -374,6 +457,10 @@ impl Elimination {
     ) {
         let (body, link) = (step.body, self.links[step.body]);
         let range = self.first[body]..self.first[body] + link.freedom;
+        if link.freedom == 1 {
+            self.spread_hinge(step, link, range.start, terms, offsets, bodies, coordinates, w);
+            return;
+        }
         let mut known = [0.0; 6];
         let known = &mut known[..link.freedom];
         let mut a = match link.parent {
@@ -392,11 +479,7 @@ impl Elimination {
                 *value += g.dot(&of_neighbor);
             }
         }
-        if link.freedom == 1 {
-            known[0] *= w.d[range.start][0];
-        } else {
-            solve_small(&w.d[range.clone()], known);
-        }
+        solve_small(&w.d[range.clone()], known);
         if offsets == Offsets::Prescribed {
             a += terms.offset[body];
         }
@@ -405,6 +488,37 @@ impl Elimination {
             a.axpy(coordinates[k], &terms.directions[k], 1.0);
         }
         bodies[body] = a;
+    }
+
+    /// The common case of [`Elimination::spread`]: one free direction.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "those of the general case")]
+    fn spread_hinge(
+        &self,
+        step: &Step,
+        link: Link,
+        k: usize,
+        terms: &LinkTerms,
+        offsets: Offsets,
+        bodies: &mut [Six],
+        coordinates: &mut [f64],
+        w: &EliminationWorkspace,
+    ) {
+        let (mut known, mut a) = (0.0, Six::zeros());
+        if let Some(parent) = link.parent {
+            let of_parent = &bodies[parent];
+            known = w.g_parent[k].dot(of_parent);
+            a = transport(of_parent, &terms.arm[step.body]);
+        }
+        for number in step.neighbors.clone() {
+            known += w.g_neighbor[number][0].dot(&bodies[self.neighbors[number].body]);
+        }
+        if offsets == Offsets::Prescribed {
+            a += terms.offset[step.body];
+        }
+        coordinates[k] -= known * w.d[k][0];
+        a.axpy(coordinates[k], &terms.directions[k], 1.0);
+        bodies[step.body] = a;
     }
 }
 
