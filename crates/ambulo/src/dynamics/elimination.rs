@@ -161,14 +161,7 @@ impl Elimination {
     }
 
     /// One free direction and neighbours: what [`Elimination::factor_step`] does, without room for five more directions.
-    fn factor_coupled_hinge(
-        &self,
-        step: &Step,
-        link: Link,
-        k: usize,
-        terms: &LinkTerms,
-        w: &mut EliminationWorkspace,
-    ) {
+    fn factor_coupled_hinge(&self, step: &Step, link: Link, k: usize, terms: &LinkTerms, w: &mut EliminationWorkspace) {
         let (s, arm) = (&terms.directions[k], &terms.arm[step.body]);
         let own = w.diagonal[step.body];
         let u = own.times(s);
@@ -209,7 +202,8 @@ impl Elimination {
             let z = w.g_neighbor[number][0] * inverse;
             for later in number + 1..step.neighbors.end {
                 let BlockRef { block, transposed } = self.pairs[pair];
-                let (rows, columns) = if transposed { (&w.g_neighbor[later][0], &z) } else { (&z, &w.g_neighbor[later][0]) };
+                let (rows, columns) =
+                    if transposed { (&w.g_neighbor[later][0], &z) } else { (&z, &w.g_neighbor[later][0]) };
                 w.off[block].add_outer(rows, columns, -1.0);
                 pair += 1;
             }

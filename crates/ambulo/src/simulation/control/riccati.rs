@@ -6,6 +6,7 @@
 //!
 //! and P_n = P_0. The recursion backwards from any P converges to it if the system can be stabilised.
 
+use crate::numerics::product;
 use nalgebra::DMatrix;
 
 /// One step of the system.
@@ -34,10 +35,11 @@ impl Costs {
     pub(super) fn gains(&self, steps: &[StepMap], value: &mut DMatrix<f64>) -> Option<Vec<DMatrix<f64>>> {
         let mut gains = Vec::with_capacity(steps.len());
         for StepMap { by_state, by_input } in steps.iter().rev() {
-            let [of_state, of_input] = [by_state, by_input].map(|map| &*value * map);
-            let coupling = by_input.transpose() * &of_state;
-            let gain = (&self.input + by_input.transpose() * of_input).cholesky()?.solve(&coupling);
-            let next = &self.state + by_state.transpose() * &of_state - coupling.transpose() * &gain;
+            let [of_state, of_input] = [by_state, by_input].map(|map| product(value, map));
+            let back = by_input.transpose();
+            let coupling = product(&back, &of_state);
+            let gain = (&self.input + product(&back, &of_input)).cholesky()?.solve(&coupling);
+            let next = &self.state + product(&by_state.transpose(), &of_state) - product(&coupling.transpose(), &gain);
             *value = (&next + next.transpose()) * 0.5;
             gains.push(gain);
         }
@@ -77,9 +79,10 @@ pub(super) fn foreseen(steps: &[StepMap], gains: &[DMatrix<f64>], delay: usize) 
     }
     let count = steps.len();
     let closed: Vec<DMatrix<f64>> =
-        steps.iter().zip(gains).map(|(step, gain)| &step.by_state - &step.by_input * gain).collect();
-    let of =
-        |k: usize| (k..k + delay).rev().fold(gains[(k + delay) % count].clone(), |row, j| row * &closed[j % count]);
+        steps.iter().zip(gains).map(|(step, gain)| &step.by_state - product(&step.by_input, gain)).collect();
+    let of = |k: usize| {
+        (k..k + delay).rev().fold(gains[(k + delay) % count].clone(), |row, j| product(&row, &closed[j % count]))
+    };
     (0..count).map(of).collect()
 }
 
