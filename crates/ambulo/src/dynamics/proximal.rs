@@ -73,8 +73,10 @@ const POLISH: usize = 20;
 /// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and a second.
 const FIRST_PRODUCTS: usize = 10_000_000;
 const LAST_PRODUCTS: usize = 1_000_000_000;
-/// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing more is tried.
+/// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing more is tried. Above
+/// `DOUBTFUL` they mostly do, and a tenth of the last work is tried.
 const NEARLY: f64 = 1e-6;
+const DOUBTFUL: f64 = 1e-4;
 const FAR: f64 = 1e-2;
 /// Number of rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row with relevant mobility.
 const ROUNDS: usize = 3;
@@ -361,7 +363,9 @@ impl Newton<'_, '_> {
                 return;
             }
         }
-        if self.w.best.residual() < FAR && self.solve_laws(motions, coordinates, lambda, convergence, LAST_PRODUCTS) {
+        let near = self.w.best.residual();
+        let work = if near < DOUBTFUL { LAST_PRODUCTS } else { LAST_PRODUCTS / 10 };
+        if near < FAR && self.solve_laws(motions, coordinates, lambda, convergence, work) {
             return;
         }
         convergence.residual = f64::INFINITY;
