@@ -111,6 +111,7 @@ fn threads_kills_and_continued_runs_change_no_byte() {
     let whole = tables(&bench, "whole");
     assert_eq!(whole.len(), 4 * 3, "three parts of four tables: {:?}", whole.keys());
     // As a kill leaves it that came while the description was written.
+    fs::create_dir_all(bench.folder.join("threads/.shards/000")).unwrap();
     bench.write("threads/.shards/000/batch.json", "{");
     bench.run(&[&BATCH[..], &["threads", "--jobs", "3"]].concat()).done();
     assert!(tables(&bench, "threads") == whole, "three threads");
