@@ -54,7 +54,7 @@ usage: cargo xtask <command>
   claim-shares      sample the values that the 1997 paper does not give, and count how often its claims hold
                     [--settings N] [--seed S] [--write: crates/ambulo/data/reproduction/shares.csv]
   roofline          count operations and bytes of the three hottest kernels, and compare their times with what this processor can do
-                    (needs valgrind and objdump)
+                    (needs valgrind and objdump)  [--write: docs/measured/ROOFLINE.md]
   reproduction      recompute the 1997 paper and print its claims  [--write: docs/measured/REPRODUCTION.md]
   figures           draw docs/images/ again with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors

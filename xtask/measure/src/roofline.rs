@@ -1,4 +1,4 @@
-//! What is left to gain in the three hottest kernels: `cargo xtask roofline`.
+//! What is left to gain in the three hottest kernels: `cargo xtask roofline`, and with `--write` docs/measured/ROOFLINE.md.
 //!
 //! The roofline of a kernel: with F floating-point operations and B bytes between registers and memory a frame, no program that does this work
 //! is faster than max(F / P, B / W), with P and W what this processor reaches at most, measured here in loops that do nothing else.
@@ -15,13 +15,24 @@ mod peak;
 
 use crate::bench::markers;
 use crate::bench::timing::cpu_us;
-use crate::bench::{human::Human, worlds};
+use crate::bench::{human::Human, machine, worlds};
+use crate::workspace;
 use ambulo::findings::Findings;
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::simulation::{StepSettings, StepWorkspace, WorldState, start, step};
 use counts::Counts;
 use peak::Peaks;
 use std::hint::black_box;
+
+/// Beginning of the page.
+const HEAD: &str = "\
+# Roofline of the hottest kernels
+
+What one core of this machine does at most, and what the kernels do of it. Operations in double precision and bytes between registers and memory
+are counted instruction by instruction (`callgrind`, `objdump`); a fused multiplication and addition is two. The bound is the longer of two times:
+all operations at the largest rate of their mix of single numbers and vectors, and all bytes at that of the first cache. What is above 1 in the last
+column is spent on what is neither: waiting for results, branches, addresses, and memory beyond the first cache.
+";
 
 /// The kernels, as this program is asked to run them.
 const KERNELS: [&str; 3] = ["inverse-dynamics", "simulation-step", "marker-fit"];
@@ -36,15 +47,16 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
         [] => {
-            print!("{}", table()?);
+            print!("{}", page()?);
             Ok(())
         }
+        ["--write"] => workspace::save("docs/measured/ROOFLINE.md", &page()?),
         ["--kernel", name, "--passes", passes] => {
             let passes = passes.parse::<usize>().map_err(|e| format!("--passes {passes}: {e}"))?;
             let mut kernel = Kernel::named(name)?;
             (0..passes).try_for_each(|_| (kernel.pass)())
         }
-        _ => Err(format!("found `{}`; expected no options", words.join(" "))),
+        _ => Err(format!("found `{}`; expected nothing or --write", words.join(" "))),
     }
 }
 
@@ -105,9 +117,10 @@ fn marker_fit() -> Result<Kernel, String> {
     Ok(Kernel { about: "fit of a skeleton to the markers of Gait2392; a frame", frames, pass: Box::new(pass) })
 }
 
-fn table() -> Result<String, String> {
+fn page() -> Result<String, String> {
     let peaks = Peaks::measure();
-    let mut text = peaks.description();
+    let mut text = format!("{HEAD}\nMachine: {}.\n\n", machine());
+    text += &peaks.description();
     text += "\n| kernel | operations | in vectors | bytes | operations a byte | time | Gflop/s | GB/s | bound by operations, bytes | time / bound |\n";
     text += "|:--|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     for name in KERNELS {
