@@ -33,6 +33,8 @@ interface Running {
 async function started(page: string): Promise<Running> {
   const child = spawn(program(), ["stream", join(INPUT, "figure.osim"), "--rate", `${RATE_HZ}`, `--page=${page}`]);
   child.stdout.resume();
+  // Frames that wait when the command is ended would hide why a test has failed.
+  child.stdin.on("error", () => {});
   for await (const line of createInterface({ input: child.stderr })) {
     const found = /http:\S+/.exec(line);
     if (found) return { process: child, address: found[0] };
