@@ -1,4 +1,4 @@
-"""Compress wheels again: `python packaging/smallest.py WHEEL...`. Needs the package zopfli.
+"""Compress wheels again: `python packaging/smallest_wheel.py WHEEL...`. Needs the package zopfli.
 
 A wheel is a ZIP archive. Its files stay the same, so its RECORD with their hashes does too; only the search for the shortest deflate stream is longer than
 zlib's. Any program that reads ZIP reads the result. The same wheel always gives the same bytes.
@@ -62,6 +62,6 @@ def replace(path: Path) -> None:
 
 if __name__ == "__main__":
     if not sys.argv[1:]:
-        sys.exit("usage: python packaging/smallest.py WHEEL...")
+        sys.exit("usage: python packaging/smallest_wheel.py WHEEL...")
     for name in sys.argv[1:]:
         replace(Path(name))

@@ -33,6 +33,8 @@ interface Running {
 async function started(page: string): Promise<Running> {
   const child = spawn(program(), ["stream", join(INPUT, "figure.osim"), "--rate", `${RATE_HZ}`, `--page=${page}`]);
   child.stdout.resume();
+  // Frames that wait when the command is ended would hide why a test has failed.
+  child.stdin.on("error", () => {});
   for await (const line of createInterface({ input: child.stderr })) {
     const found = /http:\S+/.exec(line);
     if (found) return { process: child, address: found[0] };
@@ -40,7 +42,7 @@ async function started(page: string): Promise<Running> {
   throw new Error("the command named no page");
 }
 
-/** Sends the walk in real time, forwards and backwards, until it is told to end. */
+/** Sends the walk in real time, again and again, until it is told to end. The numbers of the frames begin at zero each time, as for a new recording. */
 function send({ process }: Running): () => void {
   const { heading, frames } = lines();
   process.stdin.write(`${heading}\n`);
@@ -48,10 +50,9 @@ function send({ process }: Running): () => void {
   let frame = 0;
   const timer = setInterval(() => {
     for (; frame < ((Date.now() - begun) * RATE_HZ) / 1000; frame += 1) {
-      const turn = frame % (2 * frames.length - 2);
-      const q = frames[turn < frames.length ? turn : 2 * frames.length - 2 - turn];
-      // Frame 50 is lost.
-      if (frame !== 50) process.stdin.write(`{"frame": ${frame}, "q": ${q}}\n`);
+      const number = frame % frames.length;
+      // Frame 50 of the first time is lost.
+      if (frame !== 50) process.stdin.write(`{"frame": ${number}, "q": ${frames[number]}}\n`);
     }
   }, 10);
   return () => clearInterval(timer);

@@ -2,7 +2,7 @@
 //!
 //! Without an option it makes a wheel from the module that `cargo test` has compiled, installs it into a bare virtual environment, checks that it
 //! needs nothing but NumPy, and runs the tests of `crates/ambulo-py/tests` and stubtest; with `--with` in the environment of another Python.
-//! `--measure` builds the wheel for users with maturin and prints its size and its times. `--free-threaded` compiles the module for free-threaded
+//! `--measure` builds the wheel for users with maturin, compresses it again as a release does, and prints its size and its times. `--free-threaded` compiles the module for free-threaded
 //! Python, which need not be installed.
 
 use crate::workspace;
@@ -79,6 +79,9 @@ fn measure() -> Result<(), String> {
     let found = fs::read_dir(&wheels).ok().and_then(|mut files| files.next()?.ok());
     let wheel = found.ok_or_else(|| format!("{}: maturin has made no wheel", wheels.display()))?.path();
     let wheel = wheel.display().to_string();
+    let [smaller, versions] = ["smallest_wheel.py", "requirements.txt"].map(packaging);
+    environment.install(&["--constraint", &versions, "zopfli"])?;
+    environment.python(&package, &[&smaller, &wheel])?;
     environment.install(&["--force-reinstall", "--no-deps", &wheel])?;
     environment.install(&["numpy"])?;
     environment.python(&package, &["bench/measure.py", &wheel])
@@ -100,6 +103,11 @@ fn free_threaded() -> Result<(), String> {
 /// The folder of the package.
 fn package() -> PathBuf {
     workspace::root().join("crates/ambulo-py")
+}
+
+/// A file of the release.
+fn packaging(name: &str) -> String {
+    workspace::root().join("packaging").join(name).display().to_string()
 }
 
 /// A virtual environment.
