@@ -179,7 +179,7 @@ fn killed(program: &Path, sets: &Sets, folder: &Path) -> Result<String, String> 
 }
 
 /// The files of a batch by name.
-fn files_in(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
+pub(crate) fn files_in(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut files = BTreeMap::new();
     for table in ["trials", "frames", "cycles", "events"] {
         let cannot = |e: std::io::Error| format!("{}: cannot be read: {e}", folder.join(table).display());

@@ -6,11 +6,10 @@
 //! | `snakemake` | the command of a job | `retries` of the rule |
 //! | `slurm` | the command of a task of the array | the same line again; a stand-in sets the variables of Slurm, which is not needed |
 //!
-//! Then all trials must be there, with the bytes of a run in one process that nothing disturbed. The engines are installed from PyPI, in the
+//! Then all trials must be there, with the bytes of a run that nothing disturbed. The command is the one that `cargo build` has compiled. The engines are installed from PyPI, in the
 //! versions of [`ENGINES`], into a virtual environment in `target`. Linux only: workers are found in `/proc`.
 
 use crate::python::Environment;
-use crate::sweep::release_program;
 use crate::workspace;
 use std::collections::BTreeMap;
 use std::env;
@@ -27,7 +26,7 @@ const RECIPES: [&str; 4] = ["dask", "ray", "snakemake", "slurm"];
 /// Shards of a run, two at a time.
 const SHARDS: usize = 4;
 /// Trials of the set.
-const TRIALS: usize = 240;
+const TRIALS: usize = 48;
 /// Time of the first kill after a command has started; a shard takes longer.
 const BEFORE_KILL: Duration = Duration::from_millis(700);
 /// No run takes longer.
@@ -58,7 +57,10 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
 
 impl Bench {
     fn new() -> Result<Bench, String> {
-        let program = release_program()?;
+        let program = workspace::debug_program();
+        if !program.is_file() {
+            return Err(format!("{}: there is no such file\nhint: `cargo build` compiles it", program.display()));
+        }
         let folder = workspace::target().join("clusters");
         let _ = fs::remove_dir_all(folder.join("runs"));
         let environment = Environment::new(crate::python::interpreter(), &folder.join("environment"))?;

@@ -6,6 +6,7 @@
 mod batch_cost;
 mod build_time;
 mod check;
+mod clusters;
 mod command_cost;
 mod dist;
 #[cfg(test)]
@@ -43,6 +44,7 @@ usage: cargo xtask <command>
   command-cost      processor time of `ambulo forces` against an earlier revision, and the time until the command starts  [--baseline REV]
   batch-cost        measure processor time, memory and bytes per trial of `ambulo batch`, and print what 70 h and 288 h of motion cost
                     [--kills: and compute 10,000 trials with ten kills]
+  clusters          run the recipes of docs/clusters on this machine, with a worker or job that is killed in the middle  [RECIPE]..
   stream-cost       measure latency, processor time and memory of `ambulo stream` from end to end, in real time  [--seconds S]
                     [--hours H: and the memory over so many hours of motion, as fast as they are taken]
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
@@ -81,7 +83,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 12] = [
+const OWN: [&str; 13] = [
     "check",
     "house",
     "build-time",
@@ -93,6 +95,7 @@ const OWN: [&str; 12] = [
     "sweep",
     "command-cost",
     "batch-cost",
+    "clusters",
     "stream-cost",
 ];
 
@@ -140,6 +143,7 @@ fn main() -> ExitCode {
         ("sweep", []) => sweep::run(),
         ("command-cost", _) => command_cost::run(rest),
         ("batch-cost", _) => batch_cost::run(rest),
+        ("clusters", _) => clusters::run(rest),
         ("stream-cost", _) => stream_cost::run(rest),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),

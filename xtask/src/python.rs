@@ -111,23 +111,28 @@ fn packaging(name: &str) -> String {
 }
 
 /// A virtual environment.
-struct Environment {
+pub(crate) struct Environment {
     python: PathBuf,
 }
 
 impl Environment {
     /// Makes an empty one; an earlier one in the folder is replaced.
-    fn new(program: &str, folder: &Path) -> Result<Environment, String> {
+    pub(crate) fn new(program: &str, folder: &Path) -> Result<Environment, String> {
         let mut venv = Command::new(program);
         run_or(venv.args(["-m", "venv", "--clear"]).arg(folder), "a virtual environment was not made")?;
         let python = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
         Ok(Environment { python: folder.join(python) })
     }
 
-    fn install(&self, what: &[&str]) -> Result<(), String> {
+    pub(crate) fn install(&self, what: &[&str]) -> Result<(), String> {
         let mut pip = Command::new(&self.python);
         pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(what);
         run_or(&mut pip, "pip has failed")
+    }
+
+    /// The folder of its programs.
+    pub(crate) fn programs(&self) -> Option<&Path> {
+        self.python.parent()
     }
 
     fn python(&self, folder: &Path, words: &[&str]) -> Result<(), String> {
