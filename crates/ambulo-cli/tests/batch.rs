@@ -19,6 +19,7 @@ use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::fs::{self, File};
+use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -178,6 +179,20 @@ fn a_part_without_results_has_no_frames_and_stays_closed() {
     assert!(tables(&bench, "out") == found);
 }
 
+/// The first frames of a TRC.
+fn first_frames(trc: &str, count: usize) -> String {
+    let cut = |(k, line): (usize, &str)| {
+        let mut cells: Vec<String> = line.split('\t').map(str::to_owned).collect();
+        let number = cells[0].parse::<usize>().ok();
+        // The third line has rates and counts.
+        if k == 2 {
+            cells[2] = count.to_string();
+        }
+        (k < 3 || number.is_none_or(|number| number <= count)).then(|| cells.join("\t") + "\n")
+    };
+    trc.lines().enumerate().filter_map(cut).collect()
+}
+
 /// The markers of a TRC at rest where they are in the first frame.
 fn frozen(trc: &str) -> String {
     let is_row = |line: &str| line.split('\t').next().is_some_and(|cell| cell.parse::<u32>().is_ok());
@@ -196,10 +211,12 @@ fn trials_that_share_a_scaled_model_have_the_results_of_each_alone() {
     let bench = Workbench::empty("batch_one_model").removed_at_the_end();
     bench.run(&["demo", "-o", "demo", "--quiet", "--keep", "recording"]).done();
     bench.write("figure.osim", bench.read("demo/input/figure.osim"));
-    bench.write("standing.trc", frozen(&bench.text("demo/input/walk.trc")));
+    // A stride is enough: markers are fitted frame by frame.
+    bench.write("walk.trc", first_frames(&bench.text("demo/input/walk.trc"), 130));
+    bench.write("standing.trc", frozen(&first_frames(&bench.text("walk.trc"), 20)));
     // Two trials of one person, and the same with another mass.
     let lines = [70, 70, 90].iter().enumerate().map(|(k, mass)| {
-        bench.write(&format!("walk{k}.trc"), bench.read("demo/input/walk.trc"));
+        bench.write(&format!("walk{k}.trc"), bench.read("walk.trc"));
         format!("walk{k}.trc,figure.osim,standing.trc,{mass}\n")
     });
     let list = "file,model,static,mass\n".to_owned() + &lines.collect::<String>();
@@ -234,6 +251,24 @@ fn trials_that_share_a_scaled_model_have_the_results_of_each_alone() {
 }
 
 #[test]
+fn a_value_behind_an_equals_sign_is_the_same_option_and_a_file_behind_it_is_an_input() {
+    let bench = set("batch_equals");
+    bench.write("figures.toml", "");
+    let batch = |folder: &str, words: &[&str]| {
+        let run = ["batch", "set", "--limit", "1", "--quiet", "-o", folder, "--keep", "events", "--resume", "--"];
+        bench.run(&[&run[..], words].concat())
+    };
+    batch("apart", &["--from", "0.5"]).done();
+    batch("joined", &["--from=0.5"]).done();
+    assert!(tables(&bench, "apart") == tables(&bench, "joined"));
+    batch("apart", &["--from=0.5"]).done();
+    batch("apart", &["--from=0.6"]).refused(&["another batch", "--from 0.5"]);
+    batch("file", &["--thresholds=figures.toml"]).done();
+    let trials = ParquetTable::read(&bench.read("file/trials/part-000-00000.parquet")).unwrap();
+    assert!(texts(&trials, "inputs")[0].as_ref().unwrap().contains("figures.toml"));
+}
+
+#[test]
 fn a_full_disk_loses_no_closed_part() {
     let bench = set("batch_full");
     bench.run(&[&BATCH[..], &["whole"]].concat()).done();
@@ -253,12 +288,21 @@ fn a_full_disk_loses_no_closed_part() {
     assert!(tables(&bench, "full") == whole);
 }
 
+/// 1 in a stance, 0 before the swing before it and after the swing after it, and smooth between.
+fn raised(time_s: f64) -> f64 {
+    let rise = |from_s: f64, to_s: f64| {
+        let share = ((time_s - from_s) / (to_s - from_s)).clamp(0.0, 1.0);
+        share * share * (3.0 - 2.0 * share)
+    };
+    rise(0.95, 1.25) - rise(2.05, 2.35)
+}
+
 #[test]
 fn spoiled_motions_are_ranked_before_the_good_one_with_the_reason() {
     let bench = Workbench::empty("batch_ranked").removed_at_the_end();
     // Name, column, what is added to it at a time [s], and a part of the reason.
     type Added = fn(f64) -> f64;
-    let spoiled: [(&str, &str, Added, &str); 4] = [
+    let spoiled: [(&str, &str, Added, &str); 5] = [
         ("twice as fast", "time", |time_s| -0.5 * time_s, "the residual force is"),
         (
             "a floor that drops",
@@ -268,6 +312,8 @@ fn spoiled_motions_are_ranked_before_the_good_one_with_the_reason() {
         ),
         ("feet that slide", "pelvis_tz", |time_s| 0.05 * (4.0 * PI * time_s).sin(), "soles that carry the body move"),
         ("an ankle beyond its range", "ankle_angle_l", |_| 70.0, "the joint reaches"),
+        // The stance of the right foot from 1.32 to 1.97 s: the ankle is turned down in the swing before, and back in the swing after.
+        ("a foot that sinks", "ankle_angle_r", |time_s| -15.0 * raised(time_s), "the right foot sinks"),
     ];
     bench.run(&["demo", "-o", "demo", "--quiet", "--keep", "recording"]).done();
     for name in spoiled.iter().map(|(name, ..)| *name).chain(["good"]) {
@@ -298,6 +344,29 @@ fn spoiled_motions_are_ranked_before_the_good_one_with_the_reason() {
         let row = row(name).unwrap_or_else(|| panic!("{name} is not ranked"));
         assert!(row["reasons"].to_string().contains(reason), "{name}: {row}");
     }
+    the_page_has_the_command_of_a_page(&bench);
+}
+
+/// Copied from the page into a shell, it computes the trial.
+#[cfg(unix)]
+fn the_page_has_the_command_of_a_page(bench: &Workbench) {
+    let page = bench.text("out/summary.html");
+    let begin = page.find("ambulo forces 'set/feet that slide/walk.mot'").unwrap_or_else(|| panic!("{page}"));
+    let command = page[begin..].split_once('<').unwrap().0;
+    assert!(
+        command.ends_with("--model 'set/feet that slide/figure.osim' --output feet-that-slide-walk-mot-page"),
+        "{command}"
+    );
+    let program = bench.command(&[]);
+    let own = format!("{}{}", program.get_program().to_string_lossy(), command.strip_prefix("ambulo").unwrap());
+    let status = Command::new("sh").args(["-c", &own]).current_dir(&bench.folder).output().unwrap();
+    assert!(status.status.success(), "{command}: {}", String::from_utf8_lossy(&status.stderr));
+    assert!(bench.exists("feet-that-slide-walk-mot-page/report.html"));
+}
+
+#[cfg(not(unix))]
+fn the_page_has_the_command_of_a_page(bench: &Workbench) {
+    assert!(bench.text("out/summary.html").contains("ambulo forces \""));
 }
 
 #[test]

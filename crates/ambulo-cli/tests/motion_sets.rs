@@ -233,6 +233,21 @@ fn bids_data_set_in_a_batch(bench: &Workbench, channels: &[(String, &str, &str, 
     assert!(errors[0].is_none() && errors[2].is_none(), "{errors:?}");
     assert!(errors[1].as_ref().is_some_and(|error| error.contains("task-lost_channels.tsv")), "{errors:?}");
     assert!(texts("inputs")[0].as_ref().is_some_and(|inputs| inputs.contains("task-walk_channels.tsv")));
+    // The size of a person, in the units that are stated.
+    bench.write("set/participants.tsv", "participant_id\theight\tweight\nsub-01\t175\t75\n");
+    bench.write("set/participants.json", r#"{"weight": {"Units": "kg"}, "height": {"Units": "cm"}}"#);
+    bench.run(&["batch", "set", "-o", "sized", "--quiet", "--part", "2"]).done();
+    let sized = ParquetTable::read(&bench.read("sized/trials/part-000-00000.parquet")).unwrap();
+    for column in ["mass_kg", "height_m"] {
+        let value = |table: &ParquetTable| match table.column(column) {
+            Some(ColumnValues::Double(values)) => values[0],
+            other => panic!("{column}: {other:?}"),
+        };
+        assert!((value(&sized) - value(&read("0"))).abs() < 1e-12, "{column}");
+    }
+    for name in ["participants.tsv", "participants.json"] {
+        fs::remove_file(bench.folder.join("set").join(name)).unwrap();
+    }
     // The description beside a motion is a part of the trial.
     bench.write("set/sub-01/ses-a/motion/sub-01_ses-a_task-walk_motion.json", r#"{"SamplingFrequency": 100.0}"#);
     let again = ["batch", "set", "-o", "tables", "--quiet", "--part", "2", "--resume", "--"];

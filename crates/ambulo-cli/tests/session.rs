@@ -115,6 +115,33 @@ fn no_byte_depends_on_place_or_threads(bench: &Workbench) {
 }
 
 #[test]
+fn a_list_of_files_is_a_visit_of_these_files_only() {
+    let bench = laboratory("session_files");
+    visit(&bench, "Ann", 2);
+    visit(&bench, "Ann/later", 1);
+    bench.write("Ann/trials.toml", "[[trial]]\nfiles = \"walk1.mot\"\nage = 30\n");
+    let files = ["Ann/walk0.mot", "Ann/later/walk0.mot", "Ann/figure.osim"];
+    let run = bench.run(&[&["session"], &files[..], &["--dry-run"]].concat()).done();
+    for known in ["2 trials", "later/walk0.mot", "figure.osim"] {
+        assert!(run.stdout.contains(known), "{known}: {}", run.stdout);
+    }
+    assert!(!run.stdout.contains("walk1") && !run.stdout.contains("another recording"), "{}", run.stdout);
+    bench.run(&["session", "Ann/walk0.mot", "Ann/walk1.mot", "Ann/figure.osim", "-o", "files"]).done();
+    fs::remove_dir_all(bench.folder.join("Ann/later")).unwrap();
+    bench.run(&["session", "Ann", "-o", "folder"]).done();
+    assert_eq!(bench.text("files/cycles.csv"), bench.text("folder/cycles.csv"), "the same trials by another way");
+    for (files, words) in [
+        (&["Ann", "Ann/walk0.mot"][..], &["Ann: this is a folder", "files only"][..]),
+        (&["Ann/walk0.mot", "Ann/lost.mot"], &["Ann/lost.mot: there is no such file"]),
+        (&["Ann/walk0.mot", "Ann/walk0.mot"], &["in the list twice"]),
+        (&["Ann/walk0.mot", "Ann/trials.toml"], &["Ann/trials.toml: this is no file of a trial"]),
+    ] {
+        bench.run(&[&["session"], files, &["-o", "refused"]].concat()).refused(words);
+    }
+    assert!(!bench.exists("refused"));
+}
+
+#[test]
 fn an_own_reference_group_is_written_and_read_back() {
     let bench = laboratory("session_norm");
     visit(&bench, "people/Ann", 1);

@@ -99,6 +99,9 @@ def test_a_session_is_the_folder_of_the_command(files, tmp_path):
     assert result.summary["trials"][0]["trial"] == "walk.c3d"
     assert {"cycles.csv", "times_and_distances.csv", "deviations.csv"} <= set(result.tables)
     assert len(result.table("deviations")) > 0
+    listed = [tmp_path / "visit" / name for name in ("walk.c3d", "standing.c3d")]
+    ambulo.session(listed, tmp_path / "listed", options={"mass": 75, "height": 1.75})
+    assert (tmp_path / "listed/cycles.csv").read_bytes() == (tmp_path / "command/cycles.csv").read_bytes()
     with pytest.raises(ambulo.InputError, match="no such folder"):
         ambulo.session(tmp_path / "nowhere", tmp_path / "other")
 

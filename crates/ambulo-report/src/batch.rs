@@ -62,11 +62,12 @@ pub struct BatchTrial {
     pub values: [f64; BATCH_QUANTITIES.len()],
 }
 
-/// The page of a batch. `source` names where the trials came from; `worst` are the trials that are not good and feasible, the worst first.
+/// The page of a batch. `source` names where the trials came from; `worst` are the trials that are not good and feasible, the worst first, each with
+/// the command that makes the page of the trial.
 ///
 /// # Errors
 /// A style that cannot be read.
-pub fn batch_page(source: &str, trials: &[BatchTrial], worst: &[&BatchTrial]) -> Result<String, FigureError> {
+pub fn batch_page(source: &str, trials: &[BatchTrial], worst: &[(&BatchTrial, String)]) -> Result<String, FigureError> {
     let title = format!("Batch of {source}");
     let sections = [distributions(trials), worst_trials(worst), failures(trials)];
     let tables: String = sections
@@ -175,14 +176,22 @@ fn distributions(trials: &[BatchTrial]) -> Section {
     Section { title: "Distributions", table, note: note.to_owned() }
 }
 
-fn worst_trials(worst: &[&BatchTrial]) -> Section {
-    let mut table = TextTable::new(&["trial", "data", "motion", "reasons"]);
-    let computed = || worst.iter().filter(|trial| trial.error.is_none());
-    for trial in computed().take(LISTED) {
+fn worst_trials(worst: &[(&BatchTrial, String)]) -> Section {
+    let mut table = TextTable::new(&["trial", "data", "motion", "reasons", "command that makes its page"]);
+    let computed = || worst.iter().filter(|(trial, _)| trial.error.is_none());
+    for (trial, command) in computed().take(LISTED) {
         let word = |word: &Option<String>| word.as_deref().map_or("-".to_owned(), words);
-        table.row([trial.name.clone(), word(&trial.quality), word(&trial.verdict), trial.reasons.join("; ")]);
+        table.row([
+            trial.name.clone(),
+            word(&trial.quality),
+            word(&trial.verdict),
+            trial.reasons.join("; "),
+            command.clone(),
+        ]);
     }
-    Section { title: "Worst trials", table, note: and_more(computed().count()) }
+    let note =
+        format!("The commands are for the folder in which the batch was started. {}", and_more(computed().count()));
+    Section { title: "Worst trials", table, note: note.trim_end().to_owned() }
 }
 
 /// Failures with one reason are one row.
@@ -240,7 +249,7 @@ mod tests {
     fn the_page_has_counts_quantiles_reasons_and_failures_and_no_markup_of_the_files() {
         let mut trials: Vec<BatchTrial> = (0..=100).map(|k| trial(&format!("walk {k}"), f64::from(k), None)).collect();
         trials.extend(["one", "two"].map(|name| trial(name, f64::NAN, Some("no markers"))));
-        let worst: Vec<&BatchTrial> = trials.iter().take(1).collect();
+        let worst = [(&trials[0], "ambulo forces 'walk 0.c3d'".to_owned())];
         let page = batch_page("<set>", &trials, &worst).unwrap();
         assert!(page.contains("101 of 103 trials were computed (persons: 1)"), "{page}");
         assert!(page.contains("Quality of the data: 101 bad. Motion: 101 feasible."));
@@ -249,6 +258,10 @@ mod tests {
             .concat();
         assert!(page.contains(&row), "{page}");
         assert!(page.contains("&lt;feet&gt; slide") && !page.contains("<feet>") && !page.contains("<set>"));
+        assert!(
+            page.contains("ambulo forces &#39;walk 0.c3d&#39;") || page.contains("ambulo forces 'walk 0.c3d'"),
+            "{page}"
+        );
         assert!(page.contains("no markers</th><td class=\"number\">2</td><td>one</td>"), "{page}");
         assert!(!page.contains("Body mass</th>"), "a quantity without values has no row");
     }

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
   ambulo session demo/input -o session -- --mass 75 --height 1.75
   ambulo session demo/input --dry-run
+  ambulo session demo/input/walk.mot demo/input/figure.osim -o session     # these files only
 
 DIR is a visit: the trials of one person, with at most one standing trial. The files of each trial are found by the rules of docs/VALIDATE.md, and
 trials.toml states what differs: person, age, static, mass, height, model, grf, loads, exclude. All trials use one body, calibrated once. Each is computed as
@@ -19,9 +20,9 @@ Files written to OUT: session.html (open it with `ambulo view OUT`), summary.jso
 differences.csv; with --norm norm.json. A trial that cannot be computed is a row with its reason. Exit code: 0 if any trial has a cycle that counts, 2 if
 none. docs/SESSION.md has the rules and the definitions.")]
 pub(crate) struct SessionArgs {
-    /// The folder with the recordings of the visit.
-    #[arg(value_name = "DIR")]
-    pub(crate) folder: PathBuf,
+    /// The folder with the recordings of the visit; or the files: recordings, standing trial, models, tables of forces.
+    #[arg(value_name = "DIR|FILES", required = true, num_args = 1..)]
+    pub(crate) source: Vec<PathBuf>,
     /// Folder for the results.
     #[arg(short, long, value_name = "OUT", default_value = "session")]
     pub(crate) output: PathBuf,

@@ -461,7 +461,7 @@ def batch(
 
 
 def session(
-    folder: _Path,
+    folder: _Path | Sequence[_Path],
     output: _Path,
     *,
     options: Mapping[str, Any] | None = None,
@@ -477,8 +477,9 @@ def session(
 
     Parameters
     ----------
-    folder : str or path-like
-        The folder with the recordings of the visit: the trials of one person, with at most one standing trial.
+    folder : str or path-like, or a list of them
+        The folder with the recordings of the visit: the trials of one person, with at most one standing trial. Or its files: recordings,
+        standing trial, models and tables of forces.
     output : str or path-like
         Folder for the results. An earlier session of the same recordings in it is replaced.
     options : mapping of str to object, optional
@@ -510,7 +511,8 @@ def session(
     Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`, and nothing is written. Rules and definitions: docs/SESSION.md.
     """
     words = Words()
-    words.input(folder, "folder")
+    for path in [folder] if isinstance(folder, (str, os.PathLike)) else folder:
+        words.input(path, "folder")
     words.option("output", os.fspath(output))
     words.options({"compare": compare, "norm": norm, "anonymous": anonymous, "jobs": jobs, "force": force, "quiet": True})
     words.rest(of_forces(options))

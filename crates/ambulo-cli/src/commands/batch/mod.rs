@@ -6,7 +6,7 @@ mod tables;
 mod trial;
 
 use super::side_by_side::{processors, side_by_side};
-use super::trials::{Plan, PlannedTrial, Wanted, files_in, plan, planned_by};
+use super::trials::{Plan, PlannedTrial, Wanted, apart, files_in, plan, planned_by};
 use crate::Completion;
 use crate::args::BatchArgs;
 use crate::caller::Caller;
@@ -64,7 +64,7 @@ pub(crate) fn compute(args: &BatchArgs, caller: &Caller) -> Result<Completion> {
         rows.extend(batch.part(number, part)?);
     }
     if let Some(tables) = ledger.complete(all, args.part as usize)? {
-        page::write(&args.output, &args.source, &tables)?;
+        page::write(args, &plan.trials, &tables)?;
     }
     let counts = BatchCounts::of(&rows);
     if counts.computed == 0 && !rows.is_empty() {
@@ -101,7 +101,7 @@ fn description(args: &BatchArgs) -> Description {
         part: args.part as usize,
         limit: args.limit,
         keep: args.keep.clone(),
-        options: args.options.iter().map(|word| word.to_string_lossy().into_owned()).collect(),
+        options: apart(&args.options).iter().map(|word| word.to_string_lossy().into_owned()).collect(),
     }
 }
 

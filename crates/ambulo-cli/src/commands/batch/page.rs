@@ -1,24 +1,32 @@
 //! `summary.html`: the page of a batch, made from its tables of trials.
 
 use super::rows_of;
+use crate::args::BatchArgs;
+use crate::commands::trials::PlannedTrial;
 use crate::files;
 use crate::printer::BatchRow;
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use ambulo_report::{BATCH_QUANTITIES, BatchTrial, batch_page};
 use anyhow::Result;
-use std::path::Path;
+use std::collections::BTreeMap;
 
 const PAGE: &str = "summary.html";
 
 /// Writes the page. The order of the trials is that of their names, so that shards do not change it.
-pub(super) fn write(folder: &Path, source: &Path, tables: &[ParquetTable]) -> Result<()> {
+pub(super) fn write(args: &BatchArgs, planned: &[PlannedTrial], tables: &[ParquetTable]) -> Result<()> {
+    let planned: BTreeMap<&str, &PlannedTrial> = planned.iter().map(|trial| (trial.name.as_str(), trial)).collect();
+    let command = |name: &str| {
+        let output = format!("{}-page", name.replace(|c: char| !c.is_alphanumeric(), "-"));
+        planned.get(name).map(|trial| trial.files.command(&args.options, &output))
+    };
     let mut trials: Vec<(BatchRow, BatchTrial)> = tables.iter().flat_map(trials_of).collect();
     trials.sort_by(|(_, a), (_, b)| a.name.cmp(&b.name));
     let (rows, trials): (Vec<BatchRow>, Vec<BatchTrial>) = trials.into_iter().unzip();
-    let worst: Vec<&BatchTrial> = BatchRow::worst(&rows).into_iter().map(|k| &trials[k]).collect();
-    let root = source.canonicalize().unwrap_or_else(|_| source.to_owned());
+    let worst = BatchRow::worst(&rows).into_iter().map(|k| (&trials[k], command(&trials[k].name).unwrap_or_default()));
+    let worst: Vec<(&BatchTrial, String)> = worst.collect();
+    let root = args.source.canonicalize().unwrap_or_else(|_| args.source.clone());
     let page = batch_page(&files::last(&root), &trials, &worst)?;
-    files::write(&folder.join(PAGE), page.as_bytes())
+    files::write(&args.output.join(PAGE), page.as_bytes())
 }
 
 fn trials_of(table: &ParquetTable) -> Vec<(BatchRow, BatchTrial)> {

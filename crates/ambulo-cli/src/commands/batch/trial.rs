@@ -4,7 +4,7 @@ use crate::args::ForcesArgs;
 use crate::caller::Caller;
 use crate::commands::bids;
 use crate::commands::forces::{self, Shared};
-use crate::commands::trials::{PlannedTrial, sentence};
+use crate::commands::trials::{PlannedTrial, apart, sentence};
 use crate::printer;
 use crate::record::{hash, hash_of_file};
 use ambulo::analysis::Analysis;
@@ -95,7 +95,8 @@ impl Work {
     /// The key of a trial; files that cannot be read have no hash.
     pub(super) fn key(&self, trial: &PlannedTrial) -> Key {
         let files = &trial.files;
-        let of_words = self.words.iter().map(Path::new).filter(|path| path.is_file());
+        let words = apart(&self.words);
+        let of_words = words.iter().map(Path::new).filter(|path| path.is_file());
         let named =
             [&files.standing, &files.model, &files.grf, &files.loads].into_iter().flatten().map(PathBuf::as_path);
         let shown = |path: &Path| {
@@ -113,7 +114,7 @@ impl Work {
         let others = named.chain(of_words).map(|path| (shown(path), self.shared_hash(path)));
         let inputs: Vec<(String, String)> =
             std::iter::once((shown(recording), of_recording)).chain(of_bids).chain(others).collect();
-        let mut text = format!("{}\n{:?}\n{:?}\n", env!("AMBULO_VERSION"), self.words, self.keep);
+        let mut text = format!("{}\n{:?}\n{:?}\n", env!("AMBULO_VERSION"), words, self.keep);
         // Writing to memory does not fail.
         let _ = write!(text, "{:?} {:?} {:?} {:?}", files.trial, files.mass, files.height, trial.broken);
         for (name, hash) in &inputs {

@@ -7,7 +7,7 @@ mod visit;
 
 use super::run_files::MotionRun;
 use super::side_by_side::processors;
-use super::trials::{Plan, PlannedTrial};
+use super::trials::{Plan, PlannedTrial, apart};
 use crate::args::SessionArgs;
 use crate::caller::Caller;
 use crate::record::{hash_of_file, run_id};
@@ -35,26 +35,26 @@ pub(crate) fn run(args: &SessionArgs) -> Result<Completion> {
 /// Computes a session into its folder. A caller that stops it leaves the folder as it was.
 pub(crate) fn compute(args: &SessionArgs, caller: &Caller) -> Result<Completion> {
     let threads = args.jobs.map_or_else(processors, |jobs| jobs as usize);
-    let plan = visit::planned(&args.folder, threads)?;
-    visit::check_person(&args.folder, &plan)?;
+    let (root, plan) = visit::of(&args.source, threads)?;
+    visit::check_person(&root, &plan)?;
     let trials: Vec<&PlannedTrial> = plan.trials.iter().collect();
     if args.dry_run {
         printer::batch_plan(&trials, &plan.others, args.print)?;
         return Ok(Completion::Passed);
     }
     let recordings = hashes(&trials);
-    other_sessions::check_output(args, &recordings)?;
+    other_sessions::check_output(args, &root, &recordings)?;
     let earlier = args.compare.as_deref().map(other_sessions::read).transpose()?;
     let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
     let computing = Computing { words: &args.options, threads, print: args.print, caller };
     let group = args.norm.as_deref().map(|norm| other_sessions::group(norm, &computing)).transpose()?;
-    let person = computing.person(&args.folder, &plan, &trials)?;
+    let person = computing.person(&root, &plan, &trials)?;
     if !person.session.has_cycles() {
-        bail!("{}", nothing_counts(args, &person.session));
+        bail!("{}", nothing_counts(&root, &person.session));
     }
     let finished = finished(args, person.session, Inputs { plan: &plan, recordings, group, earlier });
     let finished = match args.anonymous {
-        true => Anonymous::of(&args.folder, &plan, &person.names).applied(finished),
+        true => Anonymous::of(&root, &plan, &person.names).applied(finished),
         false => finished,
     };
     let summary = save(args, &target, &plan, finished)?;
@@ -176,8 +176,8 @@ fn hashes(trials: &[&PlannedTrial]) -> Vec<String> {
     hashes
 }
 
-fn nothing_counts(args: &SessionArgs, session: &Session) -> String {
-    let shown = args.folder.display();
+fn nothing_counts(root: &Path, session: &Session) -> String {
+    let shown = root.display();
     let errors = session.summary.trials.iter().filter_map(|trial| Some((&trial.trial, trial.error.as_ref()?)));
     let excluded = session.summary.excluded.iter().map(|cycle| (&cycle.trial, &cycle.reason));
     let mut reasons: Vec<String> = errors.chain(excluded).map(|(name, why)| format!("{name}: {why}")).collect();
@@ -212,7 +212,8 @@ fn options(args: &SessionArgs) -> String {
     let (output, jobs, dry_run, replace, print) = Default::default();
     let name = |path: &Path| PathBuf::from(files::last(&path.canonicalize().unwrap_or_else(|_| path.to_owned())));
     let (compare, norm) = (args.compare.as_deref().map(name), args.norm.as_deref().map(name));
-    let folder = name(&args.folder);
-    let args = SessionArgs { folder, output, compare, norm, jobs, dry_run, replace, print, ..args.clone() };
+    let source = args.source.iter().map(|path| name(path)).collect();
+    let options = apart(&args.options);
+    let args = SessionArgs { source, options, output, compare, norm, jobs, dry_run, replace, print, ..args.clone() };
     format!("session {args:?}")
 }

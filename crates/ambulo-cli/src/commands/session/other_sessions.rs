@@ -32,7 +32,7 @@ fn head(folder: &Path) -> Option<Head> {
 }
 
 /// Refuses to replace the results of another command or of another visit.
-pub(super) fn check_output(args: &SessionArgs, recordings: &[String]) -> Result<()> {
+pub(super) fn check_output(args: &SessionArgs, root: &Path, recordings: &[String]) -> Result<()> {
     let (output, shown) = (&args.output, args.output.display());
     let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
     if let Some(earlier) = args.compare.as_deref().filter(|earlier| same(earlier, output)) {
@@ -41,7 +41,7 @@ pub(super) fn check_output(args: &SessionArgs, recordings: &[String]) -> Result<
             earlier.display()
         );
     }
-    if same(&args.folder, output) {
+    if same(root, output) {
         bail!("{shown}: the results would lie between the recordings. hint: choose another folder with -o");
     }
     if output.join(BATCH).is_file() {

@@ -1,17 +1,32 @@
 //! The trials of one person, and what a session refuses: several persons, several standing trials.
 
-use crate::commands::trials::{LIST, Plan, PlannedTrial, Wanted, files_in, plan};
+use crate::commands::trials::{LIST, Plan, PlannedTrial, Wanted, files_in, listed, plan, plan_listed};
 use anyhow::{Result, bail};
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Reasons and names that an error quotes.
 const QUOTED: usize = 3;
 
+/// The trials of a folder or of a list of files, and the folder that their names begin at.
+pub(super) fn of(source: &[PathBuf], threads: usize) -> Result<(PathBuf, Plan)> {
+    match source {
+        [folder] if !folder.is_file() => Ok((folder.clone(), planned(folder, threads)?)),
+        files => {
+            let (root, found) = listed(files)?;
+            let plan = with_trials(&root, plan_listed(&root, Wanted::Motion, &found, threads)?)?;
+            Ok((root, plan))
+        }
+    }
+}
+
 /// The trials of a folder, one person or several.
 pub(super) fn planned(folder: &Path, threads: usize) -> Result<Plan> {
     let wanted = Wanted::Motion;
-    let plan = plan(folder, wanted, &files_in(folder, wanted)?, threads)?;
+    with_trials(folder, plan(folder, wanted, &files_in(folder, wanted)?, threads)?)
+}
+
+fn with_trials(folder: &Path, plan: Plan) -> Result<Plan> {
     if plan.trials.is_empty() {
         let others: Vec<String> = plan.others.iter().take(QUOTED).map(|(name, why)| format!("{name}: {why}")).collect();
         let others = if others.is_empty() { String::new() } else { format!(" ({})", others.join("; ")) };

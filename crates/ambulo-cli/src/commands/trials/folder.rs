@@ -26,13 +26,24 @@ pub(crate) struct FoundFile {
     pub(crate) path: PathBuf,
     /// Its path from the folder of all trials, with `/`.
     pub(super) name: String,
-    /// The same of its own folder; empty for the folder of all trials.
+    /// The folder whose standing trial and model belong to it, in the same form; empty for the folder of all trials.
     pub(super) folder: String,
 }
 
 impl FoundFile {
+    /// The folder that it lies in, in the same form.
+    pub(super) fn own_folder(&self) -> &str {
+        self.name.rsplit_once('/').map_or("", |(folder, _)| folder)
+    }
+
     pub(super) fn ending(&self) -> String {
         ending(&self.path)
+    }
+
+    /// Whether the name is that of a file of a trial, with or without measured forces.
+    fn may_be_part(&self) -> bool {
+        let ending = self.ending();
+        ENDINGS.contains(&ending.as_str()) || OF_MOTION.contains(&ending.as_str()) || self.is_bids_motion()
     }
 
     /// Whether the name is that of the motion of a BIDS data set.
@@ -71,15 +82,49 @@ pub(crate) fn files_in(root: &Path, wanted: Wanted) -> Result<Vec<FoundFile>> {
     }
     let mut found = Vec::new();
     collect(root, "", DEEPEST, &mut BTreeSet::new(), &mut found)?;
-    let may_be = |file: &FoundFile| {
-        let ending = file.ending();
-        let of_motion = || OF_MOTION.contains(&ending.as_str()) || file.is_bids_motion();
-        ENDINGS.contains(&ending.as_str()) || wanted == Wanted::Motion && of_motion()
+    let may_be = |file: &FoundFile| match wanted {
+        Wanted::Motion => file.may_be_part(),
+        Wanted::MeasuredForces => ENDINGS.contains(&file.ending().as_str()),
     };
     let is_bids = root.join(BIDS).is_file();
     let is_left_out = |file: &FoundFile| NOT_BIDS_RECORDINGS.iter().any(|folder| file.name.starts_with(folder));
     found.retain(|file| may_be(file) && !(is_bids && is_left_out(file)));
     Ok(found)
+}
+
+/// The files that a user listed, as if they lay in one folder, and the deepest folder that has them all.
+///
+/// # Errors
+/// A file that is not there, that is listed twice, or that is no part of a trial.
+pub(crate) fn listed(paths: &[PathBuf]) -> Result<(PathBuf, Vec<FoundFile>)> {
+    let folder = |path: &PathBuf| path.parent().unwrap_or(Path::new("")).to_owned();
+    let mut root = paths.first().map(folder).unwrap_or_default();
+    while !paths.iter().all(|path| path.starts_with(&root)) && root.pop() {}
+    let mut found: Vec<FoundFile> = Vec::with_capacity(paths.len());
+    for path in paths {
+        let shown = path.display();
+        if path.is_dir() {
+            bail!("{shown}: this is a folder; expected one folder, or files only");
+        }
+        if !path.is_file() {
+            bail!("{shown}: there is no such file; expected a recording, or a file of one");
+        }
+        let name = path.strip_prefix(&root).unwrap_or(path).display().to_string().replace('\\', "/");
+        let file = FoundFile { path: path.clone(), name, folder: String::new() };
+        if !file.may_be_part() {
+            bail!(
+                "{shown}: this is no file of a trial; expected .{}, or the motion of a BIDS data set",
+                ENDINGS.iter().chain(&OF_MOTION).copied().collect::<Vec<_>>().join(", .")
+            );
+        }
+        if found.iter().any(|other| other.path == file.path) {
+            bail!("{shown}: found in the list twice; expected each file once");
+        }
+        found.push(file);
+    }
+    found.sort_by(|a, b| a.name.cmp(&b.name));
+    let root = if root.as_os_str().is_empty() { PathBuf::from(".") } else { root };
+    Ok((root, found))
 }
 
 fn collect(

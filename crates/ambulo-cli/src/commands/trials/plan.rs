@@ -16,6 +16,7 @@
 
 use super::Wanted;
 use super::folder::FoundFile;
+use super::participants::Participants;
 use crate::args::TrialFiles;
 use crate::caller::Caller;
 use crate::commands::forces::markers::read_laboratory_file;
@@ -89,8 +90,20 @@ impl Content {
 
 /// Finds trials and what belongs to them.
 pub(crate) fn plan(root: &Path, wanted: Wanted, found: &[FoundFile], threads: usize) -> Result<Plan> {
+    let list = read_list(&root.join(LIST), found)?;
+    list.check_files(found.iter().map(|file| file.name.as_str()))
+        .with_context(|| root.join(LIST).display().to_string())?;
+    plan_with(root, wanted, found, &list, threads)
+}
+
+/// As [`plan`], of files that a user listed: entries of `trials.toml` for other files count for nothing.
+pub(crate) fn plan_listed(root: &Path, wanted: Wanted, found: &[FoundFile], threads: usize) -> Result<Plan> {
+    let list = read_list(&root.join(LIST), found)?;
+    plan_with(root, wanted, found, &list, threads)
+}
+
+fn plan_with(root: &Path, wanted: Wanted, found: &[FoundFile], list: &TrialList, threads: usize) -> Result<Plan> {
     let list_path = root.join(LIST);
-    let list = read_list(&list_path, found)?;
     let mut plan = Plan { read: list_path.is_file().then_some(list_path).into_iter().collect(), ..Plan::default() };
     let recordings: Vec<(&FoundFile, StatedTrial)> =
         (found.iter().filter(|file| is_recording(file))).map(|file| (file, list.of(&file.name))).collect();
@@ -116,6 +129,7 @@ pub(crate) fn plan(root: &Path, wanted: Wanted, found: &[FoundFile], threads: us
     plan.trials.sort_by(|a, b| a.name.cmp(&b.name));
     plan.others.iter_mut().for_each(|(_, why)| *why = relative(why, root));
     plan.others.sort();
+    plan.take_sizes(Participants::of(root)?);
     Ok(plan)
 }
 
@@ -136,6 +150,16 @@ impl Plan {
             trial.files.height = trial.files.height.or(height);
         }
         Ok(())
+    }
+
+    /// Gives trials without a stated size that of their person in a data set.
+    fn take_sizes(&mut self, people: Participants) {
+        for trial in &mut self.trials {
+            let [mass, height] = people.size(&trial.person);
+            trial.files.mass = trial.files.mass.or(mass);
+            trial.files.height = trial.files.height.or(height);
+        }
+        self.read.extend(people.read);
     }
 
     /// The trials of a subject of AddBiomechanics.
@@ -210,7 +234,6 @@ fn read_list(path: &Path, found: &[FoundFile]) -> Result<TrialList> {
     let shown = || path.display().to_string();
     let text = String::from_utf8(files::read(path)?).with_context(shown)?;
     let list = TrialList::from_toml(&text).with_context(shown)?;
-    list.check_files(found.iter().map(|file| file.name.as_str())).with_context(shown)?;
     let root = path.parent().unwrap_or(Path::new(""));
     for file in found {
         let stated = list.of(&file.name);
@@ -306,7 +329,7 @@ impl<'a> Folders<'a> {
         };
         for file in found {
             if is_force_table(file) {
-                folders.forces.entry((&file.folder, own_words(file))).or_insert(file);
+                folders.forces.entry((file.own_folder(), own_words(file))).or_insert(file);
             } else if file.ending() == "osim" {
                 folders.models.entry(&file.folder).or_default().push(file);
             }
@@ -333,7 +356,7 @@ impl<'a> Folders<'a> {
             return Err(excluded(reason));
         }
         let path = |named: &String| self.root_path.join(named);
-        let key = (file.folder.clone(), own_words(file));
+        let key = (file.own_folder().to_owned(), own_words(file));
         let beside = || self.forces.get(&(key.0.as_str(), key.1.clone())).map(|table| table.path.clone());
         let grf = match content {
             Content::Still => return Err(self.use_of_standing(file)),
