@@ -173,6 +173,11 @@ impl BestIterate {
         self.found.map_or(f64::INFINITY, |c| c.residual)
     }
 
+    /// The row that is violated most.
+    pub(super) fn worst(&self) -> Option<usize> {
+        self.found?.worst
+    }
+
     /// Keeps this iterate if it is better.
     pub(super) fn keep(&mut self, motions: &[Six], coordinates: &[f64], lambda: &[f64], convergence: &Convergence) {
         if convergence.residual < self.residual() {

@@ -70,13 +70,13 @@ const PATIENCE: usize = 12;
 const STALLED: usize = 30;
 /// Maximum number of Newton steps after the convex problem.
 const POLISH: usize = 20;
-/// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and a second.
+/// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and a third of a second.
 const FIRST_PRODUCTS: usize = 10_000_000;
-const LAST_PRODUCTS: usize = 1_000_000_000;
-/// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing more is tried. Above
-/// `DOUBTFUL` they mostly do, and a tenth of the last work is tried.
+const LAST_PRODUCTS: usize = 300_000_000;
+/// A share of the last work for rows that may have no solution.
+const DOUBTFUL_SHARE: usize = 15;
+/// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing more is tried.
 const NEARLY: f64 = 1e-6;
-const DOUBTFUL: f64 = 1e-4;
 const FAR: f64 = 1e-2;
 /// Number of rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row with relevant mobility.
 const ROUNDS: usize = 3;
@@ -363,9 +363,8 @@ impl Newton<'_, '_> {
                 return;
             }
         }
-        let near = self.w.best.residual();
-        let work = if near < DOUBTFUL { LAST_PRODUCTS } else { LAST_PRODUCTS / 10 };
-        if near < FAR && self.solve_laws(motions, coordinates, lambda, convergence, work) {
+        let work = if self.may_contradict() { LAST_PRODUCTS / DOUBTFUL_SHARE } else { LAST_PRODUCTS };
+        if self.w.best.residual() < FAR && self.solve_laws(motions, coordinates, lambda, convergence, work) {
             return;
         }
         convergence.residual = f64::INFINITY;
@@ -373,6 +372,14 @@ impl Newton<'_, '_> {
         // Displacements are projected on the rows that are active now.
         self.guess(lambda);
         self.factor(convergence);
+    }
+
+    /// Whether the row that is violated most belongs to no contact. Contacts alone always have a solution; loops, drives and limits may contradict
+    /// each other.
+    fn may_contradict(&self) -> bool {
+        let worst = self.w.best.worst();
+        let group = self.graph.groups.iter().find(|group| worst.is_some_and(|row| group.rows.contains(&row)));
+        group.is_none_or(|group| matches!(group.law, Law::Bounded { .. }))
     }
 
     /// One round with the active set of the guess: small forces next to large ones are inaccurate after the first solve, and would be
