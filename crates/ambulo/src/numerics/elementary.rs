@@ -258,7 +258,10 @@ mod tests {
         ),
     ];
 
-    const REFERENCE2: [(Function2, [([f64; 2], f64); 4]); 3] = [
+    /// Arguments and value.
+    type Point = ([f64; 2], f64);
+
+    const REFERENCE2: [(Function2, [Point; 4]); 3] = [
         (
             atan2,
             [
