@@ -7,7 +7,7 @@
 //! `powi` with a literal exponent is products in a fixed order, so it needs none either.
 //!
 //! Source: the crate `libm`, a translation of the mathematical libraries of FreeBSD and musl (its feature `arch`, which takes instructions of
-//! the processor, changes only correctly rounded functions); sine and cosine are [`super::sin_cos`]. Errors are below 1 unit in the
+//! the processor, changes only correctly rounded functions); sine and cosine are in `numerics::sin_cos`. Errors are below 1 unit in the
 //! last place, those of [`powi`] grow with the exponent.
 //! `clippy.toml` forbids the functions of the standard library.
 //! Pinned by: the tests below, with values of 50 digits, and a checksum of the bits of all functions.
