@@ -9,14 +9,14 @@
 //! `ambulo` command is measured in wall time. Everything is also written to `target/bench.csv`.
 
 mod gait;
-pub(crate) mod human;
+mod human;
 pub(crate) mod markers;
 mod memory;
 mod prediction;
 pub(crate) mod simulation;
-pub(crate) mod timing;
+mod timing;
 mod walk;
-pub(crate) mod worlds;
+mod worlds;
 
 use crate::peers::{self, Outcome, PeerTiming};
 use crate::workspace;
