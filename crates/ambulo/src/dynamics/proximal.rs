@@ -73,7 +73,7 @@ const POLISH: usize = 20;
 /// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and a third of a second.
 const FIRST_PRODUCTS: usize = 10_000_000;
 const LAST_PRODUCTS: usize = 300_000_000;
-/// A share of the last work for rows that may have no solution.
+/// The last work is divided by this where rows may have no solution.
 const DOUBTFUL_SHARE: usize = 15;
 /// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing more is tried.
 const NEARLY: f64 = 1e-6;

@@ -32,7 +32,7 @@ pub(super) struct Participants {
 }
 
 impl Participants {
-    /// Of the data set in a folder; nobody if it has not both files.
+    /// Reads the sizes of the people of a data set. Without `participants.tsv` or without `participants.json` there are none.
     pub(super) fn of(root: &Path) -> Result<Participants> {
         let [table, description] = [TABLE, DESCRIPTION].map(|name| root.join(name));
         if !table.is_file() || !description.is_file() {
