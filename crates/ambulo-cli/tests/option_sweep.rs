@@ -78,9 +78,16 @@ fn takes_a_number(option: &Arg) -> bool {
         && !is_text
 }
 
+/// The command line with the options of all verbs, which a run describes only when it needs them.
+fn command_line() -> clap::Command {
+    let mut command = Args::command();
+    command.build();
+    command
+}
+
 /// The numeric options of a verb: name, and the name of its value.
 fn options(verb: &str) -> Vec<(String, String)> {
-    let command = Args::command();
+    let command = command_line();
     let verb = command.find_subcommand(verb).unwrap();
     let named = |option: &Arg| {
         let value = option.get_value_names().and_then(|names| names.first()).map_or("", |name| name.as_str());
@@ -204,7 +211,7 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     // A verb with its first numeric option needs a sweep below; numbers of `tune` are tried in tune.rs, because an accepted one takes seconds, those
     // of `calibrate` are some of `forces`, those of `validate` too, apart from the number of threads (validate.rs);
     // those of `batch` and `session` are counts (batch.rs, session.rs).
-    let command = Args::command();
+    let command = command_line();
     let verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
     assert_eq!(

@@ -167,7 +167,7 @@ impl ForcesArgs {
     }
 }
 
-/// Options of `ambulo calibrate`.
+// Options of `ambulo calibrate`.
 #[derive(Debug, Clone, ClapArgs)]
 #[command(after_help = "Example (after `ambulo demo -o demo`, which writes these files):
   ambulo calibrate demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 -o person.toml
@@ -237,7 +237,7 @@ pub(crate) enum Filter {
     Spline,
 }
 
-/// The recorded person, and how markers are processed.
+// The recorded person, and how markers are processed.
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct SubjectArgs {
     /// Standing trial of the same person: .c3d or .trc; for sensors a .sto with quaternions.
@@ -272,7 +272,7 @@ pub(crate) struct SubjectArgs {
     pub(crate) max_gap: f64,
 }
 
-/// How the orientations of sensors are read.
+// How the orientations of sensors are read.
 #[derive(Debug, Clone, Default, ClapArgs)]
 pub(crate) struct SensorArgs {
     /// Sensors: the axis of one that points forward in the standing posture, such as pelvis_imu:-z (OpenSim's base_imu_label and

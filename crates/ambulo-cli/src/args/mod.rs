@@ -36,7 +36,10 @@ pub(crate) struct Args {
     pub(crate) command: Option<Command>,
 }
 
+// Options are described only of the subcommand that is asked for: describing those of all of them would take most of the time until a run begins.
+// Groups of options have no doc comments, which clap would then show as the description of the subcommand.
 #[derive(Debug, Subcommand)]
+#[command(defer = true)]
 pub(crate) enum Command {
     /// Compute joint moments, powers, reactions and ground forces of a recording.
     Forces(Box<ForcesArgs>),
@@ -76,7 +79,7 @@ pub(crate) enum Command {
     Compare(CompareArgs),
 }
 
-/// Whether files that Ambulo did not write are replaced.
+// Whether files that Ambulo did not write are replaced.
 #[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct ReplaceArgs {
     /// Also replace files that are in the way and that no run of Ambulo wrote, or that were changed since; never an input.
@@ -99,7 +102,7 @@ impl ReplaceArgs {
     }
 }
 
-/// Whether the result sets the exit code.
+// Whether the result sets the exit code.
 #[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct CheckArgs {
     /// Exit with 1 if the data are bad or the motion is infeasible.
@@ -107,7 +110,7 @@ pub(crate) struct CheckArgs {
     pub(crate) check: bool,
 }
 
-/// How much a command prints, and in which form.
+// How much a command prints, and in which form.
 #[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct PrintArgs {
     /// Print JSON on standard output instead of text.

@@ -161,7 +161,7 @@ pub(crate) struct SweepArgs {
     pub(crate) print: PrintArgs,
 }
 
-/// The gait to synthesise.
+// The gait to synthesise.
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct GaitArgs {
     /// Name of a gait (standard, long, short, goose, parade, slow, free, fast) or a gait file (docs/GAITS.md) [default: free].
@@ -193,7 +193,7 @@ pub(crate) struct GaitArgs {
     pub(crate) style: Option<String>,
 }
 
-/// Conditions of a predicted walk.
+// Conditions of a predicted walk.
 #[derive(Debug, Clone, Default, PartialEq, ClapArgs)]
 pub(crate) struct ConditionArgs {
     /// Slope of the ground, -40 to 40 percent; uphill is positive. This and the following options imply `--mode predict`.
@@ -216,7 +216,7 @@ pub(crate) struct ConditionArgs {
     pub(crate) asymmetric: bool,
 }
 
-/// The body that walks.
+// The body that walks.
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct FigureArgs {
     /// Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997.
