@@ -4,6 +4,7 @@ use super::Table;
 use super::lines::{Lines, counted, duplicate, expected_number, number};
 use super::rows::Content;
 use crate::error::{Error, Remark, quoted};
+use crate::number::NumberText;
 use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder, Trim, WriterBuilder};
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -159,8 +160,12 @@ pub(super) fn write(table: &Content<'_>, out: &mut dyn Write) -> io::Result<()> 
     let style = if quote { QuoteStyle::NonNumeric } else { QuoteStyle::Necessary };
     let mut writer = WriterBuilder::new().quote_style(style).from_writer(out);
     writer.write_record(table.names.iter().map(|name| guarded(name).into_owned()))?;
+    let mut text = NumberText::default();
     for row in 0..table.rows {
-        writer.write_record((0..table.names.len()).map(|column| format!("{:?}", (table.cell)(row, column))))?;
+        for column in 0..table.names.len() {
+            writer.write_field(text.of((table.cell)(row, column)))?;
+        }
+        writer.write_record(None::<&[u8]>)?;
     }
     writer.flush()
 }

@@ -4,6 +4,7 @@ use super::Table;
 use super::lines::{Line, Lines, counted, duplicate, expected_number, number};
 use super::rows::Content;
 use crate::error::{Error, Remark, quoted};
+use crate::number::NumberText;
 use std::io::{self, Write};
 
 /// A header is ten lines long; some programs add a few dozen lines of comments.
@@ -250,13 +251,17 @@ pub(super) fn write(table: &Content<'_>, out: &mut dyn Write) -> io::Result<()> 
     let (name, names) = (name_line(table.name), table.names.join("\t"));
     let (rows, columns) = (table.rows, table.names.len());
     write!(out, "{name}version=1\nnRows={rows}\nnColumns={columns}\n{degrees}{ENDHEADER}\n{names}\n")?;
+    let (mut text, mut line) = (NumberText::default(), String::new());
     for row in 0..rows {
+        line.clear();
         for column in 0..columns {
-            let separator = if column == 0 { "" } else { "\t" };
-            // `{:?}` is the shortest text that reads back as the same bits, with an exponent for very large and small.
-            write!(out, "{separator}{:?}", (table.cell)(row, column))?;
+            if column > 0 {
+                line.push('\t');
+            }
+            line.push_str(text.of((table.cell)(row, column)));
         }
-        out.write_all(b"\n")?;
+        line.push('\n');
+        out.write_all(line.as_bytes())?;
     }
     Ok(())
 }
