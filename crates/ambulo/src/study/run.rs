@@ -6,7 +6,7 @@ use super::mass::BodyMass;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 use super::prediction::{Found, predicted, with_markers};
-use super::quality::{Measure, QualityEvidence, RecordedFaults, marker_fit_rms_m};
+use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights, marker_fit_rms_m};
 use super::refit::refitted;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
@@ -161,6 +161,7 @@ impl Computed {
             place_is_derived: self.place_is_derived,
             mass: &mass,
             idle: &self.idle,
+            heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
         };
         Outcome {

@@ -1,0 +1,254 @@
+//! What is measured of the data, with the limits of doubtful and of bad data.
+
+use super::{QualityReason, QualityState};
+use crate::analysis::feasibility::LARGE_RESIDUAL_BW;
+use crate::kinematics::WRONG_CLOCK;
+use serde::{Deserialize, Serialize};
+
+/// What is measured of the data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// Residual force.
+    ResidualForce,
+    /// Residual moment about the root.
+    ResidualMoment,
+    /// Share of the motion with ground forces.
+    GroundForces,
+    /// Share of the motion with measured ground forces.
+    MeasuredForces,
+    /// Share of the measured load that lies under no foot.
+    UnassignedForces,
+    /// Share of the stances on force plates that show no load.
+    SilentPlates,
+    /// Distance of markers or joints from the fitted body.
+    MarkerFit,
+    /// Distance of standing markers from the scaled model.
+    Scaling,
+    /// Ratio of scale factors.
+    ScaleFactors,
+    /// Difference of the body mass from that on the plates.
+    Mass,
+    /// Share of the frames with an unknown posture.
+    Gaps,
+    /// Speed of loaded soles along the ground.
+    Sliding,
+    /// Distance of the measured centre of pressure from the sole.
+    CenterOfPressure,
+    /// Distance of the sole of a stance from the floor of the other stances of the foot.
+    StanceHeight,
+    /// Number of jumps of coordinates.
+    Jumps,
+    /// Share of the time in which keypoints of the legs move as one rigid piece.
+    FrozenPoints,
+    /// Uncertainty of axial rotations from keypoints.
+    AxialRotation,
+    /// Share of the motion whose place was derived from the feet on the ground.
+    DerivedPlace,
+    /// Factor by which gravity in flight contradicts the stated frame rate.
+    FrameRate,
+    /// Cut-off frequency that may be too low.
+    LowCutoff,
+    /// Cut-off frequency, relative to the frame rate, that may be too high.
+    HighCutoff,
+}
+
+/// Limits of doubtful and of bad data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum QualityLimits {
+    /// Larger values are doubtful, then bad.
+    AtMost(f64, f64),
+    /// Smaller values are doubtful, then bad.
+    AtLeast(f64, f64),
+}
+
+impl Measure {
+    /// All measures, in the order of the documentation.
+    pub const ALL: [Measure; 21] = [
+        Measure::ResidualForce,
+        Measure::ResidualMoment,
+        Measure::GroundForces,
+        Measure::MeasuredForces,
+        Measure::UnassignedForces,
+        Measure::SilentPlates,
+        Measure::MarkerFit,
+        Measure::Scaling,
+        Measure::ScaleFactors,
+        Measure::Mass,
+        Measure::Gaps,
+        Measure::Sliding,
+        Measure::CenterOfPressure,
+        Measure::StanceHeight,
+        Measure::Jumps,
+        Measure::FrozenPoints,
+        Measure::AxialRotation,
+        Measure::DerivedPlace,
+        Measure::FrameRate,
+        Measure::LowCutoff,
+        Measure::HighCutoff,
+    ];
+
+    /// The limits, in the unit of [`Measure::unit`].
+    #[must_use]
+    pub fn limits(self) -> QualityLimits {
+        use QualityLimits::{AtLeast, AtMost};
+        match self {
+            Measure::ResidualForce => AtMost(LARGE_RESIDUAL_BW, 0.3),
+            Measure::ResidualMoment => AtMost(0.6, 1.2),
+            Measure::GroundForces => AtLeast(0.9, 0.5),
+            Measure::MeasuredForces => AtLeast(0.1, 0.02),
+            Measure::UnassignedForces => AtMost(0.1, 0.5),
+            Measure::SilentPlates => AtMost(0.0, 0.9),
+            Measure::MarkerFit => AtMost(0.02, 0.04),
+            Measure::Scaling => AtMost(0.035, 0.06),
+            Measure::ScaleFactors => AtMost(1.35, 1.7),
+            Measure::Mass => AtMost(0.05, 0.15),
+            Measure::Gaps => AtMost(0.1, 0.3),
+            Measure::Sliding => AtMost(0.05, 0.15),
+            Measure::CenterOfPressure => AtMost(0.03, 0.1),
+            Measure::StanceHeight => AtMost(0.02, 0.05),
+            Measure::Jumps => AtMost(0.0, 10.0),
+            Measure::FrozenPoints => AtMost(0.05, 0.25),
+            Measure::AxialRotation => AtMost(3.0, 180.0),
+            Measure::DerivedPlace => AtMost(0.0, 1.0),
+            Measure::FrameRate => AtMost(1.2, WRONG_CLOCK),
+            Measure::LowCutoff => AtLeast(3.0, 1.0),
+            Measure::HighCutoff => AtMost(0.2, 0.4),
+        }
+    }
+
+    /// The name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Measure::ResidualForce => "residual_force",
+            Measure::ResidualMoment => "residual_moment",
+            Measure::GroundForces => "ground_forces",
+            Measure::MeasuredForces => "measured_forces",
+            Measure::UnassignedForces => "unassigned_forces",
+            Measure::SilentPlates => "silent_plates",
+            Measure::MarkerFit => "marker_fit",
+            Measure::Scaling => "scaling",
+            Measure::ScaleFactors => "scale_factors",
+            Measure::Mass => "mass",
+            Measure::Gaps => "gaps",
+            Measure::Sliding => "sliding",
+            Measure::CenterOfPressure => "center_of_pressure",
+            Measure::StanceHeight => "stance_height",
+            Measure::Jumps => "jumps",
+            Measure::FrozenPoints => "frozen_points",
+            Measure::AxialRotation => "axial_rotation",
+            Measure::DerivedPlace => "derived_place",
+            Measure::FrameRate => "frame_rate",
+            Measure::LowCutoff => "low_cutoff",
+            Measure::HighCutoff => "high_cutoff",
+        }
+    }
+
+    /// What is measured, in words.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Measure::ResidualForce => {
+                "residual force at the root, rms over the frames with complete ground forces, in body weights"
+            }
+            Measure::ResidualMoment => "residual moment about the root, rms over the same frames, per body mass",
+            Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
+            Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
+            Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
+            Measure::SilentPlates => "share of the stances on force plates that show no load",
+            Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
+            Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
+            Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
+            Measure::Mass => {
+                "difference of the body mass from that on the force plates, less the error of weighing, as a share"
+            }
+            Measure::Gaps => "share of the frames in which missing markers leave a coordinate unknown",
+            Measure::Sliding => {
+                "speed along the ground of soles that carry at least half the body weight, lower quartile"
+            }
+            Measure::CenterOfPressure => {
+                "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief one"
+            }
+            Measure::StanceHeight => {
+                "largest height of the sole in a stance above or below that of the other stances of the foot, in level walking"
+            }
+            Measure::Jumps => "number of jumps of recorded coordinates",
+            Measure::FrozenPoints => {
+                "share of the time in which keypoints of a moving leg keep their distances, as if it were one rigid piece"
+            }
+            Measure::AxialRotation => {
+                "standard deviation of the axial rotation of the thighs, from the errors of keypoints"
+            }
+            Measure::DerivedPlace => {
+                "share of the motion in which the place of the person was derived from the feet on the ground"
+            }
+            Measure::FrameRate => {
+                "factor between the stated frame rate and that at which the person falls with g in flight"
+            }
+            Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
+            Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
+        }
+    }
+
+    /// Unit of the value and of its limits; `1` for shares, ratios and counts.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Measure::ResidualForce => "BW",
+            Measure::ResidualMoment => "N.m/kg",
+            Measure::MarkerFit | Measure::Scaling | Measure::CenterOfPressure | Measure::StanceHeight => "m",
+            Measure::Sliding => "m/s",
+            Measure::AxialRotation => "deg",
+            Measure::LowCutoff => "Hz",
+            Measure::GroundForces
+            | Measure::MeasuredForces
+            | Measure::UnassignedForces
+            | Measure::SilentPlates
+            | Measure::ScaleFactors
+            | Measure::Mass
+            | Measure::Gaps
+            | Measure::Jumps
+            | Measure::FrozenPoints
+            | Measure::DerivedPlace
+            | Measure::FrameRate
+            | Measure::HighCutoff => "1",
+        }
+    }
+
+    /// Whether a value is beyond the second limit.
+    pub(in crate::study) fn is_bad(self, value: f64) -> bool {
+        self.limits().judge(value).is_some_and(|(state, _)| state == QualityState::Bad)
+    }
+
+    /// A reason, if the value is beyond the limits. `message` gets the limit of good data.
+    pub(super) fn reason(self, value: f64, message: impl FnOnce(f64) -> String) -> Option<QualityReason> {
+        let (state, limit) = self.limits().judge(value)?;
+        Some(QualityReason {
+            measure: self,
+            state,
+            value,
+            limit,
+            unit: self.unit().to_owned(),
+            message: message(limit),
+        })
+    }
+}
+
+impl QualityLimits {
+    /// The state of a value, and the limit of good data; `None` for good data. A value that is not a number is bad.
+    fn judge(self, value: f64) -> Option<(QualityState, f64)> {
+        let (sign, doubtful, bad) = match self {
+            QualityLimits::AtMost(doubtful, bad) => (1.0, doubtful, bad),
+            QualityLimits::AtLeast(doubtful, bad) => (-1.0, doubtful, bad),
+        };
+        if sign * value <= sign * doubtful {
+            None
+        } else if sign * value <= sign * bad {
+            Some((QualityState::Doubtful, doubtful))
+        } else {
+            Some((QualityState::Bad, doubtful))
+        }
+    }
+}
