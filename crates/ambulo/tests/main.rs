@@ -125,6 +125,7 @@ mod simulation_smooth;
 mod skeleton_recording;
 mod smpl_motions;
 mod splines;
+mod stance_heights;
 mod standing_ground;
 mod synthetic_walk;
 mod times_and_distances;
