@@ -7,7 +7,7 @@ use crate::findings::Findings;
 use crate::ground::footfalls::footfalls;
 use crate::ground::{BodyForces, GroundForces};
 use crate::kinematics::{TrajectoryError, each_body_motion};
-use crate::model::{CoordinateKind, Model};
+use crate::model::{Body, CoordinateKind, Model};
 use crate::simulation::scene::{FigureMotion, FigureRecord, FigureWalk, ObstacleForces, Scene};
 use crate::simulation::walking::WalkRecording;
 use crate::spatial::{Vec3, Wrench};
@@ -113,16 +113,17 @@ fn ground(recording: &WalkRecording) -> GroundForces {
 }
 
 /// The joint drives as generalised forces. Of the root's reaction only the moment that holds the trunk upright is a residual; the other
-/// components keep the figure in its plane, and its translations are free.
+/// components keep the figure in its plane, and its translations are free. A verdict needs the reactions of no other joint.
 fn forces(recording: &WalkRecording) -> Forces {
     let WalkRecording { model, trajectory, efforts, .. } = recording;
     let mut reactions = vec![Vec::new(); model.bodies().len()];
+    let is_root = |body: &Body| body.joint.parent.is_none();
+    let roots: Vec<usize> = (0..model.bodies().len()).filter(|index| is_root(&model.bodies()[*index])).collect();
     each_body_motion(model, trajectory, |frame, bodies| {
-        for (index, body) in model.bodies().iter().enumerate() {
-            let center = bodies[index].pose.place(body.joint.child_from_joint.translation);
-            let is_root = body.joint.parent.is_none();
-            let moment = if is_root { root_moment(model, efforts, index, frame) } else { Vec3::zeros() };
-            reactions[index].push(JointReaction { center, wrench: Wrench { moment, force: Vec3::zeros() } });
+        for &root in &roots {
+            let center = bodies[root].pose.place(model.bodies()[root].joint.child_from_joint.translation);
+            let wrench = Wrench { moment: root_moment(model, efforts, root, frame), force: Vec3::zeros() };
+            reactions[root].push(JointReaction { center, wrench });
         }
     });
     Forces { generalized: efforts.clone(), reactions }

@@ -18,22 +18,31 @@ pub(super) struct Track {
     pub(super) spans: Vec<Span>,
     /// Frame and value of the largest share that lasted long enough.
     pub(super) closest: Option<(usize, CheckedValue)>,
-    /// The latest consecutive frames, at most `lasting` of them.
-    latest: VecDeque<(usize, CheckedValue)>,
+    /// First and latest of the consecutive frames.
+    run: Option<[usize; 2]>,
+    /// Of the latest `lasting` of them, those with a smaller share than all after them: the first has the smallest.
+    smallest: VecDeque<(usize, CheckedValue)>,
 }
 
 impl Track {
     /// Adds the value of the next frame. Fewer than `lasting` consecutive frames are noise.
     pub(super) fn add(&mut self, frame: usize, measurement: CheckedValue, lasting: usize) {
-        if self.latest.back().is_some_and(|(before, _)| before + 1 != frame) {
-            self.latest.clear();
+        let first = match self.run {
+            Some([first, last]) if last + 1 == frame => first,
+            _ => {
+                self.smallest.clear();
+                frame
+            }
+        };
+        self.run = Some([first, frame]);
+        while self.smallest.back().is_some_and(|(_, before)| before.share.total_cmp(&measurement.share).is_gt()) {
+            self.smallest.pop_back();
         }
-        self.latest.push_back((frame, measurement));
-        if self.latest.len() > lasting {
-            self.latest.pop_front();
+        self.smallest.push_back((frame, measurement));
+        while self.smallest.front().is_some_and(|(early, _)| early + lasting <= frame) {
+            self.smallest.pop_front();
         }
-        let lasted = self.latest.iter().min_by(|a, b| a.1.share.total_cmp(&b.1.share));
-        if let Some(&(at, m)) = lasted.filter(|_| self.latest.len() == lasting)
+        if let Some(&(at, m)) = self.smallest.front().filter(|_| frame + 1 - first >= lasting)
             && self.closest.is_none_or(|(_, closest)| m.share > closest.share)
         {
             self.closest = Some((at, m));
@@ -74,5 +83,41 @@ impl Span {
 
     pub(super) fn duration_s(&self, step_s: f64) -> f64 {
         (self.last - self.first + 1) as f64 * step_s
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::CheckedPart;
+    use super::super::verdict::Check;
+    use super::*;
+
+    /// The largest of the smallest shares of `lasting` consecutive frames, and the frame of that smallest share.
+    fn closest_by_definition(shares: &[(usize, f64)], lasting: usize) -> Option<(usize, f64)> {
+        let mut closest: Option<(usize, f64)> = None;
+        for window in shares.windows(lasting) {
+            let consecutive = window[lasting - 1].0 - window[0].0 + 1 == lasting;
+            let smallest = window.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1)).filter(|_| consecutive);
+            if let Some(found) = smallest.filter(|found| closest.is_none_or(|closest| found.1 > closest.1)) {
+                closest = Some(found);
+            }
+        }
+        closest
+    }
+
+    #[test]
+    fn the_share_that_lasted_is_that_of_the_definition() {
+        // Frames with gaps, shares with equal ones among them.
+        let shares: Vec<(usize, f64)> =
+            (0..400).filter(|k| k % 37 != 0).map(|k| (k, f64::from((k * k % 101) as u8) / 10.0)).collect();
+        for lasting in [1, 2, 3, 7, 20, 36, 37] {
+            let mut track = Track::default();
+            for &(frame, share) in &shares {
+                let of = CheckedPart::Body;
+                track.add(frame, CheckedValue { check: Check::Support, of, value: share, limit: 1.0, share }, lasting);
+            }
+            let found = track.closest.map(|(frame, m)| (frame, m.share));
+            assert_eq!(found, closest_by_definition(&shares, lasting), "{lasting} frames");
+        }
     }
 }
