@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ambulo._errors import InputError
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     import duckdb
     import pandas
     import polars
@@ -97,6 +98,9 @@ class Batch:
     folder: Path
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
+        # Imported late: it takes as long as all of this package.
+        from pathlib import Path
+
         self.folder = Path(folder)
         if not (self.folder / "batch.json").is_file():
             raise InputError(f"{self.folder}: found no batch.json; expected the folder of a batch")
