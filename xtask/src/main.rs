@@ -55,6 +55,8 @@ usage: cargo xtask <command>
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
   claim-shares      sample the values that the 1997 paper does not give, and count how often its claims hold
                     [--settings N] [--seed S] [--write: crates/ambulo/data/reproduction/shares.csv]
+  roofline          count operations and bytes of the three hottest kernels, and compare their times with what this processor can do
+                    (needs valgrind and objdump)  [--write: docs/measured/ROOFLINE.md]
   reproduction      recompute the 1997 paper and print its claims  [--write: docs/measured/REPRODUCTION.md]
   figures           draw docs/images/ again with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors
@@ -98,7 +100,7 @@ const OWN: [&str; 13] = [
 ];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 21] = [
+const MEASUREMENTS: [&str; 22] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -107,6 +109,7 @@ const MEASUREMENTS: [&str; 21] = [
     "oracle-c3d",
     "claim-shares",
     "reproduction",
+    "roofline",
     "figures",
     "fit-gait",
     "fit-ground",

@@ -9,14 +9,14 @@
 //! `ambulo` command is measured in wall time. Everything is also written to `target/bench.csv`.
 
 mod gait;
-mod human;
+pub(crate) mod human;
 pub(crate) mod markers;
 mod memory;
 mod prediction;
 pub(crate) mod simulation;
-mod timing;
+pub(crate) mod timing;
 mod walk;
-mod worlds;
+pub(crate) mod worlds;
 
 use crate::peers::{self, Outcome, PeerTiming};
 use crate::workspace;

@@ -40,7 +40,7 @@ const ROOT: [(&str, usize); 6] = [
 ];
 
 /// The model, its motion and what another engine makes of it.
-pub(super) struct Human {
+pub(crate) struct Human {
     model: Model,
     frames: usize,
     /// q, qd, qdd, each with a row a frame and a column a coordinate of the model.
@@ -51,7 +51,7 @@ pub(super) struct Human {
 }
 
 /// Largest differences from the other engine [N.m or N].
-pub(super) struct Differences {
+pub(crate) struct Differences {
     single: f64,
     batch: f64,
 }
@@ -64,14 +64,14 @@ impl fmt::Display for Differences {
 
 impl Human {
     /// Folder of the files, if they are there.
-    pub(super) fn find() -> Option<PathBuf> {
+    pub(crate) fn find() -> Option<PathBuf> {
         let folder = workspace::data().join("reference/peers/data");
         let names = ["human.osim", "frames.npz", "tau_pinocchio.npz"];
         names.iter().all(|name| folder.join(name).is_file()).then_some(folder)
     }
 
     /// Reads the three files.
-    pub(super) fn read(folder: &std::path::Path) -> Result<Human, String> {
+    pub(crate) fn read(folder: &std::path::Path) -> Result<Human, String> {
         let path = folder.join("human.osim");
         let at = |e: &dyn fmt::Display| format!("{}: {e}", path.display());
         let document = OsimModel::read(&fs::read(&path).map_err(|e| at(&e))?).map_err(|e| at(&e))?;
@@ -90,7 +90,7 @@ impl Human {
     }
 
     /// Compares both forms with the other engine; an error if either differs by more than is allowed.
-    pub(super) fn check(&self) -> Result<Differences, String> {
+    pub(crate) fn check(&self) -> Result<Differences, String> {
         let n = self.model.coordinates().len();
         let mut workspace = Workspace::new(&self.model);
         let mut single = vec![0.0; self.expected.len()];
@@ -110,21 +110,34 @@ impl Human {
 
     /// CPU time for one frame in microseconds: one frame at a time, and side by side. The first copies coordinates in
     /// and leaves the torques in the workspace, as the peers' programs do; the second stores them.
-    pub(super) fn time(&self) -> [Timing; 2] {
+    pub(crate) fn time(&self) -> [Timing; 2] {
         let mut workspace = Workspace::new(&self.model);
         let single = cpu_us(self.frames, || {
             for frame in 0..self.frames {
                 black_box(inverse_frame(&mut workspace, self.posture(frame), &[]).generalized());
             }
         });
-        let mut columns = vec![vec![0.0; self.frames]; self.model.coordinates().len()];
-        let batch = cpu_us(self.frames, || {
-            inverse_frames(&mut workspace, &self.trajectory, &[], |coordinate, first, values| {
-                columns[coordinate][first..first + values.len()].copy_from_slice(values);
-            });
-            black_box(&columns);
-        });
+        let mut columns = self.columns();
+        let batch = cpu_us(self.frames, || self.side_by_side(&mut workspace, &mut columns));
         [single, batch]
+    }
+
+    /// Number of frames, and a pass over all of them side by side.
+    pub(crate) fn batch(self) -> (usize, impl FnMut()) {
+        let (mut workspace, mut columns) = (Workspace::new(&self.model), self.columns());
+        (self.frames, move || self.side_by_side(&mut workspace, &mut columns))
+    }
+
+    /// Room for the torques of all frames, a column a coordinate.
+    fn columns(&self) -> Vec<Vec<f64>> {
+        vec![vec![0.0; self.frames]; self.model.coordinates().len()]
+    }
+
+    fn side_by_side(&self, workspace: &mut Workspace, columns: &mut [Vec<f64>]) {
+        inverse_frames(workspace, &self.trajectory, &[], |coordinate, first, values| {
+            columns[coordinate][first..first + values.len()].copy_from_slice(values);
+        });
+        black_box(columns);
     }
 
     fn posture(&self, frame: usize) -> Posture<'_> {

@@ -108,7 +108,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
 }
 
 /// Model and markers of the first recording; `None` without data.
-pub(super) fn walk() -> Result<Option<(Model, MarkerRecording)>, String> {
+pub(crate) fn walk() -> Result<Option<(Model, MarkerRecording)>, String> {
     let [case, _] = &CASES;
     let folder = workspace::data().join("data").join(case.folder);
     folder.is_dir().then(|| read(case, &folder)).transpose()

@@ -7,20 +7,25 @@ const BATCHES: usize = 41;
 
 /// Median and spread of repeated measurements, in the unit of its row.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Timing {
-    pub(super) median: f64,
+pub(crate) struct Timing {
+    pub(crate) median: f64,
     /// Tenth and ninetieth percentile, smallest; `None` if it was measured once or by another program.
-    pub(super) spread: Option<[f64; 3]>,
+    pub(crate) spread: Option<[f64; 3]>,
 }
 
 impl Timing {
     /// A value without spread.
-    pub(super) fn single(value: f64) -> Timing {
+    pub(crate) fn single(value: f64) -> Timing {
         Timing { median: value, spread: None }
     }
 
+    /// Smallest of the measurements.
+    pub(crate) fn fastest(&self) -> f64 {
+        self.spread.map_or(self.median, |[_, _, least]| least)
+    }
+
     /// Median and spread by rank, as the peers' programs take them.
-    pub(super) fn of(mut samples: Vec<f64>) -> Timing {
+    pub(crate) fn of(mut samples: Vec<f64>) -> Timing {
         samples.sort_by(f64::total_cmp);
         let n = samples.len();
         let rank = |numerator: usize, denominator: usize| samples[n * numerator / denominator];
@@ -29,7 +34,7 @@ impl Timing {
 }
 
 /// CPU time of this thread for one of `calls` that `batch` makes, in microseconds.
-pub(super) fn cpu_us(calls: usize, mut batch: impl FnMut()) -> Timing {
+pub(crate) fn cpu_us(calls: usize, mut batch: impl FnMut()) -> Timing {
     let sample = |batch: &mut dyn FnMut()| {
         let start = ThreadTime::now();
         batch();
@@ -40,14 +45,14 @@ pub(super) fn cpu_us(calls: usize, mut batch: impl FnMut()) -> Timing {
 }
 
 /// CPU times of a job and its parts.
-pub(super) struct JobTiming {
+pub(crate) struct JobTiming {
     /// By name, in the order in which the job passes them.
-    pub(super) stages: Vec<(&'static str, Timing)>,
-    pub(super) whole: Timing,
+    pub(crate) stages: Vec<(&'static str, Timing)>,
+    pub(crate) whole: Timing,
 }
 
 /// CPU time of this thread, in microseconds, for `job` and for the stages whose ends it reports.
-pub(super) fn job_us<E>(mut job: impl FnMut(&mut dyn FnMut(&'static str)) -> Result<(), E>) -> Result<JobTiming, E> {
+pub(crate) fn job_us<E>(mut job: impl FnMut(&mut dyn FnMut(&'static str)) -> Result<(), E>) -> Result<JobTiming, E> {
     let mut stages: Vec<(&'static str, Vec<f64>)> = Vec::new();
     let mut whole = Vec::new();
     for batch in 0..=BATCHES {
