@@ -236,6 +236,17 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     assert_eq!(names("session"), ["jobs"]);
 }
 
+/// Where options are described late, clap takes the description of a group of options for that of the subcommand, if the group has one.
+#[test]
+fn each_subcommand_keeps_its_own_description() {
+    let [described_late, described] = [Args::command(), command_line()];
+    for verb in described_late.get_subcommands() {
+        let found = described.find_subcommand(verb.get_name()).and_then(clap::Command::get_about);
+        assert!(verb.get_about().is_some(), "{}", verb.get_name());
+        assert_eq!(found.map(ToString::to_string), verb.get_about().map(ToString::to_string), "{}", verb.get_name());
+    }
+}
+
 #[test]
 fn forces_survives_every_number() {
     let bench = Workbench::new("forces");
