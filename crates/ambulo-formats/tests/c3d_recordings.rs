@@ -45,6 +45,32 @@ fn sums(record: &C3d) -> (usize, f64) {
 }
 
 #[test]
+fn chosen_points_are_read_as_among_all() {
+    let Some(folder) = data() else { return };
+    for (name, ..) in EZC3D {
+        let bytes = std::fs::read(folder.join(name)).unwrap();
+        let (all, remarks) = C3d::read(&bytes).unwrap();
+        // Every third name, and the rest, which a short answer leaves open.
+        let third = |names: &[&str]| (0..names.len().min(9)).map(|k| k % 3 == 0).collect::<Vec<bool>>();
+        let (chosen, same_remarks) = C3d::read_points(&bytes, |names, parameters| {
+            assert_eq!(*parameters, all.parameters, "{name}");
+            third(names)
+        })
+        .unwrap();
+        assert_eq!(remarks, same_remarks, "{name}");
+        let names: Vec<&str> = all.points.iter().map(|point| point.name.as_str()).collect();
+        let wanted = third(&names);
+        let mut expected = all.clone();
+        let mut place = 0..;
+        expected.points.retain(|_| place.next().and_then(|k| wanted.get(k)).is_none_or(|wanted| *wanted));
+        // Not-a-number equals nothing.
+        assert_eq!(format!("{chosen:?}"), format!("{expected:?}"), "{name}");
+        let (none, _) = C3d::read_points(&bytes, |names, _| vec![false; names.len()]).unwrap();
+        assert_eq!(none.points.len(), all.points.len(), "{name}");
+    }
+}
+
+#[test]
 fn every_recording_has_the_counts_and_sums_that_ezc3d_finds() {
     let Some(folder) = data() else { return };
     for (name, points, frames, channels, seen, positions, samples) in EZC3D {

@@ -119,7 +119,18 @@ impl Default for Encoding {
 impl C3d {
     /// Reads a C3D file.
     pub fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
-        read::read(bytes)
+        read::read(bytes, None)
+    }
+
+    /// Reads a C3D file without those points that `wanted` refuses: programs store angles and forces as points too, often four times as many as
+    /// there are markers. `wanted` gets the names of all points and the parameters, and returns one value per name; a point without one is read.
+    ///
+    /// A file of which no point is wanted is read as by [`C3d::read`].
+    pub fn read_points(
+        bytes: &[u8],
+        wanted: impl Fn(&[&str], &Parameters) -> Vec<bool>,
+    ) -> Result<(C3d, Vec<Remark>), Error> {
+        read::read(bytes, Some(&wanted))
     }
 
     /// Writes a C3D file in the encoding [`C3d::encoding`]. A record that was read is written and read back without change.

@@ -12,7 +12,8 @@
 
 use super::layout::Layout;
 use super::parameters::Parameters;
-use super::words::Words;
+use super::read::Choice;
+use super::words::{Processor, Words};
 use super::{Encoding, Storage};
 use crate::error::Remark;
 
@@ -53,23 +54,30 @@ const UNSEEN: Sighting = Sighting { position: [f64::NAN; 3], residual: f64::NAN,
 /// All sixteen bits: missing.
 const ALL_BITS: u16 = 0xffff;
 
-/// All points of the data. A point at exactly 0 0 0 is kept.
+/// The points of the data that are wanted. A point at exactly 0 0 0 is kept.
 pub(super) fn read(
     words: Words<'_>,
     layout: &Layout,
     encoding: &Encoding,
     parameters: &Parameters,
+    choice: Option<Choice<'_>>,
     remarks: &mut Vec<Remark>,
 ) -> Vec<Point> {
-    let mut points = named(layout, parameters, remarks);
-    let value_bytes = 4 * layout.width();
+    let mut points = wanted(named(layout, parameters, remarks), parameters, choice);
+    for (_, point) in &mut points {
+        point.positions.reserve_exact(layout.frames);
+        point.residuals.reserve_exact(layout.frames);
+        point.cameras.reserve_exact(layout.frames);
+    }
+    let point_bytes = 4 * layout.width();
     for frame in 0..layout.frames {
         let start = layout.data_offset + frame * layout.frame_bytes();
-        for (i, point) in points.iter_mut().enumerate() {
-            let at = start + i * value_bytes;
+        for (place, point) in &mut points {
+            let at = start + *place * point_bytes;
+            let scale = encoding.point_scale;
             let sighting = match layout.storage {
-                Storage::Integer => integers(words, at, encoding.point_scale),
-                Storage::Real => reals(words, at, encoding.point_scale),
+                Storage::Integer => words.array(at).and_then(|four| integers(words.processor, four, scale)),
+                Storage::Real => words.array(at).and_then(|four| reals(words.processor, four, scale)),
             };
             let Sighting { position, residual, cameras } = sighting.unwrap_or(UNSEEN);
             point.positions.push(position);
@@ -77,7 +85,16 @@ pub(super) fn read(
             point.cameras.push(cameras);
         }
     }
-    points
+    points.into_iter().map(|(_, point)| point).collect()
+}
+
+/// The points that are read, each with its place in a frame; all of them if none is wanted.
+fn wanted(points: Vec<Point>, parameters: &Parameters, choice: Option<Choice<'_>>) -> Vec<(usize, Point)> {
+    let names: Vec<&str> = points.iter().map(|point| point.name.as_str()).collect();
+    let is_wanted = choice.map_or_else(Vec::new, |choice| choice(&names, parameters));
+    let none_is = is_wanted.len() == points.len() && !is_wanted.contains(&true);
+    let keep = |place: &usize| none_is || is_wanted.get(*place).is_none_or(|wanted| *wanted);
+    points.into_iter().enumerate().filter(|(place, _)| keep(place)).collect()
 }
 
 /// The points without their frames.
@@ -95,35 +112,31 @@ fn named(layout: &Layout, parameters: &Parameters, remarks: &mut Vec<Remark>) ->
     let named = |i: usize| Point {
         name: labels.get(i).filter(|name| !name.is_empty()).map_or_else(|| format!("*{}", i + 1), |&name| name.into()),
         description: descriptions.get(i).copied().unwrap_or_default().into(),
-        positions: Vec::with_capacity(layout.frames),
-        residuals: Vec::with_capacity(layout.frames),
-        cameras: Vec::with_capacity(layout.frames),
+        positions: Vec::new(),
+        residuals: Vec::new(),
+        cameras: Vec::new(),
     };
     (0..layout.points).map(named).collect()
 }
 
-fn integers(words: Words<'_>, at: usize, scale: f64) -> Option<Sighting> {
-    let word = words.i16(at + 6)?;
+/// The bytes of four 16-bit words.
+fn integers(processor: Processor, four: [u8; 8], scale: f64) -> Option<Sighting> {
+    let [x0, x1, y0, y1, z0, z1, w0, w1] = four;
+    let word = processor.i16([w0, w1]);
     if word < 0 {
         return None;
     }
-    let mut position = [0.0; 3];
-    for (axis, value) in position.iter_mut().enumerate() {
-        *value = f64::from(words.i16(at + 2 * axis)?) * scale;
-    }
+    let position = [[x0, x1], [y0, y1], [z0, z1]].map(|bytes| f64::from(processor.i16(bytes)) * scale);
     Some(sighting(position, word.cast_unsigned(), scale))
 }
 
-fn reals(words: Words<'_>, at: usize, scale: f64) -> Option<Sighting> {
-    let word = word_of_real(words.f32(at + 12)?)?;
-    let mut position = [0.0; 3];
-    for (axis, value) in position.iter_mut().enumerate() {
-        *value = f64::from(words.f32(at + 4 * axis)?);
-        if !value.is_finite() {
-            return None;
-        }
-    }
-    Some(sighting(position, word, scale))
+/// The bytes of four reals.
+fn reals(processor: Processor, four: [u8; 16], scale: f64) -> Option<Sighting> {
+    let [x0, x1, x2, x3, y0, y1, y2, y3, z0, z1, z2, z3, w0, w1, w2, w3] = four;
+    let word = word_of_real(processor.f32([w0, w1, w2, w3]))?;
+    let position = [[x0, x1, x2, x3], [y0, y1, y2, y3], [z0, z1, z2, z3]].map(|bytes| f64::from(processor.f32(bytes)));
+    let is_seen = position.iter().all(|value| value.is_finite());
+    is_seen.then(|| sighting(position, word, scale))
 }
 
 /// The fourth value of a real file as 16 bits; `None` if the point is missing.

@@ -7,7 +7,11 @@ use super::words::Words;
 use super::{C3d, Encoding, analog, events, points, rotations, section};
 use crate::error::{Error, Remark};
 
-pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
+/// Which points are read, by all names and the parameters: one value per name.
+pub(super) type Choice<'a> = &'a dyn Fn(&[&str], &Parameters) -> Vec<bool>;
+
+/// `choice`: all points if it is `None`.
+pub(super) fn read(bytes: &[u8], choice: Option<Choice<'_>>) -> Result<(C3d, Vec<Remark>), Error> {
     let mut remarks = Vec::new();
     let start = parameter_offset(bytes)?;
     let processor = section::processor(bytes, start, &mut remarks)?;
@@ -19,7 +23,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
     let Layout { storage, point_scale, .. } = layout;
     let unsigned_analog = analog::unsigned(&parameters, &mut remarks);
     let encoding = Encoding { processor, storage, point_scale, unsigned_analog };
-    let points = points::read(words, &layout, &encoding, &parameters, &mut remarks);
+    let points = points::read(words, &layout, &encoding, &parameters, choice, &mut remarks);
     let channels = analog::read(words, &layout, &encoding, &parameters, &mut remarks);
     check_analog_rate(&layout, &parameters, &mut remarks);
     let rotations = rotations::read(words, &layout, &header, &parameters, &file, &mut remarks);

@@ -44,6 +44,7 @@ impl Processor {
     }
 
     /// An unsigned 16-bit word.
+    #[inline]
     pub(crate) fn u16(self, bytes: [u8; 2]) -> u16 {
         match self {
             Processor::Intel | Processor::Dec => u16::from_le_bytes(bytes),
@@ -52,11 +53,13 @@ impl Processor {
     }
 
     /// A signed 16-bit word.
+    #[inline]
     pub(crate) fn i16(self, bytes: [u8; 2]) -> i16 {
         self.u16(bytes).cast_signed()
     }
 
     /// A 32-bit real. A VAX "reserved operand" is not-a-number.
+    #[inline]
     pub(crate) fn f32(self, bytes: [u8; 4]) -> f32 {
         match self {
             Processor::Intel => f32::from_le_bytes(bytes),
@@ -128,19 +131,23 @@ impl Words<'_> {
         self.bytes.get(offset).copied()
     }
 
+    #[inline]
     pub(crate) fn u16(self, offset: usize) -> Option<u16> {
         self.array(offset).map(|bytes| self.processor.u16(bytes))
     }
 
+    #[inline]
     pub(crate) fn i16(self, offset: usize) -> Option<i16> {
         self.array(offset).map(|bytes| self.processor.i16(bytes))
     }
 
+    #[inline]
     pub(crate) fn f32(self, offset: usize) -> Option<f32> {
         self.array(offset).map(|bytes| self.processor.f32(bytes))
     }
 
     /// `N` bytes in the order of the file.
+    #[inline]
     pub(crate) fn array<const N: usize>(self, offset: usize) -> Option<[u8; N]> {
         self.bytes.get(offset..)?.first_chunk().copied()
     }

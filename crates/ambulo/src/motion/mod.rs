@@ -44,6 +44,7 @@ pub use laboratory::{Heading, Laboratory, laboratory, laboratory_of_landmarks};
 pub use landmarks::Landmarks;
 pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 pub use marker_table::{is_marker_table, markers_from_table};
+pub(crate) use real_points::are_markers;
 pub use recorded_motion::{RecordedMotion, RecordedMotionError, motion_from_c3d};
 pub use recording::{Motion, MotionError};
 pub(crate) use segment_poses::posed_segment;

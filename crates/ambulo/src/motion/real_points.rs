@@ -1,6 +1,7 @@
 //! Selects the points of a C3D file that are recorded markers.
 
-use ambulo_formats::c3d::{C3d, Point};
+use ambulo_formats::c3d::{C3d, Parameters, Point};
+use std::collections::BTreeSet;
 
 /// Parameters of POINT that list points which are not positions (Vicon's type groups), or are computed.
 const TYPE_GROUPS: [&str; 7] = ["ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "MODELED_MARKERS", "REACTIONS"];
@@ -9,17 +10,23 @@ const TYPE_GROUPS: [&str; 7] = ["ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALAR
 /// proximal P, as in `LFEO`, `LFEA`, `LFEL`, `LFEP`.
 const AXES: [&str; 11] = ["PEL", "HED", "TRX", "FE", "TI", "FO", "TO", "CL", "HU", "RA", "HN"];
 
-/// The points that are markers: with a name, not in a type group, not a computed axis.
+/// The points that are markers.
 pub(super) fn real_points(file: &C3d) -> Vec<&Point> {
-    let listed: Vec<&str> = TYPE_GROUPS.iter().flat_map(|group| file.parameters.texts("POINT", group)).collect();
-    let names: Vec<&str> = file.points.iter().map(|p| p.name.as_str()).collect();
-    let is_real = |point: &&Point| {
-        let name = point.name.trim();
+    let names: Vec<&str> = file.points.iter().map(|point| point.name.as_str()).collect();
+    let is_marker = are_markers(&names, &file.parameters);
+    file.points.iter().zip(is_marker).filter(|(_, is_marker)| *is_marker).map(|(point, _)| point).collect()
+}
+
+/// Which points are markers, by all their names: those with a name, not in a type group, not a computed axis.
+pub(crate) fn are_markers(names: &[&str], parameters: &Parameters) -> Vec<bool> {
+    let listed: BTreeSet<&str> = TYPE_GROUPS.iter().flat_map(|group| parameters.texts("POINT", group)).collect();
+    let is_marker = |name: &&str| {
+        let name = name.trim();
         let plain = name.rsplit(':').next().unwrap_or(name);
-        let is_listed = listed.iter().any(|l| *l == name || *l == plain);
-        !plain.is_empty() && !plain.starts_with('*') && !is_listed && !is_axis(name, &names)
+        let is_listed = listed.contains(name) || listed.contains(plain);
+        !plain.is_empty() && !plain.starts_with('*') && !is_listed && !is_axis(name, names)
     };
-    file.points.iter().filter(is_real).collect()
+    names.iter().map(is_marker).collect()
 }
 
 /// Whether a name is one of the four points of the axes of a segment.

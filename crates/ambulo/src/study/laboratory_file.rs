@@ -5,8 +5,8 @@ use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
     Event, MarkerError, MarkerPath, MarkerRecording, RecordedMotion, RecordedMotionError, SegmentPoseError,
-    SubjectParameters, events_from_c3d, events_from_mvnx, markers_from_table, markers_from_trc, motion_from_c3d,
-    segment_poses_from_mvnx, subject_from_c3d,
+    SubjectParameters, are_markers, events_from_c3d, events_from_mvnx, markers_from_table, markers_from_trc,
+    motion_from_c3d, segment_poses_from_mvnx, subject_from_c3d,
 };
 use crate::spatial::Vec3;
 use ambulo_formats::c3d::C3d;
@@ -74,7 +74,8 @@ impl LaboratoryFile {
         !spreads.is_empty() && still as f64 >= STILL_SHARE * spreads.len() as f64
     }
 
-    /// From the bytes of a C3D; `label` names the file in findings. Bytes that are not borrowed are dropped as soon as they are decoded.
+    /// From the bytes of a C3D; `label` names the file in findings. Bytes that are not borrowed are dropped as soon as they are decoded, and points
+    /// that are no markers are not decoded.
     ///
     /// # Errors
     /// A file that is no C3D, holds no frames, or has markers or plates that cannot be used.
@@ -83,7 +84,7 @@ impl LaboratoryFile {
         label: &str,
         findings: &mut Findings,
     ) -> Result<LaboratoryFile, LaboratoryFileError> {
-        let (c3d, remarks) = C3d::read(bytes.as_ref())?;
+        let (c3d, remarks) = C3d::read_points(bytes.as_ref(), are_markers)?;
         drop(bytes);
         report_remarks(label, &remarks, findings);
         if c3d.frames() == 0 {
