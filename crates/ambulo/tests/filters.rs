@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use ambulo::motion::filter::{
-    FilterError, LowPass, extend_by_reflection, low_pass, low_pass_padded, low_pass_unpadded,
+    FilterError, LowPass, extend_by_reflection, low_pass, low_pass_each, low_pass_padded, low_pass_unpadded,
 };
 use ambulo::numerics::{Smoothing, SplineDegree, SplineFitter};
 
@@ -112,9 +112,33 @@ fn the_padded_series_has_the_filtered_data_and_half_as_many_samples_at_each_end(
         let plain = low_pass(&wave, RATE, butterworth(3, 6.0)).unwrap();
         assert!(largest_difference(padded.data(), &plain) <= 0.0);
         let by_hand = extend_by_reflection(&wave, count / 2);
-        let by_hand = low_pass_unpadded(&by_hand, RATE, butterworth(3, 6.0)).unwrap();
+        let by_hand = low_pass_unpadded(&[by_hand], RATE, butterworth(3, 6.0)).unwrap().remove(0);
         assert!(largest_difference(&padded.samples, &by_hand) <= 0.0);
     }
+}
+
+#[test]
+fn series_side_by_side_are_filtered_as_each_alone() {
+    for order in 1..=8 {
+        let filter = butterworth(order, 6.0);
+        // Nine of one length, then others.
+        let lengths = [50, 50, 50, 50, 50, 50, 50, 50, 50, 70, 31, 31];
+        let series: Vec<Vec<f64>> =
+            lengths.into_iter().enumerate().map(|(k, count)| sampled(count, |t| gait_like(t + k as f64))).collect();
+        let together = low_pass_unpadded(&series, RATE, filter).unwrap();
+        assert_eq!(together.len(), series.len());
+        for (together, series) in together.iter().zip(&series) {
+            let alone = low_pass_unpadded(std::slice::from_ref(series), RATE, filter).unwrap();
+            assert_eq!(*together, alone[0]);
+        }
+        for (together, series) in low_pass_each(&series, RATE, filter).unwrap().iter().zip(&series) {
+            assert_eq!(*together, low_pass(series, RATE, filter).unwrap());
+        }
+        let broken = [series[0].clone(), vec![0.0, 1.0, f64::NAN, 0.0]];
+        let (number, error) = low_pass_unpadded(&broken, RATE, filter).unwrap_err();
+        assert!(number == 1 && matches!(error, FilterError::NonFiniteSample { index: 2, .. }), "{number}: {error}");
+    }
+    assert!(low_pass_unpadded(&[], RATE, butterworth(3, 6.0)).unwrap().is_empty());
 }
 
 // ---------------------------------------------------------------- independent
@@ -218,7 +242,7 @@ fn times_rounded_to_eight_digits_are_resampled_and_filtered_as_in_opensim() {
     let grid: Vec<f64> =
         std::iter::successors(Some(times[0]), |t| Some(t + step)).take_while(|t| *t <= times[399]).collect();
     let even: Vec<f64> = grid.iter().map(|t| spline.value(*t)).collect();
-    let filtered = low_pass_unpadded(&even, 1.0 / step, butterworth(3, 6.0)).unwrap();
+    let filtered = low_pass_unpadded(&[even], 1.0 / step, butterworth(3, 6.0)).unwrap().remove(0);
     assert_eq!(filtered.len(), 400);
     let rows = [0, 100, 150, 200, 250, 299, 399];
     let golden_times = [

@@ -22,7 +22,7 @@ use crate::dynamics::LoadSeries;
 use crate::findings::{Code, Findings};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{BodyId, Model, Side};
-use crate::motion::filter::{LowPass, low_pass};
+use crate::motion::filter::{LowPass, low_pass_each};
 use crate::motion::gaps::rows_around;
 use crate::motion::{ForceRecording, MotionError, TimeGrid, Window, interpolate};
 use crate::numerics::median;
@@ -271,18 +271,18 @@ fn is_finite(v: Vec3) -> bool {
 fn low_pass_all(recording: &ForceRecording, columns: &mut [Vec<f64>; 6], filter: LowPass) -> Result<(), MotionError> {
     let uniform = TimeGrid::through(&recording.times);
     let Some(grid) = uniform.or_else(|| TimeGrid::spanning(&recording.times)) else { return Ok(()) };
-    for column in columns {
-        if uniform.is_none() {
+    if uniform.is_none() {
+        for column in columns.iter_mut() {
             *column = (0..grid.frames).map(|i| interpolate(&recording.times, column, grid.time(i))).collect();
         }
-        let filtered = low_pass(column, grid.rate_hz(), filter)
-            .map_err(|source| MotionError::Filter { column: recording.name.clone(), source })?;
+    }
+    let filtered = low_pass_each(columns, grid.rate_hz(), filter)
+        .map_err(|(_, source)| MotionError::Filter { column: recording.name.clone(), source })?;
+    let times = if uniform.is_none() { grid.times() } else { Vec::new() };
+    for (column, filtered) in columns.iter_mut().zip(filtered) {
         *column = match uniform {
             Some(_) => filtered,
-            None => {
-                let times = grid.times();
-                recording.times.iter().map(|&t| interpolate(&times, &filtered, t)).collect()
-            }
+            None => recording.times.iter().map(|&t| interpolate(&times, &filtered, t)).collect(),
         };
     }
     Ok(())

@@ -118,19 +118,60 @@ pub fn low_pass(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<Vec<f6
     Ok(low_pass_padded(samples, rate_hz, filter)?.data().to_vec())
 }
 
+/// As [`low_pass`], of several series, which takes less time than each alone.
+///
+/// # Errors
+/// The number of the series and what is wrong with it.
+pub fn low_pass_each(
+    series: &[Vec<f64>],
+    rate_hz: f64,
+    filter: LowPass,
+) -> Result<Vec<Vec<f64>>, (usize, FilterError)> {
+    for (number, samples) in series.iter().enumerate() {
+        check(samples, rate_hz, filter).map_err(|error| (number, error))?;
+    }
+    let padded: Vec<Vec<f64>> = series.iter().map(|samples| extend_by_reflection(samples, samples.len() / 2)).collect();
+    let mut filtered = low_pass_unpadded(&padded, rate_hz, filter)?;
+    for (filtered, samples) in filtered.iter_mut().zip(series) {
+        filtered.drain(..samples.len() / 2);
+        filtered.truncate(samples.len());
+    }
+    Ok(filtered)
+}
+
 /// Filters uniformly sampled values and keeps the extension by half of the samples at each end, so that a spline through the
 /// result has its ends outside the data.
 pub fn low_pass_padded(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<PaddedSeries, FilterError> {
     check(samples, rate_hz, filter)?;
     let pad = samples.len() / 2;
-    let samples = run_both_ways(extend_by_reflection(samples, pad), rate_hz, filter);
+    let rows = extend_by_reflection(samples, pad).into_iter().map(|x| [x]).collect();
+    let samples = run_both_ways(rows, rate_hz, filter).into_iter().map(|[x]| x).collect();
     Ok(PaddedSeries { samples, pad })
 }
 
-/// Filters uniformly sampled values without extension, for series that are extended already.
-pub fn low_pass_unpadded(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<Vec<f64>, FilterError> {
-    check(samples, rate_hz, filter)?;
-    Ok(run_both_ways(samples.to_vec(), rate_hz, filter))
+/// Series that are filtered side by side. Each sample waits for the one before it; a processor computes others meanwhile.
+const TOGETHER: usize = 4;
+
+/// Filters uniformly sampled series without extension, for series that are extended already. Each result is the one that the series has alone.
+///
+/// # Errors
+/// The number of the series and what is wrong with it.
+pub fn low_pass_unpadded(
+    series: &[Vec<f64>],
+    rate_hz: f64,
+    filter: LowPass,
+) -> Result<Vec<Vec<f64>>, (usize, FilterError)> {
+    for (number, samples) in series.iter().enumerate() {
+        check(samples, rate_hz, filter).map_err(|error| (number, error))?;
+    }
+    let mut filtered = Vec::with_capacity(series.len());
+    let of_one_length = series.chunk_by(|a, b| a.len() == b.len());
+    for group in of_one_length.flat_map(|series| series.chunks(TOGETHER)) {
+        let row = |i: usize| std::array::from_fn::<f64, TOGETHER, _>(|lane| group.get(lane).map_or(0.0, |s| s[i]));
+        let rows = run_both_ways((0..group[0].len()).map(row).collect(), rate_hz, filter);
+        filtered.extend((0..group.len()).map(|lane| rows.iter().map(|row| row[lane]).collect::<Vec<f64>>()));
+    }
+    Ok(filtered)
 }
 
 /// Extends a series by odd reflection with `pad` samples at each end: 2x₀ - xⱼ at the start. Applies to values and times.
@@ -165,25 +206,26 @@ fn check(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<(), FilterErr
     }
 }
 
-fn run_both_ways(mut samples: Vec<f64>, rate_hz: f64, filter: LowPass) -> Vec<f64> {
+/// Both passes over `N` series, whose samples stand side by side.
+fn run_both_ways<const N: usize>(mut rows: Vec<[f64; N]>, rate_hz: f64, filter: LowPass) -> Vec<[f64; N]> {
     let sections = Section::cascade(filter.order, tan(PI * filter.cutoff_hz / rate_hz));
     for _ in 0..2 {
-        run(&sections, &mut samples);
-        samples.reverse();
+        run(&sections, &mut rows);
+        rows.reverse();
     }
-    samples
+    rows
 }
 
 /// One pass. Each section starts in the state after a straight line through the beginning of its input; its output begins with the
 /// same line, delayed. The slope is computed over the delay of the whole filter, so that the delay does not amplify its noise.
-fn run(sections: &[Section], samples: &mut [f64]) {
+fn run<const N: usize>(sections: &[Section], rows: &mut [[f64; N]]) {
     let delay: f64 = sections.iter().map(|section| section.delay).sum();
-    let reach = (delay.ceil() as usize).clamp(1, samples.len() - 1);
-    let slope = (samples[reach] - samples[0]) / reach as f64;
-    let mut start = samples[0];
+    let reach = (delay.ceil() as usize).clamp(1, rows.len() - 1);
+    let slope: [f64; N] = std::array::from_fn(|lane| (rows[reach][lane] - rows[0][lane]) / reach as f64);
+    let mut start = rows[0];
     for section in sections {
-        section.run(samples, start, slope);
-        start -= section.delay * slope;
+        section.run(rows, start, slope);
+        start = std::array::from_fn(|lane| start[lane] - section.delay * slope[lane]);
     }
 }
 
@@ -227,18 +269,24 @@ impl Section {
 
     /// Filters in place, from the state after the line `start + slope k` for k < 0. Inputs are relative to
     /// `start`, so that a large offset loses no precision.
-    fn run(&self, samples: &mut [f64], start: f64, slope: f64) {
+    fn run<const N: usize>(&self, rows: &mut [[f64; N]], start: [f64; N], slope: [f64; N]) {
         let ([b0, b1, b2], [a1, a2]) = (self.b, self.a);
-        let past_input = |k: f64| -slope * k;
-        let past_output = |k: f64| -slope * (k + self.delay);
-        let mut next = b1 * past_input(1.0) + b2 * past_input(2.0) - a1 * past_output(1.0) - a2 * past_output(2.0);
-        let mut after_next = b2 * past_input(1.0) - a2 * past_output(1.0);
-        for sample in samples {
-            let x = *sample - start;
-            let y = b0 * x + next;
-            next = b1 * x - a1 * y + after_next;
-            after_next = b2 * x - a2 * y;
-            *sample = y + start;
+        let past_input = |lane: usize, k: f64| -slope[lane] * k;
+        let past_output = |lane: usize, k: f64| -slope[lane] * (k + self.delay);
+        let mut next: [f64; N] = std::array::from_fn(|lane| {
+            let inputs = b1 * past_input(lane, 1.0) + b2 * past_input(lane, 2.0);
+            inputs - a1 * past_output(lane, 1.0) - a2 * past_output(lane, 2.0)
+        });
+        let mut after_next: [f64; N] =
+            std::array::from_fn(|lane| b2 * past_input(lane, 1.0) - a2 * past_output(lane, 1.0));
+        for row in rows {
+            for lane in 0..N {
+                let x = row[lane] - start[lane];
+                let y = b0 * x + next[lane];
+                next[lane] = b1 * x - a1 * y + after_next[lane];
+                after_next[lane] = b2 * x - a2 * y;
+                row[lane] = y + start[lane];
+            }
         }
     }
 }

@@ -231,7 +231,7 @@ impl Stream {
         if let Some(count) = (self.buffer.next - unsettled).checked_sub(settles).filter(|count| *count > 0) {
             let trajectory =
                 self.trajectory(&tail, FrameRange { first: unsettled, stride: 1, count }, &mut findings)?;
-            self.settled.extend(body_frames(&self.model, &soles, &trajectory, &mut self.workspace), oldest);
+            self.settled.extend(body_frames(&self.model, &soles, &trajectory), oldest);
         }
         // The frame is one of the window, all others of which are a multiple of the stride from it.
         let first = self.settled.next + (frame - self.settled.next) % self.stride;
@@ -266,7 +266,7 @@ impl Stream {
         frame: usize,
         findings: &mut Findings,
     ) -> Result<(Prediction, usize), StreamError> {
-        let newest = body_frames(&self.model, soles, newest, &mut self.workspace);
+        let newest = body_frames(&self.model, soles, newest);
         let (first, settled) = self.settled.before(range.first, range.stride);
         let grid = TimeGrid {
             start_s: self.buffer.time(first),

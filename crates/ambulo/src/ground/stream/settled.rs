@@ -1,9 +1,8 @@
 //! Motion of feet and mass centre in the settled frames of a stream, which later frames do not change.
 
-use crate::dynamics::{Workspace, inverse_frame};
 use crate::ground::footfalls::{SignalFrame, Signals};
 use crate::ground::predict::{Geometry, GeometryFrame};
-use crate::kinematics::{BodyMotion, Posture, Trajectory};
+use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model};
 use crate::motion::TimeGrid;
@@ -18,22 +17,13 @@ pub(super) struct BodyFrame {
 }
 
 /// The frames of a trajectory.
-pub(super) fn body_frames(
-    model: &Model,
-    soles: &BySide<Sole>,
-    trajectory: &Trajectory,
-    workspace: &mut Workspace,
-) -> Vec<BodyFrame> {
+pub(super) fn body_frames(model: &Model, soles: &BySide<Sole>, trajectory: &Trajectory) -> Vec<BodyFrame> {
     let mut frames = Vec::with_capacity(trajectory.grid().frames);
     let all_soles = soles.as_ref().map(|sole| Some(*sole));
-    let mut bodies: Vec<BodyMotion> = Vec::with_capacity(model.bodies().len());
-    trajectory.for_each_posture(|_, posture: Posture<'_>| {
-        let forces = inverse_frame(workspace, posture, &[]);
-        bodies.clear();
-        bodies.extend(model.body_ids().map(|id| forces.body_motion(id)));
+    each_body_motion(model, trajectory, |_, bodies| {
         frames.push(BodyFrame {
-            signals: SignalFrame::of(model, &all_soles, &bodies),
-            geometry: GeometryFrame::of(model, soles, &bodies),
+            signals: SignalFrame::of(model, &all_soles, bodies),
+            geometry: GeometryFrame::of(model, soles, bodies),
         });
     });
     frames

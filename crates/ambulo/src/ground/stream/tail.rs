@@ -115,26 +115,36 @@ impl TailSmoother {
         findings: &mut Findings,
     ) -> Result<Vec<Option<Vec<f64>>>, StreamError> {
         let motion = buffer.motion();
-        let filter = |(id, column): (CoordinateId, &Option<Vec<f64>>)| -> Result<Option<Vec<f64>>, StreamError> {
-            let Some(column) = column else { return Ok(None) };
-            let name = &model.coordinates()[id.index()].name;
+        let name = |id: CoordinateId| &model.coordinates()[id.index()].name;
+        let mut extend = |id: CoordinateId, column: &[f64]| -> Result<Vec<f64>, StreamError> {
             let ahead: Vec<f64> = continuation.into_iter().flat_map(|continuation| continuation.of(column)).collect();
             // The frame before a gap that contains the first row.
             let known = (0..=row).rev().find(|row| column[*row].is_finite()).unwrap_or(row);
-            let mut samples = fill_gaps(name, &motion.times[known..], &column[known..], findings)?;
+            let mut samples = fill_gaps(name(id), &motion.times[known..], &column[known..], findings)?;
             samples.drain(..row - known);
             if ahead.iter().all(|x| x.is_finite()) {
                 samples.extend(ahead);
             }
             let both_ends = extend_by_reflection(&samples, settles);
-            let extended = if row == 0 { both_ends } else { both_ends[settles..].to_vec() };
-            Ok(Some(match self.smoother {
-                Smoother::Butterworth(filter) => low_pass_unpadded(&extended, self.rate_hz, filter)
-                    .map_err(|source| MotionError::Filter { column: name.clone(), source })?,
-                Smoother::Off | Smoother::Spline => extended,
-            }))
+            Ok(if row == 0 { both_ends } else { both_ends[settles..].to_vec() })
         };
-        model.coordinate_ids().zip(&motion.columns).map(filter).collect()
+        let read = model.coordinate_ids().zip(&motion.columns).filter_map(|(id, column)| Some((id, column.as_ref()?)));
+        let read: Vec<(CoordinateId, &Vec<f64>)> = read.collect();
+        let extended = read.iter().map(|(id, column)| extend(*id, column)).collect::<Result<Vec<Vec<f64>>, _>>()?;
+        let filtered = match self.smoother {
+            Smoother::Butterworth(filter) => {
+                low_pass_unpadded(&extended, self.rate_hz, filter).map_err(|(number, source)| {
+                    let column = name(read[number].0).clone();
+                    MotionError::Filter { column, source }
+                })?
+            }
+            Smoother::Off | Smoother::Spline => extended,
+        };
+        let mut columns = vec![None; motion.columns.len()];
+        for ((id, _), column) in read.into_iter().zip(filtered) {
+            columns[id.index()] = Some(column);
+        }
+        Ok(columns)
     }
 
     /// Values and derivatives in some frames of the tail.
@@ -150,14 +160,21 @@ impl TailSmoother {
             }
             Tail::Filtered { first: origin, columns } => {
                 let [first_weights, second_weights] = &self.derivatives;
+                let oldest = (first as isize - origin) as usize - NEIGHBOURS;
                 let of_column = |column: &Vec<f64>| {
-                    let near = |row: usize| &column[row - NEIGHBOURS..=row + NEIGHBOURS];
-                    let sum = |row: usize, weights: &[f64]| near(row).iter().zip(weights).map(|(x, w)| x * w).sum();
-                    [
-                        places(*origin).map(|row| column[row]).collect(),
-                        places(*origin).map(|row| sum(row, first_weights)).collect(),
-                        places(*origin).map(|row| sum(row, second_weights)).collect(),
-                    ]
+                    // Samples a stride apart side by side, so that the sums of several frames are computed at once.
+                    let spread = |offset: usize| column[oldest + offset..].iter().step_by(stride).copied().collect();
+                    let apart: Vec<Vec<f64>> = (0..stride).map(spread).collect();
+                    let sums = |weights: &[f64]| {
+                        let mut sums = vec![0.0; count];
+                        for (neighbour, weight) in weights.iter().enumerate() {
+                            let near = &apart[neighbour % stride][neighbour / stride..];
+                            sums.iter_mut().zip(near).for_each(|(sum, x)| *sum += x * weight);
+                        }
+                        sums
+                    };
+                    let values = places(*origin).map(|row| column[row]).collect();
+                    [values, sums(first_weights), sums(second_weights)]
                 };
                 columns.iter().map(|column| column.as_ref().map(of_column)).collect()
             }
