@@ -1,6 +1,6 @@
 //! Positions of the mass centre, the soles and the shanks in every frame.
 
-use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
+use crate::kinematics::BodyMotion;
 use crate::model::anatomy::{Leg, Sole, SolePoint};
 use crate::model::{BodyId, BySide, Model, Side};
 use crate::spatial::Vec3;
@@ -58,12 +58,6 @@ impl Geometry {
     pub(in crate::ground) fn with_capacity(frames: usize) -> Geometry {
         let feet = BySide::from_fn(|_| Vec::with_capacity(frames));
         Geometry { center: Vec::with_capacity(frames), velocity: Vec::with_capacity(frames), feet }
-    }
-
-    pub(super) fn new(model: &Model, trajectory: &Trajectory, soles: &BySide<Sole>) -> Geometry {
-        let mut out = Geometry::with_capacity(trajectory.grid().frames);
-        each_body_motion(model, trajectory, |_, bodies| out.push(&GeometryFrame::of(model, soles, bodies)));
-        out
     }
 
     /// Adds the next frame.

@@ -29,10 +29,10 @@ mod unilateral;
 mod unknowns;
 mod zero_moment_point;
 
-use super::footfalls::{Footfall, Footfalls, footfalls};
+use super::footfalls::{Footfall, Footfalls, OffSpeed, SignalFrame, Signals, detect};
 use super::{BodyForces, GroundForces};
 use crate::findings::Findings;
-use crate::kinematics::Trajectory;
+use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
@@ -268,13 +268,20 @@ pub fn predict(
 ) -> Result<Prediction, PredictError> {
     let soles = both_soles(model, soles)?;
     settings.prescribed.check(trajectory.grid().frames)?;
+    let grid = trajectory.grid();
+    let all_soles = soles.map(Some);
+    let mut signals = Signals::empty(model, grid, &all_soles);
+    let mut geometry = Geometry::with_capacity(grid.frames);
+    each_body_motion(model, trajectory, |_, bodies| {
+        signals.push(&SignalFrame::of(model, &all_soles, bodies));
+        geometry.push(&GeometryFrame::of(model, &soles, bodies));
+    });
     let footfalls = match &settings.prescribed.footfalls {
         Some(prescribed) => prescribed.clone(),
-        None => footfalls(model, trajectory, &soles.map(Some), findings),
+        None => detect(&signals, OffSpeed::default(), findings),
     };
+    drop(signals);
     let total = settings.prescribed.total(total_wrench(model, trajectory));
-    let geometry = Geometry::new(model, trajectory, &soles);
-    let grid = trajectory.grid();
     predict_frames(model, &soles, KnownMotion { grid, geometry, total, footfalls }, settings, 0..grid.frames)
 }
 

@@ -70,7 +70,8 @@ pub(super) struct NormalEquations<'a> {
 #[derive(Debug, Default)]
 struct Rows {
     rest: [f64; 6],
-    coefficients: [Vec<f64>; 6],
+    /// Of each unknown in the six equations.
+    coefficients: Vec<[f64; 6]>,
 }
 
 impl Rows {
@@ -88,10 +89,14 @@ impl Rows {
         let expected = along(&sample.expected, axes);
         chosen.iter().for_each(|&row| self.rest[row] -= weight * expected[row]);
         for (part, curve) in sample.parts.iter().zip(curves) {
-            let slopes = along(&part.unit, axes).map(|x| x * part.deviation * weight);
+            // Zero in the rows that are not chosen.
+            let along_axes = along(&part.unit, axes);
+            let mut slopes = [0.0; 6];
+            chosen.iter().for_each(|&row| slopes[row] = along_axes[row] * part.deviation * weight);
             let (k, values) = part.active;
             for (number, value) in curve.numbers[k..].iter().zip(values) {
-                chosen.iter().for_each(|&row| self.coefficients[row][number - first] += slopes[row] * value);
+                let of_unknown = &mut self.coefficients[number - first];
+                of_unknown.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += slope * value);
             }
         }
     }
@@ -128,9 +133,10 @@ impl NormalEquations<'_> {
             self.sample_near(frame, &mut samples);
             self.observe(frame, first, last - first + 1, &samples, &mut rows);
             let noise = self.noise(grid.time(frame));
-            for ((row, rest), noise) in rows.coefficients.iter().zip(rows.rest).zip(noise) {
+            for (row, (rest, noise)) in rows.rest.into_iter().zip(noise).enumerate() {
                 used.clear();
-                let whitened = row.iter().map(|x| x / noise).enumerate().filter(|(_, x)| x.abs() > NEGLIGIBLE);
+                let whitened = rows.coefficients.iter().map(|of_unknown| of_unknown[row] / noise);
+                let whitened = whitened.enumerate().filter(|(_, x)| x.abs() > NEGLIGIBLE);
                 used.extend(whitened.map(|(i, x)| (first + i, x)));
                 add_equation(&mut matrix, &mut values, &used, rest / noise);
             }
@@ -181,10 +187,8 @@ impl NormalEquations<'_> {
     /// `samples` has one entry per stance.
     fn observe(&self, frame: usize, first: usize, count: usize, samples: &[Option<StanceSamples>], rows: &mut Rows) {
         let grid = self.inputs.grid;
-        for row in &mut rows.coefficients {
-            row.clear();
-            row.resize(count, 0.0);
-        }
+        rows.coefficients.clear();
+        rows.coefficients.resize(count, [0.0; 6]);
         let axes = self.axes(grid.time(frame));
         let mut required = Wrench::ZERO;
         for (tap, weight) in self.filters.gaussian.around(frame, grid.frames) {
