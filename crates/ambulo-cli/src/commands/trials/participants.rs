@@ -4,7 +4,7 @@
 //! can only be centimetres, but a weight of 70 may be pounds.
 
 use crate::files;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -54,7 +54,12 @@ fn sizes(
     table_path: &Path,
     description_path: &Path,
 ) -> Result<BTreeMap<String, Size>> {
-    let units: Value = serde_json::from_slice(description).with_context(|| description_path.display().to_string())?;
+    let units: Value = serde_json::from_slice(description).map_err(|error| {
+        anyhow!(
+            "{}: {error}; expected JSON with the unit of each column. hint: {{\"weight\": {{\"Units\": \"kg\"}}}}, or remove the file, and no size is read",
+            description_path.display()
+        )
+    })?;
     let text =
         std::str::from_utf8(table).with_context(|| format!("{}: this is not UTF-8 text", table_path.display()))?;
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
@@ -112,6 +117,16 @@ mod tests {
         for description in ["{}", r#"{"weight": {"Units": "lb"}, "height": {"Description": "stature"}}"#] {
             assert_eq!(read(table, description).unwrap()["sub-1"], [None, None]);
         }
+    }
+
+    #[test]
+    fn a_description_that_is_no_json_is_an_error_that_says_what_belongs_there() {
+        let error = read("participant_id\tweight\nsub-1\t70\n", "{\"weight\": kg}").unwrap_err().to_string();
+        assert!(
+            error.starts_with("participants.json: expected value at line 1 column 12; expected JSON with"),
+            "{error}"
+        );
+        assert!(error.contains("hint: {\"weight\": {\"Units\": \"kg\"}}"), "{error}");
     }
 
     #[test]
