@@ -210,10 +210,32 @@ impl Drawing {
     }
 }
 
-/// Two decimals (a hundredth of a point is 3.5 micrometres), without zeros at the end.
+/// A hundredth of a point is 3.5 micrometres.
+const HUNDREDTHS: f64 = 100.0;
+/// Larger numbers of hundredths are not rounded here.
+const MOST_HUNDREDTHS: f64 = 1e9;
+/// Closer to the middle between two hundredths the product does not decide, because it is rounded itself.
+const UNDECIDED: f64 = 1e-6;
+
+/// Two decimals, without zeros at the end: the digits of `{:.2}`.
 fn short(x: f64) -> String {
-    let text = format!("{x:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
+    let scaled = (HUNDREDTHS * x).abs();
+    let down = scaled.floor();
+    if !(scaled < MOST_HUNDREDTHS && (scaled - down - 0.5).abs() > UNDECIDED) {
+        return without_zeros(&format!("{x:.2}"));
+    }
+    let hundredths = down as u64 + u64::from(scaled - down > 0.5);
+    let (whole, [tenths, last]) = (hundredths / 100, [hundredths / 10 % 10, hundredths % 10]);
+    let sign = if x < 0.0 && hundredths > 0 { "-" } else { "" };
+    match (tenths, last) {
+        (0, 0) => format!("{sign}{whole}"),
+        (_, 0) => format!("{sign}{whole}.{tenths}"),
+        _ => format!("{sign}{whole}.{tenths}{last}"),
+    }
+}
+
+fn without_zeros(decimals: &str) -> String {
+    let text = decimals.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
@@ -242,6 +264,21 @@ mod tests {
     #[test]
     fn a_text_cannot_leave_its_element() {
         assert_eq!(escaped("a<b> & \"c\"\u{0}\n'"), "a&lt;b&gt; &amp; &quot;c&quot; &#39;");
+    }
+
+    #[test]
+    fn numbers_have_the_digits_of_the_standard_library() {
+        for whole in [0.0, 0.5, 1.0, 9.99, 10.0, 123.4, 999_999.0, 1e7, 1e9] {
+            // Steps of an eighth of a hundredth have all ties.
+            for eighths in -1000..=1000 {
+                let near = whole + f64::from(eighths) / 800.0;
+                for x in [near, near.next_down(), near.next_up(), -near] {
+                    assert_eq!(short(x), without_zeros(&format!("{x:.2}")), "{x:?}");
+                }
+            }
+        }
+        assert_eq!([0.0, -0.001, 0.125, 0.375, -2.5].map(short), ["0", "0", "0.12", "0.38", "-2.5"]);
+        assert_eq!([f64::NAN, f64::INFINITY].map(short), ["NaN", "inf"]);
     }
 
     #[test]
