@@ -163,8 +163,8 @@ fn killed(program: &Path, sets: &Sets, folder: &Path) -> Result<String, String> 
         let mut child = batch(program, &set, &folder.join("killed"), &TWO_THREADS)
             .spawn()
             .map_err(|e| format!("ambulo: cannot start: {e}"))?;
-        // Long enough to read the set, too short for all trials.
-        sleep(Duration::from_secs_f64(whole.wall_s * (0.1 + 0.4 * random)));
+        // Long enough to read the set and to close a part, too short for all trials in ten runs.
+        sleep(Duration::from_secs_f64(whole.wall_s * (0.05 + 0.1 * random)));
         interrupted += usize::from(child.try_wait().is_ok_and(|ended| ended.is_none()));
         let _ = child.kill();
         let _ = child.wait();
