@@ -1,11 +1,11 @@
-//! What is measured of the data, with the limits of doubtful and of bad data.
+//! Measures of the quality of data, with the limits beyond which they are doubtful or bad.
 
 use super::{QualityReason, QualityState};
 use crate::analysis::feasibility::LARGE_RESIDUAL_BW;
 use crate::kinematics::WRONG_CLOCK;
 use serde::{Deserialize, Serialize};
 
-/// What is measured of the data.
+/// A measure of the quality of data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
