@@ -7,6 +7,7 @@ use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::{guarded, unguarded};
+use std::fmt::Write as _;
 
 /// One curve of one cycle: 101 values.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,9 +108,11 @@ pub(crate) fn head() -> String {
 pub(crate) fn lines(rows: &[CycleRow]) -> String {
     let mut text = String::new();
     for row in rows {
+        let curve = format!("{},{},{},", guarded(&row.quantity), row.side.letter(), row.cycle);
         for (percent, value) in row.values.iter().enumerate() {
-            let (quantity, side) = (guarded(&row.quantity), row.side.letter());
-            text += &format!("{quantity},{side},{},{percent},{value},{}\n", row.cycle, row.unit);
+            text.push_str(&curve);
+            // A `String` takes any text.
+            let _ = writeln!(text, "{percent},{value},{}", row.unit);
         }
     }
     text
