@@ -32,7 +32,7 @@ pub mod error;
 pub mod external_loads;
 pub mod mvnx;
 pub mod npz;
-mod number;
+pub mod number;
 pub mod osim;
 #[cfg(feature = "parquet")]
 pub mod parquet;

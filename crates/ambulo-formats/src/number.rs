@@ -2,22 +2,30 @@
 
 use std::fmt::Write as _;
 
-/// Writes numbers in the form of `{:?}`: the shortest text that reads back as the same bits, with an exponent for very large and small.
+/// Writes numbers in the forms of the standard library: the shortest text that reads back as the same bits.
 ///
 /// Of two shortest texts that are equally near, the one with an even last digit is written, as Python does; the standard library writes the
 /// larger. So `1248465378177203.25` becomes `1248465378177203.2`.
+///
+/// ```
+/// use ambulo_formats::number::NumberText;
+///
+/// let mut text = NumberText::default();
+/// assert_eq!(text.of(3.0), "3.0");
+/// assert_eq!(text.of(1e300), "1e300");
+/// assert_eq!(text.plain(3.0), "3");
+/// ```
 #[derive(Default)]
-pub(crate) struct NumberText {
+pub struct NumberText {
     digits: zmij::Buffer,
     /// Of a number whose exponent the library writes in another form.
     text: String,
 }
 
 impl NumberText {
-    /// The text of a number, valid until the next one.
-    pub(crate) fn of(&mut self, number: f64) -> &str {
-        // These have no exponent in either form.
-        if number == 0.0 || (1e-4..1e16).contains(&number.abs()) {
+    /// The text of a number in the form of `{:?}`, with a decimal point, and with an exponent for very large and small ones. Valid until the next one.
+    pub fn of(&mut self, number: f64) -> &str {
+        if has_no_exponent(number) {
             return self.digits.format_finite(number);
         }
         self.text.clear();
@@ -25,6 +33,23 @@ impl NumberText {
         let _ = write!(self.text, "{number:?}");
         &self.text
     }
+
+    /// The text of a number in the form of `{}`: a whole number has no point, and no number has an exponent. Valid until the next one.
+    pub fn plain(&mut self, number: f64) -> &str {
+        if has_no_exponent(number) {
+            let text = self.digits.format_finite(number);
+            return text.strip_suffix(".0").unwrap_or(text);
+        }
+        self.text.clear();
+        // As above.
+        let _ = write!(self.text, "{number}");
+        &self.text
+    }
+}
+
+/// Whether a number has no exponent in any of the forms.
+fn has_no_exponent(number: f64) -> bool {
+    number == 0.0 || (1e-4..1e16).contains(&number.abs())
 }
 
 #[cfg(test)]
@@ -32,9 +57,14 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The text is the standard library's, or it is the even one of two that are equally near.
     fn check(number: f64) {
-        let (ours, theirs) = (NumberText::default().of(number).to_owned(), format!("{number:?}"));
+        let mut text = NumberText::default();
+        check_text(text.of(number), &format!("{number:?}"), number);
+        check_text(text.plain(number), &format!("{number}"), number);
+    }
+
+    /// The text is the standard library's, or it is the even one of two that are equally near.
+    fn check_text(ours: &str, theirs: &str, number: f64) {
         if ours == theirs {
             return;
         }
@@ -48,10 +78,11 @@ mod tests {
 
     #[test]
     fn of_two_texts_that_are_equally_near_the_even_one_is_written() {
-        assert_eq!(NumberText::default().of(1248465378177203.25), "1248465378177203.2");
-        assert_eq!(NumberText::default().of(-1248465378177203.75), "-1248465378177203.8");
-        assert_eq!(NumberText::default().of(1248465378177203.5), "1248465378177203.5");
-        check(-1248465378177203.25);
+        let tie = 4_993_861_512_708_813.0 / 4.0;
+        assert_eq!(NumberText::default().of(tie), "1248465378177203.2");
+        assert_eq!(NumberText::default().of(-tie - 0.5), "-1248465378177203.8");
+        assert_eq!(NumberText::default().plain(tie + 0.25), "1248465378177203.5");
+        check(-tie);
     }
 
     #[test]

@@ -6,6 +6,7 @@ use ambulo::ground::BodyForces;
 use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
+use ambulo_formats::number::NumberText;
 use ambulo_formats::table::{guarded, unguarded};
 use std::fmt::Write as _;
 
@@ -106,13 +107,13 @@ pub(crate) fn head() -> String {
 
 /// Lines of `cycles.csv`.
 pub(crate) fn lines(rows: &[CycleRow]) -> String {
-    let mut text = String::new();
+    let (mut text, mut number) = (String::new(), NumberText::default());
     for row in rows {
         let curve = format!("{},{},{},", guarded(&row.quantity), row.side.letter(), row.cycle);
         for (percent, value) in row.values.iter().enumerate() {
             text.push_str(&curve);
             // A `String` takes any text.
-            let _ = writeln!(text, "{percent},{value},{}", row.unit);
+            let _ = writeln!(text, "{percent},{},{}", number.plain(*value), row.unit);
         }
     }
     text

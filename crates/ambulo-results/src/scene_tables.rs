@@ -6,9 +6,9 @@ use ambulo::simulation::scene::{Outputs, Scene, SceneFrame};
 use ambulo::simulation::{ContactForce, Owner, StepForces, TreeJoint, World, WorldState};
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3};
 use ambulo_formats::Error;
+use ambulo_formats::number::NumberText;
 use ambulo_formats::table::Table;
 use nalgebra::{Rotation3, UnitQuaternion};
-use std::fmt::Write;
 
 /// Collects the rows of a run frame by frame.
 #[derive(Debug, Clone)]
@@ -286,24 +286,27 @@ impl RowTable {
     /// The instant and the names that a row begins with.
     fn begin(&mut self, time_s: f64, names: &[&str]) {
         // 350 steps of 1 ms are 0.35000000000000003 s: the last digits are rounding errors.
-        let _ = write!(self.text, "{}", (time_s * 1e12).round() / 1e12);
+        self.text.push_str(NumberText::default().plain((time_s * 1e12).round() / 1e12));
         self.cells = 1;
         names.iter().for_each(|name| self.word(name));
     }
 
     fn word(&mut self, word: &str) {
         self.cells += 1;
-        let _ = write!(self.text, ",{}", csv_cell(word));
+        self.text.push(',');
+        self.text.push_str(&csv_cell(word));
     }
 
     fn append(&mut self, numbers: &[f64]) {
+        let mut text = NumberText::default();
         for &found in numbers {
             if !found.is_finite() && self.broken.is_none() {
                 let column = self.head.split(',').nth(self.cells).unwrap_or_default().to_owned();
                 self.broken = Some(Error::NotFinite { table: self.name.to_owned(), column, row: self.rows + 1, found });
             }
             self.cells += 1;
-            let _ = write!(self.text, ",{found}");
+            self.text.push(',');
+            self.text.push_str(text.plain(found));
         }
     }
 
