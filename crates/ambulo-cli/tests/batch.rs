@@ -154,6 +154,29 @@ fn shards_compute_every_trial_once() {
     for wrong in ["2/2", "-1/2", "1", "0/0", "a/b"] {
         bench.run(&["batch", "set", "--shard", wrong]).refused(&["I/N", "0/4"]);
     }
+    // A recording that appears between two shards would move others from one to the other.
+    bench.run(&[&BATCH[..], &["moved", "--shard", "0/2"]].concat()).done();
+    bench.write("set/a new one.c3d", "PathFileType");
+    bench
+        .run(&[&BATCH[..], &["moved", "--shard", "1/2"]].concat())
+        .refused(&["found other trials in the source", "compute all shards again"]);
+}
+
+#[test]
+fn a_closed_part_that_lost_a_table_is_computed_again() {
+    let bench = set("batch_lost");
+    bench.run(&[&BATCH[..], &["out"]].concat()).done();
+    let all = tables(&bench, "out");
+    for lost in ["frames/part-000-00001.parquet", "cycles/part-000-00000.parquet"] {
+        fs::remove_file(bench.folder.join("out").join(lost)).unwrap();
+    }
+    // A copy that was interrupted.
+    let events = "out/events/part-000-00002.parquet";
+    bench.write(events, &bench.read(events)[..20]);
+    bench.run(&[&BATCH[..], &["out", "--resume"]].concat()).done();
+    assert!(tables(&bench, "out") == all);
+    bench.write("out/trials/part-000-00000.parquet", "PAR1");
+    bench.run(&[&BATCH[..], &["out", "--resume"]].concat()).refused(&["part-000-00000.parquet", "remove this file"]);
 }
 
 #[test]
@@ -458,6 +481,10 @@ fn a_list_of_trials_names_their_files() {
         ("{\"file\": \"a.c3d\", \"modell\": \"b\"}", &["line 1", "modell"][..]),
         ("{\"file\": \"a.c3d\", \"mass\": -3}", &["line 1", "above 0"]),
         ("{\"file\": \"a.c3d\"}\n{\"file\": \"a.c3d\"}", &["`a.c3d` in two lines"]),
+        ("{\"file\": \"a.c3d\"}\n{\"file\": 3}", &["line 2: ", "column"]),
+        ("{\"file\": \"a.c3d\", \"mass\": \"82,5\"}", &["found the size `82,5`", "with a point"]),
+        ("[\"a.c3d\"]", &["line 1: expected an object"]),
+        ("{\"file\": \"\"}", &["a line without `file`"]),
         ("", &["found no trial"]),
     ] {
         bench.write("wrong.jsonl", line);

@@ -118,11 +118,11 @@ fn no_byte_depends_on_place_or_threads(bench: &Workbench) {
 fn a_list_of_files_is_a_visit_of_these_files_only() {
     let bench = laboratory("session_files");
     visit(&bench, "Ann", 2);
-    visit(&bench, "Ann/later", 1);
+    visit(&bench, "Ann/later", 3);
     bench.write("Ann/trials.toml", "[[trial]]\nfiles = \"walk1.mot\"\nage = 30\n");
-    let files = ["Ann/walk0.mot", "Ann/later/walk0.mot", "Ann/figure.osim"];
+    let files = ["Ann/walk0.mot", "Ann/later/walk2.mot", "Ann/figure.osim"];
     let run = bench.run(&[&["session"], &files[..], &["--dry-run"]].concat()).done();
-    for known in ["2 trials", "later/walk0.mot", "figure.osim"] {
+    for known in ["2 trials", "later/walk2.mot", "figure.osim"] {
         assert!(run.stdout.contains(known), "{known}: {}", run.stdout);
     }
     assert!(!run.stdout.contains("walk1") && !run.stdout.contains("another recording"), "{}", run.stdout);
@@ -177,6 +177,49 @@ fn an_own_reference_group_is_written_and_read_back() {
 }
 
 #[test]
+fn a_copy_of_a_recording_does_not_count_twice_and_another_person_is_noticed() {
+    let bench = laboratory("session_copies");
+    visit(&bench, "once", 1);
+    bench.run(&["session", "once", "-o", "first", "--quiet"]).done();
+    visit(&bench, "twice", 1);
+    bench.write("twice/walk0 - copy.mot", bench.read("twice/walk0.mot"));
+    bench.run(&["session", "twice", "-o", "second", "--quiet"]).done();
+    let (first, second) = (bench.json("first/summary.json"), bench.json("second/summary.json"));
+    assert_eq!(first["trials"][0]["counted"], second["trials"][0]["counted"]);
+    assert_eq!(second["trials"].as_array().unwrap().len(), 1, "{}", second["trials"]);
+    let left_out = second["not_computed"].to_string();
+    assert!(left_out.contains("a copy of walk0 - copy.mot") || left_out.contains("a copy of walk0.mot"), "{left_out}");
+    // The same motion of a heavier body.
+    visit(&bench, "heavy", 1);
+    let run = ["session", "heavy", "-o", "third", "--compare", "first", "--quiet", "--", "--mass", "110"];
+    bench.run(&run).done();
+    let warnings = bench.json("third/summary.json")["warnings"].to_string();
+    assert!(warnings.contains("if it is not the same person"), "{warnings}");
+    bench
+        .run(&["session", "once", "-o", "x", "--compare", "demo/input"])
+        .refused(&["expected a folder that `ambulo session` wrote"]);
+}
+
+#[test]
+fn an_anonymous_session_has_no_name_of_a_model_and_the_same_id_in_a_folder_of_another_name() {
+    let bench = laboratory("session_model_name");
+    let ids = ["Erika", "Ann"].map(|folder| {
+        visit(&bench, folder, 1);
+        let model = bench.text(&format!("{folder}/figure.osim"));
+        let start = model.find("<Model name=\"").unwrap() + "<Model name=\"".len();
+        let end = start + model[start..].find('"').unwrap();
+        bench.write(&format!("{folder}/figure.osim"), format!("{}Erika Schmidt{}", &model[..start], &model[end..]));
+        bench.run(&["session", folder, "-o", "out", "--anonymous", "--force", "--quiet"]).done();
+        for name in bench.names("out") {
+            let text = bench.text(&format!("out/{name}"));
+            assert!(!text.contains("Erika") && !text.contains("Schmidt"), "{name}");
+        }
+        bench.json("out/summary.json")["run_id"].as_str().unwrap().to_owned()
+    });
+    assert_eq!(ids[0], ids[1]);
+}
+
+#[test]
 fn what_is_no_visit_of_one_person_is_refused_and_nothing_is_lost() {
     let bench = laboratory("session_refused");
     fs::create_dir_all(bench.folder.join("empty")).unwrap();
@@ -184,6 +227,8 @@ fn what_is_no_visit_of_one_person_is_refused_and_nothing_is_lost() {
     bench.run(&["session", "nowhere"]).refused(&["no such folder"]);
     visit(&bench, "two/Ann", 1);
     visit(&bench, "two/Ben", 1);
+    // Of the same bytes they would be one recording.
+    bench.edit_rows("two/Ben/walk0.mot", |rows| rows[..rows.len() - 1].to_vec());
     bench.run(&["session", "two"]).refused(&["2 persons (Ann, Ben)", "person = \"NAME\""]);
     bench.write("two/trials.toml", "[[trial]]\nfiles = \"**\"\nperson = \"Ann\"\n[[trial]]\nfiles = \"Ben/*\"\nmass = 20\n[[trial]]\nfiles = \"Ann/*\"\nmass = 60\n");
     bench.run(&["session", "two"]).refused(&["`mass` from 20 to 60 kg", "one number"]);

@@ -159,6 +159,63 @@ fn lost_doubled_late_and_broken_frames_are_named_and_survived() {
     assert_eq!(frames, expected.collect::<Vec<u64>>(), "{errors}");
 }
 
+#[test]
+fn frames_after_a_refused_first_line_are_not_used() {
+    let bench = Workbench::new("stream_naming");
+    let (names, values) = walk(&bench);
+    let frames = |count: usize| (0..count).map(|frame| line(frame, &values[frame])).collect::<Vec<String>>();
+    let expected = results(&piped(&bench, replay(&bench, FEW)).0);
+    let twice = heading(&[&names[..], &names[..1]].concat());
+    for wrong in [heading(&names).replace("deg", "degree"), heading(&names).replace("hip", "hop"), twice] {
+        let lines = [vec![wrong], frames(3), vec![heading(&names)], frames(FEW)].concat();
+        let (answers, errors) = piped(&bench, lines);
+        let notices: Vec<&str> = answers.iter().filter_map(|answer| answer["notice"].as_str()).collect();
+        assert_eq!(notices, ["refused", "refused", "refused", "refused", "ended"], "{errors}");
+        assert!(errors.contains("after a line with names or units that was refused"), "{errors}");
+        assert_eq!(results(&answers), expected);
+    }
+    // A byte order mark is no part of the first line.
+    let marked = [vec![format!("\u{feff}{}", heading(&names))], frames(FEW)].concat();
+    assert_eq!(results(&piped(&bench, marked).0), expected);
+}
+
+#[test]
+fn a_datagram_of_another_program_ends_no_sequence() {
+    let bench = Workbench::new("stream_stray");
+    let expected = results(&piped(&bench, replay(&bench, FEW)).0);
+    let mut server = started(&bench, &["--input", "udp:0"]);
+    let address = address(&mut server);
+    let socket = || {
+        let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+        socket.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
+        socket.connect(address).unwrap();
+        socket
+    };
+    let (sender, stray) = (socket(), socket());
+    let mut datagram = vec![0; 1 << 16];
+    let mut receive = |socket: &UdpSocket| {
+        let length = socket.recv(&mut datagram).unwrap();
+        answers(&datagram[..length])
+    };
+    let mut found = Vec::new();
+    for (place, line) in replay(&bench, FEW).iter().enumerate() {
+        sender.send(line.as_bytes()).unwrap();
+        // The description comes first, then a result for each frame but those of the delay.
+        if place == 0 || place > 7 {
+            found.extend(results(&receive(&sender)));
+        }
+        if place == FEW / 2 {
+            stray.send(b"x").unwrap();
+            assert_eq!(receive(&stray)[1]["notice"], "refused");
+        }
+    }
+    sender.send(&[]).unwrap();
+    found.extend(results(&receive(&sender)));
+    assert_eq!(found, expected);
+    server.kill().unwrap();
+    server.wait().unwrap();
+}
+
 /// Replays lines to a TCP server as records or lines, and reads everything that it answers.
 fn over_tcp(address: SocketAddr, bytes: Vec<u8>) -> Vec<u8> {
     let mut link = TcpStream::connect(address).unwrap();
@@ -296,16 +353,19 @@ fn the_markers_of_a_c3d_from_another_process_have_the_forces_of_the_batch() {
     let (c3d, _) = C3d::read(&std::fs::read(&walk).unwrap()).unwrap();
     let recording = markers_from_c3d(&c3d, &mut Findings::default()).unwrap();
     let rate = recording.rate_hz.to_string();
-    let mut command = bench.command(&["stream", "whole/subject.osim", "--rate", &rate, "--markers"]);
-    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let mut input = child.stdin.take().unwrap();
-    let lines = marker_lines(&recording, "+y,+z");
-    let sender = std::thread::spawn(move || lines.iter().for_each(|line| input.write_all(line.as_bytes()).unwrap()));
-    let output = child.wait_with_output().unwrap();
-    sender.join().unwrap();
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{errors}");
-    let answers = answers(&output.stdout);
+    let streamed = |lines: Vec<String>| {
+        let mut command = bench.command(&["stream", "whole/subject.osim", "--rate", &rate, "--markers"]);
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut input = child.stdin.take().unwrap();
+        let sender =
+            std::thread::spawn(move || lines.iter().for_each(|line| input.write_all(line.as_bytes()).unwrap()));
+        let output = child.wait_with_output().unwrap();
+        sender.join().unwrap();
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{errors}");
+        (answers(&output.stdout), errors)
+    };
+    let (answers, errors) = streamed(marker_lines(&recording, "+y,+z"));
     let results = results(&answers);
     assert!(results.len() + 10 > recording.frames(), "{} of {}: {errors}", results.len(), recording.frames());
     let columns: Vec<&str> = answers[0]["columns"].as_array().unwrap().iter().map(|c| c.as_str().unwrap()).collect();
@@ -325,6 +385,37 @@ fn the_markers_of_a_c3d_from_another_process_have_the_forces_of_the_batch() {
         let difference = f64::sqrt(squares / count);
         println!("{name}: {difference:.0} N from the batch over {count} frames, largest {largest:.0} N");
         assert!(count > 100.0 && largest > 400.0 && difference < 60.0, "{name}: {difference}");
+    }
+    a_frame_that_cannot_be_fitted_ends_no_stream(&recording, &streamed);
+}
+
+/// One bad frame costs itself: a frame of hidden markers, at zero or null, and one in which the whole body is elsewhere.
+fn a_frame_that_cannot_be_fitted_ends_no_stream(
+    recording: &MarkerRecording,
+    streamed: &dyn Fn(Vec<String>) -> (Vec<Value>, String),
+) {
+    const BAD: usize = 100;
+    let spoiled = |change: &dyn Fn(&mut MarkerPath)| {
+        let mut recording = recording.clone();
+        recording.markers.iter_mut().for_each(change);
+        streamed(marker_lines(&recording, "+y,+z"))
+    };
+    let known = results(&streamed(marker_lines(recording, "+y,+z")).0);
+    let at_zero = spoiled(&|marker| marker.positions[BAD] *= 0.0);
+    let elsewhere = spoiled(&|marker| marker.positions[BAD] *= -3.0);
+    for (answers, errors) in [at_zero, elsewhere] {
+        assert!(errors.contains("x unfitted"), "{errors}");
+        let found = results(&answers);
+        let last = |results: &[(u64, Vec<f64>)]| results.last().map(|(frame, _)| *frame);
+        assert_eq!(last(&found), last(&known), "{errors}");
+        assert!(found.len() + 30 > known.len(), "{} of {}: {errors}", found.len(), known.len());
+        // Half a second later the forces are those of an undisturbed stream.
+        let later = |results: &[(u64, Vec<f64>)]| {
+            results.iter().find(|(frame, _)| *frame == BAD as u64 + 50).map(|(_, values)| values.clone()).unwrap()
+        };
+        let apart = later(&found).iter().zip(&later(&known)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("{apart:.1} N or N.m from an undisturbed stream");
+        assert!(apart < 20.0, "{apart}: {errors}");
     }
 }
 

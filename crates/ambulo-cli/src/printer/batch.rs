@@ -1,12 +1,13 @@
 //! Prints what `batch` found and computed.
 
-use super::print_line;
+use super::{plural, print_line, say};
 use crate::args::PrintArgs;
 use crate::commands::PlannedTrial;
 use anyhow::Result;
 use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeMap;
+use std::io::{IsTerminal, Write, stderr};
 use std::path::Path;
 
 /// Reasons, and trials of a ranking, that are printed without `--verbose`.
@@ -97,7 +98,7 @@ pub(crate) fn batch_plan(trials: &[&PlannedTrial], others: &[(String, String)], 
         let broken = trial.broken.as_ref().map_or_else(String::new, |why| format!("; {why}"));
         print_line(&format!("  {}, person {}{}{broken}", trial.name, trial.person, with.collect::<String>()))?;
     }
-    print_line(&format!("  {} trials", trials.len()))?;
+    print_line(&format!("  {} trial{}", trials.len(), plural(trials.len())))?;
     for (name, why) in others {
         print_line(&format!("  not {name}: {why}"))?;
     }
@@ -112,10 +113,11 @@ pub(crate) fn batch_progress(done: usize, all: usize, rate: f64, left_s: f64, pr
         return;
     }
     let text = format!("{done} of {all} trials, {rate:.1} a second, about {left_s:.0} s left");
-    if std::io::IsTerminal::is_terminal(&std::io::stderr()) {
-        eprint!("\r{text}   {}", if done == all { "\n" } else { "" });
+    if stderr().is_terminal() {
+        // As in `say`: nobody may read it.
+        let _ = write!(stderr(), "\r{text}   {}", if done == all { "\n" } else { "" });
     } else if done.is_multiple_of(all.div_ceil(LINES).max(1)) || done == all {
-        eprintln!("{text}");
+        say(format_args!("{text}"));
     }
 }
 
@@ -136,7 +138,7 @@ pub(crate) fn batch(
         let text = json!({ "counts": counts, "ranking": worst, "output": output });
         return print_line(&serde_json::to_string_pretty(&text)?);
     }
-    print_line(&format!("  computed  {} of {} trials", counts.computed, counts.trials))?;
+    print_line(&format!("  computed  {} of {} trial{}", counts.computed, counts.trials, plural(counts.trials)))?;
     let words = |of: &BTreeMap<String, usize>| {
         of.iter().map(|(word, count)| format!("{count} {word}")).collect::<Vec<_>>().join(", ")
     };

@@ -1,7 +1,5 @@
 //! Prints results as text or JSON on standard output, and everything else on standard error.
 
-#![expect(clippy::print_stderr, reason = "this is the one place that prints")]
-
 mod batch;
 mod calibrate;
 mod comparison;
@@ -37,7 +35,8 @@ use ambulo::gait::Walk;
 use ambulo::gait::machine::{ChangeTable, StateChange, state_table};
 use anyhow::Result;
 use std::borrow::Cow;
-use std::io::{ErrorKind, Write, stdout};
+use std::fmt::Arguments;
+use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 
 /// Prints a line on standard output. A closed pipe (`ambulo ... | head`) is not an error.
@@ -46,6 +45,11 @@ fn print_line(line: &str) -> Result<()> {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(e.into()),
         _ => Ok(()),
     }
+}
+
+/// Prints a line on standard error. That nobody reads it, or that it cannot be written, ends no computation.
+fn say(line: Arguments<'_>) {
+    let _ = writeln!(stderr(), "{line}");
 }
 
 /// The text without control codes, which a file name could have and which could change the terminal.
@@ -88,7 +92,7 @@ pub(crate) fn guide() -> Result<()> {
 
 /// Prints an error: where and what on the first line, what to do on the second.
 pub(crate) fn error(error: &anyhow::Error) {
-    eprintln!("error: {}", visible(&with_hint(&chain(error), hints::of_error(error))));
+    say(format_args!("error: {}", visible(&with_hint(&chain(error), hints::of_error(error)))));
 }
 
 /// An error as [`error`] prints it: what and where, and what to do.
@@ -103,7 +107,7 @@ fn chain(error: &anyhow::Error) -> String {
 /// Prints which long computation begins, unless the output is JSON.
 pub(crate) fn progress(what: &str, print: PrintArgs) {
     if !print.quiet && !print.json {
-        eprintln!("{what} ...");
+        say(format_args!("{what} ..."));
     }
 }
 
@@ -151,7 +155,7 @@ pub(crate) fn stream_description(description: &impl serde::Serialize) -> Result<
 
 /// Prints a line about a stream that goes on.
 pub(crate) fn stream_line(line: &str) {
-    eprintln!("{}", visible(line));
+    say(format_args!("{}", visible(line)));
 }
 
 fn print_findings(findings: &[Finding]) {
@@ -159,7 +163,7 @@ fn print_findings(findings: &[Finding]) {
         let times = if finding.count > 1 { format!(" ({} times)", finding.count) } else { String::new() };
         let severity = finding.severity();
         let message = with_hint(&format!("{}{times}", finding.message), hints::of_finding(finding.code));
-        eprintln!("{severity}: {}", visible(&message));
+        say(format_args!("{severity}: {}", visible(&message)));
     }
 }
 
@@ -173,13 +177,13 @@ fn print_warnings(findings: &[Finding]) {
         let (what, hint) = finding.message.split_once("hint: ").unwrap_or((&finding.message, ""));
         let hint = Some(hint).filter(|hint| !hint.is_empty()).or(hints::of_finding(finding.code));
         let hint = hint.map_or(String::new(), |hint| format!(" (hint: {hint})"));
-        eprintln!("warning: {}{}", visible(what.trim_end()), visible(&hint));
+        say(format_args!("warning: {}{}", visible(what.trim_end()), visible(&hint)));
     }
     let more = [(warnings.len().saturating_sub(MOST), "warning"), (notes.len(), "note")];
     let more = more.into_iter().filter(|(count, _)| *count > 0);
     let more: Vec<String> = more.map(|(count, kind)| format!("{count} {kind}{}", plural(count))).collect();
     if !more.is_empty() {
-        eprintln!("{} more: use --verbose, or read them in the report", more.join(" and "));
+        say(format_args!("{} more: use --verbose, or read them in the report", more.join(" and ")));
     }
 }
 

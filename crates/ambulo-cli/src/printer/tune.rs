@@ -1,6 +1,6 @@
 //! Prints the progress and the outcome of `tune`, and writes its file.
 
-use super::{print_line, quoted};
+use super::{print_line, quoted, say};
 use crate::args::PrintArgs;
 use ambulo::simulation::control::tuning::{PushSettings, TrialOutcome, Tuning};
 use anyhow::Result;
@@ -103,10 +103,10 @@ pub(crate) fn tuning(
         candidates.iter().map(|outcome| outcome.pushes).sum::<usize>(),
     ];
     let left = if left_s < 90.0 { format!("{left_s:.0} s") } else { format!("{:.0} min", left_s / 60.0) };
-    eprintln!(
+    say(format_args!(
         "{done} of {most} evaluations: cost {:.4} (start {:.4}), pushes survived {} of {} (start {}), by this generation {survived} of {pushes}; {left} left",
         best.outcome.cost, start.outcome.cost, best.outcome.survived, best.outcome.pushes, start.outcome.survived
-    );
+    ));
 }
 
 /// Prints the outcome.

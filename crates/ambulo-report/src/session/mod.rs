@@ -279,6 +279,9 @@ pub struct ComparedSession {
     earlier: Option<Session>,
 }
 
+/// A mass that differs by more than this share may be that of another person.
+const OTHER_MASS: f64 = 0.2;
+
 impl ComparedSession {
     /// Also shows what changed since an earlier session.
     #[must_use]
@@ -290,6 +293,12 @@ impl ComparedSession {
                 "the angles of pelvis and hips have the {} convention, those of the earlier session the {} convention: their differences are no changes of the person",
                 self.session.summary.convention.word(),
                 earlier.summary.convention.word()
+            ));
+        }
+        let masses = self.session.summary.mass_kg.zip(earlier.summary.mass_kg);
+        if let Some((now_kg, then_kg)) = masses.filter(|(now, then)| (now - then).abs() > OTHER_MASS * then) {
+            self.session.summary.warnings.push(format!(
+                "the body mass is {now_kg:.1} kg, that of the earlier session {then_kg:.1} kg: if it is not the same person, the differences are not those of two visits"
             ));
         }
         ComparedSession { earlier: Some(earlier), ..self }

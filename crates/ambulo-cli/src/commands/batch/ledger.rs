@@ -15,16 +15,18 @@ use crate::args::Shard;
 use crate::folder_lock::FolderLock;
 use crate::replacement::write_through;
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use serde::{Deserialize, Serialize};
-use std::fs;
-use std::io::ErrorKind;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 const DESCRIPTION: &str = "batch.json";
 const TABLES: [&str; 4] = [FRAMES, "cycles", "events", TRIALS];
 const FRAMES: &str = "frames";
 const TRIALS: &str = "trials";
+/// Tables of frames that every trial with results has; others are of some trials only.
+const OF_EVERY_TRIAL: [&str; 2] = ["kinematics", "moments"];
 /// Folder of the locks of the shards.
 const LOCKS: &str = ".shards";
 
@@ -43,12 +45,17 @@ pub(super) struct Description {
     pub(super) keep: Vec<String>,
     /// Options of `ambulo forces`.
     pub(super) options: Vec<String>,
+    /// SHA-256 of the names of all trials in their order, if there are several shards: each of them must find the same list.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) trials: Option<String>,
 }
 
 /// The folder, while this process alone writes the parts of one shard.
 pub(super) struct Ledger {
     folder: PathBuf,
     shard: Shard,
+    /// Whether every trial with results has frames.
+    keeps_frames: bool,
     _lock: FolderLock,
 }
 
@@ -76,7 +83,8 @@ impl Ledger {
                 shard.count
             );
         };
-        let ledger = Ledger { folder: folder.to_owned(), shard, _lock: lock };
+        let keeps_frames = description.keep.iter().any(|table| OF_EVERY_TRIAL.contains(&table.as_str()));
+        let ledger = Ledger { folder: folder.to_owned(), shard, keeps_frames, _lock: lock };
         ledger.agree(&path, description)?;
         for table in TABLES {
             let place = folder.join(table);
@@ -113,7 +121,16 @@ impl Ledger {
         let found: Description = serde_json::from_str(&found)
             .with_context(|| format!("{}: this is not the description of a batch", path.display()))?;
         match differences(&found, description).as_slice() {
+            [] if found.trials != description.trials => bail!(
+                "{}: the shards before this one found other trials in the source; expected the same list in every shard. hint: compute all shards again into another folder with -o, and change no recording meanwhile",
+                self.folder.display()
+            ),
             [] => Ok(()),
+            all if found.version != description.version => bail!(
+                "{}: this folder has the batch of another version: {}. hint: choose another folder with -o",
+                self.folder.display(),
+                all.join("; ")
+            ),
             all => bail!(
                 "{}: this folder has another batch: {}. hint: give the same options, or choose another folder with -o",
                 self.folder.display(),
@@ -165,10 +182,15 @@ impl Ledger {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             read => read.with_context(|| format!("{}: cannot be read", path.display()))?,
         };
-        let table = ParquetTable::read(&bytes).with_context(|| path.display().to_string())?;
+        let shown = path.display();
+        let hint = "hint: remove this file, and --resume computes its part again";
+        let table = ParquetTable::read(&bytes).map_err(|error| anyhow!("{shown}: {error}. {hint}"))?;
         let Some(ColumnValues::Text(found)) = table.column("key") else {
-            bail!("{}: found no column `key`; expected the trials of a batch", path.display());
+            bail!("{shown}: found no column `key`; expected the trials of a batch. {hint}");
         };
+        if !self.has_results(part, &table) {
+            return Ok(None);
+        }
         let differs =
             keys.iter().enumerate().find(|(k, (_, key))| found.get(*k).and_then(|own| own.as_deref()) != Some(*key));
         match differs {
@@ -178,6 +200,28 @@ impl Ledger {
                 bail!("{}: `{name}` was computed from other files or is another trial. {CHANGED}", path.display())
             }
         }
+    }
+
+    /// Whether the other tables of a closed part are there and complete; somebody may have removed one, or copied a part of it.
+    fn has_results(&self, part: usize, trials: &ParquetTable) -> bool {
+        const MARK: &[u8] = b"PAR1";
+        let is_complete = |table: &str| {
+            let mut ends = [[0; MARK.len()]; 2];
+            let mut read = || {
+                let mut file = File::open(self.place(table, part))?;
+                file.read_exact(&mut ends[0])?;
+                file.seek(SeekFrom::End(-(MARK.len() as i64)))?;
+                file.read_exact(&mut ends[1])
+            };
+            read().is_ok() && ends.iter().all(|end| end == MARK)
+        };
+        let has_frames = || match trials.column("frames") {
+            Some(ColumnValues::Whole(frames)) if self.keeps_frames => {
+                frames.iter().any(|count| count.is_some_and(|count| count > 0))
+            }
+            _ => false,
+        };
+        TABLES.into_iter().filter(|table| *table != TRIALS && (*table != FRAMES || has_frames())).all(is_complete)
     }
 
     /// Writes the tables of a part; the trials are last and close it.
@@ -241,8 +285,13 @@ fn differences(found: &Description, expected: &Description) -> Vec<String> {
     compare("version", found.version.clone(), expected.version.clone());
     compare("shards", found.shards.to_string(), expected.shards.to_string());
     compare("--part", found.part.to_string(), expected.part.to_string());
-    compare("--limit", format!("{:?}", found.limit), format!("{:?}", expected.limit));
-    compare("--keep", found.keep.join(","), expected.keep.join(","));
-    compare("options after `--`", found.options.join(" "), expected.options.join(" "));
+    let number = |limit: Option<u32>| limit.map_or_else(|| "none".to_owned(), |limit| limit.to_string());
+    let words = |words: &[String], between: &str| match words {
+        [] => "none".to_owned(),
+        _ => words.join(between),
+    };
+    compare("--limit", number(found.limit), number(expected.limit));
+    compare("--keep", words(&found.keep, ","), words(&expected.keep, ","));
+    compare("options after `--`", words(&found.options, " "), words(&expected.options, " "));
     all
 }

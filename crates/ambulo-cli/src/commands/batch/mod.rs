@@ -12,6 +12,7 @@ use crate::args::BatchArgs;
 use crate::caller::Caller;
 use crate::files::ending;
 use crate::printer::{self, BatchCounts, BatchRow};
+use crate::record::hash;
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use anyhow::{Result, bail};
 use ledger::{Description, Ledger};
@@ -49,7 +50,7 @@ pub(crate) fn compute(args: &BatchArgs, caller: &Caller) -> Result<Completion> {
         printer::batch_plan(&trials, &plan.others, args.print)?;
         return Ok(Completion::Passed);
     }
-    let ledger = Ledger::open(&args.output, args.shard, &description(args), args.resume)?;
+    let ledger = Ledger::open(&args.output, args.shard, &description(args, &plan.trials[..all]), args.resume)?;
     let batch = Batch {
         args,
         work: &work,
@@ -78,6 +79,15 @@ pub(crate) fn compute(args: &BatchArgs, caller: &Caller) -> Result<Completion> {
 /// The trials of the source, and the folder that their names begin at.
 fn planned(args: &BatchArgs, threads: usize) -> Result<(PathBuf, Plan)> {
     let source = &args.source;
+    let is_source = |ending: &str| matches!(ending, "csv" | "jsonl" | "b3d");
+    if !source.is_dir() && !(source.is_file() && is_source(&ending(source))) {
+        let found =
+            if source.is_file() { "this file is no source of a batch" } else { "there is no such folder or file" };
+        bail!(
+            "{}: {found}; expected a folder with recordings, a list of trials (.csv, .jsonl), or a .b3d. hint: docs/BATCH.md has the rules; `ambulo forces` computes one recording",
+            source.display()
+        );
+    }
     match ending(source).as_str() {
         "csv" | "jsonl" if source.is_file() => {
             let root = source.parent().unwrap_or(Path::new("")).to_owned();
@@ -94,7 +104,9 @@ fn planned(args: &BatchArgs, threads: usize) -> Result<(PathBuf, Plan)> {
     }
 }
 
-fn description(args: &BatchArgs) -> Description {
+/// `trials` are those of all shards.
+fn description(args: &BatchArgs, trials: &[PlannedTrial]) -> Description {
+    let names: Vec<&str> = trials.iter().map(|trial| trial.name.as_str()).collect();
     Description {
         version: env!("AMBULO_VERSION").to_owned(),
         shards: args.shard.count,
@@ -102,6 +114,7 @@ fn description(args: &BatchArgs) -> Description {
         limit: args.limit,
         keep: args.keep.clone(),
         options: apart(&args.options).iter().map(|word| word.to_string_lossy().into_owned()).collect(),
+        trials: (args.shard.count > 1).then(|| hash(names.join("\n").as_bytes())),
     }
 }
 

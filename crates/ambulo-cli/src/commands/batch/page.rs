@@ -16,7 +16,7 @@ const PAGE: &str = "summary.html";
 pub(super) fn write(args: &BatchArgs, planned: &[PlannedTrial], tables: &[ParquetTable]) -> Result<()> {
     let planned: BTreeMap<&str, &PlannedTrial> = planned.iter().map(|trial| (trial.name.as_str(), trial)).collect();
     let command = |name: &str| {
-        let output = format!("{}-page", name.replace(|c: char| !c.is_alphanumeric(), "-"));
+        let output = format!("{}-page", name.replace(|c: char| !c.is_alphanumeric(), "-").trim_start_matches('-'));
         planned.get(name).map(|trial| trial.files.command(&args.options, &output))
     };
     let mut trials: Vec<(BatchRow, BatchTrial)> = tables.iter().flat_map(trials_of).collect();

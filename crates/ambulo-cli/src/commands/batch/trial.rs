@@ -4,7 +4,7 @@ use crate::args::ForcesArgs;
 use crate::caller::Caller;
 use crate::commands::bids;
 use crate::commands::forces::{self, Shared};
-use crate::commands::trials::{PlannedTrial, apart, sentence};
+use crate::commands::trials::{PlannedTrial, apart, relative, sentence};
 use crate::printer;
 use crate::record::{hash, hash_of_file};
 use ambulo::analysis::Analysis;
@@ -160,8 +160,9 @@ impl Work {
                 add_columns(&mut frames, &table, &file.name, prefix, &|column| unit_of(&file.name, column, Some(body)));
             }
         }
-        // The time of a computation is no result: the same batch has the same bytes.
+        // Neither the time of a computation nor the place of its folder is a result: the same batch has the same bytes.
         summary.timing_ms.clear();
+        summary.findings.iter_mut().for_each(|finding| finding.message = relative(&finding.message, &self.root));
         Ok(Computed {
             summary: serde_json::to_value(&summary)?,
             frames,

@@ -1,7 +1,7 @@
 //! Results without names, paths and dates of a person.
 //!
 //! Names are left out where the results have a place for them, and replaced in sentences: every file name of the visit, its folder, every part of
-//! its path, the names in trials.toml and those in the recordings.
+//! its path, the names in trials.toml, those in the recordings, and those of models from files.
 
 use super::Finished;
 use crate::commands::trials::Plan;
@@ -20,8 +20,8 @@ pub(super) struct Anonymous {
 }
 
 impl Anonymous {
-    /// The names to replace: those of the folder, of the files of its trials, and `names`, which were read from the recordings.
-    pub(super) fn of(folder: &Path, plan: &Plan, names: &[String]) -> Anonymous {
+    /// The names to replace: those of the folder, of the files of its trials, `names`, which were read from the recordings, and those of models.
+    pub(super) fn of(folder: &Path, plan: &Plan, names: &[String], models: &[String]) -> Anonymous {
         let mut replaced: Vec<(String, String)> = Vec::new();
         for (k, trial) in plan.trials.iter().enumerate() {
             let label = format!("trial {}", k + 1);
@@ -38,6 +38,7 @@ impl Anonymous {
             add_file(&mut replaced, Path::new(name), &format!("recording {}", k + 1));
         }
         names.iter().for_each(|name| replaced.push((name.clone(), "the person".to_owned())));
+        models.iter().for_each(|name| replaced.push((name.clone(), "the model".to_owned())));
         let full = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         for path in [folder, &full] {
             replaced.push((path.display().to_string(), "the folder".to_owned()));
@@ -72,6 +73,7 @@ impl Anonymous {
         summary.recorded_on.clear();
         summary.recordings.clear();
         summary.body = self.text(&summary.body);
+        summary.convention_reason = summary.convention_reason.as_deref().map(|reason| self.text(reason));
         for trial in &mut summary.trials {
             trial.trial = self.text(&trial.trial);
             trial.recorded_on = None;

@@ -35,8 +35,9 @@ pub(crate) fn run(args: &SessionArgs) -> Result<Completion> {
 /// Computes a session into its folder. A caller that stops it leaves the folder as it was.
 pub(crate) fn compute(args: &SessionArgs, caller: &Caller) -> Result<Completion> {
     let threads = args.jobs.map_or_else(processors, |jobs| jobs as usize);
-    let (root, plan) = visit::of(&args.source, threads)?;
+    let (root, mut plan) = visit::of(&args.source, threads)?;
     visit::check_person(&root, &plan)?;
+    visit::leave_out_copies(&mut plan);
     let trials: Vec<&PlannedTrial> = plan.trials.iter().collect();
     if args.dry_run {
         printer::batch_plan(&trials, &plan.others, args.print)?;
@@ -54,7 +55,7 @@ pub(crate) fn compute(args: &SessionArgs, caller: &Caller) -> Result<Completion>
     }
     let finished = finished(args, person.session, Inputs { plan: &plan, recordings, group, earlier });
     let finished = match args.anonymous {
-        true => Anonymous::of(&root, &plan, &person.names).applied(finished),
+        true => Anonymous::of(&root, &plan, &person.names, &person.models).applied(finished),
         false => finished,
     };
     let summary = save(args, &target, &plan, finished)?;
@@ -72,10 +73,11 @@ struct Computing<'a> {
     caller: &'a Caller,
 }
 
-/// A session of one person, and the names in the recordings.
+/// A session of one person, and the names in the recordings and of models from files.
 struct PersonSession {
     session: Session,
     names: Vec<String>,
+    models: Vec<String>,
 }
 
 impl Computing<'_> {
@@ -98,6 +100,8 @@ impl Computing<'_> {
             named.extend(run.as_ref().ok().and_then(|run| Some((trial, run.input.person.clone()?))));
         }
         visit::check_names(root, &named)?;
+        let of_file = trials.iter().zip(&computed.runs).filter(|(trial, _)| trial.files.model.is_some());
+        let models = of_file.filter_map(|(_, run)| Some(run.as_ref().ok()?.outcome.body.name().to_owned())).collect();
         let of_run = |(trial, run): (&&PlannedTrial, &Result<MotionRun, String>)| SessionTrial {
             name: trial.name.clone(),
             recorded_on: run.as_ref().ok().and_then(|run| run.input.recorded_on.clone()),
@@ -112,6 +116,7 @@ impl Computing<'_> {
         Ok(PersonSession {
             session: Session::pooled(facts, &found),
             names: named.into_iter().map(|(_, name)| name).collect(),
+            models,
         })
     }
 }
@@ -207,10 +212,12 @@ fn inputs(args: &SessionArgs, plan: &Plan) -> Vec<PathBuf> {
     all
 }
 
-/// The command with the options that matter for the results; where the folders lie does not.
+/// The command with the options that matter for the results. Where the folders lie does not, nor, in an anonymous session, their names, which could be
+/// guessed and then confirmed by the id of the run.
 fn options(args: &SessionArgs) -> String {
     let (output, jobs, dry_run, replace, print) = Default::default();
     let name = |path: &Path| PathBuf::from(files::last(&path.canonicalize().unwrap_or_else(|_| path.to_owned())));
+    let name = |path: &Path| if args.anonymous { PathBuf::new() } else { name(path) };
     let (compare, norm) = (args.compare.as_deref().map(name), args.norm.as_deref().map(name));
     let source = args.source.iter().map(|path| name(path)).collect();
     let options = apart(&args.options);

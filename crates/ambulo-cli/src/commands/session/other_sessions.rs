@@ -68,7 +68,14 @@ pub(super) fn check_output(args: &SessionArgs, root: &Path, recordings: &[String
 /// The session in a result folder.
 pub(super) fn read(folder: &Path) -> Result<Session> {
     let shown = || folder.display().to_string();
-    let found = ResultFolder::of_any_run(folder)?;
+    // What an interrupted run left is completed first.
+    let found = ResultFolder::of_any_run(folder).map_err(|error| match folder.join(SUMMARY).is_file() {
+        true => error,
+        false => Error::msg(format!(
+            "{}: found no session here; expected a folder that `ambulo session` wrote. hint: `ambulo session DIR -o OUT` writes one",
+            folder.display()
+        )),
+    })?;
     let summary = found.read(SUMMARY).unwrap_or_default();
     if head(folder).is_none_or(|head| head.session_format.is_none()) {
         bail!(

@@ -1,8 +1,9 @@
 //! The trials of one person, and what a session refuses: several persons, several standing trials.
 
 use crate::commands::trials::{LIST, Plan, PlannedTrial, Wanted, files_in, listed, plan, plan_listed};
+use crate::record::hash_of_file;
 use anyhow::{Result, bail};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Reasons and names that an error quotes.
@@ -50,6 +51,30 @@ pub(super) fn check_person(folder: &Path, plan: &Plan) -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// Leaves out recordings that have the bytes of another one: their cycles would count twice.
+pub(super) fn leave_out_copies(plan: &mut Plan) {
+    let mut known: BTreeMap<String, String> = BTreeMap::new();
+    let Plan { trials, others, .. } = plan;
+    trials.retain(|trial| {
+        // The trials of one file, and files that cannot be read, which get an error of their own.
+        if trial.files.trial.is_some() {
+            return true;
+        }
+        let Ok(hash) = hash_of_file(&trial.files.recording) else { return true };
+        match known.get(&hash) {
+            Some(first) => {
+                others.push((trial.name.clone(), format!("a copy of {first}, byte for byte")));
+                false
+            }
+            None => {
+                known.insert(hash, trial.name.clone());
+                true
+            }
+        }
+    });
+    others.sort();
 }
 
 /// Refuses several standing trials, unless it is stated which one counts.

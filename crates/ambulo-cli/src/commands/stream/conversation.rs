@@ -4,7 +4,7 @@ use super::Setup;
 use super::coordinates::CoordinateFrames;
 use super::formats::{Answer, Description, Message, from_json, from_record, record_bytes, to_json, to_record};
 use super::live_view::LiveView;
-use super::markers::MarkerFrames;
+use super::markers::{Fitted, MarkerFrames};
 use super::numbering::{Numbering, Place};
 use crate::args::{StreamArgs, StreamFormat};
 use ambulo::ground::predict::PredictError;
@@ -25,6 +25,16 @@ enum FrameKind {
     Markers(Box<MarkerFrames>),
 }
 
+/// Whether the sender said what its frames have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Naming {
+    /// Not yet: frames have everything of the model, in its units.
+    Unsaid,
+    Said,
+    /// It tried, but that line was refused: frames may have anything.
+    Refused,
+}
+
 /// Counts for the last line.
 #[derive(Debug, Default)]
 struct Counts {
@@ -42,6 +52,7 @@ pub(super) struct Conversation<'a> {
     /// Number of the sender for frame 0 of the stream.
     origin: u64,
     frames: FrameKind,
+    naming: Naming,
     page: Option<LiveView<'a>>,
     /// Answers that were not sent yet.
     pub(super) out: Vec<u8>,
@@ -59,7 +70,8 @@ impl<'a> Conversation<'a> {
         let view = |server| LiveView::new(server, &setup.model, rate, stream.delay_frames());
         let page = setup.page.as_ref().map(view);
         let (numbering, counts) = (Numbering::default(), Counts::default());
-        Ok(Conversation { setup, stream, numbering, origin: 0, frames, page, out: Vec::new(), counts })
+        let naming = Naming::Unsaid;
+        Ok(Conversation { setup, stream, numbering, origin: 0, frames, naming, page, out: Vec::new(), counts })
     }
 
     /// The description of frames and results that the sender gets first.
@@ -116,7 +128,15 @@ impl<'a> Conversation<'a> {
             StreamFormat::Json => from_json(bytes),
             StreamFormat::F32 => from_record(bytes, self.values()),
         };
+        // A first line that cannot be read may have been the one with the names.
+        let names = match &message {
+            Ok(message) => message.names_coordinates() || message.names_markers(),
+            Err(_) => self.naming == Naming::Unsaid && self.counts.frames == 0,
+        };
         let taken = message.and_then(|message| self.take(&message));
+        if names {
+            self.naming = if taken.is_ok() { Naming::Said } else { Naming::Refused };
+        }
         self.survive(taken)
     }
 
@@ -135,6 +155,11 @@ impl<'a> Conversation<'a> {
     fn take(&mut self, message: &Message) -> Result<()> {
         self.name_values(message)?;
         let Some(values) = message.values() else { return Ok(()) };
+        if self.naming == Naming::Refused && !message.names_coordinates() && !message.names_markers() {
+            bail!(
+                "a frame after a line with names or units that was refused; expected such a line first. hint: send it again, corrected"
+            );
+        }
         let q = self.checked(&values)?;
         let number = self.number(message)?;
         self.counts.frames += 1;
@@ -182,10 +207,18 @@ impl<'a> Conversation<'a> {
     /// The coordinates of a frame; those of markers are fitted now.
     fn fitted(&mut self, q: Vec<f64>, number: u64) -> Result<Vec<f64>> {
         let FrameKind::Markers(frames) = &mut self.frames else { return Ok(q) };
-        if let Some(q) = frames.fit()? {
-            return Ok(q);
-        }
-        let message = format!("frame {number} has too few visible markers for a posture");
+        let message = match frames.fit(&self.setup.model)? {
+            Fitted::Posture(q) => return Ok(q),
+            Fitted::TooFew => format!("frame {number} has too few visible markers for a posture"),
+            Fitted::Lost(distance_m) => {
+                let from_body = distance_m.map_or_else(String::new, |far| {
+                    format!(": a quarter of them is more than {:.0} mm from it", 1e3 * far)
+                });
+                format!(
+                    "the markers of frame {number} are not where the body can have them{from_body}; the next frame is fitted as the first one. hint: check the unit, the axes and the names of the markers"
+                )
+            }
+        };
         self.notice("unfitted", Some(number), message);
         Ok(vec![f64::NAN; self.setup.model.coordinates().len()])
     }
@@ -247,7 +280,8 @@ impl<'a> Conversation<'a> {
         self.survive(finished)?;
         let Counts { frames, results, notices } = std::mem::take(&mut self.counts);
         let notices: String = notices.iter().map(|(kind, count)| format!(", {count} x {kind}")).collect();
-        let message = format!("{frames} frames in, forces of {results} frames out{notices}");
+        let counted = |count: u64| if count == 1 { "1 frame".to_owned() } else { format!("{count} frames") };
+        let message = format!("{} in, forces of {} out{notices}", counted(frames), counted(results));
         self.setup.say(&message);
         self.send(&Answer::Notice { notice: "ended", frame: None, message });
         self.numbering = Numbering::default();

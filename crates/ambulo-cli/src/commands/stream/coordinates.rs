@@ -37,12 +37,17 @@ impl CoordinateFrames {
     /// Sets which values a frame has, and their units. Returns the names of the other coordinates.
     ///
     /// # Errors
-    /// A name that the model does not have.
+    /// A name that the model does not have, or a name twice; nothing is changed then.
     pub(super) fn name_values(&mut self, model: &Model, message: &Message) -> Result<Vec<String>> {
         let coordinates: Vec<usize> = match &message.coordinates {
             None => self.slots.iter().map(|slot| slot.coordinate).collect(),
             Some(names) => names.iter().map(|name| coordinate(model, name)).collect::<Result<_>>()?,
         };
+        let is_twice = |(place, coordinate): (usize, &usize)| coordinates[..place].contains(coordinate);
+        if let Some(place) = coordinates.iter().enumerate().find(|entry| is_twice(*entry)).map(|(place, _)| place) {
+            let name = &model.coordinates()[coordinates[place]].name;
+            bail!("the coordinate `{name}` is named twice; expected each name once");
+        }
         let is_degrees = message.angles == Some(AngleUnit::Deg);
         let slot = |coordinate: usize| {
             let is_angle = model.coordinates()[coordinate].kind != CoordinateKind::Translation;

@@ -1,7 +1,7 @@
 //! Messages of a stream: lines of JSON, or records of 32-bit numbers.
 
 use crate::args::{LabAxes, MarkerUnit};
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, anyhow, bail};
 use serde::{Deserialize, Serialize};
 
 /// A message to the command.
@@ -123,7 +123,13 @@ pub(super) enum Answer {
 
 /// Reads a line.
 pub(super) fn from_json(line: &[u8]) -> Result<Message> {
-    serde_json::from_slice(line).context("a line that is no message; expected {\"frame\": 0, \"q\": [...]}")
+    // Some programs begin a file with a byte order mark.
+    let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
+    serde_json::from_slice(line).map_err(|error| {
+        // A message is one line, so that the number of the line is always 1.
+        let what = error.to_string().replace(" at line 1 column", " at column");
+        anyhow!("a line that is no message ({what}); expected a frame, {{\"frame\": 0, \"q\": [...]}} or with --markers {{\"frame\": 0, \"markers\": [...]}}")
+    })
 }
 
 /// Bytes of a record with so many values.
@@ -178,6 +184,7 @@ mod tests {
         assert_eq!((frame.frame, frame.q), (Some(3), Some(vec![Some(0.5), None])));
         let names = from_json(b"{\"coordinates\": [\"hip\"], \"angles\": \"deg\"}").unwrap();
         assert_eq!((names.coordinates, names.angles), (Some(vec!["hip".to_owned()]), Some(AngleUnit::Deg)));
+        assert_eq!(from_json(b"\xef\xbb\xbf{\"frame\": 3}").unwrap().frame, Some(3));
         for wrong in ["", "[]", "{\"frame\": -1}", "{\"q\": [\"x\"]}", "{\"values\": []}", "{\"angles\": \"turns\"}"] {
             assert!(from_json(wrong.as_bytes()).is_err(), "{wrong}");
         }

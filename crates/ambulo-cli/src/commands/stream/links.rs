@@ -9,6 +9,8 @@ use std::net::{SocketAddr, TcpListener, UdpSocket};
 const LONGEST_LINE: u64 = 1 << 20;
 /// Largest datagram [bytes].
 const LARGEST_DATAGRAM: usize = 1 << 16;
+/// Senders of datagrams at a time; of more, the one that was silent for the longest time is ended.
+const MOST_SENDERS: usize = 8;
 
 /// Takes messages from one sender until there are no more.
 ///
@@ -89,16 +91,16 @@ pub(super) fn serve_tcp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     }
 }
 
-/// Answers every datagram to its sender; an empty one ends the sequence.
+/// Answers every datagram to its sender. Each sender has a conversation of its own; an empty datagram ends it.
 ///
 /// # Errors
 /// A port that cannot be used, a model that cannot be streamed.
 pub(super) fn serve_udp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     let socket = UdpSocket::bind(address).map_err(|error| not_bound(error, "UDP", address))?;
     say_listening(setup, "UDP", socket.local_addr()?);
-    let mut conversation = Conversation::new(setup)?;
     let mut datagram = vec![0; LARGEST_DATAGRAM];
-    let mut sender = None;
+    // The sender of the last datagram is the last one.
+    let mut senders: Vec<(SocketAddr, Conversation<'_>)> = Vec::new();
     loop {
         let (length, peer) = match socket.recv_from(&mut datagram) {
             Ok(received) => received,
@@ -106,31 +108,41 @@ pub(super) fn serve_udp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
             Err(error) if is_gone(error.kind()) => continue,
             Err(error) => return Err(error).context("datagrams cannot be read"),
         };
-        if sender != Some(peer) {
-            if sender.is_some() {
-                conversation.end()?;
-                conversation = Conversation::new(setup)?;
+        let mut conversation = match senders.iter().position(|(sender, _)| *sender == peer) {
+            Some(place) => senders.remove(place).1,
+            None => {
+                if senders.len() == MOST_SENDERS {
+                    let (silent, mut conversation) = senders.remove(0);
+                    conversation.end()?;
+                    send_datagram(&socket, silent, &mut conversation);
+                }
+                setup.say(&format!("frames come from {peer}"));
+                let mut conversation = Conversation::new(setup)?;
+                conversation.greet();
+                conversation
             }
-            setup.say(&format!("frames come from {peer}"));
-            sender = Some(peer);
-            conversation.greet();
-        }
+        };
         match length {
-            0 => {
-                conversation.end()?;
-                sender = None;
-            }
+            0 => conversation.end()?,
             _ => conversation.receive(&datagram[..length])?,
         }
-        // Lines and records go in one datagram; a sender that has gone is no reason to stop.
-        if !conversation.out.is_empty() {
-            let sent = socket.send_to(&conversation.out, peer);
-            conversation.out.clear();
-            if let Err(error) = sent {
-                conversation.notice("unanswered", None, format!("an answer to {peer} could not be sent: {error}"));
-                conversation.out.clear();
-            }
+        send_datagram(&socket, peer, &mut conversation);
+        if length > 0 {
+            senders.push((peer, conversation));
         }
+    }
+}
+
+/// Sends the answers in one datagram; a sender that has gone is no reason to stop.
+fn send_datagram(socket: &UdpSocket, peer: SocketAddr, conversation: &mut Conversation<'_>) {
+    if conversation.out.is_empty() {
+        return;
+    }
+    let sent = socket.send_to(&conversation.out, peer);
+    conversation.out.clear();
+    if let Err(error) = sent {
+        conversation.notice("unanswered", None, format!("an answer to {peer} could not be sent: {error}"));
+        conversation.out.clear();
     }
 }
 

@@ -4,9 +4,24 @@ use super::formats::{MarkerDescription, Message};
 use crate::args::{LabAxes, MarkerUnit};
 use ambulo::findings::Findings;
 use ambulo::kinematics::marker_fit::{FitSettings, LiveMarkerFit};
-use ambulo::model::Model;
+use ambulo::kinematics::{Posture, body_motion};
+use ambulo::model::{BodyId, Model};
 use ambulo::spatial::Vec3;
 use anyhow::{Context, Result, bail};
+
+/// Markers of a body that is followed are 1 to 4 cm from it. A fit is lost if a quarter of them is farther away [m].
+const LOST_M: f64 = 0.1;
+
+/// What became of a frame.
+pub(super) enum Fitted {
+    /// A value per coordinate.
+    Posture(Vec<f64>),
+    /// Too few markers are visible.
+    TooFew,
+    /// The markers are visible, but not where a body near the last posture can have them; so far from it is a quarter of them [m], if there is a
+    /// posture at all.
+    Lost(Option<f64>),
+}
 
 /// The markers of a frame and the fit.
 pub(super) struct MarkerFrames {
@@ -15,6 +30,8 @@ pub(super) struct MarkerFrames {
     axes: LabAxes,
     rate_hz: f64,
     fit: LiveMarkerFit,
+    /// Body and place in it of each marker; `None` for one that the model does not have.
+    attached: Vec<Option<(BodyId, Vec3)>>,
     /// Positions of one frame, in the axes of the model [m].
     positions: Vec<Vec3>,
 }
@@ -34,7 +51,7 @@ impl MarkerFrames {
             );
         }
         let fit = fit(model, &names, rate_hz, &mut Findings::default())?;
-        Ok(MarkerFrames { names, unit, axes, rate_hz, fit, positions: Vec::new() })
+        Ok(MarkerFrames { attached: attached(model, &names), names, unit, axes, rate_hz, fit, positions: Vec::new() })
     }
 
     /// Number of values of a frame.
@@ -60,6 +77,7 @@ impl MarkerFrames {
                 bail!("the marker `{}` is named twice; expected each name once", pair[0]);
             }
             self.fit = fit(model, names, self.rate_hz, &mut findings)?;
+            self.attached = attached(model, names);
             self.names = names.to_vec();
         }
         self.unit = message.unit.unwrap_or(self.unit);
@@ -78,7 +96,7 @@ impl MarkerFrames {
         self.fit.skip(frames);
     }
 
-    /// Checks the values of a frame: three per marker; a marker without all three is missing.
+    /// Checks the values of a frame: three per marker. A marker without all three is missing, and one at exactly 0 0 0, as some systems write it.
     ///
     /// # Errors
     /// Another number of values, an infinite one.
@@ -94,16 +112,51 @@ impl MarkerFrames {
             if position.iter().any(|value| value.is_infinite()) {
                 bail!("marker `{name}` is at {place:?}; expected finite numbers, or none");
             }
-            let is_seen = position.iter().all(|value| value.is_finite());
+            let is_seen = position.iter().all(|value| value.is_finite()) && position != Vec3::zeros();
             self.positions.push(if is_seen { axes * position } else { Vec3::repeat(f64::NAN) });
         }
         Ok(())
     }
 
-    /// Fits the frame that was taken; `None` if too few markers are visible.
-    pub(super) fn fit(&mut self) -> Result<Option<Vec<f64>>> {
-        Ok(self.fit.push(&self.positions)?.map(<[f64]>::to_vec))
+    /// Fits the frame that was taken. After a fit that is lost, the next frame is fitted as the first one.
+    pub(super) fn fit(&mut self, model: &Model) -> Result<Fitted> {
+        let lost = match self.fit.push(&self.positions)?.map(<[f64]>::to_vec) {
+            None if 2 * self.visible().count() < self.attached.iter().flatten().count() => return Ok(Fitted::TooFew),
+            None => None,
+            Some(q) => match self.quarter_beyond_m(model, &q) {
+                Some(distance_m) if distance_m > LOST_M => Some(distance_m),
+                _ => return Ok(Fitted::Posture(q)),
+            },
+        };
+        self.restart(model)?;
+        Ok(Fitted::Lost(lost))
     }
+
+    /// The visible markers that the model has, each with its body and its place there.
+    fn visible(&self) -> impl Iterator<Item = (Vec3, BodyId, Vec3)> {
+        let pairs = self.positions.iter().zip(&self.attached).filter(|(place, _)| place.iter().all(|x| x.is_finite()));
+        pairs.filter_map(|(place, at)| at.map(|(body, local)| (*place, body, local)))
+    }
+
+    /// The distance from the body that a quarter of the visible markers exceeds [m]; `None` where the posture is not known.
+    fn quarter_beyond_m(&self, model: &Model, q: &[f64]) -> Option<f64> {
+        let rest = vec![0.0; q.len()];
+        let bodies = body_motion(model, Posture { q, qd: &rest, qdd: &rest });
+        let distance =
+            |(place, body, local): (Vec3, BodyId, Vec3)| (bodies[body.index()].pose.place(local) - place).norm();
+        let mut distances: Vec<f64> = self.visible().map(distance).filter(|distance| !distance.is_nan()).collect();
+        distances.sort_by(f64::total_cmp);
+        distances.get(3 * distances.len() / 4).copied()
+    }
+}
+
+/// Body and place of each marker.
+fn attached(model: &Model, names: &[String]) -> Vec<Option<(BodyId, Vec3)>> {
+    let of = |name: &String| {
+        let marker = model.markers().iter().find(|marker| marker.name == *name)?;
+        Some((marker.body?, marker.location))
+    };
+    names.iter().map(of).collect()
 }
 
 fn fit(model: &Model, names: &[String], rate_hz: f64, findings: &mut Findings) -> Result<LiveMarkerFit> {

@@ -43,8 +43,28 @@ fn filled<'de, D: serde::Deserializer<'de>, T: From<String>>(deserializer: D) ->
     Ok(text.filter(|text| !text.trim().is_empty()).map(T::from))
 }
 
+/// A size as a number or, in a cell, as its text.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Size {
+    Number(f64),
+    Text(String),
+}
+
 fn size<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-    let number: Option<f64> = Option::deserialize(deserializer)?;
+    let number = match Option::deserialize(deserializer)? {
+        Some(Size::Text(text)) if text.trim().is_empty() => None,
+        Some(Size::Text(text)) => match text.trim().parse::<f64>() {
+            Ok(number) => Some(number),
+            Err(_) => {
+                return Err(D::Error::custom(format!(
+                    "found the size `{text}`, expected a number with a point, such as 82.5"
+                )));
+            }
+        },
+        Some(Size::Number(number)) => Some(number),
+        None => None,
+    };
     match number {
         Some(number) if !(number > 0.0 && number.is_finite()) => {
             Err(D::Error::custom(format!("found the size {number}, expected a number above 0")))
@@ -57,9 +77,11 @@ fn size<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<f64>
 pub(crate) fn planned_by(path: &Path) -> Result<Plan> {
     let shown = path.display();
     let bytes = files::read(path)?;
+    // Some programs begin a file with a byte order mark.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
     let lines = match files::ending(path).as_str() {
-        "csv" => csv_lines(&bytes),
-        _ => json_lines(&bytes),
+        "csv" => csv_lines(bytes),
+        _ => json_lines(bytes),
     };
     let lines = lines.with_context(|| shown.to_string())?;
     if lines.is_empty() {
@@ -70,6 +92,9 @@ pub(crate) fn planned_by(path: &Path) -> Result<Plan> {
     let mut names = BTreeSet::new();
     for line in lines {
         let trial = planned(line, root);
+        if trial.name.is_empty() || trial.files.recording == root {
+            bail!("{shown}: found a line without `file`; expected the path of a recording in each");
+        }
         if !names.insert(trial.name.clone()) {
             bail!("{shown}: found `{}` in two lines; expected each trial once", trial.name);
         }
@@ -80,6 +105,13 @@ pub(crate) fn planned_by(path: &Path) -> Result<Plan> {
 }
 
 fn csv_lines(bytes: &[u8]) -> Result<Vec<Line>> {
+    let head = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    if !head.contains(&b',') && head.iter().any(|byte| [b';', b'\t'].contains(byte)) {
+        bail!(
+            "line 1: found `{}`; expected columns separated by commas. hint: save the list as CSV with commas, and numbers with points",
+            String::from_utf8_lossy(head).trim()
+        );
+    }
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
     reader.deserialize().map(|line| line.map_err(Error::from)).collect()
 }
@@ -87,7 +119,17 @@ fn csv_lines(bytes: &[u8]) -> Result<Vec<Line>> {
 fn json_lines(bytes: &[u8]) -> Result<Vec<Line>> {
     let text = std::str::from_utf8(bytes).context("the list is not UTF-8 text")?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    lines.map(|(k, line)| serde_json::from_str(line).with_context(|| format!("line {}", k + 1))).collect()
+    let parsed = |(k, line): (usize, &str)| {
+        if !line.trim_start().starts_with('{') {
+            bail!("line {}: expected an object, such as {{\"file\": \"walk.c3d\"}}", k + 1);
+        }
+        serde_json::from_str(line).map_err(|error| {
+            // Each line is parsed alone, so that its number is always 1.
+            let what = error.to_string().replace(" at line 1 column", ": column");
+            Error::msg(format!("line {}: {what}", k + 1))
+        })
+    };
+    lines.map(parsed).collect()
 }
 
 fn planned(line: Line, root: &Path) -> PlannedTrial {

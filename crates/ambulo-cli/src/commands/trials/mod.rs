@@ -7,7 +7,7 @@ mod plan;
 
 pub(crate) use folder::{files_in, listed};
 pub(crate) use manifest::planned_by;
-pub(crate) use plan::{LIST, Plan, PlannedTrial, plan, plan_listed, sentence};
+pub(crate) use plan::{LIST, Plan, PlannedTrial, plan, plan_listed, relative, sentence};
 use std::ffi::OsString;
 
 /// The recordings that are trials.

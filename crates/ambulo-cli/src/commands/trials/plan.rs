@@ -207,7 +207,7 @@ impl Plan {
 }
 
 /// A message with paths from the folder of all trials, so that it does not depend on where that is.
-fn relative(message: &str, root: &Path) -> String {
+pub(crate) fn relative(message: &str, root: &Path) -> String {
     let shown = root.join("").display().to_string();
     // A short path, such as `./`, could be a part of another one.
     if shown.len() > 2 { message.replace(&shown, "") } else { message.replacen(&shown, "", 1) }
