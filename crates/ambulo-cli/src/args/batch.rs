@@ -20,7 +20,7 @@ Words after `--` are options of `ambulo forces` for every trial.
 Files written to DIR, for DuckDB, polars, pandas and Spark: trials/, frames/, cycles/, events/, each with one file for some trials. The file in trials/
 appears last and closes its part. summary.html appears when all parts of all shards are closed. A trial that cannot be computed is a row with its error. After an interruption --resume computes the parts that are
 not closed; the files are the same, byte for byte, as those of an unbroken run, whatever --jobs is. Exit code: 0 if any trial has results, 2 if none;
-with --check 1 if a trial has bad data or an infeasible motion.")]
+with --check 1 if a trial could not be computed, has bad data or an infeasible motion.")]
 pub(crate) struct BatchArgs {
     /// A folder with recordings, a list of trials (.csv, .jsonl) or a subject of AddBiomechanics (.b3d).
     #[arg(value_name = "SOURCE")]

@@ -25,9 +25,9 @@ pub(crate) struct BatchRow {
 }
 
 impl BatchRow {
-    /// Whether its data are bad or its motion is infeasible.
+    /// Whether it has no results, bad data or an infeasible motion.
     pub(crate) fn is_refused(&self) -> bool {
-        self.quality.as_deref() == Some("bad") || self.verdict.as_deref() == Some("infeasible")
+        self.error.is_some() || self.quality.as_deref() == Some("bad") || self.verdict.as_deref() == Some("infeasible")
     }
 
     /// The numbers of the rows that are not good and feasible, the worst first.

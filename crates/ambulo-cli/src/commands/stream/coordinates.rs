@@ -4,6 +4,9 @@ use super::formats::{AngleUnit, Message};
 use ambulo::model::{CoordinateKind, Model};
 use anyhow::{Result, bail};
 
+/// No angle and no place of a person is larger [rad or m]; glitches of a sender are.
+const LARGEST: f64 = 1e4;
+
 /// A value of a frame: the coordinate of the model that it belongs to, and its unit in that of the model.
 #[derive(Debug, Clone, Copy)]
 struct Slot {
@@ -62,7 +65,7 @@ impl CoordinateFrames {
     /// One value per coordinate of the model, not-a-number where it is missing.
     ///
     /// # Errors
-    /// Another number of values, an infinite one.
+    /// Another number of values, one that is larger than any of a person.
     pub(super) fn in_model_order(&self, model: &Model, values: &[Option<f64>]) -> Result<Vec<f64>> {
         let expected = self.slots.len();
         if values.len() != expected {
@@ -72,8 +75,11 @@ impl CoordinateFrames {
         let mut q: Vec<f64> = coordinates.iter().map(|c| c.default_value).collect();
         for (slot, value) in self.slots.iter().zip(values) {
             let value = value.map_or(f64::NAN, |value| value * slot.unit);
-            if value.is_infinite() {
-                bail!("`{}` is {value}; expected a finite number, or none", coordinates[slot.coordinate].name);
+            if value.abs() > LARGEST {
+                bail!(
+                    "`{}` is {value:e}; expected at most {LARGEST:e} rad or m, or null for a missing value",
+                    coordinates[slot.coordinate].name
+                );
             }
             q[slot.coordinate] = value;
         }
