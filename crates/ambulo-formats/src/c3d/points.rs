@@ -12,10 +12,12 @@
 
 use super::layout::Layout;
 use super::parameters::Parameters;
-use super::read::Choice;
 use super::words::{Processor, Words};
 use super::{Encoding, Storage};
 use crate::error::Remark;
+
+/// Which points are read, by all names and the parameters: one value per name.
+pub(super) type Choice<'a> = &'a dyn Fn(&[&str], &Parameters) -> Vec<bool>;
 
 /// The trajectory of one point.
 #[derive(Debug, Clone, PartialEq)]

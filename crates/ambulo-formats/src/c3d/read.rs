@@ -3,12 +3,10 @@
 use super::header::{Header, parameter_offset};
 use super::layout::{self, Extent, Layout};
 use super::parameters::Parameters;
+use super::points::Choice;
 use super::words::Words;
 use super::{C3d, Encoding, analog, events, points, rotations, section};
 use crate::error::{Error, Remark};
-
-/// Which points are read, by all names and the parameters: one value per name.
-pub(super) type Choice<'a> = &'a dyn Fn(&[&str], &Parameters) -> Vec<bool>;
 
 /// `choice`: all points if it is `None`.
 pub(super) fn read(bytes: &[u8], choice: Option<Choice<'_>>) -> Result<(C3d, Vec<Remark>), Error> {

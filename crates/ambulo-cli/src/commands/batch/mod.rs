@@ -80,7 +80,7 @@ pub(crate) fn compute(args: &BatchArgs, caller: &Caller) -> Result<Completion> {
 fn planned(args: &BatchArgs, threads: usize) -> Result<(PathBuf, Plan)> {
     let source = &args.source;
     let is_source = |ending: &str| matches!(ending, "csv" | "jsonl" | "b3d");
-    if !source.is_dir() && !(source.is_file() && is_source(&ending(source))) {
+    if !(source.is_dir() || source.is_file() && is_source(&ending(source))) {
         let found =
             if source.is_file() { "this file is no source of a batch" } else { "there is no such folder or file" };
         bail!(
