@@ -19,7 +19,7 @@ use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::fs::{self, File};
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -160,6 +160,20 @@ fn shards_compute_every_trial_once() {
     bench
         .run(&[&BATCH[..], &["moved", "--shard", "1/2"]].concat())
         .refused(&["found other trials in the source", "compute all shards again"]);
+}
+
+#[test]
+fn a_batch_goes_on_where_nobody_reads_its_progress() {
+    let bench = set("batch_unread");
+    let mut child = bench
+        .command(&["batch", "set", "--part", "2", "-o", "out"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stderr.take());
+    assert!(child.wait().unwrap().success());
+    assert_eq!(trials(&bench, "out").len(), TRIALS + 1);
 }
 
 #[test]

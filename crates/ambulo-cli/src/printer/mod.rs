@@ -47,7 +47,7 @@ fn print_line(line: &str) -> Result<()> {
     }
 }
 
-/// Prints a line on standard error. That nobody reads it, or that it cannot be written, ends no computation.
+/// Prints a line on standard error. The computation goes on if the line cannot be written, for example into a closed pipe.
 fn say(line: Arguments<'_>) {
     let _ = writeln!(stderr(), "{line}");
 }

@@ -68,7 +68,7 @@ pub(super) fn check_output(args: &SessionArgs, root: &Path, recordings: &[String
 /// The session in a result folder.
 pub(super) fn read(folder: &Path) -> Result<Session> {
     let shown = || folder.display().to_string();
-    // What an interrupted run left is completed first.
+    // This also completes the files of a run that was interrupted.
     let found = ResultFolder::of_any_run(folder).map_err(|error| match folder.join(SUMMARY).is_file() {
         true => error,
         false => Error::msg(format!(

@@ -128,10 +128,13 @@ impl<'a> Conversation<'a> {
             StreamFormat::Json => from_json(bytes),
             StreamFormat::F32 => from_record(bytes, self.values()),
         };
-        // A first line that cannot be read may have been the one with the names.
+        // A first line that cannot be read may have been the one with the names; records have none.
         let names = match &message {
             Ok(message) => message.names_coordinates() || message.names_markers(),
-            Err(_) => self.naming == Naming::Unsaid && self.counts.frames == 0,
+            Err(_) => {
+                let is_json = self.setup.args.format == StreamFormat::Json;
+                is_json && self.naming == Naming::Unsaid && self.counts.frames == 0
+            }
         };
         let taken = message.and_then(|message| self.take(&message));
         if names {
