@@ -145,7 +145,6 @@ fn reaches_memory(name: &str, operands: &str) -> bool {
 /// Bytes of the operand in memory.
 fn size_of_operand(name: &str, operands: &str, width: f64) -> f64 {
     let is_of_vectors = operands.contains("%xmm") || operands.contains("%ymm") || operands.contains("%zmm");
-    let has = |prefixes: &[&str]| prefixes.iter().any(|prefix| operands.contains(prefix));
     match name {
         "push" | "pop" | "call" | "ret" => 8.0,
         _ if is_of_vectors && (name.ends_with("sd") || name.ends_with('q') || name == "movhpd" || name == "movlpd") => {
@@ -154,11 +153,37 @@ fn size_of_operand(name: &str, operands: &str, width: f64) -> f64 {
         "movddup" | "movhps" | "movlps" => 8.0,
         _ if is_of_vectors && name.ends_with("ss") => 4.0,
         _ if is_of_vectors => width,
-        _ if name.ends_with('b') => 1.0,
-        _ if name.ends_with('l') && !has(&["%r"]) => 4.0,
-        _ if has(&["%eax", "%ebx", "%ecx", "%edx", "%esi", "%edi", "%ebp", "d,", "d)"]) && name.starts_with("mov") => {
-            4.0
-        }
+        _ => register_beside(operands).map_or_else(|| size_of_suffix(name), size_of_register),
+    }
+}
+
+/// The general register beside the operand in memory, whose width both have: `rax` of `0x8(%rbx,%rcx,8),%rax`.
+fn register_beside(operands: &str) -> Option<&str> {
+    let (before, rest) = operands.split_once('(')?;
+    let (_, after) = rest.split_once(')')?;
+    let register = [after, before].into_iter().find_map(|side| side.split_once('%'))?.1;
+    Some(register.split(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or_default())
+}
+
+fn size_of_register(register: &str) -> f64 {
+    let is_numbered = register.starts_with('r') && register.contains(|c: char| c.is_ascii_digit());
+    match register.chars().last() {
+        Some('d') if is_numbered => 4.0,
+        Some('w') if is_numbered => 2.0,
+        Some('b') if is_numbered => 1.0,
+        _ if register.starts_with('r') => 8.0,
+        _ if register.starts_with('e') => 4.0,
+        Some('l' | 'h') if register.len() < 4 => 1.0,
+        _ => 2.0,
+    }
+}
+
+/// Without a register, the last letter of the instruction says the width: `addl $0x1,0x4(%rip)`.
+fn size_of_suffix(name: &str) -> f64 {
+    match name.chars().last() {
+        Some('b') => 1.0,
+        Some('w') => 2.0,
+        Some('l') => 4.0,
         _ => 8.0,
     }
 }
@@ -187,6 +212,11 @@ mod tests {
         assert_eq!(counted("mov    (%rdi),%rax"), "0 0 8");
         assert_eq!(counted("push   %rbx"), "0 0 8");
         assert_eq!(counted("addl   $0x1,0x4(%rip)        # 4010 <x>"), "0 0 4");
+        assert_eq!(counted("imul   0x8(%rbx,%rcx,8),%rax"), "0 0 8");
+        assert_eq!(counted("mov    %r8d,(%rdi)"), "0 0 4");
+        assert_eq!(counted("cmp    %sil,0x10(%rsp)"), "0 0 1");
+        assert_eq!(counted("movb   $0x0,(%r12)"), "0 0 1");
+        assert_eq!(counted("call   *0x20(%rax)"), "0 0 8");
         // A comparison, a conversion and single precision are no operations of double precision.
         assert_eq!(counted("ucomisd %xmm1,%xmm0"), "0 0 0");
         assert_eq!(counted("cvtsi2sd %rax,%xmm0"), "0 0 0");
