@@ -1,12 +1,19 @@
-//! Puts the commit into `ambulo --version`. A source archive without git has none.
+//! Puts the commit into `ambulo --version`, and links the program for a fixed address on Linux.
 
+use std::env;
 use std::path::Path;
 use std::process::Command;
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
+    // A source archive without git has none.
     let commit = commit().map_or_else(String::new, |commit| format!(" ({commit})"));
     println!("cargo::rustc-env=AMBULO_VERSION={}{commit}", env!("CARGO_PKG_VERSION"));
+    // Otherwise the system writes each of the 35,000 addresses in the program whenever it starts, which takes as long as all the rest of a start.
+    let target = ["CARGO_CFG_TARGET_OS", "CARGO_CFG_TARGET_ENV"].map(|name| env::var(name).unwrap_or_default());
+    if target == ["linux", "gnu"] {
+        println!("cargo::rustc-link-arg-bin=ambulo=-no-pie");
+    }
 }
 
 /// The commit of this source tree, asked for again when it changes; `None` without git, or inside the repository of something else.

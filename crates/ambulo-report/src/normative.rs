@@ -1,6 +1,6 @@
 //! Normative data at the same dimensionless speed: bands over the gait cycle, and times and distances.
 //!
-//! Source: Schwartz, Rozumalski, Trost 2008, **children**, five walking speeds; the header of the file states source, licence and layout
+//! Source: Schwartz, Rozumalski, Trost 2008, **children**, five walking speeds; the header of schwartz2008.toml states source, licence and layout
 //! (`cargo xtask normative-bands` writes it). Mean and deviation are interpolated linearly between the speeds; outside of them those of the
 //! nearest speed are used and reported. Speeds are dimensionless, V* = V / sqrt(g L) with leg length L, so that data of children apply to people of any
 //! size, as far as gait scales with size.
@@ -8,10 +8,10 @@
 use ambulo::gait::STANDING_TILT;
 use ambulo_results::Convention;
 use serde::Deserialize;
-use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-const BANDS: &str = include_str!("../data/normative/schwartz2008.toml");
+const TIMES: &str = include_str!("../data/normative/schwartz2008.toml");
+const CURVES: &str = include_str!("../data/normative/schwartz2008_curves.csv");
 const SPEEDS: usize = 5;
 /// Number of values of a band: at 0 %, 2 %, ... 100 % of the cycle.
 pub const BAND_SAMPLES: usize = 51;
@@ -208,8 +208,8 @@ impl Bands {
     ///
     /// # Errors
     /// None; a test reads the file.
-    fn built_in() -> Result<&'static Bands, &'static toml::de::Error> {
-        static READ: LazyLock<Result<Bands, toml::de::Error>> = LazyLock::new(|| Bands::from_toml(BANDS));
+    fn built_in() -> Result<&'static Bands, &'static String> {
+        static READ: LazyLock<Result<Bands, String>> = LazyLock::new(|| Bands::read(TIMES, CURVES));
         READ.as_ref()
     }
 
@@ -225,41 +225,55 @@ impl Bands {
         Some(Place { speed, lower, share, nearest, outside: speed < slowest || speed > fastest })
     }
 
-    fn from_toml(text: &str) -> Result<Bands, toml::de::Error> {
-        let file: BandsFile = toml::from_str(text)?;
-        let missing =
-            |name: &str| serde::de::Error::custom(format!("found no `{name}`; expected a table with `mean` and `sd`"));
-        let curves = MEASURED.iter().map(|name| {
-            let rows = file.quantities.get(*name).ok_or_else(|| missing(name))?;
-            Ok((*name, Curves { mean: band_rows(&rows.mean)?, sd: band_rows(&rows.sd)? }))
-        });
-        Ok(Bands { speeds: file.speeds, times: file.time, curves: curves.collect::<Result<_, toml::de::Error>>()? })
+    /// Reads the two files.
+    fn read(times: &str, curves: &str) -> Result<Bands, String> {
+        let TimesFile { speeds, time: times } = toml::from_str(times).map_err(|e| e.to_string())?;
+        let unknown = [[f64::NAN; BAND_SAMPLES]; SPEEDS];
+        let mut read: Vec<(&'static str, Curves)> =
+            MEASURED.iter().map(|name| (*name, Curves { mean: unknown, sd: unknown })).collect();
+        for line in curves.lines().skip(1) {
+            let (place, numbers) = curve(line, &speeds).ok_or_else(|| {
+                format!("found the line `{line}`; expected quantity, mean or sd, speed, {BAND_SAMPLES} numbers")
+            })?;
+            let CurvePlace { quantity, is_sd, speed } = place;
+            let Curves { mean, sd } = &mut read[quantity].1;
+            *(if is_sd { &mut sd[speed] } else { &mut mean[speed] }) = numbers;
+        }
+        let is_whole = |curves: &Curves| curves.mean.iter().chain(&curves.sd).flatten().all(|x| x.is_finite());
+        match read.iter().find(|(_, curves)| !is_whole(curves)) {
+            Some((name, _)) => Err(format!("found no `{name}` at one of the speeds; expected mean and sd at each")),
+            None => Ok(Bands { speeds, times, curves: read }),
+        }
     }
 }
 
 /// `schwartz2008.toml`.
 #[derive(Deserialize)]
-struct BandsFile {
+struct TimesFile {
     speeds: [f64; SPEEDS],
     time: Times,
-    #[serde(flatten)]
-    quantities: BTreeMap<String, BandRows>,
 }
 
-/// One row per speed.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BandRows {
-    mean: [Vec<f64>; SPEEDS],
-    sd: [Vec<f64>; SPEEDS],
+/// Which curve a line of `schwartz2008_curves.csv` has.
+struct CurvePlace {
+    /// Place in [`MEASURED`].
+    quantity: usize,
+    is_sd: bool,
+    /// Place among the speeds.
+    speed: usize,
 }
 
-fn band_rows(rows: &[Vec<f64>; SPEEDS]) -> Result<[[f64; BAND_SAMPLES]; SPEEDS], toml::de::Error> {
-    let mut out = [[0.0; BAND_SAMPLES]; SPEEDS];
-    for (out, row) in out.iter_mut().zip(rows) {
-        *out = row.as_slice().try_into().map_err(|_| {
-            serde::de::Error::custom(format!("found {} numbers in a row; expected {BAND_SAMPLES}", row.len()))
-        })?;
-    }
-    Ok(out)
+fn curve(line: &str, speeds: &[f64; SPEEDS]) -> Option<(CurvePlace, [f64; BAND_SAMPLES])> {
+    let mut cells = line.split(',');
+    let name = cells.next()?;
+    let quantity = MEASURED.iter().position(|known| *known == name)?;
+    let is_sd = match cells.next()? {
+        "mean" => false,
+        "sd" => true,
+        _ => return None,
+    };
+    let speed = cells.next()?.parse::<f64>().ok()?;
+    let speed = speeds.iter().position(|known| known.to_bits() == speed.to_bits())?;
+    let numbers: Vec<f64> = cells.map(str::parse).collect::<Result<_, _>>().ok()?;
+    Some((CurvePlace { quantity, is_sd, speed }, numbers.try_into().ok()?))
 }

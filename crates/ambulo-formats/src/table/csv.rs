@@ -4,7 +4,6 @@ use super::Table;
 use super::lines::{Lines, counted, duplicate, expected_number, number};
 use super::rows::Content;
 use crate::error::{Error, Remark, quoted};
-use crate::number::NumberText;
 use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder, Trim, WriterBuilder};
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -158,14 +157,9 @@ pub(super) fn write(table: &Content<'_>, out: &mut dyn Write) -> io::Result<()> 
     // A semicolon in a name could be taken for the separator; quotes prevent that.
     let quote = table.names.iter().any(|name| name.contains(';'));
     let style = if quote { QuoteStyle::NonNumeric } else { QuoteStyle::Necessary };
-    let mut writer = WriterBuilder::new().quote_style(style).from_writer(out);
+    let mut writer = WriterBuilder::new().quote_style(style).from_writer(&mut *out);
     writer.write_record(table.names.iter().map(|name| guarded(name).into_owned()))?;
-    let mut text = NumberText::default();
-    for row in 0..table.rows {
-        for column in 0..table.names.len() {
-            writer.write_field(text.of((table.cell)(row, column)))?;
-        }
-        writer.write_record(None::<&[u8]>)?;
-    }
-    writer.flush()
+    writer.flush()?;
+    drop(writer);
+    table.write_numbers(',', out)
 }

@@ -4,6 +4,7 @@
 //! line may be longer than [`MAX_LINE_BYTES`], so that a file of another kind is rejected early.
 
 use crate::error::{Error, quoted};
+use memchr::memchr2;
 use std::borrow::Cow;
 
 /// Longest line that is read [bytes]. 300 markers with 17 digits per coordinate take 20 kB.
@@ -56,7 +57,7 @@ impl<'a> Lines<'a> {
             return Ok(None);
         }
         self.number += 1;
-        let end = self.rest.iter().take(MAX_LINE_BYTES + 1).position(|&b| b == b'\n' || b == b'\r');
+        let end = memchr2(b'\n', b'\r', &self.rest[..self.rest.len().min(MAX_LINE_BYTES + 1)]);
         let length = end.unwrap_or(self.rest.len());
         if length > MAX_LINE_BYTES {
             let found = format!("a line of more than {MAX_LINE_BYTES} bytes");

@@ -4,7 +4,6 @@ use super::Table;
 use super::lines::{Line, Lines, counted, duplicate, expected_number, number};
 use super::rows::Content;
 use crate::error::{Error, Remark, quoted};
-use crate::number::NumberText;
 use std::io::{self, Write};
 
 /// A header is ten lines long; some programs add a few dozen lines of comments.
@@ -251,19 +250,7 @@ pub(super) fn write(table: &Content<'_>, out: &mut dyn Write) -> io::Result<()> 
     let (name, names) = (name_line(table.name), table.names.join("\t"));
     let (rows, columns) = (table.rows, table.names.len());
     write!(out, "{name}version=1\nnRows={rows}\nnColumns={columns}\n{degrees}{ENDHEADER}\n{names}\n")?;
-    let (mut text, mut line) = (NumberText::default(), String::new());
-    for row in 0..rows {
-        line.clear();
-        for column in 0..columns {
-            if column > 0 {
-                line.push('\t');
-            }
-            line.push_str(text.of((table.cell)(row, column)));
-        }
-        line.push('\n');
-        out.write_all(line.as_bytes())?;
-    }
-    Ok(())
+    table.write_numbers('\t', out)
 }
 
 /// The name is the first line, unless a reader could take it for something else.

@@ -195,8 +195,12 @@ impl Drawing {
 
     fn list(&mut self, points: &[[f64; 2]]) {
         for (number, [x, y]) in points.iter().enumerate() {
-            let (between, x, y) = (if number == 0 { "" } else { " " }, short(*x), short(*y));
-            self.write(format_args!("{between}{x},{y}"));
+            if number > 0 {
+                self.body.push(' ');
+            }
+            push_short(&mut self.body, *x);
+            self.body.push(',');
+            push_short(&mut self.body, *y);
         }
     }
 
@@ -219,24 +223,43 @@ const UNDECIDED: f64 = 1e-6;
 
 /// Two decimals, without zeros at the end: the digits of `{:.2}`.
 fn short(x: f64) -> String {
+    let mut text = String::new();
+    push_short(&mut text, x);
+    text
+}
+
+/// Appends the digits of [`short`].
+fn push_short(text: &mut String, x: f64) {
     let scaled = (HUNDREDTHS * x).abs();
     let down = scaled.floor();
     if !(scaled < MOST_HUNDREDTHS && (scaled - down - 0.5).abs() > UNDECIDED) {
-        return without_zeros(&format!("{x:.2}"));
+        text.push_str(without_zeros(&format!("{x:.2}")));
+        return;
     }
-    let hundredths = down as u64 + u64::from(scaled - down > 0.5);
-    let (whole, [tenths, last]) = (hundredths / 100, [hundredths / 10 % 10, hundredths % 10]);
-    let sign = if x < 0.0 && hundredths > 0 { "-" } else { "" };
-    match (tenths, last) {
-        (0, 0) => format!("{sign}{whole}"),
-        (_, 0) => format!("{sign}{whole}.{tenths}"),
-        _ => format!("{sign}{whole}.{tenths}{last}"),
+    let hundredths = down as u32 + u32::from(scaled - down > 0.5);
+    if x < 0.0 && hundredths > 0 {
+        text.push('-');
+    }
+    // The digits, from the last to the first; there is one before the point.
+    let mut digits = [b'0'; 10];
+    let (mut rest, mut first) = (hundredths, digits.len());
+    while rest > 0 {
+        first -= 1;
+        digits[first] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+    }
+    let (whole, decimals) = digits.split_at(digits.len() - 2);
+    text.extend(whole[first.min(whole.len() - 1)..].iter().map(|digit| char::from(*digit)));
+    match decimals {
+        [b'0', b'0'] => {}
+        [tenths, b'0'] => text.extend(['.', char::from(*tenths)]),
+        both => text.extend(['.', char::from(both[0]), char::from(both[1])]),
     }
 }
 
-fn without_zeros(decimals: &str) -> String {
+fn without_zeros(decimals: &str) -> &str {
     let text = decimals.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    if text == "-0" { "0" } else { text }
 }
 
 /// Escapes text for XML; characters that XML does not allow are left out.

@@ -132,14 +132,13 @@ impl<'t> Value<'t> {
 
     /// One of some words.
     pub(crate) fn choice<T: Copy>(&self, words: &[(&str, T)]) -> Result<T, TomlError> {
-        let quoted: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-        let expected = format!("one of {}", quoted.join(", "));
-        let Some(found) = self.raw.get_ref().as_str() else { return Err(self.wrong(&expected)) };
-        if let Some((_, value)) = words.iter().find(|(word, _)| *word == found) {
+        let found = self.raw.get_ref().as_str();
+        if let Some((_, value)) = words.iter().find(|(word, _)| Some(*word) == found) {
             return Ok(*value);
         }
-        let error = self.wrong(&expected);
-        Err(match nearest(found, words.iter().map(|(word, _)| *word)) {
+        let quoted: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+        let error = self.wrong(&format!("one of {}", quoted.join(", ")));
+        Err(match found.and_then(|found| nearest(found, words.iter().map(|(word, _)| *word))) {
             Some(near) => error.hint(&format!("did you mean \"{near}\"?")),
             None => error,
         })
