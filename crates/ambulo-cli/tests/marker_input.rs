@@ -1,7 +1,7 @@
 //! Unusable markers, plates and skeletons: the message states where, what was found, what was expected and what to do.
 
 use crate::workbench::{Run, Workbench};
-use ambulo_formats::c3d::C3d;
+use ambulo_formats::c3d::{C3d, Parameter, Values};
 use ambulo_formats::trc::Trc;
 use std::sync::OnceLock;
 
@@ -202,6 +202,14 @@ fn a_standing_trial_must_show_the_same_person_standing_still() {
         "0 of 437 frames",
         "hint: use a trial in which the person",
     ]);
+    // Case and blanks in the name of the person do not count.
+    let named = |name: &str| Parameter::list("NAMES", Values::Texts(vec![name.to_owned()]));
+    edit_c3d(&bench, "walk.c3d", "anna.c3d", |c3d| c3d.parameters.set("SUBJECTS", named("Anna")));
+    edit_c3d(&bench, "standing.c3d", "of-anna.c3d", |c3d| c3d.parameters.set("SUBJECTS", named("ANNA ")));
+    edit_c3d(&bench, "standing.c3d", "of-ben.c3d", |c3d| c3d.parameters.set("SUBJECTS", named("Ben")));
+    forces(&bench, "anna.c3d", &["--static", "of-ben.c3d"]).warned(&["names another person (SUBJECTS:NAMES)"]);
+    let same = forces(&bench, "anna.c3d", &["--static", "of-anna.c3d"]).done();
+    assert!(!same.stderr.contains("another person"), "{}", same.stderr);
     // The standing trial has other names than the walk, so the calibrated body has none of the markers.
     edit_c3d(&bench, "walk.c3d", "prefixed.c3d", |c3d| {
         c3d.points.iter_mut().enumerate().for_each(|(i, point)| point.name = format!("Mystery{i}"));

@@ -277,6 +277,9 @@ codes! {
     CalibrationNotStanding "calibration.not_standing" Warning
         "The person moves in most of the standing trial; all of its frames were used."
         "Use a trial in which the person stands still, or no standing trial.";
+    CalibrationOtherPerson "calibration.other_person" Warning
+        "The standing trial names another person than the recording; its body was used."
+        "Give the standing trial of this person, or correct the name of the subject in the files.";
     CalibrationTrunkUpright "calibration.trunk_upright" Note
         "No marker shows the trunk; it is assumed upright above the pelvis."
         "Add markers on the trunk.";

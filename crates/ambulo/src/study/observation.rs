@@ -27,7 +27,7 @@ use crate::model::anthropometry::Build;
 use crate::model::full_body::full_body;
 use crate::model::{Model, Side};
 use crate::motion::skeleton::SkeletonRecording;
-use crate::motion::{Event, ForceRecording, Motion, SmoothSettings, Window, smooth};
+use crate::motion::{Event, ForceRecording, Motion, SmoothSettings, SubjectParameters, Window, smooth};
 use crate::spatial::Vec3;
 use ambulo_formats::table::Table;
 use std::borrow::Cow;
@@ -412,6 +412,9 @@ impl Statements {
         let plate_feet: Vec<(usize, Side)> =
             markers.plates.iter().filter_map(|known| Some((known.plate, of_foot(known.used)?))).collect();
         let standing = markers.standing.as_deref();
+        if let Some(standing) = standing {
+            report_other_person(&markers.trial.subject, &standing.subject, findings);
+        }
         let trial = MarkerTrial {
             trial: &trial,
             standing: standing.map(|standing| &standing.recording),
@@ -420,6 +423,16 @@ impl Statements {
             plate_feet: &plate_feet,
         };
         Ok(fit_body_to_markers(&trial, &settings.marker_fit, findings, progress)?)
+    }
+}
+
+/// Reports a standing trial whose file names another person; case and blanks do not count. The names stay out of the results.
+fn report_other_person(moving: &SubjectParameters, standing: &SubjectParameters, findings: &mut Findings) {
+    if let (Some(moving), Some(standing)) = (&moving.name, &standing.name)
+        && !moving.trim().eq_ignore_ascii_case(standing.trim())
+    {
+        let message = "the file of the standing trial names another person (SUBJECTS:NAMES) than that of the recording; its body was used";
+        findings.report(Code::CalibrationOtherPerson, message);
     }
 }
 
