@@ -277,3 +277,25 @@ fn curve(line: &str, speeds: &[f64; SPEEDS]) -> Option<(CurvePlace, [f64; BAND_S
     let numbers: Vec<f64> = cells.map(str::parse).collect::<Result<_, _>>().ok()?;
     Some((CurvePlace { quantity, is_sd, speed }, numbers.try_into().ok()?))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_curve_is_read_to_its_place_and_a_missing_or_short_one_is_named() {
+        let bands = Bands::read(TIMES, CURVES).unwrap();
+        let of = |name: &str| bands.curves.iter().find(|(known, _)| *known == name).map(|(_, curves)| curves).unwrap();
+        // The first and the last line of the file, and means and deviations that differ.
+        assert_eq!((of("pelvis_tilt_angle").mean[0][0], of("pelvis_tilt_angle").sd[0][0]), (11.8, 5.15));
+        let last: Vec<&str> = CURVES.lines().last().unwrap().split(',').collect();
+        assert_eq!(last[..3], ["ground_force_fore_aft", "sd", "0.694"]);
+        assert_eq!(of("ground_force_fore_aft").sd[4][50].to_string(), last[53]);
+        let without =
+            CURVES.lines().filter(|line| !line.starts_with("knee_flexion_moment,sd,0.429")).collect::<Vec<_>>();
+        assert!(Bands::read(TIMES, &without.join("\n")).unwrap_err().contains("no `knee_flexion_moment`"));
+        let line = CURVES.lines().nth(1).unwrap();
+        let (short, _) = line.rsplit_once(',').unwrap();
+        assert!(Bands::read(TIMES, &CURVES.replacen(line, short, 1)).unwrap_err().contains(short));
+    }
+}

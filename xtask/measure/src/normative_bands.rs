@@ -1,4 +1,4 @@
-//! Writes the normative bands of the page and the figures: speeds, times and distances, and the curves, in two files beside each other.
+//! Writes the two files of the normative bands, which pages and figures show: one with speeds, times and distances, and one with curves.
 
 use crate::normative::{self, Band, SAMPLES, Sheet};
 use crate::workspace;
@@ -18,8 +18,8 @@ const HEADER: &str = "\
 # to three digits, and stand under the same licence. Changed: where a deviation stood with a minus, the minus is left out.
 #
 # Speeds: V* = V / sqrt(g L) with leg length L. Curves (schwartz2008_curves.csv, same source and licence): 0 % to 100 % of the cycle from
-# contact of the same foot, every 2 %; one row for mean or deviation at a speed. Angles [deg]: flexion, dorsiflexion, adduction (varus), internal rotation, anterior tilt, own side up and ahead positive. Moments [N.m/kg],
-# internal: extensor, abductor, plantarflexor positive. Powers [W/kg], generated positive. Ground forces [body weights]: up and forward
+# contact of the same foot, every 2 %; one row for mean or deviation at a speed. Angles [deg]: flexion, dorsiflexion, adduction (varus),
+# internal rotation, anterior tilt, own side up and ahead positive. Moments [N.m/kg], internal: extensor, abductor, plantarflexor positive. Powers [W/kg], generated positive. Ground forces [body weights]: up and forward
 # on the foot positive. The foot's progression is internal positive. Left out: the trunk
 # (measured against the laboratory, not against the pelvis).
 # [time]: shares of the cycle, and dimensionless cadence n sqrt(L/g) with n steps a second (workbook of the same tables; no deviation

@@ -157,7 +157,7 @@ fn size_of_operand(name: &str, operands: &str, width: f64) -> f64 {
     }
 }
 
-/// The general register beside the operand in memory, whose width both have: `rax` of `0x8(%rbx,%rcx,8),%rax`.
+/// The register at the other end of a move or an operation; the operand in memory is as wide. `rax` for `0x8(%rbx,%rcx,8),%rax`.
 fn register_beside(operands: &str) -> Option<&str> {
     let (before, rest) = operands.split_once('(')?;
     let (_, after) = rest.split_once(')')?;
