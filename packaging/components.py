@@ -24,7 +24,7 @@ LICENCE_FILE = re.compile(r"^(licen[cs]e|copying|notice|unlicense)", re.IGNORECA
 PAGE_SCRIPTS = ["three", "uplot"]
 PAGE_BUNDLE = "crates/ambulo-report/data/report/viewer.js"
 # Tables that the program contains under a licence of their own.
-DATA = ["crates/ambulo/data/gait", "crates/ambulo/data/ground", "crates/ambulo-report/data/normative"]
+DATA = ["crates/ambulo-walk/data/gait", "crates/ambulo/data/ground", "crates/ambulo-report/data/normative"]
 DATA_LICENCE = "CC-BY-SA-4.0"
 
 

@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in ["pendulum", "four-bar", "top", "pile", "slope"] {
         copy("scene_run", &format!("examples/{name}.toml"))?;
     }
-    copy("scene_run", "crates/ambulo/data/scenes/grasp.toml")?;
+    copy("scene_run", "crates/ambulo-paper/data/scenes/grasp.toml")?;
     save("saved_state", "top.json", &saved()?)?;
     save("thresholds", "weak.toml", THRESHOLDS.as_bytes())?;
     save("result_folder", "events.csv", b"time,side,event\n0.5,right,foot strike\n1.1,right,foot off\n")?;
@@ -67,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     save("study_markers", "legs.c3d", &legs().write()?)?;
     save("study_markers", "poses.c3d", &posed_legs().write()?)?;
     for name in ["keypoints", "oxford-foot"] {
-        copy("marker_set", &format!("crates/ambulo/data/markers/{name}.toml"))?;
+        copy("marker_set", &format!("crates/ambulo-body/data/markers/{name}.toml"))?;
     }
     Ok(())
 }

@@ -74,7 +74,7 @@ fn lists_of_examples_are_complete() {
 /// Scenes in `examples/` and those that the library contains, and programs in `crates/*/examples/`, as paths from the root.
 fn example_files() -> Vec<String> {
     let root = workspace::root();
-    let mut folders = vec![root.join("examples"), root.join("crates/ambulo/data/scenes")];
+    let mut folders = vec![root.join("examples"), root.join("crates/ambulo-paper/data/scenes")];
     folders.extend(entries(&root.join("crates")).into_iter().map(|folder| folder.join("examples")));
     let files = folders.iter().filter(|folder| folder.is_dir()).flat_map(|folder| entries(folder));
     files.map(|file| file.strip_prefix(&root).unwrap().to_string_lossy().replace('\\', "/")).collect()

@@ -54,7 +54,7 @@ usage: cargo xtask <command>
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
   claim-shares      sample the values that the 1997 paper does not give, and count how often its claims hold
-                    [--settings N] [--seed S] [--write: crates/ambulo/data/reproduction/shares.csv]
+                    [--settings N] [--seed S] [--write: crates/ambulo-paper/data/shares.csv]
   roofline          count operations and bytes of the three hottest kernels, and compare their times with what this processor can do
                     (needs valgrind and objdump)  [--write: docs/measured/ROOFLINE.md]
   reproduction      recompute the 1997 paper and print its claims  [--write: docs/measured/REPRODUCTION.md]
@@ -66,7 +66,7 @@ usage: cargo xtask <command>
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
   twins             judge recordings of people, and twins of them that no person could make  [--only NAME]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
-  walk-plans        solve the walks of the built-in figures: crates/ambulo/data/walks
+  walk-plans        solve the walks of the built-in figures: crates/ambulo-walk/data/walks
   optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes
                     [--env DIR] [--resume: keep results of peers]  [--write: docs/measured/OPTIMAL_PEERS.md from the record]
   optimal-walk      compare optimal walks in three dimensions with people  [--write: docs/measured/OPTIMAL_WALK.md]

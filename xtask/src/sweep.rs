@@ -38,7 +38,7 @@ pub(crate) fn run() -> Result<(), String> {
     let program = release_program()?;
     let mut failures = Vec::new();
     let mut files = below(&workspace::root().join("examples"))?;
-    files.extend(below(&workspace::root().join("crates/ambulo/data/scenes"))?);
+    files.extend(below(&workspace::root().join("crates/ambulo-paper/data/scenes"))?);
     for file in &files {
         let is_gait = file.parent().is_some_and(|folder| folder.ends_with("gaits"));
         let verb: &[&str] = if is_gait { &["walk", "--gait"] } else { &["simulate"] };

@@ -3,11 +3,11 @@
 use super::figures::{FigureError, gait_figure, paper_figure};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
-use ambulo::reproduction::{
+use ambulo::simulation::walking::TorqueSeries;
+use ambulo_paper::{
     Claim, Evidence, GAITS, PaperFigure, Sensitivity, angular_laws, assumptions, muscle_table, paper_figures,
     paper_human, torque_series,
 };
-use ambulo::simulation::walking::TorqueSeries;
 use ambulo_results::OutputFile;
 use std::fmt::Write;
 

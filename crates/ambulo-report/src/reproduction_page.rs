@@ -4,9 +4,7 @@
 
 use super::figures::moving_picture;
 use super::html::{Document, escaped};
-use ambulo::reproduction::{
-    Claim, Evidence, Numbers, Sensitivity, assumptions, moving_figure, number, stored_shares, tally,
-};
+use ambulo_paper::{Claim, Evidence, Numbers, Sensitivity, assumptions, moving_figure, number, stored_shares, tally};
 use ambulo_results::OutputFile;
 use std::fmt::Write;
 

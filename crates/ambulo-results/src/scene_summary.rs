@@ -1,8 +1,8 @@
 //! `summary.json` of a simulated scene (docs/OUTPUTS.md).
 
 use crate::summary::{ForceUnit, PeakSummary};
-use ambulo::analysis::SceneVerdict;
 use ambulo::findings::{Finding, Findings};
+use ambulo::simulation::SceneVerdict;
 use ambulo::simulation::scene::{RunStatistics, Scene, SceneFrame};
 use ambulo::simulation::{Integrator, Owner};
 use serde::{Deserialize, Serialize};

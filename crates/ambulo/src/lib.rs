@@ -79,36 +79,20 @@
     allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
 )]
 
-/// Readers and writers of files, so that one dependency is enough.
-pub use ambulo_formats as formats;
-
-pub mod findings;
-pub mod numerics;
-pub mod spatial;
-pub mod toml_reader;
-
-pub mod model;
-pub mod motion;
-
-pub mod gait;
-
-pub mod kinematics;
-
-pub mod contact;
-
-pub mod dynamics;
-
-pub mod optimal;
-
-pub mod simulation;
+#[doc(inline)]
+pub use ambulo_body::{
+    contact, dynamics, findings, formats, kinematics, model, motion, numerics, spatial, toml_reader,
+};
+#[doc(inline)]
+pub use ambulo_walk::{gait, optimal};
 
 pub mod ground;
 
 pub mod analysis;
 
-pub mod study;
+pub mod simulation;
 
-pub mod reproduction;
+pub mod study;
 
 /// The code in README.md is compiled as a test.
 #[cfg(doctest)]

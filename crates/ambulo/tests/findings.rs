@@ -98,7 +98,7 @@ Every verb reports what it found odd in the input, what it assumed and what limi
 `severity`, `message` and `count`) and on the report page. A message states where and what was found; this list has the meaning and the
 remedy of each code.
 
-This page is written from `crates/ambulo/src/findings/code.rs` by the test `findings`; do not edit.
+This page is written from `crates/ambulo-body/src/findings/code.rs` by the test `findings`; do not edit.
 "
     .to_owned();
     let mut subject = "";

@@ -103,7 +103,6 @@ mod prediction_checks;
 mod quality;
 mod recordings;
 mod refit;
-mod reproduction;
 mod residual_reduction;
 mod residual_reduction_synthetic;
 mod retarget;

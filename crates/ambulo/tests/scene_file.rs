@@ -114,7 +114,7 @@ fn examples() -> Vec<(String, String)> {
         let folder = root().join(folder);
         fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
     };
-    let both = listing("examples").chain(listing("crates/ambulo/data/scenes"));
+    let both = listing("examples").chain(listing("crates/ambulo-paper/data/scenes"));
     let mut paths: Vec<PathBuf> = both.map(|entry| entry.expect("a listing").path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
     paths.sort_by(|a, b| a.file_name().cmp(&b.file_name()));

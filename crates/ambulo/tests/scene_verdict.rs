@@ -2,10 +2,10 @@
 
 use crate::shared_data::data;
 use ambulo::analysis::feasibility::{Check, Thresholds, VerdictState};
-use ambulo::analysis::{FigureVerdict, scene_verdict};
 use ambulo::dynamics::{Workspace, inverse};
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{FigureMotion, FigureRecord, Scene, SceneFile, SceneSettings};
+use ambulo::simulation::{FigureVerdict, scene_verdict};
 
 /// A scene with a Gait2392 figure that follows a recorded walk, after it has run.
 fn walked(settings: &str, figure: &str) -> Option<Scene> {

@@ -1,12 +1,12 @@
 //! Figures that walk in scenes: alone, hand in hand, with a box, into a kerb; and the verdict on them.
 
 use ambulo::analysis::feasibility::{Check, Thresholds, VerdictState};
-use ambulo::analysis::{SceneVerdict, scene_verdict};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Pace, Speed, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::scene::{FigureRecord, FigureWalk, Scene, SceneError, SceneFile, SceneFrame, SceneSettings};
+use ambulo::simulation::{SceneVerdict, scene_verdict};
 use ambulo::spatial::Vec3;
 use std::path::{Path, PathBuf};
 

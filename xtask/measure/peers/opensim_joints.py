@@ -94,7 +94,7 @@ JOINTS = {
             ]
         ),
     ),
-    # Its generalised forces are recorded, but they do not belong to its motion: see crates/ambulo/src/model/arc.rs.
+    # Its generalised forces are recorded, but they do not belong to its motion: see crates/ambulo-body/src/model/arc.rs.
     "arc": ("ConstantCurvatureJoint", 3, "<neutral_angle_x_z_y>0.1 -0.2 0.05</neutral_angle_x_z_y><length>0.4</length>"),
 }
 

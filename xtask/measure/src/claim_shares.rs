@@ -2,11 +2,11 @@
 //!
 //! Draws all values that the paper does not give jointly until N choices could be simulated, judges the claims with each of them, and
 //! searches near the best one for a choice that meets more claims. Choices whose gaits are not possible are counted by their reasons. Runs on
-//! one core for some minutes; start it with `nice`. With `--write` the results go to `crates/ambulo/data/reproduction/shares.csv`, from where
+//! one core for some minutes; start it with `nice`. With `--write` the results go to `crates/ambulo-paper/data/shares.csv`, from where
 //! `ambulo reproduce` prints them.
 
 use crate::workspace;
-use ambulo::reproduction::{Judgement, OpenValues, StoredShares, judged_of_the_paper, shares_csv};
+use ambulo_paper::{Judgement, OpenValues, StoredShares, judged_of_the_paper, shares_csv};
 use std::collections::BTreeMap;
 use std::fs;
 
@@ -19,7 +19,7 @@ const NEAR: u64 = 1;
 /// The year of the paper.
 const SEED: u64 = 1997;
 /// The stored results, relative to the workspace root.
-const FILE: &str = "crates/ambulo/data/reproduction/shares.csv";
+const FILE: &str = "crates/ambulo-paper/data/shares.csv";
 
 /// Runs the command.
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "the results and the progress of the command")]

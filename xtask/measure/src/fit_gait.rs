@@ -1,6 +1,6 @@
 //! Fits the laws of joints and ground forces against speed to normative mean curves: `cargo xtask fit-gait`.
 //!
-//! Reads the tables of Schwartz, Rozumalski, Trost 2008 next to the workspace, writes `crates/ambulo/data/gait/*.toml` with
+//! Reads the tables of Schwartz, Rozumalski, Trost 2008 next to the workspace, writes `crates/ambulo-walk/data/gait/*.toml` with
 //! the errors of the fit in their headers, and prints the errors: of the laws, and of laws fitted without the speed at which
 //! they are compared.
 
@@ -25,7 +25,7 @@ use std::fs;
 use std::path::PathBuf;
 
 /// Folder of the laws, relative to the workspace root.
-const FOLDER: &str = "crates/ambulo/data/gait";
+const FOLDER: &str = "crates/ambulo-walk/data/gait";
 /// All five speeds.
 const ALL: [usize; 5] = [0, 1, 2, 3, 4];
 /// Range to which the laws of the default style may be extrapolated: 0.4 and 2.2 m/s on a leg of 0.92 m are V* = 0.133 and

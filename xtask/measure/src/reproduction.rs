@@ -4,7 +4,7 @@
 //! paper does not give, and the muscle groups of the four gaits. Takes some minutes.
 
 use crate::workspace;
-use ambulo::reproduction::{
+use ambulo_paper::{
     Claim, CorrectedMode, Evidence, GAITS, Scope, Sensitivity, StoredShares, TrialSettings, assumptions, claims,
     number, paper_walk, read_shares, sensitivities, tally,
 };
@@ -14,7 +14,7 @@ use std::time::Instant;
 
 const PAGE: &str = "docs/measured/REPRODUCTION.md";
 /// The stored shares of `cargo xtask claim-shares`.
-const SHARES: &str = "crates/ambulo/data/reproduction/shares.csv";
+const SHARES: &str = "crates/ambulo-paper/data/shares.csv";
 
 /// Runs the command.
 #[expect(clippy::print_stdout, reason = "the page is the command's result")]

@@ -1,4 +1,4 @@
-//! Solved walks of the built-in figures: `cargo xtask walk-plans` writes crates/ambulo/data/walks.
+//! Solved walks of the built-in figures: `cargo xtask walk-plans` writes crates/ambulo-walk/data/walks.
 
 use crate::workspace;
 use ambulo::findings::Findings;
@@ -19,7 +19,7 @@ pub(crate) fn run() -> Result<(), String> {
             let gait = Gait::named(name).map_err(|e| e.to_string())?;
             let walk = Walk::new(&gait, leg_length, &mut Findings::default()).map_err(|e| e.to_string())?;
             let found = best(&build, &walk, &known)?;
-            let path = workspace::root().join(format!("crates/ambulo/data/walks/{}-{name}.toml", table.name()));
+            let path = workspace::root().join(format!("crates/ambulo-walk/data/walks/{}-{name}.toml", table.name()));
             fs::write(&path, WalkPlan::new(found.human.build, &walk, &found.solution).to_toml())
                 .map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
             eprintln!(

@@ -88,7 +88,7 @@ impl Place {
         let mut command = workspace::cargo();
         command.current_dir(&self.tree);
         command.env("CARGO_TARGET_DIR", workspace::target()).env("AMBULO_DATA", absolute(workspace::data()));
-        command.args(["mutants", "--package", "ambulo", "--colors", "never", "--file", module.files]);
+        command.args(["mutants", "--package", module.package(), "--colors", "never", "--file", module.files]);
         command
     }
 
@@ -128,6 +128,8 @@ impl Place {
         let mut command = self.mutants(module);
         command.args(["--in-place", "--annotations", "none", "--cargo-arg=--test=library"]);
         command.args(tests.unit.then_some("--cargo-arg=--lib"));
+        // The integration tests are those of `ambulo`, whatever crate the module is in.
+        command.args(["--test-package", "ambulo", "--test-package", module.package()]);
         command.args(["--baseline", if tests.passed { "skip" } else { "run" }]);
         command.arg("--timeout").arg(tests.limit_s.to_string()).arg("--output").arg(&self.output);
         command.args(names.iter().flat_map(|name| ["--re".to_owned(), format!("^{}$", escaped(name))]));

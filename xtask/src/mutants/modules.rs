@@ -17,7 +17,7 @@ pub(super) struct Module {
 }
 
 /// Tests that take more than five seconds, left out everywhere: a mutant that only they would notice counts as a survivor.
-pub(super) const SLOW: [&str; 18] = [
+pub(super) const SLOW: [&str; 17] = [
     "250_random_scenes",
     "a_simulated_walk_in_a_plane_hardly_changes",
     "a_wrong_mass_is_only_detected_with_plates",
@@ -30,7 +30,6 @@ pub(super) const SLOW: [&str; 18] = [
     "inverse_dynamics_gives_the_efforts_of_the_simulator",
     "jumps_are_found_and_change_no_angle",
     "losing_markers_for_a_while",
-    "reproduction",
     "residual_reduction::",
     "scene_walkers",
     "spoiled_copies_are_never_good",
@@ -63,10 +62,17 @@ pub(super) const LONG: [&str; 18] = [
 /// Tests of the simulator that take less than a second each.
 const SIMULATOR: &[&str] = &["simulation_closed_form", "simulation_contact", "simulation_smooth"];
 
+impl Module {
+    /// The crate of its files.
+    pub(super) fn package(&self) -> &'static str {
+        self.files.split('/').nth(1).unwrap_or_default()
+    }
+}
+
 pub(super) const MODULES: [Module; 8] = [
     Module {
         name: "inverse",
-        files: "crates/ambulo/src/dynamics/inverse.rs",
+        files: "crates/ambulo-body/src/dynamics/inverse.rs",
         sample: None,
         quick: &["identities", "independent::", "conventions"],
         wide: &[
@@ -85,7 +91,7 @@ pub(super) const MODULES: [Module; 8] = [
     },
     Module {
         name: "step",
-        files: "crates/ambulo/src/simulation/step.rs",
+        files: "crates/ambulo-walk/src/engine/step.rs",
         sample: None,
         quick: SIMULATOR,
         wide: &["simulation_", "scene_", "walking", "consistent_walk"],
@@ -93,7 +99,7 @@ pub(super) const MODULES: [Module; 8] = [
     },
     Module {
         name: "contact",
-        files: "crates/ambulo/src/contact/**",
+        files: "crates/ambulo-body/src/contact/**",
         sample: Some(40),
         quick: &["contact_geometry", "simulation_closed_form", "simulation_contact"],
         wide: &["contact::", "simulation_", "scene_", "walking", "consistent_walk"],
@@ -101,7 +107,7 @@ pub(super) const MODULES: [Module; 8] = [
     },
     Module {
         name: "touch",
-        files: "crates/ambulo/src/simulation/touch.rs",
+        files: "crates/ambulo-walk/src/engine/touch.rs",
         sample: Some(40),
         quick: SIMULATOR,
         wide: &["simulation_", "scene_", "walking", "consistent_walk"],
@@ -109,7 +115,7 @@ pub(super) const MODULES: [Module; 8] = [
     },
     Module {
         name: "kinematics",
-        files: "crates/ambulo/src/kinematics/**",
+        files: "crates/ambulo-body/src/kinematics/**",
         sample: Some(40),
         quick: &[
             "identities",
@@ -177,7 +183,7 @@ pub(super) const MODULES: [Module; 8] = [
     },
     Module {
         name: "optimal",
-        files: "crates/ambulo/src/optimal/**",
+        files: "crates/ambulo-walk/src/optimal/**",
         sample: Some(40),
         quick: &["optimal"],
         wide: &["inverse_derivatives", "consistent_walk", "feasibility"],

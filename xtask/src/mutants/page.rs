@@ -25,7 +25,7 @@ pub(super) fn render(folder: &Path) -> Result<String, String> {
     for (module, record) in &records {
         let counts = record.counts(&reasons);
         sum = sum + counts;
-        let place = module.files.trim_start_matches("crates/ambulo/src/").trim_end_matches("/**");
+        let place = below_src(module.files).trim_end_matches("/**");
         let _ = writeln!(page, "{}", row(&format!("`{place}`"), Some(record.mutants), &counts));
     }
     let _ = writeln!(page, "{}\n", row("all that were run", None, &sum));
@@ -50,6 +50,11 @@ pub(super) fn render(folder: &Path) -> Result<String, String> {
     list(&mut page, "Survivors", Outcome::Missed);
     list(&mut page, "Survived at first, caught by tests written since", Outcome::Mended);
     Ok(page)
+}
+
+/// A path without its crate.
+fn below_src(path: &str) -> &str {
+    path.split_once("/src/").map_or(path, |(_, below)| below)
 }
 
 fn introduction() -> String {
@@ -127,7 +132,7 @@ fn table(names: &[String], reasons: &BTreeMap<String, String>) -> String {
     let mut table = "| place | mutation | reason |\n|:---|:---|:---|\n".to_owned();
     for name in names {
         let (place, mutation) = name.split_once(": ").unwrap_or((name, ""));
-        let place = place.trim_start_matches("crates/ambulo/src/");
+        let place = below_src(place);
         let reason = reasons.get(name).map_or("not yet judged", String::as_str);
         let _ = writeln!(table, "| {place} | `{}` | {} |", mutation.replace('|', "\\|"), reason.replace('|', "\\|"));
     }

@@ -5,7 +5,7 @@ use crate::caller::Caller;
 use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, printer};
-use ambulo::reproduction::{
+use ambulo_paper::{
     Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities, stored_shares,
 };
 use ambulo_report::{reproduction_files, reproduction_page};

@@ -9,9 +9,9 @@ use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Thresholds, VerdictState};
-use ambulo::analysis::{SceneVerdict, scene_verdict};
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
+use ambulo::simulation::{SceneVerdict, scene_verdict};
 use ambulo_report::{SceneCurves, scene_shapes};
 use ambulo_results::{
     Keep, OutputFile, PAGE, RunSummary, SceneExtremes, SceneInput, SceneSummary, SceneTables, summary_json,

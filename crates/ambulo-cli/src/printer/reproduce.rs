@@ -2,7 +2,7 @@
 
 use super::print_line;
 use crate::args::PrintArgs;
-use ambulo::reproduction::{Claim, Sensitivity, stored_shares, tally};
+use ambulo_paper::{Claim, Sensitivity, stored_shares, tally};
 use anyhow::Result;
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! A moving stick figure as SVG that animates itself, without a script.
 
-use ambulo::reproduction::{MovingFigure, MovingHead, SeriesKind};
+use ambulo_paper::{MovingFigure, MovingHead, SeriesKind};
 use std::fmt::Write;
 
 /// Width and height of the picture [px], and pixels per metre.
@@ -95,7 +95,7 @@ fn marks(figure: &MovingFigure, ground: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ambulo::reproduction::MovingStick;
+    use ambulo_paper::MovingStick;
 
     #[test]
     fn every_stick_has_all_instants_and_marks_pass_by() {

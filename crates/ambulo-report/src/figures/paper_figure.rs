@@ -2,7 +2,7 @@
 
 use super::FigureError;
 use super::chart::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, PALE};
-use ambulo::reproduction::{PaperFigure, PaperPanel, PaperSeries, SeriesKind};
+use ambulo_paper::{PaperFigure, PaperPanel, PaperSeries, SeriesKind};
 
 /// Width of a figure with one panel and with several [mm].
 const WIDTHS_MM: [f64; 2] = [120.0, 178.0];

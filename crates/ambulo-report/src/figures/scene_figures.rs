@@ -2,8 +2,8 @@
 
 use super::FigureError;
 use super::chart::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};
-use ambulo::analysis::SceneVerdict;
 use ambulo::numerics::elementary::log10;
+use ambulo::simulation::SceneVerdict;
 use ambulo::simulation::scene::{Plot, Scene, SceneFrame};
 use ambulo_results::OutputFile;
 use std::collections::BTreeMap;

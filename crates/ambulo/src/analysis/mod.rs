@@ -19,7 +19,6 @@ mod progress;
 mod recording;
 mod residual;
 mod residual_reduction;
-mod scene_verdict;
 mod times_and_distances;
 mod tracked;
 mod walking_direction;
@@ -55,7 +54,6 @@ pub use recording::{
 pub(crate) use recording::{analyse_measured, analyse_with_progress, recorded_trajectory};
 pub use residual::{Residual, residual, residual_sizes, residual_within};
 pub use residual_reduction::{Adjustable, reduce_residual};
-pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
 pub use times_and_distances::{
     Stride, StrideQuantity, StrideStatistics, TimesAndDistances, symmetry_index, times_and_distances,
 };

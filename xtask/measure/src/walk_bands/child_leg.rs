@@ -14,8 +14,8 @@
 
 use crate::harmonics::Harmonics;
 use crate::normative::{self, CADENCES, Curves, Sheet};
-use ambulo::reproduction::correlation;
 use ambulo::spatial::STANDARD_GRAVITY;
+use ambulo_paper::correlation;
 
 /// The leg length from one joint.
 #[derive(Debug, Clone)]

@@ -8,7 +8,7 @@ use super::{FREE, MAN, Results};
 use crate::normative::{Band, SPEEDS};
 use crate::table::Table;
 use ambulo::model::anthropometry::Build;
-use ambulo::reproduction::correlation;
+use ambulo_paper::correlation;
 use std::fmt::Write as _;
 
 const HEAD: &str = "\

@@ -4,7 +4,7 @@ use super::curve::{QUANTITIES, rms_difference};
 use super::cycle::Cycle;
 use crate::normative::two_laboratories;
 use crate::table::Table;
-use ambulo::reproduction::correlation;
+use ambulo_paper::correlation;
 
 /// Names of the table, in the order of [`QUANTITIES`]; it has no ground forces.
 const NAMES: [&str; 6] = [

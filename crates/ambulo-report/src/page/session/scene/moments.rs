@@ -6,9 +6,9 @@ use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, Panel, Role, Trace};
 use crate::page::session::quality::over_time;
 use crate::page::session::sides;
-use ambulo::analysis::FigureVerdict;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::model::Side;
+use ambulo::simulation::FigureVerdict;
 use ambulo_formats::table::Table;
 use ambulo_results::{Folder, ResultsError, SceneSummary};
 

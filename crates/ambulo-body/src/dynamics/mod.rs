@@ -1,0 +1,58 @@
+//! Inverse dynamics (forces from motion) and constrained dynamics (motion from forces).
+//!
+//! [`inverse()`] computes the joint forces of a recorded motion. [`solve_graph`] computes the motion and the constraint forces of
+//! jointed bodies with closed loops, contacts and friction, as each step of the simulator needs them. [`residual_reduction`]
+//! changes a recorded motion so that it agrees with measured ground forces.
+
+mod inverse;
+mod inverse_derivatives;
+mod joint_powers;
+mod roots;
+
+mod block;
+mod elimination;
+mod elimination_order;
+
+mod constraint;
+mod departure;
+mod lumped;
+mod problem;
+
+mod active_set;
+mod conjugate_gradient;
+mod curvature;
+mod delassus;
+mod friction_state;
+mod mixing;
+mod nonsmooth_newton;
+mod proximal;
+mod relaxed;
+mod solve;
+mod within_law;
+
+pub mod residual_reduction;
+
+pub use block::{BodyTerms, Six};
+pub use constraint::{
+    ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, relative_rows,
+};
+#[doc(hidden)]
+pub use constraint::{relative_slide, relative_turn};
+pub use elimination::{EliminationWorkspace, Offsets};
+pub use elimination_order::{Elimination, Link, LinkError, LinkTerms};
+#[doc(hidden)]
+pub use inverse::each_root_reaction;
+pub use inverse::{
+    BodyLoad, Forces, FrameForces, JointReaction, LoadSeries, ReactionReader, Workspace, inverse, inverse_frame,
+    inverse_frames, inverse_with_residual, project_wrenches,
+};
+pub use inverse_derivatives::{CurvedJointError, InverseDerivatives, inverse_derivatives};
+#[doc(hidden)]
+pub use inverse_derivatives::{DerivativeKernel, Spatial};
+pub use joint_powers::JointPowers;
+pub use problem::{Method, SolverSettings};
+#[doc(hidden)]
+pub use roots::Roots;
+#[doc(hidden)]
+pub use solve::project_displacements;
+pub use solve::{GraphWorkspace, solve_graph, undetermined_rows};

@@ -1,0 +1,126 @@
+//! Warnings and notes that computations collect for the user.
+//!
+//! A function that meets partial trouble reports it to the [`Findings`] that its caller passes in, and goes on. Every kind of finding
+//! has a [`Code`] with a severity, a meaning and a remedy. Findings inform the user; no computation depends on them.
+
+mod code;
+
+pub use code::Code;
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// How much a finding matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// For information; results are valid.
+    Note,
+    /// Results may be wrong and should be checked.
+    Warning,
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+        })
+    }
+}
+
+/// One warning or note, with the number of times that it occurred.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(into = "Record", from = "Record")]
+pub struct Finding {
+    /// What the finding is about.
+    pub code: Code,
+    /// What was found, where, and what was done about it.
+    pub message: String,
+    /// How many times it occurred.
+    pub count: usize,
+}
+
+impl Finding {
+    /// How much it matters; every code has one severity.
+    #[must_use]
+    pub fn severity(&self) -> Severity {
+        self.code.severity()
+    }
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.severity(), self.message)
+    }
+}
+
+/// A finding as it is written in files: with its severity, for readers that do not know the codes.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct Record {
+    code: Code,
+    severity: Severity,
+    message: String,
+    count: usize,
+}
+
+impl From<Finding> for Record {
+    fn from(finding: Finding) -> Record {
+        let severity = finding.severity();
+        Record { code: finding.code, severity, message: finding.message, count: finding.count }
+    }
+}
+
+impl From<Record> for Finding {
+    fn from(record: Record) -> Finding {
+        Finding { code: record.code, message: record.message, count: record.count }
+    }
+}
+
+/// Warnings and notes, in the order in which they first occurred.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct Findings {
+    list: Vec<Finding>,
+}
+
+impl Findings {
+    /// Reports a finding once.
+    pub fn report(&mut self, code: Code, message: impl Into<String>) {
+        self.add(Finding { code, message: message.into(), count: 1 });
+    }
+
+    /// Adds a finding; a finding that is in the list already has its count raised.
+    pub fn add(&mut self, finding: Finding) {
+        match self.list.iter_mut().find(|f| f.code == finding.code && f.message == finding.message) {
+            Some(known) => known.count += finding.count,
+            None => self.list.push(finding),
+        }
+    }
+
+    /// The findings, in the order in which they first occurred.
+    #[must_use]
+    pub fn as_slice(&self) -> &[Finding] {
+        &self.list
+    }
+
+    /// Whether a finding with this code was reported. For tests and for display: no computation may depend on it.
+    #[must_use]
+    pub fn has(&self, code: Code) -> bool {
+        self.list.iter().any(|f| f.code == code)
+    }
+}
+
+/// The end of a message that names the first of several occurrences.
+#[doc(hidden)]
+pub fn and_more_times(occurrences: usize) -> String {
+    match occurrences {
+        0 | 1 => String::new(),
+        2 => " and once more".to_owned(),
+        _ => format!(" and {} more times", occurrences - 1),
+    }
+}

@@ -1,0 +1,64 @@
+//! Recorded motion and forces: sampled series with names and units, their gaps, filters and derivatives.
+//!
+//! A [`Motion`] has recorded coordinates as in the file, in SI units. [`smooth`] resamples them to a uniform
+//! [`TimeGrid`], filters and differentiates them. A [`ForceRecording`] has the forces of force plates or other sensors.
+
+mod b3d_trial;
+mod bids;
+mod curves;
+mod device_recording;
+pub mod filter;
+pub mod force_plate;
+mod force_recording;
+mod gait_event;
+#[doc(hidden)]
+pub mod gaps;
+mod guessed_unit;
+mod import;
+mod jumps;
+mod laboratory;
+pub mod landmarks;
+mod marker_recording;
+mod marker_table;
+mod real_points;
+mod recorded_motion;
+mod recording;
+mod segment_poses;
+mod sensor_recording;
+pub mod skeleton;
+mod smooth;
+mod smpl;
+mod straightened;
+mod subject_parameters;
+mod time_grid;
+
+pub use b3d_trial::{B3dError, B3dTrial, reasons as missing_force_reasons};
+pub use bids::{BidsError, coordinates_from_bids, is_bids_markers, markers_from_bids};
+pub use curves::{CoordinateCurves, CurveError, RecordedTable};
+pub use device_recording::{DeviceRecording, device_from_table};
+pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
+pub use force_recording::{ForceRecording, force_recordings};
+pub use gait_event::{Event, EventKind, events_from_c3d};
+pub use import::coordinates_from_table;
+#[doc(hidden)]
+pub use jumps::{Jumps, jumps};
+pub use laboratory::{Heading, Laboratory, laboratory, laboratory_of_landmarks};
+pub use landmarks::Landmarks;
+pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
+pub use marker_table::{is_marker_table, markers_from_table};
+#[doc(hidden)]
+pub use real_points::are_markers;
+pub use recorded_motion::{RecordedMotion, RecordedMotionError, motion_from_c3d};
+pub use recording::{Motion, MotionError};
+pub(crate) use segment_poses::posed_segment;
+pub use segment_poses::{
+    PosedSegment, SegmentPoseError, SegmentPoses, events_from_mvnx, segment_poses_from_c3d, segment_poses_from_mvnx,
+};
+pub use sensor_recording::{SensorPath, SensorRecording, sensors_from_table};
+#[doc(hidden)]
+pub use smooth::check_range;
+pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
+pub use smpl::{SmplBody, SmplError, SmplMotion};
+pub use straightened::straightened;
+pub use subject_parameters::{SubjectParameters, subject_from_c3d};
+pub use time_grid::{TimeGrid, Window, interpolate};

@@ -1,0 +1,51 @@
+//! Numerical methods: natural splines and their banded solver, periodic and uniform B-splines, band matrices, nonlinear
+//! least squares, evolution strategies, random numbers, medians, harmonics. Nothing here knows mechanics.
+//!
+//! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
+//! [`NaturalSpline`], which gives values and derivatives at any time.
+
+mod band_cholesky;
+mod banded;
+mod cma;
+mod dense;
+pub mod elementary;
+mod harmonics;
+mod least_squares;
+mod matrix_product;
+mod median;
+mod natural_spline;
+mod periodic_spline;
+mod profile_cholesky;
+mod random;
+mod shown;
+pub(crate) mod sin_cos;
+mod spline_fitter;
+mod spline_grid;
+mod uniform_spline;
+mod whittaker;
+
+use serde::Deserialize;
+
+pub use band_cholesky::{BandFactor, BandMatrix};
+pub use cma::Cma;
+pub(crate) use dense::DenseLu;
+pub use harmonics::Harmonics;
+pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
+#[doc(hidden)]
+pub use matrix_product::product;
+pub use median::median;
+pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
+pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues, quintic_splines};
+pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
+pub use random::Random;
+#[doc(hidden)]
+pub use shown::Shown;
+pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};
+pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};
+pub use whittaker::Whittaker;
+
+/// Reads a number that files write as `null` where it is not one.
+#[doc(hidden)]
+pub fn or_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+}

@@ -1,0 +1,44 @@
+//! Quantities of rigid bodies: pose, twist, wrench and inertia.
+//!
+//! Everything is expressed in world axes unless a name says otherwise, angular part before linear.
+
+mod inertia;
+mod pose;
+mod rotation;
+mod wrench;
+
+pub use inertia::{Inertia, InertiaError};
+pub use pose::Pose;
+pub use rotation::{angle_between, rotation, rotation_about, rotation_between, rotation_vector};
+pub use wrench::{Twist, Wrench};
+
+/// Standard gravity [m/s²] (CGPM 1901).
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// A vector with components along x, y, z.
+pub type Vec3 = nalgebra::Vector3<f64>;
+/// A 3 x 3 matrix.
+pub type Mat3 = nalgebra::Matrix3<f64>;
+
+/// Distance along the ground of a point from the line between two points [m]; heights do not count.
+#[doc(hidden)]
+pub fn level_distance(point: Vec3, [from, to]: [Vec3; 2], up: Vec3) -> f64 {
+    let level = |v: Vec3| v - up * v.dot(&up);
+    let (along, offset) = (level(to - from), level(point - from));
+    let share = (offset.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (offset - along * share).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_distance_along_the_ground_ends_at_both_ends_of_the_line() {
+        let line = [Vec3::new(1.0, 5.0, 0.0), Vec3::new(3.0, 0.0, 0.0)];
+        let distance = |x: f64, z: f64| level_distance(Vec3::new(x, -2.0, z), line, Vec3::y());
+        assert!((distance(2.0, 0.3) - 0.3).abs() < 1e-15 && (distance(2.0, -0.3) - 0.3).abs() < 1e-15);
+        assert!((distance(0.0, 0.0) - 1.0).abs() < 1e-15 && (distance(6.0, 4.0) - 5.0).abs() < 1e-15);
+        assert!((level_distance(Vec3::z(), [Vec3::zeros(); 2], Vec3::y()) - 1.0).abs() < 1e-15);
+    }
+}

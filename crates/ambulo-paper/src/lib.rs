@@ -1,0 +1,57 @@
+//! Recomputes the paper of 1997 and judges its claims.
+//!
+//! Faure, Debunne, Cani, Multon 1997, "Dynamic analysis of human walking". A [`Mode`] simulates walks of the paper's figure. [`Evidence`] has
+//! all walks that the claims need, and [`claims`] judges them. [`paper_walk`] is the mode of the paper; [`CorrectedMode`] is evaluated by the
+//! same measures for comparison.
+
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
+)]
+
+mod corrected;
+mod error;
+mod evidence;
+mod mode;
+mod paper_human;
+mod paper_settings;
+mod steady;
+
+mod action;
+mod assumptions;
+mod bounce;
+mod claim;
+mod convergence;
+mod forward;
+mod gaits;
+mod ground_force;
+mod interaction;
+mod joints;
+mod laws;
+mod mass;
+mod own_torques;
+mod shares;
+mod sliding;
+mod statements;
+
+mod figures;
+mod harmonics;
+mod moving;
+mod muscles;
+
+pub use assumptions::{Assumption, Sensitivity, assumptions, sensitivities};
+pub use claim::{Claim, ClaimKind, Judgement, Numbers, number, tally};
+pub use corrected::CorrectedMode;
+pub use error::ReproductionError;
+pub use evidence::{CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope};
+pub use figures::{PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws, paper_figures};
+pub use ground_force::{MEASURED_FOOT_OFF, VERTICAL_EVERY_4_PERCENT, measured_vertical};
+pub use harmonics::torque_series;
+pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk, paper_walk_with};
+pub use moving::{MovingFigure, MovingHead, MovingStick, moving_figure};
+pub use muscles::{MuscleRow, PHASES, muscle_table};
+pub use paper_human::{HEIGHT, MASS, paper_human};
+pub use paper_settings::PaperSettings;
+pub use shares::{OpenValues, StoredShares, judged_of_the_paper, read_shares, shares_csv, stored_shares};
+pub use statements::{claims, judgements};
+pub use steady::{IMPACT_MARGIN_S, POINTS, STEADY_CYCLES, Steady, correlation, extremes, mean, mean_of, range_of, rms};
