@@ -1,10 +1,13 @@
-//! The tables of ARCHITECTURE.md against the code: which modules and crates there are, and who may use whom.
+//! The tables of ARCHITECTURE.md against the code: which crates and modules there are, and who may use whom.
 //!
-//! | table                             | claim                                                                      |
-//! |-----------------------------------|----------------------------------------------------------------------------|
-//! | `\| module \| duty \| may use \|` | these are the modules of this crate, and no module uses another than these |
-//! | `\| crate \| named only by \|`    | only these modules name this crate                                         |
-//! | `\| crate \| duty \|`             | these are the crates of the workspace                                      |
+//! | table                                      | claim                                                                      |
+//! |--------------------------------------------|----------------------------------------------------------------------------|
+//! | `\| crate \| module \| duty \| may use \|` | these are the modules of the library's crates; within its crate, no module |
+//! |                                            | uses another than these, which stand above it                              |
+//! | `\| crate \| named only by \|`             | only these modules name this crate                                         |
+//! | `\| crate \| duty \|`                      | these are the crates of the workspace                                      |
+//!
+//! Which crate uses which is in their `Cargo.toml`.
 //!
 //! Code is read as words: comments and texts are blanked first, then every path that begins with `crate` or climbs to
 //! the crate's root with `super` is followed, through braces too. Code inside macros' arguments counts, test code as well.
@@ -14,16 +17,18 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const MODULE_TABLE: [&str; 3] = ["module", "duty", "may use"];
+const MODULE_TABLE: [&str; 4] = ["crate", "module", "duty", "may use"];
 const NAMING_TABLE: [&str; 2] = ["crate", "named only by"];
 const CRATE_TABLE: [&str; 2] = ["crate", "duty"];
+/// The crates whose modules stand in the module table.
+const LIBRARY: [&str; 3] = ["ambulo-body", "ambulo-walk", "ambulo"];
 
 // ---- the claims, each on the real tree ----
 
 #[test]
 fn the_code_keeps_to_the_module_table() {
     let found = complaints(&architecture(), &sources());
-    assert!(found.is_empty(), "ARCHITECTURE.md and src/ differ:\n{}", found.join("\n"));
+    assert!(found.is_empty(), "ARCHITECTURE.md and crates/*/src differ:\n{}", found.join("\n"));
 }
 
 #[test]
@@ -35,21 +40,21 @@ fn the_crate_table_lists_the_crates_of_the_workspace() {
 
 /// The functions that a user of the library calls first.
 const VERBS: [(&str, &str); 8] = [
-    ("study/run.rs", "pub fn run("),
-    ("model/import.rs", "pub fn from_osim(bytes"),
-    ("ground/predict/mod.rs", "pub fn predict("),
-    ("ground/stream/mod.rs", "pub fn push("),
-    ("kinematics/marker_fit/mod.rs", "pub fn fit_markers("),
-    ("simulation/synthetic/modes.rs", "pub fn synthesise("),
-    ("simulation/scene/build.rs", "pub fn build("),
-    ("dynamics/inverse.rs", "pub fn inverse("),
+    ("ambulo/src/study/run.rs", "pub fn run("),
+    ("ambulo-body/src/model/import.rs", "pub fn from_osim(bytes"),
+    ("ambulo/src/ground/predict/mod.rs", "pub fn predict("),
+    ("ambulo/src/ground/stream/mod.rs", "pub fn push("),
+    ("ambulo-body/src/kinematics/marker_fit/mod.rs", "pub fn fit_markers("),
+    ("ambulo-walk/src/synthetic/modes.rs", "pub fn synthesise("),
+    ("ambulo-walk/src/scene/build.rs", "pub fn build("),
+    ("ambulo-body/src/dynamics/inverse.rs", "pub fn inverse("),
 ];
 
 #[test]
 fn every_main_function_has_an_example_that_runs() {
     let runs = |comment: &str| comment.lines().any(|line| line.trim() == "/// ```");
     for (file, function) in VERBS {
-        let text = fs::read_to_string(root().join("crates/ambulo/src").join(file)).unwrap();
+        let text = fs::read_to_string(root().join("crates").join(file)).unwrap();
         let (before, _) = text.split_once(function).unwrap_or_else(|| panic!("{file}: no `{function}`"));
         let documented = |line: &&str| line.trim().starts_with("///") || line.trim().starts_with("#[");
         let comment: Vec<&str> =
@@ -61,8 +66,9 @@ fn every_main_function_has_an_example_that_runs() {
 
 // ---- the checker ----
 
-/// One file of the crate.
+/// One file of a crate.
 struct Source {
+    crate_name: String,
     module: String,
     /// Path below src/, with `/`.
     file: String,
@@ -71,6 +77,7 @@ struct Source {
 
 /// One row of the module table.
 struct Row {
+    crate_name: String,
     module: String,
     may_use: Vec<String>,
 }
@@ -81,14 +88,16 @@ fn complaints(architecture: &str, sources: &[Source]) -> Vec<String> {
         Ok(rows) => rows,
         Err(complaint) => return vec![complaint],
     };
-    let row = |cells: &Vec<String>| Row { module: quoted(&cells[0]).join(" "), may_use: quoted(&cells[2]) };
+    let name = |cell: &String| quoted(cell).join(" ");
+    let row =
+        |cells: &Vec<String>| Row { crate_name: name(&cells[0]), module: name(&cells[1]), may_use: quoted(&cells[3]) };
     let rows: Vec<Row> = rows.iter().map(row).collect();
     let mut found = unknown_modules(&rows, sources);
-    found.extend(circle(&rows));
+    found.extend(upward_arrows(&rows));
     for source in sources {
         // A module that the table lacks has been named already.
-        if let Some(row) = rows.iter().find(|row| row.module == source.module) {
-            found.extend(forbidden_arrows(row, source));
+        if let Some(row) = rows.iter().find(|row| row.holds(source)) {
+            found.extend(forbidden_arrows(row, &rows, source));
         }
     }
     match table(architecture, &NAMING_TABLE) {
@@ -98,56 +107,46 @@ fn complaints(architecture: &str, sources: &[Source]) -> Vec<String> {
     found
 }
 
+impl Row {
+    fn holds(&self, source: &Source) -> bool {
+        (&self.crate_name, &self.module) == (&source.crate_name, &source.module)
+    }
+}
+
 /// Modules that only the table or only src/ has.
 fn unknown_modules(rows: &[Row], sources: &[Source]) -> Vec<String> {
-    let real: BTreeSet<&str> = sources.iter().map(|s| s.module.as_str()).collect();
-    let listed: BTreeSet<&str> = rows.iter().map(|r| r.module.as_str()).collect();
+    let real: BTreeSet<_> = sources.iter().map(|s| (s.crate_name.as_str(), s.module.as_str())).collect();
+    let listed: BTreeSet<_> = rows.iter().map(|r| (r.crate_name.as_str(), r.module.as_str())).collect();
     let mut found = Vec::new();
-    for module in listed.difference(&real) {
-        found.push(format!("`{module}` stands in the module table, but not in src/"));
+    for (name, module) in listed.difference(&real) {
+        found.push(format!("`{module}` stands in the module table, but not in crates/{name}/src"));
     }
-    for module in real.difference(&listed) {
-        found.push(format!("`{module}` stands in src/, but not in the module table"));
+    for (name, module) in real.difference(&listed) {
+        found.push(format!("`{module}` stands in crates/{name}/src, but not in the module table"));
     }
-    for row in rows {
-        for used in row.may_use.iter().filter(|used| !listed.contains(used.as_str())) {
-            found.push(format!("`{}` may use `{used}`, which has no row of its own", row.module));
+    found
+}
+
+/// Uses that the table allows of modules that do not stand above the user, in the same crate. Without them there is no circle.
+fn upward_arrows(rows: &[Row]) -> Vec<String> {
+    let mut found = Vec::new();
+    for (number, row) in rows.iter().enumerate() {
+        let is_above = |used: &str| rows[..number].iter().any(|r| r.crate_name == row.crate_name && r.module == used);
+        for used in row.may_use.iter().filter(|used| !is_above(used)) {
+            found.push(format!("`{}` may use `{used}`, which has no row of its crate above it", row.module));
         }
     }
     found
 }
 
-/// A circle in what the modules may use, if there is one: modules without open uses are taken away until none is left.
-fn circle(rows: &[Row]) -> Option<String> {
-    let mut left: Vec<&Row> = rows.iter().collect();
-    loop {
-        let names: BTreeSet<&str> = left.iter().map(|r| r.module.as_str()).collect();
-        let before = left.len();
-        left.retain(|row| row.may_use.iter().any(|used| names.contains(used.as_str())));
-        if left.len() == before {
-            break;
-        }
-    }
-    // Every module that is left uses one that is left: walking along must come back.
-    let mut path = vec![left.first()?.module.as_str()];
-    loop {
-        let row = left.iter().find(|row| Some(&row.module.as_str()) == path.last())?;
-        let next = left.iter().find(|other| row.may_use.contains(&other.module))?.module.as_str();
-        if let Some(start) = path.iter().position(|module| *module == next) {
-            path.push(next);
-            return Some(format!("the module table runs in a circle: {}", path[start..].join(" -> ")));
-        }
-        path.push(next);
-    }
-}
-
-fn forbidden_arrows(row: &Row, source: &Source) -> Vec<String> {
+/// Uses of other modules of the same crate. What a crate has from another one is a matter of `Cargo.toml`.
+fn forbidden_arrows(row: &Row, rows: &[Row], source: &Source) -> Vec<String> {
+    let is_own = |used: &str| rows.iter().any(|other| other.crate_name == row.crate_name && other.module == used);
     let allowed = |used: &str| used == row.module || row.may_use.iter().any(|m| m == used);
-    let arrows = uses(source).into_iter().filter(|(_, used)| !allowed(used));
+    let arrows = uses(source).into_iter().filter(|(_, used)| (used == "*" || is_own(used)) && !allowed(used));
     let may = if row.may_use.is_empty() { "nothing".to_owned() } else { row.may_use.join(", ") };
-    arrows
-        .map(|(line, used)| format!("src/{}:{line}: `{}` uses `{used}`; it may use {may}", source.file, row.module))
-        .collect()
+    let place = |line: usize| format!("{}/src/{}:{line}", source.crate_name, source.file);
+    arrows.map(|(line, used)| format!("{}: `{}` uses `{used}`; it may use {may}", place(line), row.module)).collect()
 }
 
 fn forbidden_names(rows: &[Vec<String>], source: &Source) -> Vec<String> {
@@ -158,8 +157,8 @@ fn forbidden_names(rows: &[Vec<String>], source: &Source) -> Vec<String> {
         let allowed = quoted(&row[1]);
         if !allowed.contains(&source.module) {
             let (file, line, module) = (&source.file, word.line, &source.module);
-            let name = &word.text;
-            found.push(format!("src/{file}:{line}: `{module}` names `{name}`; only {} may", allowed.join(", ")));
+            let (own, name) = (&source.crate_name, &word.text);
+            found.push(format!("{own}/src/{file}:{line}: `{module}` names `{name}`; only {} may", allowed.join(", ")));
         }
     }
     found
@@ -405,25 +404,31 @@ fn crate_folders() -> Vec<String> {
     crates.map(|folder| folder.file_name().unwrap().to_string_lossy().into_owned()).collect()
 }
 
-/// All files of src/ but lib.rs, which only lists the modules.
+/// All files of the library's crates but lib.rs, which only lists the modules.
 fn sources() -> Vec<Source> {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut list = Vec::new();
-    collect(&src, &src, &mut list);
+    for name in LIBRARY {
+        let src = root().join("crates").join(name).join("src");
+        collect(name, &src, &src, &mut list);
+    }
     list.retain(|source| source.file != "lib.rs");
     list
 }
 
-fn collect(src: &Path, folder: &Path, list: &mut Vec<Source>) {
+fn collect(crate_name: &str, src: &Path, folder: &Path, list: &mut Vec<Source>) {
     for path in entries(folder) {
         if path.is_dir() {
-            collect(src, &path, list);
+            collect(crate_name, src, &path, list);
         } else if path.extension().is_some_and(|ending| ending == "rs") {
             let file = path.strip_prefix(src).unwrap().to_string_lossy().replace('\\', "/");
-            let module = file.split(['/', '.']).next().unwrap_or_default().to_owned();
-            list.push(Source { module, file, text: fs::read_to_string(&path).unwrap() });
+            list.push(source(crate_name, &file, &fs::read_to_string(&path).unwrap()));
         }
     }
+}
+
+fn source(crate_name: &str, file: &str, text: &str) -> Source {
+    let module = file.split(['/', '.']).next().unwrap_or_default().to_owned();
+    Source { crate_name: crate_name.to_owned(), module, file: file.to_owned(), text: text.to_owned() }
 }
 
 fn entries(folder: &Path) -> Vec<PathBuf> {
@@ -438,11 +443,12 @@ fn entries(folder: &Path) -> Vec<PathBuf> {
 const TABLES: &str = "\
 # A map
 
-| module | duty | may use |
-|---|---|---|
-| `spatial` | directions | - |
-| `model` | the body | `spatial` |
-| `report` | pages | `model`, `spatial` |
+| crate | module | duty | may use |
+|---|---|---|---|
+| `base` | `spatial` | directions | - |
+| `base` | `model` | the body | `spatial` |
+| `base` | `report` | pages | `model` `spatial` |
+| `top` | `study` | the road | - |
 
 | crate | named only by |
 |---|---|
@@ -454,25 +460,22 @@ const TABLES: &str = "\
 | `xtask` | automation |
 ";
 
-fn source(file: &str, text: &str) -> Source {
-    let module = file.split(['/', '.']).next().unwrap().to_owned();
-    Source { module, file: file.to_owned(), text: text.to_owned() }
-}
-
 /// A tree that agrees with [`TABLES`].
 fn tree() -> Vec<Source> {
     vec![
-        source("spatial.rs", "pub type Vec3 = [f64; 3];\n"),
-        source("model/mod.rs", "mod joint;\nuse ambulo_formats::osim;\nuse crate::spatial::Vec3;\n"),
-        source("model/joint.rs", "use super::Body;\nuse super::super::spatial::Vec3;\n"),
-        source("report/mod.rs", "use crate::{model::{Body, Model}, spatial::Vec3};\n"),
+        source("base", "spatial.rs", "pub type Vec3 = [f64; 3];\n"),
+        source("base", "model/mod.rs", "mod joint;\nuse ambulo_formats::osim;\nuse crate::spatial::Vec3;\n"),
+        source("base", "model/joint.rs", "use super::Body;\nuse super::super::spatial::Vec3;\n"),
+        source("base", "report/mod.rs", "use crate::{model::{Body, Model}, spatial::Vec3};\n"),
+        // The crate `base` belongs to its `Cargo.toml`.
+        source("top", "study.rs", "use base::model::Body;\nuse crate::model::Model;\n"),
     ]
 }
 
 /// What the checker says of [`tree`] with one more file.
 fn complaints_with(file: &str, text: &str) -> Vec<String> {
     let mut tree = tree();
-    tree.push(source(file, text));
+    tree.push(source("base", file, text));
     complaints(TABLES, &tree)
 }
 
@@ -483,7 +486,7 @@ fn a_tree_that_agrees_with_its_table_gives_no_complaint() {
 
 #[test]
 fn a_forbidden_arrow_is_named_with_its_place() {
-    let expected = |place: &str| [format!("src/{place}: `model` uses `report`; it may use spatial")];
+    let expected = |place: &str| [format!("base/src/{place}: `model` uses `report`; it may use spatial")];
     assert_eq!(complaints_with("model/side.rs", "\nuse crate::report::Page;\n"), expected("model/side.rs:2"));
     assert_eq!(complaints_with("model/side.rs", "use super::super::report;\n"), expected("model/side.rs:1"));
     assert_eq!(
@@ -503,7 +506,7 @@ fn a_forbidden_arrow_is_named_with_its_place() {
 #[test]
 fn a_module_without_arrows_may_use_nothing_not_even_everything() {
     let found = complaints_with("spatial/pose.rs", "use crate::*;\n");
-    assert_eq!(found, ["src/spatial/pose.rs:1: `spatial` uses `*`; it may use nothing"]);
+    assert_eq!(found, ["base/src/spatial/pose.rs:1: `spatial` uses `*`; it may use nothing"]);
 }
 
 #[test]
@@ -525,48 +528,36 @@ fn comments_texts_and_own_parts_are_no_arrows() {
 }
 
 #[test]
-fn a_module_that_only_the_table_has_is_named() {
+fn a_module_that_only_table_or_tree_has_is_named() {
     let mut tree = tree();
     tree.remove(0);
-    assert_eq!(complaints(TABLES, &tree), ["`spatial` stands in the module table, but not in src/"]);
-}
-
-#[test]
-fn a_module_that_only_the_tree_has_is_named() {
+    assert_eq!(complaints(TABLES, &tree), ["`spatial` stands in the module table, but not in crates/base/src"]);
     let found = complaints_with("gait.rs", "use crate::model::Model;\n");
-    assert_eq!(found, ["`gait` stands in src/, but not in the module table"]);
+    assert_eq!(found, ["`gait` stands in crates/base/src, but not in the module table"]);
 }
 
 #[test]
-fn an_arrow_to_a_module_without_row_is_named() {
-    let tables = TABLES.replace("| `spatial` | directions | - |", "| `spatial` | directions | `space` |");
-    assert_eq!(complaints(&tables, &tree()), ["`spatial` may use `space`, which has no row of its own"]);
-}
-
-#[test]
-fn a_circle_in_the_table_is_shown() {
-    let tables = TABLES.replace("| `spatial` | directions | - |", "| `spatial` | directions | `report` |");
-    let found = complaints(&tables, &tree());
-    assert_eq!(found, ["the module table runs in a circle: spatial -> report -> spatial"]);
-    let tables = tables.replace("`model`, `spatial` |", "`model` |");
-    let found = complaints(&tables, &tree());
-    assert!(found.contains(&"the module table runs in a circle: spatial -> report -> model -> spatial".to_owned()));
-    let tables = TABLES.replace("| `spatial` | directions | - |", "| `spatial` | directions | `spatial` |");
-    assert_eq!(complaints(&tables, &tree()), ["the module table runs in a circle: spatial -> spatial"]);
+fn an_arrow_upward_or_to_another_crate_has_no_place_in_the_table() {
+    for (row, module, used) in [("`base` | `spatial`", "spatial", "report"), ("`top` | `study`", "study", "model")] {
+        let (before, after) = TABLES.split_once(row).unwrap();
+        let tables = format!("{before}{row}{}", after.replacen("| - |", &format!("| `{used}` |"), 1));
+        let expected = format!("`{module}` may use `{used}`, which has no row of its crate above it");
+        assert_eq!(complaints(&tables, &tree()), [expected]);
+    }
 }
 
 #[test]
 fn a_crate_named_by_the_wrong_module_is_shown() {
     let found = complaints_with("spatial/pose.rs", "// ambulo_formats\nuse ambulo_formats::table::Table;\n");
-    assert_eq!(found, ["src/spatial/pose.rs:2: `spatial` names `ambulo_formats`; only model, report may"]);
+    assert_eq!(found, ["base/src/spatial/pose.rs:2: `spatial` names `ambulo_formats`; only model, report may"]);
 }
 
 #[test]
 fn a_missing_table_and_a_torn_row_are_complaints() {
     let found = complaints("# Nothing\n", &tree());
-    assert_eq!(found, ["no table with the header | module | duty | may use |"]);
+    assert_eq!(found, ["no table with the header | crate | module | duty | may use |"]);
     let torn = TABLES.replace("| `model` | the body | `spatial` |", "| `model` | the body |");
-    assert_eq!(complaints(&torn, &tree()), ["the row | `model` | the body | has 2 cells, its header 3"]);
+    assert_eq!(complaints(&torn, &tree()), ["the row | `base` | `model` | the body | has 3 cells, its header 4"]);
     let unnamed = TABLES.replace("named only by", "by");
     assert_eq!(complaints(&unnamed, &tree()), ["no table with the header | crate | named only by |"]);
 }

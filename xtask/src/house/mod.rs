@@ -18,6 +18,9 @@ use tokens::Token;
 const LONGEST_FUNCTION: usize = 60;
 /// Most circles of files that are allowed.
 const MOST_CIRCLES: usize = 8;
+/// Most lines of a crate, and of a module: a folder or a file in its `src`.
+const LARGEST_CRATE: usize = 45_000;
+const LARGEST_MODULE: usize = 13_000;
 
 /// What is measured of a tree.
 #[derive(Debug, Default)]
@@ -26,6 +29,9 @@ struct House {
     code_lines: usize,
     files: usize,
     types: usize,
+    /// The crate and the module with most lines, tests included.
+    largest_crate: Part,
+    largest_module: Part,
     /// Lines of each function, sorted.
     function_lines: Vec<usize>,
     /// Functions above [`LONGEST_FUNCTION`], with place and lines.
@@ -37,6 +43,13 @@ struct House {
     circles: Vec<String>,
     /// Test files that no test program contains.
     forgotten_tests: Vec<String>,
+}
+
+/// A crate or a module by its path below `crates/`.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Part {
+    lines: usize,
+    path: String,
 }
 
 /// Measures the tree, and a revision next to it; fails where the tree exceeds a limit.
@@ -59,6 +72,11 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         None => None,
     };
     print!("{}", table(&now, before.as_ref().map(|(name, house)| (*name, house))));
+    let [of_crates, of_modules] = [&now.largest_crate, &now.largest_module];
+    println!(
+        "\nlargest crate: {}, {} lines; largest module: {}, {} lines",
+        of_crates.path, of_crates.lines, of_modules.path, of_modules.lines
+    );
     print_list("functions over 60 lines", &now.long_functions);
     print_list("circles of files", &now.circles);
     print_list("test files that are not a module of tests/main.rs", &now.forgotten_tests);
@@ -87,6 +105,10 @@ impl House {
     }
 
     fn add(&mut self, one: &Crate) {
+        let (whole, modules) = parts(one);
+        self.largest_crate = whole.max(std::mem::take(&mut self.largest_crate));
+        self.largest_module =
+            modules.into_iter().max().unwrap_or_default().max(std::mem::take(&mut self.largest_module));
         let all: Vec<Vec<Token<'_>>> = one.files.iter().map(|file| tokens::tokens(&file.text)).collect();
         let product: Vec<Vec<Token<'_>>> = all.iter().map(|tokens| tokens::without_tests(tokens)).collect();
         let place = |file: &File| format!("crates/{}/src/{}", one.name, file.path);
@@ -128,6 +150,16 @@ impl House {
                 "there are test files that never run\nhint: name them in the `tests/main.rs` next to them".to_owned()
             );
         }
+        for (part, what, most) in
+            [(&self.largest_crate, "crate", LARGEST_CRATE), (&self.largest_module, "module", LARGEST_MODULE)]
+        {
+            if part.lines > most {
+                let Part { lines, path } = part;
+                return Err(format!(
+                    "the {what} {path} has {lines} lines (allowed: {most})\nhint: give what it does besides its main duty a {what} of its own"
+                ));
+            }
+        }
         if long == 0 && circles <= MOST_CIRCLES {
             return Ok(());
         }
@@ -137,7 +169,7 @@ impl House {
     }
 
     /// The names and values of the table's rows.
-    fn rows(&self) -> [(&'static str, usize); 12] {
+    fn rows(&self) -> [(&'static str, usize); 14] {
         let share = |share: f64| {
             let last = self.function_lines.len().saturating_sub(1);
             self.function_lines.get((last as f64 * share).round() as usize).copied().unwrap_or(0)
@@ -147,6 +179,8 @@ impl House {
             ("code lines", self.code_lines),
             ("files", self.files),
             ("types", self.types),
+            ("lines of the largest crate", self.largest_crate.lines),
+            ("lines of the largest module", self.largest_module.lines),
             ("functions", self.function_lines.len()),
             ("function lines, median", share(0.5)),
             ("function lines, p90", share(0.9)),
@@ -157,6 +191,18 @@ impl House {
             ("circles of files", self.circles.len()),
         ]
     }
+}
+
+/// A crate and its modules.
+fn parts(one: &Crate) -> (Part, Vec<Part>) {
+    let mut modules = std::collections::BTreeMap::<&str, usize>::new();
+    for file in &one.files {
+        let module = file.path.split(['/', '.']).next().unwrap_or_default();
+        *modules.entry(module).or_default() += file.text.lines().count();
+    }
+    let whole = Part { lines: modules.values().sum(), path: one.name.clone() };
+    let part = |(module, lines)| Part { lines, path: format!("{}/src/{module}", one.name) };
+    (whole, modules.into_iter().map(part).collect())
 }
 
 /// Lines with at least one token: neither blank nor only comment.
@@ -218,6 +264,24 @@ mod tests {
         assert!(house.judge().is_err());
         let house = House { long_functions: vec!["f: 61 lines".to_owned()], ..House::default() };
         assert!(house.judge().is_err_and(|message| message.starts_with("1 functions have more than 60 lines")));
+    }
+
+    #[test]
+    fn a_large_crate_or_module_exceeds_the_limits() {
+        let file = |path: &str, lines: usize| File { path: path.to_owned(), text: "//\n".repeat(lines) };
+        let one = Crate {
+            name: "a".to_owned(),
+            files: vec![file("lib.rs", 2), file("b/mod.rs", LARGEST_MODULE), file("b/c.rs", 1), file("d.rs", 5)],
+        };
+        let mut house = House::default();
+        house.add(&one);
+        assert_eq!(house.largest_crate, Part { lines: LARGEST_MODULE + 8, path: "a".to_owned() });
+        assert_eq!(house.largest_module, Part { lines: LARGEST_MODULE + 1, path: "a/src/b".to_owned() });
+        assert!(house.judge().is_err_and(|message| message.starts_with("the module a/src/b has 13001 lines")));
+        house.largest_module.lines = LARGEST_MODULE;
+        assert!(house.judge().is_ok());
+        house.largest_crate.lines = LARGEST_CRATE + 1;
+        assert!(house.judge().is_err_and(|message| message.starts_with("the crate a has 45001 lines")));
     }
 
     #[test]
