@@ -166,6 +166,7 @@ impl HuntCrossley {
 
     /// Normal force [N] and friction [N] on a sphere of this radius [m] whose overlap with the plane is
     /// `depth` [m], growing by `depth_rate` [m/s], and whose surface moves along the plane with `slip` [m/s].
+    #[inline]
     #[must_use]
     pub fn force(&self, radius: f64, depth: f64, depth_rate: f64, slip: Vec3) -> (f64, Vec3) {
         let normal_force = self.normal_force(radius, depth, depth_rate);
@@ -177,6 +178,7 @@ impl HuntCrossley {
     }
 
     /// Slip speed as the friction takes it [m/s].
+    #[inline]
     fn slip_speed(&self, slip: Vec3) -> f64 {
         match self.onset {
             Onset::AtTouch => slip.norm(),
@@ -184,11 +186,13 @@ impl HuntCrossley {
         }
     }
 
+    #[inline]
     fn normal_force(&self, radius: f64, depth: f64, depth_rate: f64) -> f64 {
         self.normal_with_slopes(radius, depth, depth_rate)[0]
     }
 
     /// The normal force, and its derivatives by depth and by rate of depth.
+    #[inline]
     fn normal_with_slopes(&self, radius: f64, depth: f64, depth_rate: f64) -> [f64; 3] {
         let ends_at_touch = self.onset == Onset::AtTouch;
         if ends_at_touch && depth <= 0.0 {
@@ -215,6 +219,7 @@ impl HuntCrossley {
     }
 
     /// |F_t| / (F_n v), the friction coefficient over the slip speed v [s/m], and its derivative by v over v [s³/m³].
+    #[inline]
     fn friction_per_slip(&self, speed: f64) -> [f64; 2] {
         let v_t = self.transition_velocity;
         let v = speed / v_t;
@@ -239,6 +244,7 @@ impl HuntCrossley {
 
     /// Force on the sphere as from [`HuntCrossley::force`], with its derivatives. They are exact except at the corner of
     /// [`FrictionCurve::Stribeck`]. The normal of the plane is +y.
+    #[inline]
     #[must_use]
     pub fn force_with_slopes(&self, radius: f64, depth: f64, depth_rate: f64, slip: Vec3) -> ContactSlopes {
         let [normal, by_depth, by_rate] = self.normal_with_slopes(radius, depth, depth_rate);
@@ -269,6 +275,7 @@ pub struct ContactSlopes {
 }
 
 /// A smooth step from 0 to 1 around x = 0, with its derivative.
+#[inline]
 fn step(x: f64) -> (f64, f64) {
     let tanh = elementary::tanh(x);
     (0.5 * tanh + 0.5, 0.5 - 0.5 * tanh * tanh)

@@ -18,6 +18,7 @@ pub struct ConeProjection {
 }
 
 /// Projects a force onto Coulomb's cone with this friction coefficient.
+#[inline]
 #[must_use]
 pub fn project_onto_cone(z: [f64; 3], friction: f64) -> ConeProjection {
     let [normal, x, y] = z;

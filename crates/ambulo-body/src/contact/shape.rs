@@ -285,12 +285,14 @@ impl Shape {
     }
 
     /// Whether it is a sphere.
+    #[inline]
     #[must_use]
     pub fn is_sphere(&self) -> bool {
         matches!(self.form, Form::Sphere { .. })
     }
 
     /// Radius of a sphere or a capsule [m]; `None` for other shapes.
+    #[inline]
     #[must_use]
     pub fn radius(&self) -> Option<f64> {
         match &self.form {

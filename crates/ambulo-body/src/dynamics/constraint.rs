@@ -138,6 +138,7 @@ pub struct GraphSolution {
 
 impl ConstraintGraph {
     /// Removes all rows, bodies and joints; keeps the allocated memory.
+    #[inline]
     pub fn clear(&mut self) {
         self.links.clear();
         self.bodies.clear();
@@ -268,6 +269,7 @@ impl ConstraintGraph {
 ///
 /// The point of the first body moves at v + ω × (-to_first), whose component along e is e · v + (-to_first × e) · ω; the point
 /// of the second moves at v + ω × from_second.
+#[inline]
 #[must_use]
 pub fn relative_rows(axes: [Vec3; 3], to_first: Vec3, from_second: Vec3) -> [Constraint; 6] {
     let linear = |e: Vec3| relative_slide(e, to_first, from_second);

@@ -145,24 +145,28 @@ impl Elimination {
     }
 
     /// Number of bodies.
+    #[inline]
     #[must_use]
     pub fn bodies(&self) -> usize {
         self.links.len()
     }
 
     /// Number of coordinates: free directions of all joints.
+    #[inline]
     #[must_use]
     pub fn coordinates(&self) -> usize {
         self.first[self.links.len()]
     }
 
     /// The coordinates of a body's joint.
+    #[inline]
     #[must_use]
     pub fn coordinates_of(&self, body: usize) -> Range<usize> {
         self.first[body]..self.first[body + 1]
     }
 
     /// Number of off-diagonal blocks, fill-in included.
+    #[inline]
     #[must_use]
     pub fn blocks(&self) -> usize {
         self.couplings.len()

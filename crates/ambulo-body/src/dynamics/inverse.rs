@@ -125,6 +125,7 @@ struct Kernel<const N: usize> {
 
 impl LoadSeries {
     /// The load at one frame.
+    #[inline]
     #[must_use]
     pub fn at(&self, frame: usize) -> BodyLoad {
         BodyLoad { body: self.body, point: self.points[frame], wrench: self.wrenches[frame] }
@@ -268,6 +269,7 @@ impl<'a> ReactionReader<'a> {
     ///
     /// # Panics
     /// If the trajectory has no such frame, or the model no such body.
+    #[inline]
     #[must_use]
     pub fn at(&self, body: BodyId, frame: usize) -> JointReaction {
         assert!(frame < self.trajectory.grid().frames, "frame {frame} of a shorter motion");
@@ -303,18 +305,21 @@ pub fn project_wrenches<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, 
 
 impl FrameForces<'_> {
     /// Generalised forces [N.m or N], one per coordinate.
+    #[inline]
     #[must_use]
     pub fn generalized(&self) -> &[f64] {
         self.kernel.tau.as_flattened()
     }
 
     /// Reaction in the joint of a body.
+    #[inline]
     #[must_use]
     pub fn reaction(&self, body: BodyId) -> JointReaction {
         self.kernel.reaction(body.index(), 0)
     }
 
     /// Pose, velocity and acceleration of a body.
+    #[inline]
     #[must_use]
     pub fn body_motion(&self, body: BodyId) -> BodyMotion {
         self.kernel.scratch.body_motion(self.plan, body, 0)
@@ -411,6 +416,7 @@ impl<const N: usize> Kernel<N> {
         }
     }
 
+    #[inline]
     fn reaction(&self, body: usize, lane: usize) -> JointReaction {
         let state = &self.scratch.states[body + 1];
         JointReaction {

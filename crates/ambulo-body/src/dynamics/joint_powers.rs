@@ -46,6 +46,7 @@ impl<'a> JointPowers<'a> {
     ///
     /// # Panics
     /// If the motion has no such frame, or the model no such coordinate.
+    #[inline]
     #[must_use]
     pub fn at(&self, id: CoordinateId, frame: usize) -> f64 {
         let speed = match self.ball[id.index()] {
@@ -64,6 +65,7 @@ impl<'a> JointPowers<'a> {
 
 impl BallSpeeds {
     /// Angular velocity of a body in its joint, in axes of the joint's frame on the parent [rad/s].
+    #[inline]
     fn at(&mut self, trajectory: &Trajectory, frame: usize, body: usize) -> [f64; 3] {
         if self.frame != Some(frame) {
             let [q, qd, qdd] = [0, 1, 2]

@@ -196,6 +196,7 @@ impl GraphWorkspace {
     }
 
     /// The bodies of the last graph with their parents, parents first.
+    #[inline]
     #[must_use]
     pub fn outwards(&self) -> &[(usize, Option<usize>)] {
         &self.outwards

@@ -108,30 +108,35 @@ impl Trajectory {
     }
 
     /// The time grid.
+    #[inline]
     #[must_use]
     pub fn grid(&self) -> TimeGrid {
         self.grid
     }
 
     /// Values of a coordinate [rad or m], one per frame.
+    #[inline]
     #[must_use]
     pub fn values(&self, id: CoordinateId) -> &[f64] {
         &self.columns[id.index()][0]
     }
 
     /// Rates of a coordinate [rad/s or m/s], one per frame.
+    #[inline]
     #[must_use]
     pub fn rates(&self, id: CoordinateId) -> &[f64] {
         &self.columns[id.index()][1]
     }
 
     /// Accelerations of a coordinate [rad/s² or m/s²], one per frame.
+    #[inline]
     #[must_use]
     pub fn accelerations(&self, id: CoordinateId) -> &[f64] {
         &self.columns[id.index()][2]
     }
 
     /// The columns of all coordinates: value, rate, acceleration.
+    #[inline]
     #[doc(hidden)]
     pub fn columns(&self) -> &[[Vec<f64>; 3]] {
         &self.columns

@@ -47,6 +47,7 @@ const COSECANT: [f64; 7] = [
 ];
 
 /// f with its first two derivatives by c.
+#[inline]
 pub(crate) fn factor(c: f64) -> [f64; 3] {
     if c > STRAIGHT { by_series(c.min(1.0)) } else { closed(c.max(BENT)) }
 }
@@ -83,11 +84,13 @@ fn series(coefficients: &[f64], y: f64) -> [f64; 3] {
 }
 
 /// End of an arc of this length for the direction n, in the axes of F [m].
+#[inline]
 pub(crate) fn end(length: f64, n: Vec3) -> Vec3 {
     (n + Vec3::y()) * (length * factor(n.y)[0])
 }
 
 /// Velocity of the end for a rate of n.
+#[inline]
 pub(crate) fn slide(length: f64, n: Vec3, rate: Vec3) -> Vec3 {
     let [f, slope, _] = factor(n.y);
     (rate * f + (n + Vec3::y()) * (slope * rate.y)) * length

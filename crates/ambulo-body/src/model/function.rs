@@ -72,6 +72,7 @@ impl Function {
     }
 
     /// The value of a constant function; `None` if it depends on x.
+    #[inline]
     #[must_use]
     pub fn as_constant(&self) -> Option<f64> {
         match self {
@@ -82,6 +83,7 @@ impl Function {
     }
 
     /// Slope and intercept of a straight line; `None` for a constant or a curve.
+    #[inline]
     #[must_use]
     pub fn as_linear(&self) -> Option<(f64, f64)> {
         match self {

@@ -51,6 +51,7 @@ pub struct CoordinateId(#[doc(hidden)] pub usize);
 
 impl BodyId {
     /// Position in [`Model::bodies`].
+    #[inline]
     #[must_use]
     pub fn index(self) -> usize {
         self.0
@@ -59,6 +60,7 @@ impl BodyId {
 
 impl CoordinateId {
     /// Position in [`Model::coordinates`].
+    #[inline]
     #[must_use]
     pub fn index(self) -> usize {
         self.0
@@ -302,42 +304,49 @@ impl Model {
     }
 
     /// Name of the model.
+    #[inline]
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// Gravity in world axes [m/s²].
+    #[inline]
     #[must_use]
     pub fn gravity(&self) -> Vec3 {
         self.gravity
     }
 
     /// The upward direction, perpendicular to the ground: against gravity, except on a slope; world y without gravity.
+    #[inline]
     #[must_use]
     pub fn up(&self) -> Vec3 {
         self.up
     }
 
     /// Bodies, parents first.
+    #[inline]
     #[must_use]
     pub fn bodies(&self) -> &[Body] {
         &self.bodies
     }
 
     /// Coordinates, in the order of the bodies that they move.
+    #[inline]
     #[must_use]
     pub fn coordinates(&self) -> &[Coordinate] {
         &self.coordinates
     }
 
     /// Markers.
+    #[inline]
     #[must_use]
     pub fn markers(&self) -> &[Marker] {
         &self.markers
     }
 
     /// Springs with dampers between bodies. Inverse dynamics applies them.
+    #[inline]
     #[must_use]
     pub fn bushings(&self) -> &[Bushing] {
         &self.bushings
@@ -360,12 +369,14 @@ impl Model {
     }
 
     /// Anatomical meaning of the parts.
+    #[inline]
     #[must_use]
     pub fn anatomy(&self) -> &Anatomy {
         &self.anatomy
     }
 
     /// Total mass [kg].
+    #[inline]
     #[must_use]
     pub fn mass(&self) -> f64 {
         self.bodies.iter().map(|b| b.inertia.mass()).sum()
@@ -391,11 +402,13 @@ impl Model {
     }
 
     /// All bodies, by id.
+    #[inline]
     pub fn body_ids(&self) -> impl DoubleEndedIterator<Item = BodyId> + use<> {
         (0..self.bodies.len()).map(BodyId)
     }
 
     /// All coordinates, by id.
+    #[inline]
     pub fn coordinate_ids(&self) -> impl Iterator<Item = CoordinateId> + use<> {
         (0..self.coordinates.len()).map(CoordinateId)
     }

@@ -20,6 +20,7 @@ impl Side {
     pub const BOTH: [Side; 2] = [Side::Right, Side::Left];
 
     /// `r` or `l`, as in column names.
+    #[inline]
     #[must_use]
     pub fn letter(self) -> &'static str {
         match self {
@@ -29,6 +30,7 @@ impl Side {
     }
 
     /// The opposite side.
+    #[inline]
     #[must_use]
     pub fn other(self) -> Side {
         match self {

@@ -25,6 +25,7 @@ const GRID_TOLERANCE: f64 = 0.06;
 
 impl TimeGrid {
     /// Time of a frame [s].
+    #[inline]
     #[must_use]
     pub fn time(&self, frame: usize) -> f64 {
         self.start_s + self.step_s * frame as f64
@@ -37,12 +38,14 @@ impl TimeGrid {
     }
 
     /// Frame rate [Hz].
+    #[inline]
     #[must_use]
     pub fn rate_hz(&self) -> f64 {
         1.0 / self.step_s
     }
 
     /// Last time [s].
+    #[inline]
     #[must_use]
     pub fn end_s(&self) -> f64 {
         self.time(self.frames.saturating_sub(1))
@@ -101,6 +104,7 @@ impl Window {
 }
 
 /// Linear interpolation at `t`, constant beyond the ends. `times` increase.
+#[inline]
 #[must_use]
 pub fn interpolate(times: &[f64], values: &[f64], t: f64) -> f64 {
     let after = times.partition_point(|&x| x <= t);

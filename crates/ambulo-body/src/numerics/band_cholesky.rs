@@ -40,11 +40,13 @@ impl BandMatrix {
         self.rows.fill(0.0);
     }
 
+    #[inline]
     fn at(&self, row: usize, column: usize) -> usize {
         row * (self.width + 1) + self.width + column - row
     }
 
     /// The entry at (`row`, `column`); zero outside of the band.
+    #[inline]
     #[must_use]
     pub fn value(&self, row: usize, column: usize) -> f64 {
         let (low, high) = (row.min(column), row.max(column));
@@ -52,6 +54,7 @@ impl BandMatrix {
     }
 
     /// Adds to the entry at (`row`, `column`) and its mirror; `column <= row <= column + width`.
+    #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let place = self.at(row, column);
         self.rows[place] += value;

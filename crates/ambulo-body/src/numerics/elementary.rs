@@ -39,72 +39,84 @@ pub fn cos(x: f64) -> f64 {
 }
 
 /// Tangent of an angle \[rad\].
+#[inline]
 #[must_use]
 pub fn tan(x: f64) -> f64 {
     libm::tan(x)
 }
 
 /// Angle of a sine, -π/2 to π/2 \[rad\]; not a number beyond ±1.
+#[inline]
 #[must_use]
 pub fn asin(x: f64) -> f64 {
     libm::asin(x)
 }
 
 /// Angle of a cosine, 0 to π \[rad\]; not a number beyond ±1.
+#[inline]
 #[must_use]
 pub fn acos(x: f64) -> f64 {
     libm::acos(x)
 }
 
 /// Angle of a tangent, -π/2 to π/2 \[rad\].
+#[inline]
 #[must_use]
 pub fn atan(x: f64) -> f64 {
     libm::atan(x)
 }
 
 /// Angle of the point (x, y) from the x axis, -π to π \[rad\].
+#[inline]
 #[must_use]
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
 /// eˣ.
+#[inline]
 #[must_use]
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
 /// Natural logarithm.
+#[inline]
 #[must_use]
 pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
 /// ln (1 + x), exact for small x.
+#[inline]
 #[must_use]
 pub fn ln_1p(x: f64) -> f64 {
     libm::log1p(x)
 }
 
 /// Decimal logarithm.
+#[inline]
 #[must_use]
 pub fn log10(x: f64) -> f64 {
     libm::log10(x)
 }
 
 /// Hyperbolic tangent.
+#[inline]
 #[must_use]
 pub fn tanh(x: f64) -> f64 {
     libm::tanh(x)
 }
 
 /// Cube root.
+#[inline]
 #[must_use]
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
 
 /// xʸ.
+#[inline]
 #[must_use]
 pub fn powf(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
@@ -119,6 +131,7 @@ pub fn hypot(x: f64, y: f64) -> f64 {
 }
 
 /// xⁿ by products, for an exponent that is computed; that of the standard library is not the same when the compiler knows both numbers.
+#[inline]
 #[must_use]
 pub fn powi(x: f64, n: i32) -> f64 {
     let (mut product, mut square, mut rest) = (1.0, x, n.unsigned_abs());

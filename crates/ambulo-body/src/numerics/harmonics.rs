@@ -35,6 +35,7 @@ impl Harmonics {
     }
 
     /// The value at a phase [cycles].
+    #[inline]
     #[must_use]
     pub fn at(&self, phase: f64) -> f64 {
         let waves = self.cosine.iter().zip(&self.sine).zip(1..).map(|((cosine, sine), k)| {

@@ -50,6 +50,7 @@ impl NormalEquations {
     }
 
     /// Adds one residual with its derivatives with respect to some unknowns.
+    #[inline]
     pub fn add(&mut self, residual: f64, numbers: &[usize], slopes: &[f64]) {
         if self.numbers != numbers {
             self.spread();
@@ -64,6 +65,7 @@ impl NormalEquations {
         }
     }
 
+    #[inline]
     fn begin(&mut self, numbers: &[usize]) {
         self.numbers.clear();
         self.numbers.extend_from_slice(numbers);

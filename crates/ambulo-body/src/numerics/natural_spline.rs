@@ -132,6 +132,7 @@ impl SplineDegree {
     }
 
     /// Degree of the pieces, 2m-1.
+    #[inline]
     pub fn degree(self) -> usize {
         2 * self.half_order() - 1
     }
@@ -165,12 +166,14 @@ impl NaturalSpline {
     }
 
     /// Value at time `t` (s).
+    #[inline]
     pub fn value(&self, t: f64) -> f64 {
         let (s, c) = self.piece(t);
         c.iter().rev().fold(0.0, |sum, ck| sum * s + ck)
     }
 
     /// Derivative of the given order [value/s^order] at time `t` (s); order 0 is the value.
+    #[inline]
     pub fn derivative(&self, order: usize, t: f64) -> f64 {
         let (s, c) = self.piece(t);
         let falling = |k: usize| (k + 1 - order..=k).fold(1.0, |product, factor| product * factor as f64);
@@ -178,6 +181,7 @@ impl NaturalSpline {
     }
 
     /// Value, first and second derivative [value, value/s, value/s²] at time `t` (s).
+    #[inline]
     pub fn value_and_two_derivatives(&self, t: f64) -> [f64; 3] {
         let (s, c) = self.piece(t);
         let [mut value, mut slope, mut half_curvature] = [0.0; 3];
@@ -190,11 +194,13 @@ impl NaturalSpline {
     }
 
     /// Degree of the pieces, 2m-1.
+    #[inline]
     pub fn degree(&self) -> usize {
         2 * self.half_order - 1
     }
 
     /// Sample times (s).
+    #[inline]
     pub fn times(&self) -> &[f64] {
         &self.times
     }
@@ -222,6 +228,7 @@ impl NaturalSpline {
     }
 
     /// Time since the sample at or before `t`, and the polynomial of this interval.
+    #[inline]
     fn piece(&self, t: f64) -> (f64, &[f64]) {
         let m = self.half_order;
         if t < self.times[0] {
@@ -232,6 +239,7 @@ impl NaturalSpline {
     }
 
     /// Even spacing is tried first, and one sample to each side for its rounding; then bisection.
+    #[inline]
     fn sample_at_or_before(&self, t: f64) -> usize {
         let last = self.times.len() - 1;
         let guess = (((t - self.times[0]) * self.samples_per_second) as usize).min(last);

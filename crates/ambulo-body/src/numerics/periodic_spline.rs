@@ -38,12 +38,14 @@ impl PeriodicSplines {
     }
 
     /// Number of splines.
+    #[inline]
     #[must_use]
     pub fn count(self) -> usize {
         self.count
     }
 
     /// The splines at a phase, whose integer part is ignored.
+    #[inline]
     #[must_use]
     pub fn at(self, phase: f64) -> SplineValues {
         let rate = self.count as f64;
@@ -58,6 +60,7 @@ impl PeriodicSplines {
 
 /// Value, first and second derivative of the six cardinal quintic splines that are not zero at position `u` (0 to 1) of a knot
 /// interval; derivatives are by a quantity of which `rate` knot intervals make one unit.
+#[inline]
 #[must_use]
 pub fn quintic_splines(u: f64, rate: f64) -> [[f64; OVERLAP]; 3] {
     let cubic = cardinal::<3>(u);
@@ -86,6 +89,7 @@ fn raised<const D: usize>(lower: &[f64; OVERLAP], u: f64) -> [f64; OVERLAP] {
     next(lower, D, u)
 }
 
+#[inline]
 fn next(lower: &[f64; OVERLAP], degree: usize, u: f64) -> [f64; OVERLAP] {
     let d = degree as f64;
     let mut w = [0.0; OVERLAP];

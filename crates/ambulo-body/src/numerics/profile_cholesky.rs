@@ -57,11 +57,13 @@ impl ProfileMatrix {
     }
 
     /// Adds to an entry of the lower half; `column <= row`, at or after the beginning of the row.
+    #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         self.entries[self.starts[row] + column - self.first[row]] += value;
     }
 
     /// Adds to the entries of a row from a column on; the same bounds as for [`ProfileMatrix::add`].
+    #[inline]
     pub fn add_row(&mut self, row: usize, column: usize, values: &[f64]) {
         let start = self.starts[row] + column - self.first[row];
         for (entry, value) in self.entries[start..start + values.len()].iter_mut().zip(values) {

@@ -17,6 +17,7 @@ impl Random {
     }
 
     /// From 0 to below 1.
+    #[inline]
     pub fn share(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -26,6 +27,7 @@ impl Random {
     }
 
     /// Normally distributed, with mean 0 and standard deviation 1 (Box and Muller 1958; unverified).
+    #[inline]
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * ln(1.0 - self.share())).sqrt();
         radius * cos(TAU * self.share())

@@ -36,12 +36,14 @@ impl UniformSplines {
     }
 
     /// Number of splines.
+    #[inline]
     #[must_use]
     pub fn count(self) -> usize {
         self.count
     }
 
     /// Largest number of splines that are not zero at one sample.
+    #[inline]
     #[must_use]
     pub fn overlap(self) -> usize {
         if self.stride == 1 { SPLINES_AT_ONCE - 1 } else { SPLINES_AT_ONCE }
@@ -49,6 +51,7 @@ impl UniformSplines {
 
     /// The splines that are not zero at a sample: the index of the first, and for each the value and the first and second derivative with respect to the
     /// number of samples.
+    #[inline]
     #[must_use]
     pub fn at(self, sample: usize) -> (usize, [[f64; SPLINES_AT_ONCE]; 3], std::ops::Range<usize>) {
         let (interval, within) = (sample / self.stride, sample % self.stride);

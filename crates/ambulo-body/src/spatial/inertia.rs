@@ -45,18 +45,21 @@ impl Inertia {
     }
 
     /// Mass [kg].
+    #[inline]
     #[must_use]
     pub fn mass(&self) -> f64 {
         self.mass
     }
 
     /// Mass centre [m].
+    #[inline]
     #[must_use]
     pub fn center(&self) -> Vec3 {
         self.center
     }
 
     /// Inertia about the mass centre [kg.m²].
+    #[inline]
     #[must_use]
     pub fn about_center(&self) -> Mat3 {
         self.about_center

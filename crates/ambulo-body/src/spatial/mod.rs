@@ -21,6 +21,7 @@ pub type Vec3 = nalgebra::Vector3<f64>;
 pub type Mat3 = nalgebra::Matrix3<f64>;
 
 /// Distance along the ground of a point from the line between two points [m]; heights do not count.
+#[inline]
 #[doc(hidden)]
 pub fn level_distance(point: Vec3, [from, to]: [Vec3; 2], up: Vec3) -> f64 {
     let level = |v: Vec3| v - up * v.dot(&up);

@@ -21,6 +21,7 @@ impl Pose {
         Pose { rotation: Mat3::new(1., 0., 0., 0., 1., 0., 0., 0., 1.), translation: Vec3::new(0., 0., 0.) };
 
     /// A frame with the same axes and its origin at `translation` [m].
+    #[inline]
     #[must_use]
     pub fn at(translation: Vec3) -> Pose {
         Pose { translation, ..Pose::IDENTITY }

@@ -18,6 +18,7 @@ use crate::numerics::elementary::{acos, atan2, sin_cos};
 const PARALLEL: f64 = 1e-12;
 
 /// Rotation about a unit vector by an angle \[rad\].
+#[inline]
 #[must_use]
 pub fn rotation_about(u: Vec3, angle: f64) -> Mat3 {
     let (sin, cos) = sin_cos(angle);
@@ -101,6 +102,7 @@ pub fn rotation_between(a: &Vec3, b: &Vec3) -> Option<Mat3> {
 }
 
 /// Angle between two vectors, 0 to π \[rad\]; 0 if one of them is zero.
+#[inline]
 #[must_use]
 pub fn angle_between(a: &Vec3, b: &Vec3) -> f64 {
     let lengths = a.norm() * b.norm();

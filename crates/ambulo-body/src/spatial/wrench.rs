@@ -25,6 +25,7 @@ impl Twist {
     pub const ZERO: Twist = Twist { angular: Vec3::new(0., 0., 0.), linear: Vec3::new(0., 0., 0.) };
 
     /// The velocity of another point of the same body, at `arm` from this one [m]. For velocities only, not for accelerations.
+    #[inline]
     #[must_use]
     pub fn velocity_at(&self, arm: Vec3) -> Vec3 {
         self.linear + self.angular.cross(&arm)
@@ -36,12 +37,14 @@ impl Wrench {
     pub const ZERO: Wrench = Wrench { moment: Vec3::new(0., 0., 0.), force: Vec3::new(0., 0., 0.) };
 
     /// The same load about another point; `arm` points from the new point to the old one [m].
+    #[inline]
     #[must_use]
     pub fn about(&self, arm: Vec3) -> Wrench {
         Wrench { moment: self.moment + arm.cross(&self.force), force: self.force }
     }
 
     /// Power [W] on a body whose twist is given at the same point.
+    #[inline]
     #[must_use]
     pub fn power(&self, twist: &Twist) -> f64 {
         self.moment.dot(&twist.angular) + self.force.dot(&twist.linear)

@@ -125,42 +125,49 @@ impl Anatomy {
     }
 
     /// The pelvis: the body between the hips. In figures with an undivided trunk it is the whole trunk.
+    #[inline]
     #[must_use]
     pub fn pelvis(&self) -> Option<BodyId> {
         self.pelvis
     }
 
     /// The trunk above the pelvis: the heaviest body that belongs to no side.
+    #[inline]
     #[must_use]
     pub fn trunk(&self) -> Option<BodyId> {
         self.trunk
     }
 
     /// The legs; `None` for a missing leg.
+    #[inline]
     #[must_use]
     pub fn legs(&self) -> &BySide<Option<Leg>> {
         &self.legs
     }
 
     /// The feet on which the ground acts, if there are two.
+    #[inline]
     #[must_use]
     pub fn feet(&self) -> Option<BySide<BodyId>> {
         self.legs.map(|leg| leg.map(|leg| leg.foot)).both()
     }
 
     /// The side of a body; `None` for pelvis, trunk and head.
+    #[inline]
     #[must_use]
     pub fn body_side(&self, body: BodyId) -> Option<Side> {
         self.body_sides.get(body.index()).copied().flatten()
     }
 
     /// The side of the joint that a coordinate moves; `None` for pelvis, trunk and head.
+    #[inline]
     #[must_use]
     pub fn coordinate_side(&self, id: CoordinateId) -> Option<Side> {
         self.coordinate_sides.get(id.index()).copied().flatten()
     }
 
     /// The movement that a coordinate measures, and its sign.
+    #[inline]
     #[must_use]
     pub fn meaning(&self, id: CoordinateId) -> Option<Meaning> {
         self.meanings.get(id.index()).copied().flatten()
@@ -230,6 +237,7 @@ fn coordinate_sides(model: &Model, body_sides: &[Option<Side>]) -> Vec<Option<Si
 }
 
 /// The heaviest body without side, other than the pelvis.
+#[inline]
 fn trunk(tree: &Tree<'_>, pelvis: BodyId, oriented: &Oriented, sides: &[Option<Side>]) -> Option<BodyId> {
     let in_leg = |body: &BodyId| oriented.legs.values().flatten().any(|leg| leg.bodies.contains(body));
     let bodies = (0..tree.bodies.len()).map(BodyId);
