@@ -24,10 +24,14 @@
 //! Not handled: turning; activation of muscles.
 
 mod controller;
+mod fall;
+mod feedback;
 mod figure;
 mod foot_placement;
+mod gains;
 mod linear;
 mod pace;
+mod phase;
 mod physical;
 mod plan;
 mod riccati;
@@ -35,8 +39,10 @@ mod schedule;
 mod settings;
 mod standing;
 pub mod tuning;
+mod walk_plan;
 
-pub use controller::{Fall, WalkController};
+pub use controller::WalkController;
+pub use fall::Fall;
 pub use physical::PhysicalWalk;
 pub use schedule::SpeedSchedule;
 pub use settings::{Balance, ControlError, ControlSettings, FootPlacement, TorqueCurves, TrackingCosts};
