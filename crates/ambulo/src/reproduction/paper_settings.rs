@@ -4,7 +4,7 @@ use super::error::ReproductionError;
 use super::paper_human::{rebuilt, with_soles, with_thickness, with_toe_reach};
 use crate::contact::HuntCrossley;
 use crate::gait::{Gait, Pelvis, Style, Walk};
-use crate::model::anthropometry::Human;
+use crate::model::anthropometry::{Human, SpherePart};
 use crate::model::{Function, Model};
 use crate::simulation::walking::{WalkingError, gait_signals};
 use crate::simulation::{ImpactLaw, Signal};
@@ -80,7 +80,7 @@ impl PaperSettings {
         };
         let mut figure = with_soles(with_thickness(&figure, self.thickness)?, self.sole_radii);
         if !self.toe_spheres {
-            figure.soles.retain(|sole| !sole.name.starts_with("toe"));
+            figure.soles.retain(|sole| sole.part != SpherePart::Toes);
         }
         match self.toe_reach {
             Some(reach) => with_toe_reach(figure, reach),
