@@ -45,7 +45,7 @@ const FORCES: &[&str] = &[
     "xtask/measure/src/validate/recording.rs",
 ];
 
-const PAGES: [Page; 12] = [
+const PAGES: [Page; 11] = [
     Page { name: "VALIDATION", command: "validate", inputs: FORCES },
     Page { name: "GROUND_FIT", command: "fit-ground", inputs: FORCES },
     Page {
@@ -116,18 +116,6 @@ const PAGES: [Page; 12] = [
         inputs: &["crates/ambulo/src/contact", "crates/ambulo/src/dynamics", "crates/ambulo/src/simulation"],
     },
     Page { name: "BENCHMARKS_MARKERS", command: "bench-markers", inputs: &["crates/ambulo/src/kinematics/marker_fit"] },
-    Page {
-        name: "ROOFLINE",
-        command: "roofline",
-        inputs: &[
-            "crates/ambulo/src/dynamics",
-            "crates/ambulo/src/kinematics",
-            "crates/ambulo/src/simulation",
-            "crates/ambulo/src/spatial",
-            "xtask/measure/src/roofline",
-            "xtask/measure/src/roofline.rs",
-        ],
-    },
     // Recorded outcomes: a run takes up to an hour and needs other solvers.
     Page {
         name: "OPTIMAL_PEERS",
