@@ -6,7 +6,6 @@
 mod batch_cost;
 mod build_time;
 mod check;
-mod clusters;
 mod command_cost;
 mod dist;
 #[cfg(test)]
@@ -44,7 +43,6 @@ usage: cargo xtask <command>
   command-cost      processor time of `ambulo forces` against an earlier revision, and the time until the command starts  [--baseline REV]
   batch-cost        measure processor time, memory and bytes per trial of `ambulo batch`, and print what 70 h and 288 h of motion cost
                     [--kills: and compute 10,000 trials with ten kills]
-  clusters          run the recipes of docs/clusters on this machine, with a worker or job that is killed in the middle  [RECIPE]..
   stream-cost       measure latency, processor time and memory of `ambulo stream` from end to end, in real time  [--seconds S]
                     [--hours H: and the memory over so many hours of motion, as fast as they are taken]
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
@@ -55,8 +53,6 @@ usage: cargo xtask <command>
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
   claim-shares      sample the values that the 1997 paper does not give, and count how often its claims hold
                     [--settings N] [--seed S] [--write: crates/ambulo-paper/data/shares.csv]
-  roofline          count operations and bytes of the three hottest kernels, and compare their times with what this processor can do
-                    (needs valgrind and objdump)  [--write: docs/measured/ROOFLINE.md]
   reproduction      recompute the 1997 paper and print its claims  [--write: docs/measured/REPRODUCTION.md]
   figures           draw docs/images/ again with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors
@@ -83,7 +79,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 13] = [
+const OWN: [&str; 12] = [
     "check",
     "house",
     "build-time",
@@ -95,12 +91,11 @@ const OWN: [&str; 13] = [
     "sweep",
     "command-cost",
     "batch-cost",
-    "clusters",
     "stream-cost",
 ];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 22] = [
+const MEASUREMENTS: [&str; 21] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -109,7 +104,6 @@ const MEASUREMENTS: [&str; 22] = [
     "oracle-c3d",
     "claim-shares",
     "reproduction",
-    "roofline",
     "figures",
     "fit-gait",
     "fit-ground",
@@ -143,7 +137,6 @@ fn main() -> ExitCode {
         ("sweep", []) => sweep::run(),
         ("command-cost", _) => command_cost::run(rest),
         ("batch-cost", _) => batch_cost::run(rest),
-        ("clusters", _) => clusters::run(rest),
         ("stream-cost", _) => stream_cost::run(rest),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),

@@ -45,7 +45,7 @@ const FORCES: &[&str] = &[
     "xtask/measure/src/validate/recording.rs",
 ];
 
-const PAGES: [Page; 12] = [
+const PAGES: [Page; 11] = [
     Page { name: "VALIDATION", command: "validate", inputs: FORCES },
     Page { name: "GROUND_FIT", command: "fit-ground", inputs: FORCES },
     Page {
@@ -128,18 +128,6 @@ const PAGES: [Page; 12] = [
         name: "BENCHMARKS_MARKERS",
         command: "bench-markers",
         inputs: &["crates/ambulo-body/src/kinematics/marker_fit"],
-    },
-    Page {
-        name: "ROOFLINE",
-        command: "roofline",
-        inputs: &[
-            "crates/ambulo-body/src/dynamics",
-            "crates/ambulo-body/src/kinematics",
-            "crates/ambulo-body/src/spatial",
-            "crates/ambulo-walk/src/engine",
-            "xtask/measure/src/roofline",
-            "xtask/measure/src/roofline.rs",
-        ],
     },
     // Recorded outcomes: a run takes up to an hour and needs other solvers.
     Page {

@@ -3,7 +3,7 @@
 use super::error::ReproductionError;
 use super::paper_human::{rebuilt, with_soles, with_thickness, with_toe_reach};
 use ambulo_body::contact::HuntCrossley;
-use ambulo_body::model::anthropometry::Human;
+use ambulo_body::model::anthropometry::{Human, SpherePart};
 use ambulo_body::model::{Function, Model};
 use ambulo_walk::engine::{ImpactLaw, Signal};
 use ambulo_walk::gait::{Gait, Pelvis, Style, Walk};
@@ -80,7 +80,7 @@ impl PaperSettings {
         };
         let mut figure = with_soles(with_thickness(&figure, self.thickness)?, self.sole_radii);
         if !self.toe_spheres {
-            figure.soles.retain(|sole| !sole.name.starts_with("toe"));
+            figure.soles.retain(|sole| sole.part != SpherePart::Toes);
         }
         match self.toe_reach {
             Some(reach) => with_toe_reach(figure, reach),

@@ -5,7 +5,7 @@ use ambulo::findings::Findings;
 use ambulo::ground::predict::{PredictSettings, predict};
 use ambulo::kinematics::{Posture, Trajectory, body_motion};
 use ambulo::model::Movement::{self, AnkleDorsiflexion, HipFlexion, KneeFlexion, PelvisUp};
-use ambulo::model::anthropometry::{Build, ContactSphere, Human, SegmentTable};
+use ambulo::model::anthropometry::{Build, ContactSphere, Human, SegmentTable, SpherePart};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{BySide, Side};
 use ambulo::motion::TimeGrid;
@@ -69,7 +69,8 @@ fn stand_up(human: &Human, seat_m: f64) -> Result<Solution, Box<dyn Error>> {
     let keys = [Key::new(0.0, &sitting), Key::new(0.7, &leaning), Key::new(2.0, &STANDING)];
     let pelvis = human.model.body("pelvis").ok_or("a figure without a pelvis")?;
     let center = Vec3::new(0.0, -0.03, 0.0);
-    let seat = ContactSphere { name: "seat".to_owned(), side: Side::Right, body: pelvis, center, radius: 0.06 };
+    let (name, part) = ("seat".to_owned(), SpherePart::Other);
+    let seat = ContactSphere { name, part, side: Side::Right, body: pelvis, center, radius: 0.06 };
     let settings = MovementSettings { surfaces: vec![(seat, seat_m)], ..MovementSettings::default() };
     Ok(MovementProblem::new(human, &keys, &settings)?.solve()?)
 }

@@ -20,7 +20,6 @@ mod physical_peers;
 mod physical_walk;
 mod random;
 mod reproduction;
-mod roofline;
 mod simulators;
 mod table;
 mod twins;
@@ -48,7 +47,6 @@ fn main() -> ExitCode {
         ("claim-shares", _) => claim_shares::run(rest),
         ("reproduction", _) => reproduction::run(rest),
         ("figures", []) => figures::run(),
-        ("roofline", _) => roofline::run(rest),
         ("fit-gait", []) => fit_gait::run(),
         ("keypoints", _) => keypoints::run(rest),
         ("normative-bands", []) => normative_bands::run(),

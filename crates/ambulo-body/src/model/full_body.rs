@@ -21,10 +21,10 @@
 //!
 //! The body of a person is the same tree with other lengths: see [`SubjectShape`] and [`reshaped`].
 
-use super::anthropometry::{Build, BuildError, ContactSphere, Dimensions, Human};
+use super::anthropometry::{Build, BuildError, ContactSphere, Dimensions, Human, SpherePart};
 use super::{
     Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
-    JointSpeeds, Marker, Model, Side,
+    JointSpeeds, Marker, Model, Movement, Side,
 };
 use crate::spatial::{Inertia, Pose, Vec3};
 
@@ -237,27 +237,29 @@ pub fn reshaped(human: &Human, shape: &SubjectShape) -> Result<Human, BuildError
         body.joint.child_from_joint = segment.child_from_joint;
     }
     let mut coordinates = model.coordinates().to_vec();
+    if let Some((height, _)) = model.anatomy().coordinate(Movement::PelvisUp, None) {
+        coordinates[height.index()].default_value = shape.dimensions.leg_length;
+    }
     for coordinate in &mut coordinates {
-        if coordinate.name == "pelvis_ty" {
-            coordinate.default_value = shape.dimensions.leg_length;
-        }
         if shape.locked.contains(&coordinate.name) {
             coordinate.drive = Drive::Locked;
         }
     }
     let model = Model::new(model.name(), model.gravity(), bodies, coordinates, shape.markers.clone())?;
-    let soles = human.soles.iter().map(|sphere| resoled(&model, shape, sphere)).collect();
+    let soles = human.soles.iter().map(|sphere| resoled(&model, shape, human, sphere)).collect();
     Ok(Human { model, soles, dimensions: shape.dimensions, build: human.build })
 }
 
 /// Scales a sphere with its foot, and places it so that it touches the ground under a flat foot.
-fn resoled(model: &Model, shape: &SubjectShape, sphere: &ContactSphere) -> ContactSphere {
+fn resoled(model: &Model, shape: &SubjectShape, human: &Human, sphere: &ContactSphere) -> ContactSphere {
     let foot = shape.feet[usize::from(sphere.side == Side::Left)];
     let index = sphere.body.index();
     let factor = shape.segments.get(index).map_or(1.0, |segment| segment.factor);
     let radius = sphere.radius * factor;
     let body = &model.bodies()[index];
-    let center = if body.name.starts_with("toes") {
+    let is_heel = |other: &&ContactSphere| other.part == SpherePart::Heel && other.side == sphere.side;
+    let on_toes = human.soles.iter().find(is_heel).is_some_and(|heel| heel.body != sphere.body);
+    let center = if on_toes {
         // Relative to the ball of the foot, which is one ball radius above the ground.
         let above = body.joint.parent_from_joint.translation.y + foot.ankle_height;
         Vec3::new(sphere.center.x * factor, radius - above, 0.0)

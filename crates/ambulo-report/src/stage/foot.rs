@@ -11,7 +11,7 @@ use super::part::Part;
 use super::{ForceRole, Stage, StageContact};
 use crate::page::ViewShape;
 use ambulo::model::anatomy::{Sole, SolePoint};
-use ambulo::model::anthropometry::{ContactSphere, Dimensions};
+use ambulo::model::anthropometry::{ContactSphere, Dimensions, SpherePart};
 use ambulo::model::{BodyId, Side};
 use ambulo::spatial::Vec3;
 
@@ -151,13 +151,13 @@ fn before_the_ball(places: &JointPlaces<'_>, point: SolePoint, rear: BodyId, toe
 
 /// The contact spheres of a built-in figure from its markers: the heel marker is at the rear of its sphere, the others at the centres.
 fn spheres(places: &JointPlaces<'_>, side: Side, size: &Dimensions) -> Vec<ContactSphere> {
-    let radii = [("heel", size.heel_radius), ("ball", size.ball_radius), ("toe", size.toe_radius)];
-    let sphere = |(stem, radius): (&str, f64)| {
+    let radii = [size.heel_radius, size.ball_radius, size.toe_radius];
+    let sphere = |((part, stem), radius): ((SpherePart, &str), f64)| {
         let name = format!("{stem}_{}", side.letter());
         let marker = places.model.markers().iter().find(|marker| marker.name == name)?;
-        let forward = if stem == "heel" { radius } else { 0.0 };
+        let forward = if part == SpherePart::Heel { radius } else { 0.0 };
         let center = marker.location + Vec3::new(forward, 0.0, 0.0);
-        Some(ContactSphere { name, side, body: marker.body?, center, radius })
+        Some(ContactSphere { name, part, side, body: marker.body?, center, radius })
     };
-    radii.into_iter().filter_map(sphere).collect()
+    SpherePart::OF_FOOT.into_iter().zip(radii).filter_map(sphere).collect()
 }

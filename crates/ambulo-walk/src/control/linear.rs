@@ -66,7 +66,7 @@ impl Impedance {
 impl FigureWorld {
     /// The maps of all time steps of a plan from state and torque of the joints to the next state. Where the second half of the cycle is the mirror image
     /// of the first, so are its maps.
-    pub(super) fn maps(&mut self, plan: &CyclePlan, impedances: &[Impedance]) -> Result<Vec<StepMap>, ControlError> {
+    pub(crate) fn maps(&mut self, plan: &CyclePlan, impedances: &[Impedance]) -> Result<Vec<StepMap>, ControlError> {
         let count = plan.steps.len();
         let first = if plan.mirror.is_some() { count / 2 } else { count };
         let mut maps = (0..first).map(|k| self.map(plan, impedances, k)).collect::<Result<Vec<_>, _>>()?;

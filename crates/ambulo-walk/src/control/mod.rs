@@ -24,19 +24,25 @@
 //! Not handled: turning; activation of muscles.
 
 mod controller;
+mod fall;
+mod feedback;
 mod figure;
 mod foot_placement;
+mod gains;
 mod linear;
 mod pace;
+mod phase;
 mod physical;
 mod plan;
 pub(crate) mod riccati;
 mod schedule;
 mod settings;
 mod standing;
+mod walk_plan;
 mod walk_recorder;
 
-pub use controller::{Fall, WalkController};
+pub use controller::WalkController;
+pub use fall::Fall;
 pub use physical::PhysicalWalk;
 pub(crate) use schedule::ScheduledController;
 pub use schedule::SpeedSchedule;

@@ -1,6 +1,7 @@
 //! A figure that walks by its own torques on level ground, and what becomes of it.
 
-use super::controller::{Fall, WalkController};
+use super::controller::WalkController;
+use super::fall::Fall;
 use super::figure::FigureWorld;
 use super::settings::{ControlError, ControlSettings};
 use super::walk_recorder::FigureRecorder;

@@ -1,6 +1,6 @@
 //! Records a walking figure of a scene step by step, for its verdict.
 
-use super::controller::Fall;
+use super::fall::Fall;
 use super::schedule::ScheduledController;
 use crate::engine::figure_tree::FigureTree;
 use crate::engine::forces::ContactForce;

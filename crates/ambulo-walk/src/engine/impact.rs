@@ -2,7 +2,7 @@
 //!
 //! Drives without a limit keep their rates, whatever impulse that takes; drives with a limit give way.
 
-use super::assemble::{Prescribed, Span, twist};
+use super::assemble::{Span, twist};
 use super::forces::{Impact, StepForces};
 use super::state::WorldState;
 use super::touch::{Touch, obstacle_motion};
@@ -22,12 +22,12 @@ pub(super) fn impact(
     w: &mut StepWorkspace,
     findings: &mut Findings,
 ) -> Result<(), LinkError> {
-    let prescribed = Prescribed::at(world, state.time_s + IMPACT_S);
     w.step_s = IMPACT_S;
-    obstacle_motion(world, state.time_s, IMPACT_S, &mut w.obstacles);
-    w.touch.detect(world, state, &w.obstacles, IMPACT_S);
-    w.touch.close_gaps();
-    w.solve_impact(world, state, settings, &prescribed, findings)?;
+    w.prescribed.fill(world, state.time_s + IMPACT_S);
+    obstacle_motion(world, state.time_s, IMPACT_S, &mut w.contact.obstacles);
+    w.contact.touch.detect(world, state, &w.contact.obstacles, IMPACT_S);
+    w.contact.touch.close_gaps();
+    w.solve_impact(world, state, settings, findings)?;
     w.take_impact(world, state);
     state.guess.clear();
     Ok(())
@@ -39,16 +39,15 @@ impl StepWorkspace {
         world: &World,
         state: &WorldState,
         settings: &StepSettings,
-        prescribed: &Prescribed,
         findings: &mut Findings,
     ) -> Result<(), LinkError> {
         self.step_s = IMPACT_S;
-        self.solve(world, state, Span::instant(IMPACT_S), settings, prescribed, findings)
+        self.solve(world, state, Span::instant(IMPACT_S), settings, findings)
     }
 
     /// Takes over the velocities after an impact, and records its impulses.
     fn take_impact(&mut self, world: &World, state: &mut WorldState) {
-        for (twist_now, motion) in state.twists.iter_mut().zip(&self.solution.motions) {
+        for (twist_now, motion) in state.twists.iter_mut().zip(&self.equations.solution.motions) {
             *twist_now = twist(motion);
         }
         let StepForces { mut contacts, mut efforts, .. } = self.forces(world);
@@ -57,8 +56,8 @@ impl StepWorkspace {
             contact.normal_force *= IMPACT_S;
         }
         efforts.iter_mut().flatten().for_each(|effort| *effort *= IMPACT_S);
-        self.impacts.push(Impact { time_s: state.time_s, contacts, efforts });
-        self.after_impacts.clone_from(&state.twists);
+        self.impacts.all.push(Impact { time_s: state.time_s, contacts, efforts });
+        self.impacts.twists_after.clone_from(&state.twists);
     }
 
     /// Sticking impacts: every point that has come into contact since the last step loses all its velocity, one after the
@@ -68,28 +67,27 @@ impl StepWorkspace {
         world: &World,
         state: &mut WorldState,
         settings: &StepSettings,
-        prescribed: &Prescribed,
         findings: &mut Findings,
     ) -> Result<(), LinkError> {
-        while let Some(number) = self.touch.next_striker(world, state, &self.obstacles) {
-            let touches = self.touch.touches.clone();
-            self.touch.touches[number].sticks = true;
-            self.solve_impact(world, state, settings, prescribed, findings)?;
+        while let Some(number) = self.contact.touch.next_striker(world, state, &self.contact.obstacles) {
+            let touches = self.contact.touch.touches.clone();
+            self.contact.touch.touches[number].sticks = true;
+            self.solve_impact(world, state, settings, findings)?;
             if self.pulls() {
                 // Another point carries the impact: this one is not held back.
-                self.touch.touches.clone_from(&touches);
-                self.solve_impact(world, state, settings, prescribed, findings)?;
+                self.contact.touch.touches.clone_from(&touches);
+                self.solve_impact(world, state, settings, findings)?;
             }
             self.take_impact(world, state);
-            self.touch.touches = touches;
-            self.touch.touches[number].known = true;
+            self.contact.touch.touches = touches;
+            self.contact.touch.touches[number].known = true;
         }
         Ok(())
     }
 
     /// Whether the sticking point would have to pull.
     fn pulls(&self) -> bool {
-        let normal = |touch: &Touch| self.solution.lambda[touch.rows.normal];
-        self.touch.touches.iter().any(|touch| touch.sticks && normal(touch) <= 0.0)
+        let normal = |touch: &Touch| self.equations.solution.lambda[touch.rows.normal];
+        self.contact.touch.touches.iter().any(|touch| touch.sticks && normal(touch) <= 0.0)
     }
 }

@@ -10,7 +10,7 @@
 //! Source: Faure, Debunne, Cani, Multon 1997, section 3.1 (steps 1-3 for accelerations, velocities, linearised
 //! displacements), 3.2 (drives), 3.3 (contact). Time stepping by impulses after Moreau (unverified).
 
-use super::assemble::{Assembly, Prescribed, Span, Yielding, twist};
+use super::assemble::{Assembly, Span, Yielding, twist};
 use super::forces::ContactForce;
 use super::joint::advance;
 use super::projection::still_closing;
@@ -38,38 +38,23 @@ pub(super) fn impulse_step(
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
     w.step_s = h;
-    let mut prescribed = std::mem::take(&mut w.prescribed);
-    prescribed.fill(world, state.time_s + h);
-    let done = prescribed_step(world, state, h, settings, &prescribed, w, findings);
-    w.prescribed = prescribed;
-    done
-}
-
-fn prescribed_step(
-    world: &World,
-    state: &mut WorldState,
-    h: f64,
-    settings: &StepSettings,
-    prescribed: &Prescribed,
-    w: &mut StepWorkspace,
-    findings: &mut Findings,
-) -> Result<Convergence, LinkError> {
-    obstacle_motion(world, state.time_s, h, &mut w.obstacles);
+    w.prescribed.fill(world, state.time_s + h);
+    obstacle_motion(world, state.time_s, h, &mut w.contact.obstacles);
     let closing = still_closing(world, state);
-    w.touch.detect(world, state, &w.obstacles, h);
+    w.contact.touch.detect(world, state, &w.contact.obstacles, h);
     if world.impact == ImpactLaw::Sticking {
-        w.touch.keep_touching(world, state);
-        w.strike(world, state, settings, prescribed, findings)?;
+        w.contact.touch.keep_touching(world, state);
+        w.strike(world, state, settings, findings)?;
         w.step_s = h;
     }
-    w.solve(world, state, Span::step(h), settings, prescribed, findings)?;
-    for (twist_now, motion) in state.twists.iter_mut().zip(&w.solution.motions) {
+    w.solve(world, state, Span::step(h), settings, findings)?;
+    for (twist_now, motion) in state.twists.iter_mut().zip(&w.equations.solution.motions) {
         *twist_now = twist(motion);
     }
     state.time_s += h;
     w.remember(state);
     if settings.projection {
-        w.place(world, state, prescribed, h);
+        w.place(world, state, h);
     } else {
         for (pose, twist) in state.poses.iter_mut().zip(&state.twists) {
             advance(pose, twist, h);
@@ -77,9 +62,9 @@ fn prescribed_step(
         w.measure_joints(world, state);
     }
     if settings.projection && !closing {
-        w.close(world, state, prescribed, settings)?;
+        w.close(world, state, settings)?;
     }
-    Ok(w.solution.convergence)
+    Ok(w.equations.solution.convergence)
 }
 
 impl StepWorkspace {
@@ -90,7 +75,6 @@ impl StepWorkspace {
         state: &WorldState,
         span: Span,
         settings: &StepSettings,
-        prescribed: &Prescribed,
         findings: &mut Findings,
     ) -> Result<(), LinkError> {
         let h = span.h;
@@ -101,26 +85,36 @@ impl StepWorkspace {
             false => UNREASONABLE_WEIGHTS * world.mass() * world.gravity.norm().max(STANDARD_GRAVITY),
         };
         let mut yielding: Yielding = Vec::new();
-        let mut found = std::mem::take(&mut self.found);
-        found.clone_from(&self.touch.touches);
+        self.contact.found.clone_from(&self.contact.touch.touches);
         loop {
-            self.assembly.fill(world, state, prescribed, &yielding, span);
-            let Assembly { graph, keys, .. } = &mut self.assembly;
-            self.touch.add_rows(world, state, &self.obstacles, span, graph, keys);
+            self.equations.assembly.fill(world, state, &self.prescribed, &yielding, span);
+            let Assembly { graph, keys, .. } = &mut self.equations.assembly;
+            self.contact.touch.add_rows(world, state, &self.contact.obstacles, span, graph, keys);
             self.guess(state);
-            solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
+            solve_graph(
+                &self.equations.assembly.graph,
+                &settings.solver,
+                &mut self.solver,
+                &mut self.equations.solution,
+            )?;
             let more = self.overloaded(world, &yielding, unreasonable);
             if more.is_empty() {
                 break;
             }
             yielding.extend(more);
-            self.touch.touches.clone_from(&found);
+            self.contact.touch.touches.clone_from(&self.contact.found);
         }
-        self.found = found;
         self.yielded = !yielding.is_empty();
-        if !self.solution.convergence.converged && self.solution.lambda.iter().any(|l| l.abs() > h * unreasonable) {
+        if !self.equations.solution.convergence.converged
+            && self.equations.solution.lambda.iter().any(|l| l.abs() > h * unreasonable)
+        {
             self.bound(h * unreasonable);
-            solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
+            solve_graph(
+                &self.equations.assembly.graph,
+                &settings.solver,
+                &mut self.solver,
+                &mut self.equations.solution,
+            )?;
             self.read_wrenches();
         }
         self.report(world, state, &yielding, findings);
@@ -129,10 +123,10 @@ impl StepWorkspace {
 
     /// Keeps the impulses as first guess of the next step.
     pub(super) fn remember(&self, state: &mut WorldState) {
-        let groups = || self.assembly.keys.iter().zip(&self.assembly.graph.groups);
+        let groups = || self.equations.assembly.keys.iter().zip(&self.equations.assembly.graph.groups);
         let impulses = |group: &ConstraintGroup| {
             let mut impulses = [0.0; 6];
-            impulses[..group.rows.len()].copy_from_slice(&self.solution.lambda[group.rows.clone()]);
+            impulses[..group.rows.len()].copy_from_slice(&self.equations.solution.lambda[group.rows.clone()]);
             impulses
         };
         if state.guess.len() == groups().count() && groups().all(|(key, _)| state.guess.contains_key(key)) {
@@ -147,10 +141,10 @@ impl StepWorkspace {
 
     /// Sets the first guess: the impulses of the last step. A new contact is assumed to push and to stick.
     fn guess(&mut self, state: &WorldState) {
-        let lambda = &mut self.solution.lambda;
+        let lambda = &mut self.equations.solution.lambda;
         lambda.clear();
-        lambda.resize(self.assembly.graph.rows.len(), 0.0);
-        for (key, group) in self.assembly.keys.iter().zip(&self.assembly.graph.groups) {
+        lambda.resize(self.equations.assembly.graph.rows.len(), 0.0);
+        for (key, group) in self.equations.assembly.keys.iter().zip(&self.equations.assembly.graph.groups) {
             match state.guess.get(key) {
                 Some(impulses) => lambda[group.rows.clone()].copy_from_slice(&impulses[..group.rows.len()]),
                 None => {
@@ -183,7 +177,7 @@ impl StepWorkspace {
 
     /// Bounds every force.
     fn bound(&mut self, most: f64) {
-        for group in &mut self.assembly.graph.groups {
+        for group in &mut self.equations.assembly.graph.groups {
             group.law = match group.law {
                 Law::Bounded { least, most: upper } => Law::Bounded { least: least.max(-most), most: upper.min(most) },
                 Law::Contact { friction, bound } => Law::Contact { friction, bound: bound.min(most) },
@@ -201,7 +195,7 @@ impl StepWorkspace {
             Owner::Body(body) => Some(carried[body]),
             Owner::Obstacle(_) => None,
         };
-        let direction = self.assembly.directions.at(number, coordinate);
+        let direction = self.equations.assembly.directions.at(number, coordinate);
         let along = |contact: ContactForce| {
             let force = match (side(contact.surfaces.0), side(contact.surfaces.1)) {
                 (Some(true), Some(false)) => contact.force,
@@ -235,7 +229,7 @@ impl StepWorkspace {
                 findings.report(Code::DriveGaveWay, message);
             }
         }
-        let convergence = &self.solution.convergence;
+        let convergence = &self.equations.solution.convergence;
         let contradicts = convergence.residual > CONTRADICTION || convergence.residual.is_nan();
         if let (true, Some(row)) = (contradicts, convergence.worst) {
             let name = self.row_name(world, row);
@@ -248,13 +242,13 @@ impl StepWorkspace {
 
     /// Description of a row for messages.
     pub(crate) fn row_name(&self, world: &World, row: usize) -> String {
-        let groups = &self.assembly.graph.groups;
+        let groups = &self.equations.assembly.graph.groups;
         let Some(group) = groups.iter().position(|g| g.rows.contains(&row)) else { return format!("row {row}") };
         let coordinate = |joint: usize, k: usize| {
             let joint = &world.joints[joint];
             format!("`{}` ({})", joint.name, joint.kind.coordinate_names()[k])
         };
-        match self.assembly.keys[group] {
+        match self.equations.assembly.keys[group] {
             RowKey::Closure(closure) => format!("the closure `{}`", world.closures[closure].name),
             RowKey::Drive(j, k) => format!("the drive of {}", coordinate(j, k)),
             RowKey::Motor(j, k) => format!("the motor of {}", coordinate(j, k)),

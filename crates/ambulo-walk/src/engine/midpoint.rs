@@ -19,7 +19,7 @@
 //! (both unverified).
 //! Pinned by: tests/simulation_midpoint.rs
 
-use super::assemble::{Prescribed, Span, twist};
+use super::assemble::{Span, twist};
 use super::impulse::impulse_step;
 use super::joint::advance;
 use super::projection::still_closing;
@@ -50,11 +50,9 @@ pub(super) fn midpoint_step(
         return impulse_step(world, state, whole, settings, w, findings);
     }
     let half = 0.5 * whole;
-    let mut prescribed = std::mem::take(&mut w.prescribed);
-    prescribed.fill(world, state.time_s + whole);
-    let done = w.midpoint(world, state, half, settings, &prescribed, findings);
-    w.prescribed = prescribed;
-    done.map(|()| w.solution.convergence)
+    w.prescribed.fill(world, state.time_s + whole);
+    w.midpoint(world, state, half, settings, findings)?;
+    Ok(w.equations.solution.convergence)
 }
 
 /// Whether a closed loop is new: velocities may contradict it. The midpoint rule would turn the contradiction around in every step, and a step of
@@ -76,7 +74,6 @@ impl StepWorkspace {
         state: &mut WorldState,
         half: f64,
         settings: &StepSettings,
-        prescribed: &Prescribed,
         findings: &mut Findings,
     ) -> Result<(), LinkError> {
         let mut middle = state.clone();
@@ -84,17 +81,17 @@ impl StepWorkspace {
             advance(pose, before, half);
         }
         self.step_s = half;
-        obstacle_motion(world, state.time_s + half, half, &mut self.obstacles);
-        self.touch.detect(world, &middle, &self.obstacles, half);
-        self.solve_halfway(world, &middle, half, settings, prescribed, findings)?;
+        obstacle_motion(world, state.time_s + half, half, &mut self.contact.obstacles);
+        self.contact.touch.detect(world, &middle, &self.contact.obstacles, half);
+        self.solve_halfway(world, &middle, half, settings, findings)?;
         self.remember(state);
-        for (twist_now, motion) in state.twists.iter_mut().zip(&self.solution.motions) {
+        for (twist_now, motion) in state.twists.iter_mut().zip(&self.equations.solution.motions) {
             *twist_now = twist(motion);
         }
         state.time_s += 2.0 * half;
         if settings.projection {
-            self.place(world, state, prescribed, 2.0 * half);
-            self.close(world, state, prescribed, settings)?;
+            self.place(world, state, 2.0 * half);
+            self.close(world, state, settings)?;
         } else {
             for (pose, twist) in state.poses.iter_mut().zip(&state.twists) {
                 advance(pose, twist, 2.0 * half);
@@ -117,22 +114,21 @@ impl StepWorkspace {
         middle: &WorldState,
         half: f64,
         settings: &StepSettings,
-        prescribed: &Prescribed,
         findings: &mut Findings,
     ) -> Result<(), LinkError> {
-        self.solve(world, middle, Span::half(half), settings, prescribed, findings)?;
+        self.solve(world, middle, Span::half(half), settings, findings)?;
         let precesses = |(body, before): (&BodyTerms, &Twist)| {
             let momentum = body.inertia * before.angular;
             let turns = before.angular.norm() * half <= MOST_TURN;
             turns && before.angular.cross(&momentum).norm() * half > NEGLIGIBLE * momentum.norm()
         };
-        let again: Vec<bool> = self.assembly.graph.bodies.iter().zip(&middle.twists).map(precesses).collect();
+        let again: Vec<bool> = self.equations.assembly.graph.bodies.iter().zip(&middle.twists).map(precesses).collect();
         if again.contains(&true) {
-            let spins = again.iter().zip(&self.solution.motions);
-            self.assembly.spins.extend(spins.map(|(again, motion)| again.then(|| twist(motion).angular)));
-            self.touch.detect(world, middle, &self.obstacles, half);
-            let solved = self.solve(world, middle, Span::half(half), settings, prescribed, findings);
-            self.assembly.spins.clear();
+            let spins = again.iter().zip(&self.equations.solution.motions);
+            self.equations.assembly.spins.extend(spins.map(|(again, motion)| again.then(|| twist(motion).angular)));
+            self.contact.touch.detect(world, middle, &self.contact.obstacles, half);
+            let solved = self.solve(world, middle, Span::half(half), settings, findings);
+            self.equations.assembly.spins.clear();
             solved?;
         }
         Ok(())

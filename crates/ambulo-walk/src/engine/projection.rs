@@ -15,7 +15,7 @@
 use super::assemble::{Assembly, Prescribed, Span, twist};
 use super::joint::{Coordinates, Frames, JointKind, MOST, advance, drift, orthonormal};
 use super::state::{RowKey, WorldState};
-use super::workspace::{StepSettings, StepWorkspace};
+use super::workspace::{Equations, StepSettings, StepWorkspace};
 use super::world::{TreeJoint, World};
 use crate::dynamics::{GraphSolution, LinkError, Six, project_displacements, solve_graph};
 use crate::spatial::{Pose, Vec3};
@@ -201,59 +201,78 @@ fn slides(joint: &TreeJoint) -> impl Iterator<Item = (usize, usize)> {
 impl StepWorkspace {
     /// Places all bodies at the end of a motion of duration `h` with the velocities of the last solution; contact points were found `step_s` before
     /// its end.
-    pub(super) fn place(&mut self, world: &World, state: &mut WorldState, prescribed: &Prescribed, h: f64) {
-        let drives = Drives { prescribed, keys: &self.assembly.keys, yielded: self.yielded, frees: true };
-        let trees = Trees { world, assembly: &self.assembly, outwards: self.solver.outwards(), drives };
-        let GraphSolution { motions, coordinates, .. } = &self.solution;
+    pub(super) fn place(&mut self, world: &World, state: &mut WorldState, h: f64) {
+        let drives = Drives {
+            prescribed: &self.prescribed,
+            keys: &self.equations.assembly.keys,
+            yielded: self.yielded,
+            frees: true,
+        };
+        let trees = Trees { world, assembly: &self.equations.assembly, outwards: self.solver.outwards(), drives };
+        let GraphSolution { motions, coordinates, .. } = &self.equations.solution;
         let travel = Travel { motions, coordinates, share: h };
         if trees.floats() {
-            self.off.clear();
-            self.off.extend(
+            self.projection.off.clear();
+            self.projection.off.extend(
                 state.poses.iter().zip(motions).map(|(pose, motion)| pose.translation + twist(motion).linear * h),
             );
             trees.place(state, travel);
-            for (off, pose) in self.off.iter_mut().zip(&state.poses) {
+            for (off, pose) in self.projection.off.iter_mut().zip(&state.poses) {
                 *off = pose.translation - *off;
             }
-            trees.center(state, &mut self.off, &mut self.masses);
+            trees.center(state, &mut self.projection.off, &mut self.projection.masses);
         } else {
             trees.place(state, travel);
         }
         self.aim(world, state, h);
-        if self.targets.iter().any(|target| target.abs() > ROUNDING) {
-            self.displace(world, state, prescribed);
+        if self.projection.targets.iter().any(|target| target.abs() > ROUNDING) {
+            self.displace(world, state);
         }
     }
 
     /// Sets the displacements that rows ask for at the present positions.
     fn aim(&mut self, world: &World, state: &WorldState, h: f64) {
         let most = CLOSING_SPEED * h;
-        let graph = &self.assembly.graph;
-        self.targets.clear();
-        self.targets.resize(graph.rows.len(), 0.0);
-        for (key, group) in self.assembly.keys.iter().zip(&graph.groups) {
+        let graph = &self.equations.assembly.graph;
+        self.projection.targets.clear();
+        self.projection.targets.resize(graph.rows.len(), 0.0);
+        for (key, group) in self.equations.assembly.keys.iter().zip(&graph.groups) {
             if let RowKey::Closure(number) = key {
                 for (row, error) in group.rows.clone().zip(closure_errors(world, state, *number)) {
-                    self.targets[row] = -error.clamp(-most, most);
+                    self.projection.targets[row] = -error.clamp(-most, most);
                 }
             } else if let Some((joint, k, limit)) = limit_of(world, *key) {
-                self.targets[group.rows.start] = (limit - state.coordinates[joint][k]).clamp(-most, most);
+                self.projection.targets[group.rows.start] = (limit - state.coordinates[joint][k]).clamp(-most, most);
             }
         }
-        for touch in self.touch.touches.iter().filter(|t| t.rigid) {
-            let gap = self.touch.gap_now(world, state, touch, self.step_s);
-            self.targets[touch.rows.normal] = (-gap).clamp(-most, most);
+        for touch in self.contact.touch.touches.iter().filter(|t| t.rigid) {
+            let gap = self.contact.touch.gap_now(world, state, touch, self.step_s);
+            self.projection.targets[touch.rows.normal] = (-gap).clamp(-most, most);
         }
     }
 
     /// Moves bodies by the displacements that carry rows to their targets.
-    fn displace(&mut self, world: &World, state: &mut WorldState, prescribed: &Prescribed) {
-        let graph = &self.assembly.graph;
-        project_displacements(graph, &self.targets, &mut self.solver, &mut self.displacements, &mut self.shifts);
-        let share = share_of_displacements(&self.targets, &self.displacements);
-        let drives = Drives { prescribed, keys: &self.assembly.keys, yielded: self.yielded, frees: true };
-        let trees = Trees { world, assembly: &self.assembly, outwards: self.solver.outwards(), drives };
-        trees.place(state, Travel { motions: &self.displacements, coordinates: &self.shifts, share });
+    fn displace(&mut self, world: &World, state: &mut WorldState) {
+        let graph = &self.equations.assembly.graph;
+        project_displacements(
+            graph,
+            &self.projection.targets,
+            &mut self.solver,
+            &mut self.projection.displacements,
+            &mut self.projection.shifts,
+        );
+        let share = share_of_displacements(&self.projection.targets, &self.projection.displacements);
+        let drives = Drives {
+            prescribed: &self.prescribed,
+            keys: &self.equations.assembly.keys,
+            yielded: self.yielded,
+            frees: true,
+        };
+        let trees = Trees { world, assembly: &self.equations.assembly, outwards: self.solver.outwards(), drives };
+        trees.place(
+            state,
+            Travel { motions: &self.projection.displacements, coordinates: &self.projection.shifts, share },
+        );
     }
 
     /// Measures the coordinates of all joints from the poses.
@@ -270,7 +289,6 @@ impl StepWorkspace {
         &mut self,
         world: &World,
         state: &mut WorldState,
-        prescribed: &Prescribed,
         settings: &StepSettings,
     ) -> Result<(), LinkError> {
         let h = self.step_s;
@@ -278,8 +296,8 @@ impl StepWorkspace {
             if !self.open(world, state) {
                 break;
             }
-            let (assembly, solution) = &mut self.later;
-            assembly.fill(world, state, prescribed, &Vec::new(), Span::step(h));
+            let Equations { assembly, solution } = &mut self.closing.equations;
+            assembly.fill(world, state, &self.prescribed, &Vec::new(), Span::step(h));
             let graph = &mut assembly.graph;
             graph.wrenches.fill(Six::zeros());
             graph.efforts.fill(0.0);
@@ -287,22 +305,27 @@ impl StepWorkspace {
             let closures = assembly.keys.iter().map(|key| matches!(key, RowKey::Closure(_)));
             let mut held = closures.clone();
             graph.groups.retain(|_| held.next().unwrap_or(false));
-            self.targets.clear();
-            self.targets.resize(graph.rows.len(), 0.0);
+            self.projection.targets.clear();
+            self.projection.targets.resize(graph.rows.len(), 0.0);
             let numbers = assembly.keys.iter().filter_map(|key| match key {
                 RowKey::Closure(number) => Some(*number),
                 _ => None,
             });
             for (group, number) in graph.groups.iter().zip(numbers) {
                 for (row, error) in group.rows.clone().zip(closure_errors(world, state, number)) {
-                    (graph.rows[row].target, self.targets[row]) = (-error, -error);
+                    (graph.rows[row].target, self.projection.targets[row]) = (-error, -error);
                 }
             }
             solution.lambda.clear();
-            solve_graph(graph, &settings.solver, &mut self.closing, solution)?;
-            let share = share_of_displacements(&self.targets, &solution.motions);
-            let drives = Drives { prescribed, keys: &self.assembly.keys, yielded: self.yielded, frees: false };
-            let trees = Trees { world, assembly, outwards: self.closing.outwards(), drives };
+            solve_graph(graph, &settings.solver, &mut self.closing.solver, solution)?;
+            let share = share_of_displacements(&self.projection.targets, &solution.motions);
+            let drives = Drives {
+                prescribed: &self.prescribed,
+                keys: &self.equations.assembly.keys,
+                yielded: self.yielded,
+                frees: false,
+            };
+            let trees = Trees { world, assembly, outwards: self.closing.solver.outwards(), drives };
             trees.place(state, Travel { motions: &solution.motions, coordinates: &solution.coordinates, share });
         }
         Ok(())
@@ -310,7 +333,7 @@ impl StepWorkspace {
 
     /// Whether a closure of the step is open.
     fn open(&self, world: &World, state: &WorldState) -> bool {
-        self.assembly.keys.iter().any(|key| match key {
+        self.equations.assembly.keys.iter().any(|key| match key {
             RowKey::Closure(number) => largest_error(world, state, *number) > CLOSED,
             _ => false,
         })

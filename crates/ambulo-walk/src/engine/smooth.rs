@@ -23,10 +23,10 @@ use super::assemble::{Assembly, Slot, closing_rows, twist};
 use super::joint::{Frames, JointKind, MOST, orthonormal};
 use super::projection::{closure_errors, closure_frames};
 use super::state::{RowKey, WorldState, rates};
+use super::workspace::Equations;
 use super::world::{Figure, TreeJoint, World};
 use crate::dynamics::{
-    BodyTerms, Constraint, GraphSolution, GraphWorkspace, Link, LinkError, Six, SolverSettings, project_displacements,
-    solve_graph,
+    BodyTerms, Constraint, GraphWorkspace, Link, LinkError, Six, SolverSettings, project_displacements, solve_graph,
 };
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::spatial::{Pose, Twist, Vec3, rotation, rotation_vector};
@@ -63,12 +63,6 @@ struct Goal {
     accelerations: [f64; MOST],
 }
 
-/// Graph and solution of one stage.
-pub(crate) struct Stage<'a> {
-    pub(crate) assembly: &'a mut Assembly,
-    pub(crate) solution: &'a mut GraphSolution,
-}
-
 /// Advances the state by `h`. The forces of the first stage stay in `first`.
 pub(crate) fn runge_kutta(
     world: &World,
@@ -76,8 +70,8 @@ pub(crate) fn runge_kutta(
     h: f64,
     settings: &SolverSettings,
     solver: &mut GraphWorkspace,
-    first: &mut Stage<'_>,
-    later: &mut Stage<'_>,
+    first: &mut Equations,
+    later: &mut Equations,
 ) -> Result<(), LinkError> {
     let tree = Tree::new(world, state);
     let mut here = state.clone();
@@ -109,7 +103,7 @@ pub(crate) fn accelerations(
     state: &WorldState,
     settings: &SolverSettings,
     solver: &mut GraphWorkspace,
-    first: &mut Stage<'_>,
+    first: &mut Equations,
 ) -> Result<Vec<Twist>, LinkError> {
     let tree = Tree::new(world, state);
     let motion = Motion { delta: vec![0.0; tree.coordinates], rates: tree.start_rates(state) };
@@ -185,15 +179,15 @@ impl Tree {
         here: &mut WorldState,
         settings: &SolverSettings,
         solver: &mut GraphWorkspace,
-        stage: &mut Stage<'_>,
+        stage: &mut Equations,
     ) -> Result<Motion, LinkError> {
         let mut motion = motion.clone();
         here.time_s = time_s;
         self.place(world, &mut motion, here);
         let mut slope = Motion { delta: vec![0.0; self.coordinates], rates: vec![0.0; self.coordinates] };
-        self.fill(world, here, &motion, &mut slope, stage.assembly);
+        self.fill(world, here, &motion, &mut slope, &mut stage.assembly);
         stage.solution.lambda.clear();
-        solve_graph(&stage.assembly.graph, settings, solver, stage.solution)?;
+        solve_graph(&stage.assembly.graph, settings, solver, &mut stage.solution)?;
         let mut next = stage.assembly.slots.iter().zip(&stage.solution.coordinates);
         // Slots were filled body by body; branches are in another order.
         let mut accelerations = std::collections::BTreeMap::new();
@@ -244,14 +238,14 @@ impl Tree {
         state: &mut WorldState,
         settings: &SolverSettings,
         solver: &mut GraphWorkspace,
-        stage: &mut Stage<'_>,
+        stage: &mut Equations,
     ) -> Result<(), LinkError> {
         let mut motion =
             Motion { delta: vec![0.0; self.coordinates], rates: Tree::new(world, state).start_rates(state) };
         let mut slope = motion.clone();
         let tree = Tree::new(world, state);
         motion.delta.iter_mut().for_each(|d| *d = 0.0);
-        tree.fill(world, state, &motion, &mut slope, stage.assembly);
+        tree.fill(world, state, &motion, &mut slope, &mut stage.assembly);
         let graph = &mut stage.assembly.graph;
         for (b, (body, t)) in graph.wrenches.iter_mut().zip(graph.bodies.iter().zip(&state.twists)) {
             let (w, v) = (t.angular, t.linear);
@@ -266,7 +260,7 @@ impl Tree {
         }
         graph.rows.iter_mut().for_each(|row| row.target = 0.0);
         stage.solution.lambda.clear();
-        solve_graph(graph, settings, solver, stage.solution)?;
+        solve_graph(graph, settings, solver, &mut stage.solution)?;
         for (t, motion) in state.twists.iter_mut().zip(&stage.solution.motions) {
             *t = twist(motion);
         }

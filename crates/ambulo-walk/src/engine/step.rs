@@ -4,15 +4,14 @@
 //! fourth order where there is no contact, dry friction or active limit. Where surfaces meet within its step, it finds the
 //! instant, computes the impact there and continues. A step in which they stay in contact is a step of impulses.
 
-use super::assemble::Prescribed;
 use super::impact::impact;
 use super::impulse::impulse_step;
 use super::joint::JointKind;
 use super::midpoint::midpoint_step;
-use super::smooth::{self, Stage, runge_kutta};
+use super::smooth::{self, runge_kutta};
 use super::state::WorldState;
 use super::touch::{ObstaclePoses, obstacle_motion};
-use super::workspace::{Integrator, StepSettings, StepWorkspace};
+use super::workspace::{Integrator, SmoothWorkspace, StepSettings, StepWorkspace};
 use super::world::{ContactLaw, JointCoordinate, World};
 use crate::dynamics::{Convergence, LinkError, SolverSettings};
 use crate::findings::Findings;
@@ -45,7 +44,7 @@ pub fn step(
     w: &mut StepWorkspace,
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
-    w.impacts.clear();
+    w.impacts.all.clear();
     match settings.integrator {
         Integrator::Impulse => impulse_step(world, state, settings.step_s, settings, w, findings),
         Integrator::Midpoint => midpoint_step(world, state, settings, w, findings),
@@ -65,9 +64,8 @@ pub fn accelerations(
     w: &mut StepWorkspace,
 ) -> Result<Vec<Twist>, LinkError> {
     w.step_s = 1.0;
-    w.touch.clear();
-    let mut first = Stage { assembly: &mut w.assembly, solution: &mut w.solution };
-    smooth::accelerations(world, state, solver, &mut w.solver, &mut first)
+    w.contact.touch.clear();
+    smooth::accelerations(world, state, solver, &mut w.solver, &mut w.equations)
 }
 
 /// A Runge-Kutta step: smooth parts and the impacts between them.
@@ -90,7 +88,7 @@ fn smooth_step(
         }
         if w.least_gap(world, &end) >= 0.0 {
             *state = end;
-            return Ok(w.solution.convergence);
+            return Ok(w.equations.solution.convergence);
         }
         if gives(world) {
             break;
@@ -109,7 +107,7 @@ fn smooth_step(
         impact(world, state, settings, w, findings)?;
     }
     if left <= 0.0 {
-        return Ok(w.solution.convergence);
+        return Ok(w.equations.solution.convergence);
     }
     impulse_step(world, state, left, settings, w, findings)
 }
@@ -125,9 +123,9 @@ fn smooth_here(world: &World, state: &WorldState, w: &mut StepWorkspace, h: f64)
     if rubs || turned || (gives(world) && w.least_gap(world, state) < 0.0) {
         return false;
     }
-    obstacle_motion(world, state.time_s, h, &mut w.obstacles);
-    w.touch.detect(world, state, &w.obstacles, h);
-    !w.touch.approaches(world, state, &w.obstacles, TOUCHING_M)
+    obstacle_motion(world, state.time_s, h, &mut w.contact.obstacles);
+    w.contact.touch.detect(world, state, &w.contact.obstacles, h);
+    !w.contact.touch.approaches(world, state, &w.contact.obstacles, TOUCHING_M)
 }
 
 /// Whether any material is compliant: its contacts act over time, and have no impacts.
@@ -144,22 +142,18 @@ impl StepWorkspace {
         settings: &StepSettings,
     ) -> Result<(), LinkError> {
         self.step_s = 1.0; // multipliers of accelerations are forces
-        self.touch.clear();
+        self.contact.touch.clear();
         let fastest = state.twists.iter().map(|t| t.angular.norm()).fold(0.0, f64::max);
         let parts = (fastest * h / MOST_TURN).ceil().clamp(1.0, MOST_PARTS);
         for part in 0..parts as usize {
             // The forces of the step are those of its first part.
-            let begun = if part == 0 {
-                (&mut self.assembly, &mut self.solution)
-            } else {
-                (&mut self.spare.0, &mut self.spare.1)
-            };
-            let mut first = Stage { assembly: begun.0, solution: begun.1 };
-            let mut later = Stage { assembly: &mut self.later.0, solution: &mut self.later.1 };
-            runge_kutta(world, state, h / parts, &settings.solver, &mut self.solver, &mut first, &mut later)?;
+            let SmoothWorkspace { later, first_of_part } = &mut self.smooth;
+            let first = if part == 0 { &mut self.equations } else { first_of_part };
+            runge_kutta(world, state, h / parts, &settings.solver, &mut self.solver, first, later)?;
         }
         if settings.projection {
-            self.close(world, state, &Prescribed::at(world, state.time_s), settings)?;
+            self.prescribed.fill(world, state.time_s);
+            self.close(world, state, settings)?;
         }
         Ok(())
     }
@@ -189,11 +183,10 @@ impl StepWorkspace {
     fn least_gap(&mut self, world: &World, state: &WorldState) -> f64 {
         let mut obstacles = ObstaclePoses::new();
         obstacle_motion(world, state.time_s, 1e-9, &mut obstacles);
-        let mut probe = std::mem::take(&mut self.touch);
+        let probe = &mut self.contact.touch;
         probe.detect(world, state, &obstacles, 0.0);
         let least = probe.touches.iter().map(|t| t.at.gap).fold(f64::INFINITY, f64::min);
         probe.clear();
-        self.touch = probe;
         least
     }
 }

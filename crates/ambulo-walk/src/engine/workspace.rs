@@ -59,40 +59,80 @@ impl Default for StepSettings {
     }
 }
 
-/// Scratch memory of stepping; also holds the forces of the last step.
+/// A constraint graph and its solution.
 #[derive(Debug, Clone, Default)]
-pub struct StepWorkspace {
+pub(crate) struct Equations {
     pub(crate) assembly: Assembly,
-    pub(crate) touch: TouchWorkspace,
-    pub(crate) solver: GraphWorkspace,
     pub(crate) solution: GraphSolution,
-    /// Scratch of the later stages of a smooth step, and of loop closing.
-    pub(crate) later: (Assembly, GraphSolution),
-    /// First stages of the parts of a smooth step, other than the first part.
-    pub(crate) spare: (Assembly, GraphSolution),
-    /// Solver of loop closing.
-    pub(crate) closing: GraphWorkspace,
+}
+
+/// Contact points of a step.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ContactWorkspace {
+    pub(crate) touch: TouchWorkspace,
+    pub(crate) obstacles: ObstaclePoses,
+    /// Contact points before the solution drops any.
+    pub(crate) found: Vec<Touch>,
+}
+
+/// Scratch of the positions at the end of a step ([`super::projection`]).
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ProjectionWorkspace {
+    /// Displacements that rows ask for [m, rad].
     pub(crate) targets: Vec<f64>,
+    /// Displacements of bodies, and of coordinates.
     pub(crate) displacements: Vec<Six>,
     pub(crate) shifts: Vec<f64>,
     /// Distances of mass centres from straight lines, and masses, summed over trees.
     pub(crate) off: Vec<Vec3>,
     pub(crate) masses: Vec<f64>,
-    pub(crate) obstacles: ObstaclePoses,
+}
+
+/// Scratch of closing loops that a step left open ([`super::projection`]).
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ClosingWorkspace {
+    pub(crate) equations: Equations,
+    pub(crate) solver: GraphWorkspace,
+}
+
+/// Scratch of a Runge-Kutta step ([`super::smooth`]).
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SmoothWorkspace {
+    /// The second to the fourth stage.
+    pub(crate) later: Equations,
+    /// The first stage of a part of a step other than the first part, of which forces are read.
+    pub(crate) first_of_part: Equations,
+}
+
+/// Impacts within a step ([`super::impact`]).
+#[derive(Debug, Clone, Default)]
+pub(crate) struct StepImpacts {
+    pub(crate) all: Vec<Impact>,
+    /// Twists of all bodies after the last impact; meaningless if there was none.
+    pub(crate) twists_after: Vec<Twist>,
+}
+
+/// Scratch memory of stepping; also holds the forces of the last step.
+#[derive(Debug, Clone, Default)]
+pub struct StepWorkspace {
+    /// Positions that drives and figures prescribe at the end of the step.
     pub(crate) prescribed: Prescribed,
-    /// Contact points before any is dropped.
-    pub(crate) found: Vec<Touch>,
-    /// Whether a drive gave way in the last solution of impulses.
-    pub(crate) yielded: bool,
-    /// Wrench impulse on each body by its joint, at its mass centre; valid after `read_wrenches`.
-    pub(crate) wrenches: Vec<Six>,
+    pub(crate) contact: ContactWorkspace,
+    /// The constraints of the step and their multipliers: forces are read from them.
+    pub(crate) equations: Equations,
+    pub(crate) solver: GraphWorkspace,
+    pub(crate) projection: ProjectionWorkspace,
+    pub(crate) closing: ClosingWorkspace,
+    pub(crate) smooth: SmoothWorkspace,
+    pub(crate) impacts: StepImpacts,
+    /// Time over which the multipliers of the last solution act [s].
     pub(crate) step_s: f64,
     /// Whether the motions of the last solution are those in the middle of a step ([`super::midpoint`]).
     pub(crate) halfway: bool,
-    /// Impacts within the last step.
-    pub(crate) impacts: Vec<Impact>,
-    /// Twists of all bodies after the last impact; meaningless if there was none.
-    pub(crate) after_impacts: Vec<Twist>,
+    /// Whether a drive gave way in the last solution of impulses.
+    pub(crate) yielded: bool,
+    /// Wrench impulse on each body by its joint, at its mass centre; valid after `read_wrenches`.
+    wrenches: Vec<Six>,
 }
 
 impl StepWorkspace {
@@ -100,10 +140,10 @@ impl StepWorkspace {
     /// [`Integrator::RungeKutta`].
     #[must_use]
     pub fn forces(&self, world: &World) -> StepForces {
-        let (graph, h) = (&self.assembly.graph, self.step_s);
-        let lambda = &self.solution.lambda;
-        let wrenches = graph.joint_wrenches(self.solver.outwards(), &self.solution);
-        let wrench = |body: usize| match self.assembly.joint_of[body] {
+        let (graph, h) = (&self.equations.assembly.graph, self.step_s);
+        let lambda = &self.equations.solution.lambda;
+        let wrenches = graph.joint_wrenches(self.solver.outwards(), &self.equations.solution);
+        let wrench = |body: usize| match self.equations.assembly.joint_of[body] {
             None => Wrench::ZERO,
             Some(_) => {
                 let f: &Six = &wrenches[body];
@@ -114,15 +154,19 @@ impl StepWorkspace {
             let joint = &world.joints[number];
             let of = |(k, acting): (usize, &JointCoordinate)| {
                 // Nothing acts on a free coordinate, not even rounding.
-                if acting.acts() { self.assembly.directions.at(number, k).dot(&wrenches[joint.child]) / h } else { 0.0 }
+                if acting.acts() {
+                    self.equations.assembly.directions.at(number, k).dot(&wrenches[joint.child]) / h
+                } else {
+                    0.0
+                }
             };
             joint.coordinates.iter().enumerate().map(of).collect()
         };
-        let closures = self.assembly.keys.iter().zip(&graph.groups).filter_map(|(key, group)| match key {
+        let closures = self.equations.assembly.keys.iter().zip(&graph.groups).filter_map(|(key, group)| match key {
             RowKey::Closure(number) => Some((*number, lambda[group.rows.clone()].iter().map(|l| l / h).collect())),
             _ => None,
         });
-        let closing = self.assembly.keys.iter().zip(&graph.groups).filter_map(|(key, group)| match key {
+        let closing = self.equations.assembly.keys.iter().zip(&graph.groups).filter_map(|(key, group)| match key {
             RowKey::Closure(number) => {
                 let sum: Six = group.rows.clone().map(|row| graph.rows[row].on_first * (lambda[row] / h)).sum();
                 let (moment, force) = (Vec3::new(sum[0], sum[1], sum[2]), Vec3::new(sum[3], sum[4], sum[5]));
@@ -136,7 +180,7 @@ impl StepWorkspace {
             contacts: self.contacts().collect(),
             closures: closures.collect(),
             closing: closing.collect(),
-            convergence: self.solution.convergence,
+            convergence: self.equations.solution.convergence,
         }
     }
 
@@ -144,8 +188,8 @@ impl StepWorkspace {
     /// forces are the least-squares ones.
     #[must_use]
     pub fn undetermined_closures(&mut self) -> Vec<usize> {
-        let rows = undetermined_rows(&self.assembly.graph, &mut self.solver);
-        let groups = self.assembly.keys.iter().zip(&self.assembly.graph.groups);
+        let rows = undetermined_rows(&self.equations.assembly.graph, &mut self.solver);
+        let groups = self.equations.assembly.keys.iter().zip(&self.equations.assembly.graph.groups);
         let repeats = |group: &ConstraintGroup| rows.iter().any(|row| group.rows.contains(row));
         groups
             .filter_map(|(key, group)| match key {
@@ -159,35 +203,39 @@ impl StepWorkspace {
     /// [`ImpactLaw::Sticking`](super::ImpactLaw::Sticking).
     #[must_use]
     pub fn impacts(&self) -> &[Impact] {
-        &self.impacts
+        &self.impacts.all
     }
 
     /// The forces of the last step at its contact points.
     pub(crate) fn contacts(&self) -> impl Iterator<Item = ContactForce> + '_ {
-        self.touch.touches.iter().map(|touch| self.contact_force(touch))
+        self.contact.touch.touches.iter().map(|touch| self.contact_force(touch))
     }
 
     /// Reads the wrenches of the joints off the last solution.
     pub(crate) fn read_wrenches(&mut self) {
-        self.assembly.graph.read_joint_wrenches(self.solver.outwards(), &self.solution, &mut self.wrenches);
+        self.equations.assembly.graph.read_joint_wrenches(
+            self.solver.outwards(),
+            &self.equations.solution,
+            &mut self.wrenches,
+        );
     }
 
     /// Moment or force along a coordinate of a joint [N.m or N], from the wrenches as last read.
     #[inline(always)]
     pub(crate) fn effort(&self, child: usize, joint: usize, coordinate: usize) -> f64 {
-        self.assembly.directions.at(joint, coordinate).dot(&self.wrenches[child]) / self.step_s
+        self.equations.assembly.directions.at(joint, coordinate).dot(&self.wrenches[child]) / self.step_s
     }
 
     fn contact_force(&self, touch: &Touch) -> ContactForce {
-        let (graph, h) = (&self.assembly.graph, self.step_s);
+        let (graph, h) = (&self.equations.assembly.graph, self.step_s);
         let group = &graph.groups[touch.rows.group];
-        let lambda = &self.solution.lambda;
+        let lambda = &self.equations.solution.lambda;
         let normal = lambda[touch.rows.normal];
         let mut force = touch.at.normal * normal;
         let mut slip = Vec3::zeros();
         for (row, tangent) in touch.rows.tangents.into_iter().flatten().zip(&touch.tangents) {
             force += tangent * lambda[row];
-            let u = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates);
+            let u = graph.reading(group, row, &self.equations.solution.motions, &self.equations.solution.coordinates);
             slip += tangent * (u - graph.rows[row].target) * if self.halfway { 2.0 } else { 1.0 };
         }
         ContactForce {

@@ -22,14 +22,26 @@ pub(super) const SIDE_BY_SIDE: usize = 8;
 /// Value, rate and acceleration of every coordinate.
 pub(super) type Posture = [Vec<f64>; 3];
 
-/// Number of quantities of a contact: force on the foot along x, y, z [N], height of the sphere above its surface [m], slip along x and z [m/s],
-/// place along z and along x [m].
-pub(super) const CONTACT: usize = 8;
-/// Offsets of height, slip and place.
-pub(super) const HEIGHT: usize = 3;
-pub(super) const SLIP: usize = 4;
-pub(super) const PLACE: usize = 6;
-pub(super) const PLACE_X: usize = 7;
+/// Quantities of a contact, or their derivatives by a coordinate or by its rate.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct ContactValues {
+    /// Force on the foot [N].
+    pub(super) force: Vec3,
+    /// Height of the sphere above its surface [m].
+    pub(super) height: f64,
+    /// Slip along x and z [m/s].
+    pub(super) slip: [f64; 2],
+    /// Position of the centre of the sphere along x and along z [m].
+    pub(super) place_x: f64,
+    pub(super) place_z: f64,
+}
+
+impl ContactValues {
+    /// Position along x (0) or z (2) [m].
+    pub(super) fn place_along(&self, axis: usize) -> f64 {
+        if axis == 0 { self.place_x } else { self.place_z }
+    }
+}
 
 /// Forces of one instant, and their derivatives.
 #[derive(Debug, Clone, Default)]
@@ -47,9 +59,9 @@ pub(super) struct Instant {
 pub(super) struct Contact {
     /// Position of the contact point [m].
     pub(super) place: Vec3,
-    pub(super) values: [f64; CONTACT],
+    pub(super) values: ContactValues,
     /// Per link that carries the foot: its coordinate, and the derivatives of the values by position and by rate of the coordinate.
-    pub(super) slopes: Vec<(usize, [[f64; CONTACT]; 2])>,
+    pub(super) slopes: Vec<(usize, [ContactValues; 2])>,
 }
 
 /// Computes forces and derivatives for the postures of instants.
@@ -231,7 +243,7 @@ impl Evaluator {
         for k in 0..self.soles.len() {
             let chain = &self.chains[self.soles[k].body.index()];
             let (wrench, slopes) = self.touch(law, lane, k, &mut instant.contacts[k]);
-            if instant.contacts[k].values[1].abs() <= 0.0 {
+            if instant.contacts[k].values.force.y.abs() <= 0.0 {
                 continue;
             }
             let links: Vec<(usize, One)> = chain
@@ -268,9 +280,9 @@ impl Evaluator {
         let motion = self.chains[body].first().map_or(NO_WRENCH, |&link| One::of(&self.kernel.velocities[link], lane));
         let velocity = motion.at(place);
         let found = law.force_with_slopes(sole.radius, -height, -velocity.y, velocity);
-        let force = found.force;
         contact.place = place;
-        contact.values = [force.x, force.y, force.z, height, velocity.x, velocity.z, center.z, center.x];
+        let slip = [velocity.x, velocity.z];
+        contact.values = ContactValues { force: found.force, height, slip, place_x: center.x, place_z: center.z };
         contact.slopes.clear();
         Touch { center, place, motion, found }
     }
@@ -293,16 +305,17 @@ impl Evaluator {
             }
             let velocity_slopes = [turned.at(place) + motion.angular.cross(&shifted), axis.at(place)];
             let depth_slopes = [-moved.y, 0.0];
-            let place_slopes = [[moved.z, moved.x], [0.0; 2]];
-            let mut slopes = [[0.0; CONTACT]; 2];
+            let place_slopes = [[moved.x, moved.z], [0.0; 2]];
+            let mut slopes = [ContactValues::default(); 2];
             let mut wrench = [NO_WRENCH; 2];
             for part in 0..2 {
                 let v = velocity_slopes[part];
                 let f = found.by_depth * depth_slopes[part] - found.by_rate * v.y
                     + found.by_slip[0] * v.x
                     + found.by_slip[1] * v.z;
-                let [z, x] = place_slopes[part];
-                slopes[part] = [f.x, f.y, f.z, -depth_slopes[part], v.x, v.z, z, x];
+                let [place_x, place_z] = place_slopes[part];
+                let (height, slip) = (-depth_slopes[part], [v.x, v.z]);
+                slopes[part] = ContactValues { force: f, height, slip, place_x, place_z };
                 let arm = if part == 0 { shifted.cross(&force) } else { Vec3::zeros() };
                 wrench[part] = One { angular: arm + place.cross(&f), linear: f };
             }
@@ -405,7 +418,7 @@ mod tests {
             let mut at = [instant(f64::from(seed), count, 0.98 * human.dimensions.leg_length)];
             evaluator.evaluate(&law, &mut at);
             let [at] = at;
-            touching += at.contacts.iter().filter(|c| c.values[1] > 0.0).count();
+            touching += at.contacts.iter().filter(|c| c.values.force.y > 0.0).count();
             let size = at.slopes.iter().fold(1.0_f64, |a, x| a.max(x.abs()));
             for part in 0..3 {
                 for column in 0..count {

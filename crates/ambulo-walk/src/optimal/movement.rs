@@ -5,7 +5,7 @@
 //! requirements and by what muscles cost.
 
 use super::conditions::WalkConditions;
-use super::instant::{Evaluator, HEIGHT, Instant};
+use super::instant::{Evaluator, Instant};
 use super::layout::Span;
 use super::muscles::{EffortCosts, MuscleTerms};
 use super::near::{NEAR_STAGES, longer};
@@ -282,7 +282,7 @@ fn first_guess(
     let mut evaluator = Evaluator::new(model, &problem.soles, &problem.levels_m)?;
     evaluator.evaluate_forces(&problem.shoes, &mut instants);
     let middle = |at: &Instant| at.contacts[..soles].iter().map(|c| c.place.x).sum::<f64>() / soles as f64;
-    let lowest = |at: &Instant| at.contacts[..soles].iter().map(|c| c.values[HEIGHT]).fold(f64::INFINITY, f64::min);
+    let lowest = |at: &Instant| at.contacts[..soles].iter().map(|c| c.values.height).fold(f64::INFINITY, f64::min);
     let moved =
         [Movement::PelvisForward, Movement::PelvisUp].map(|movement| model.anatomy().coordinate(movement, None));
     let start = instants.last().map_or(0.0, middle);

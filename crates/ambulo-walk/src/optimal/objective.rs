@@ -1,7 +1,7 @@
 //! The objective of a motion: a sum of squared deviations of quantities from their targets.
 
 use super::effort::{Effort, root_power};
-use super::instant::{CONTACT, HEIGHT, Instant, PLACE, PLACE_X, SLIP};
+use super::instant::{ContactValues, Instant};
 use crate::model::CoordinateId;
 
 /// A quantity of one instant of a motion.
@@ -102,11 +102,6 @@ impl Term {
     }
 }
 
-/// Offset of the position of a sphere along x (0) or z (2).
-fn place_along(axis: usize) -> usize {
-    if axis == 0 { PLACE_X } else { PLACE }
-}
-
 impl Quantity {
     /// The coordinate of a rate of force, which is a difference between two instants; otherwise `None`.
     pub(super) fn is_rate_of_force(&self) -> Option<CoordinateId> {
@@ -131,16 +126,16 @@ impl Quantity {
                 let rate = at.posture[1][effort.coordinate.index()];
                 root_power(effort.value(instant, at) * rate, *prices, *smooth_w).0
             }
-            Quantity::GroundForce(spheres, axis) => spheres.iter().map(|&s| at.contacts[s].values[*axis]).sum(),
+            Quantity::GroundForce(spheres, axis) => spheres.iter().map(|&s| at.contacts[s].values.force[*axis]).sum(),
             Quantity::LoadOffset { spheres, axis, points } => {
-                let offset = |values: &[f64; CONTACT]| values[1] * (values[place_along(*axis)] - points[instant]);
+                let offset = |of: &ContactValues| of.force.y * (of.place_along(*axis) - points[instant]);
                 spheres.iter().map(|&s| offset(&at.contacts[s].values)).sum()
             }
-            Quantity::Height(sphere) => at.contacts[*sphere].values[HEIGHT],
-            Quantity::Sideways(sphere) => at.contacts[*sphere].values[PLACE],
+            Quantity::Height(sphere) => at.contacts[*sphere].values.height,
+            Quantity::Sideways(sphere) => at.contacts[*sphere].values.place_z,
             Quantity::Slip { sphere, axis, light_n } => {
-                let values = &at.contacts[*sphere].values;
-                values[SLIP + axis] * values[1] / (values[1] + light_n)
+                let ContactValues { force, slip, .. } = &at.contacts[*sphere].values;
+                slip[*axis] * force.y / (force.y + light_n)
             }
         }
     }
@@ -151,7 +146,7 @@ impl Quantity {
         let entries = |part: usize, of: &[(CoordinateId, f64)]| {
             Row::Entries(of.iter().map(|(id, factor)| (part * n + id.index(), factor / scale)).collect())
         };
-        let contact = |spheres: &[usize], slope: &dyn Fn(usize, &[f64; CONTACT]) -> f64| {
+        let contact = |spheres: &[usize], slope: &dyn Fn(usize, &ContactValues) -> f64| {
             let mut row: Vec<(usize, f64)> = Vec::new();
             for &sphere in spheres {
                 for (coordinate, slopes) in &at.contacts[sphere].slopes {
@@ -187,18 +182,19 @@ impl Quantity {
                 full[first + n + c] += slope * force;
                 Row::Full
             }
-            Quantity::GroundForce(spheres, axis) => contact(spheres, &|_, slopes| slopes[*axis]),
+            Quantity::GroundForce(spheres, axis) => contact(spheres, &|_, slopes| slopes.force[*axis]),
             Quantity::LoadOffset { spheres, axis, points } => contact(spheres, &|sphere, slopes| {
-                let (values, place) = (&at.contacts[sphere].values, place_along(*axis));
-                slopes[1] * (values[place] - points[instant]) + values[1] * slopes[place]
-            }),
-            Quantity::Height(sphere) => contact(&[*sphere], &|_, slopes| slopes[HEIGHT]),
-            Quantity::Sideways(sphere) => contact(&[*sphere], &|_, slopes| slopes[PLACE]),
-            Quantity::Slip { sphere, axis, light_n } => contact(&[*sphere], &|sphere, slopes| {
                 let values = &at.contacts[sphere].values;
-                let weight = values[1] / (values[1] + light_n);
-                let weight_slope = light_n / (values[1] + light_n).powi(2);
-                slopes[SLIP + axis] * weight + values[SLIP + axis] * weight_slope * slopes[1]
+                let offset = values.place_along(*axis) - points[instant];
+                slopes.force.y * offset + values.force.y * slopes.place_along(*axis)
+            }),
+            Quantity::Height(sphere) => contact(&[*sphere], &|_, slopes| slopes.height),
+            Quantity::Sideways(sphere) => contact(&[*sphere], &|_, slopes| slopes.place_z),
+            Quantity::Slip { sphere, axis, light_n } => contact(&[*sphere], &|sphere, slopes| {
+                let ContactValues { force, slip, .. } = &at.contacts[sphere].values;
+                let weight = force.y / (force.y + light_n);
+                let weight_slope = light_n / (force.y + light_n).powi(2);
+                slopes.slip[*axis] * weight + slip[*axis] * weight_slope * slopes.force.y
             }),
         }
     }

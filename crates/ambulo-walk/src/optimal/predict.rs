@@ -13,7 +13,7 @@ use super::solution::Solution;
 use super::walk::WalkProblem;
 use crate::dynamics::CurvedJointError;
 use crate::gait::Walk;
-use crate::model::anthropometry::Human;
+use crate::model::anthropometry::{Human, SpherePart};
 use crate::model::{CoordinateId, Side};
 
 /// Weights of people's curves in the stages of a solution.
@@ -116,11 +116,11 @@ impl MuscleTerms<'_> {
             let is_it = |term: &&Term| term.name == "clearance" && term.quantity == Quantity::Height(sphere);
             self.problem.terms.iter().find(is_it).map(|term| term.targets.clone())
         };
-        let heels = self.problem.soles.iter().enumerate().filter(|(_, sole)| sole.name.starts_with("heel"));
+        let heels = self.problem.soles.iter().enumerate().filter(|(_, sole)| sole.part == SpherePart::Heel);
         let half = |side: Side| if side == Side::Right { 0.5 * width } else { -0.5 * width };
         let mut terms = Vec::new();
         for (sphere, sole) in heels {
-            let middle = self.problem.soles.iter().filter(|s| s.side == sole.side && s.name.starts_with("heel"));
+            let middle = self.problem.soles.iter().filter(|s| s.side == sole.side && s.part == SpherePart::Heel);
             let (sum, count) = middle.fold((0.0, 0.0), |(sum, count), s| (sum + s.center.z, count + 1.0));
             let target = half(sole.side) + sole.center.z - sum / count;
             let swing = cleared(sphere).unwrap_or_default();

@@ -346,7 +346,7 @@ impl<'a> Transcription<'a> {
 
     /// Mean force of the ground on all feet [N].
     pub(super) fn mean_load(&self) -> f64 {
-        let load = |at: &Instant| at.contacts.iter().map(|contact| contact.values[1]).sum::<f64>();
+        let load = |at: &Instant| at.contacts.iter().map(|contact| contact.values.force.y).sum::<f64>();
         self.instants[..self.counted()].iter().map(load).sum::<f64>() / self.counted() as f64
     }
 
@@ -476,7 +476,7 @@ impl<'a> Transcription<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optimal::instant::{Contact, SLIP};
+    use crate::optimal::instant::Contact;
     use crate::optimal::objective::Bound;
     use crate::optimal::{Continuation, SPATIAL_STAGES, STAGES};
 
@@ -488,7 +488,7 @@ mod tests {
     fn a_stage_makes_slip_alone_cheaper() {
         let stage = Stage { shoes: HuntCrossley::SOFT_SHOES, slack: 1.0, slip: 4.0 };
         let mut contact = Contact::default();
-        (contact.values[1], contact.values[SLIP]) = (100.0, 3.0);
+        (contact.values.force.y, contact.values.slip[0]) = (100.0, 3.0);
         let at = Instant { posture: [vec![3.0], vec![0.0], vec![0.0]], contacts: vec![contact], ..Instant::default() };
         let slip = term(Quantity::Slip { sphere: 0, axis: 0, light_n: 0.0 });
         let place = term(Quantity::Position(vec![(CoordinateId(0), 1.0)]));

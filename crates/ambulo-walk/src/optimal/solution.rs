@@ -1,6 +1,6 @@
 //! The solution of a problem: motion, forces and contacts at any time.
 
-use super::instant::{Evaluator, HEIGHT, Instant, SIDE_BY_SIDE, SLIP};
+use super::instant::{Evaluator, Instant, SIDE_BY_SIDE};
 use super::layout::Layout;
 use super::objective::Quantity;
 use super::problem::{Problem, Transcription};
@@ -205,9 +205,9 @@ impl Solution {
         let sample = |(at, &time_s): (Instant, &f64)| {
             let contact = |c: &super::instant::Contact| SoleContact {
                 place: c.place,
-                force: Vec3::new(c.values[0], c.values[1], c.values[2]),
-                height_m: c.values[HEIGHT],
-                slip: [c.values[SLIP], c.values[SLIP + 1]],
+                force: c.values.force,
+                height_m: c.values.height,
+                slip: c.values.slip,
             };
             let contacts = at.contacts.iter().map(contact).collect();
             Sample { time_s, posture: at.posture, forces: at.forces, contacts }
@@ -229,6 +229,6 @@ impl Solution {
     pub fn ground_force<'a>(&'a self, spheres: &'a [usize]) -> impl Iterator<Item = [f64; 3]> + 'a {
         self.instants
             .iter()
-            .map(|instant| [0, 1, 2].map(|axis| spheres.iter().map(|&s| instant.contacts[s].values[axis]).sum()))
+            .map(|instant| [0, 1, 2].map(|axis| spheres.iter().map(|&s| instant.contacts[s].values.force[axis]).sum()))
     }
 }

@@ -7,7 +7,7 @@
 //! The right foot alone is on the ground while the body slows down, so fast walks cannot be stopped in this way: the extrapolated mass centre
 //! x + v √(l/g) must not be beyond the toes (Hof, Gazendam, Sinke 2005; unverified).
 
-use super::instant::{Evaluator, HEIGHT, Instant};
+use super::instant::{Evaluator, Instant};
 use super::layout::Span;
 use super::movement::{End, Key, MovementProblem, posture};
 use super::muscles::EffortCosts;
@@ -231,7 +231,7 @@ fn on_right_foot(problem: &Problem, postures: Vec<Vec<f64>>) -> Result<Vec<Vec<f
         let right = problem.soles.iter().zip(&at.contacts).filter(|(sole, _)| sole.side == Side::Right);
         let count = right.clone().count().max(1) as f64;
         let middle = right.fold([0.0; 2], |[x, z], (_, contact)| [x + contact.place.x, z + contact.place.z]);
-        let lowest = at.contacts.iter().map(|contact| contact.values[HEIGHT]).fold(f64::INFINITY, f64::min);
+        let lowest = at.contacts.iter().map(|contact| contact.values.height).fold(f64::INFINITY, f64::min);
         [middle[0] / count, lowest, middle[1] / count]
     };
     let first = instants.first().map_or([0.0; 3], of_foot);

@@ -13,7 +13,7 @@ use super::solve::Continuation;
 use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;
 use crate::gait::{FREE_SPEED, JointMoments, Walk};
-use crate::model::anthropometry::{ContactSphere, Human};
+use crate::model::anthropometry::{ContactSphere, Human, SpherePart};
 use crate::model::{CoordinateId, CoordinateKind, Model, Movement, Side};
 use crate::numerics::elementary::powf;
 use crate::spatial::Vec3;
@@ -44,7 +44,7 @@ pub fn soles_with_width(human: &Human) -> Vec<ContactSphere> {
         .soles
         .iter()
         .flat_map(|sole| {
-            let breadth = if sole.name.starts_with("heel") { 0.7 * width } else { width };
+            let breadth = if sole.part == SpherePart::Heel { 0.7 * width } else { width };
             let aside = (0.5 * breadth - sole.radius).max(0.2 * breadth);
             [("medial", -1.0), ("lateral", 1.0)].map(|(place, sign)| {
                 let outwards = if sole.side == Side::Right { sign } else { -sign };
@@ -456,10 +456,10 @@ impl Builder<'_> {
     fn forces(&mut self, problem: &Problem, walk: &Walk, costs: &WalkCosts) {
         let weight = problem.weight_n();
         for side in Side::BOTH {
-            let toes = Quantity::GroundForce(spheres_of(problem, side, "toe"), 1);
+            let toes = Quantity::GroundForce(spheres_of(problem, side, Some(SpherePart::Toes)), 1);
             self.add("force under the toes", toes, self.constant(0.0), 0.15 * weight, Bound::Near);
             if moves_sideways(self.model) {
-                let sideways = Quantity::GroundForce(spheres_of(problem, side, ""), 2);
+                let sideways = Quantity::GroundForce(spheres_of(problem, side, None), 2);
                 let deviation = costs.sideways_force * weight;
                 self.add("sideways force", sideways, self.constant(0.0), deviation, Bound::Near);
             }
@@ -469,7 +469,7 @@ impl Builder<'_> {
             return;
         }
         for (k, side) in Side::BOTH.into_iter().enumerate() {
-            let spheres = spheres_of(problem, side, "");
+            let spheres = spheres_of(problem, side, None);
             for axis in 0..2 {
                 let targets = self.targets.iter().map(|t| Some(t.forces[k][axis] * weight)).collect();
                 let deviation = costs.force[axis] * weight / share.sqrt();
@@ -524,7 +524,7 @@ impl Builder<'_> {
         let light_n = 0.05 * problem.weight_n();
         for (sphere, sole) in problem.soles.iter().enumerate() {
             let side = usize::from(sole.side == Side::Left);
-            let part = ["heel", "ball", "toe"].iter().position(|name| sole.name.starts_with(name)).unwrap_or(0);
+            let part = SpherePart::OF_FOOT.iter().position(|(part, _)| *part == sole.part).unwrap_or(0);
             for axis in 0..2 {
                 let slip = Quantity::Slip { sphere, axis, light_n };
                 self.add("slip", slip, self.constant(0.0), costs.slip, Bound::Near);
@@ -537,8 +537,8 @@ impl Builder<'_> {
     }
 }
 
-/// Numbers of the spheres of a side whose names start with `name`.
-fn spheres_of(problem: &Problem, side: Side, name: &str) -> Vec<usize> {
-    let is_it = |sole: &ContactSphere| sole.side == side && sole.name.starts_with(name);
+/// Numbers of the spheres under a part of the foot of a side, or under the whole foot.
+fn spheres_of(problem: &Problem, side: Side, part: Option<SpherePart>) -> Vec<usize> {
+    let is_it = |sole: &ContactSphere| sole.side == side && part.is_none_or(|part| sole.part == part);
     (0..problem.soles.len()).filter(|&k| is_it(&problem.soles[k])).collect()
 }

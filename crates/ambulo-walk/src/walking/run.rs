@@ -337,7 +337,7 @@ impl<'a> Recorder<'a> {
     /// Records the translations of the root; velocities belong to the middle of a step.
     fn record_root(&mut self, before: &RootBefore, after: &WorldState, w: &StepWorkspace) {
         let root = &self.walker.world.joints[0];
-        let struck = (!w.impacts().is_empty()).then_some(&w.after_impacts);
+        let struck = (!w.impacts().is_empty()).then_some(&w.impacts.twists_after);
         let h = after.time_s - before.time_s;
         let to_joint = before.pose.rotation * root.child_from_joint.translation;
         let old = struck.map_or(before.twist, |twists| twists[root.child]).velocity_at(to_joint);

@@ -8,7 +8,7 @@
 use ambulo::contact::{HuntCrossley, Onset};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
-use ambulo::model::anthropometry::{Build, ContactSphere, SegmentTable};
+use ambulo::model::anthropometry::{Build, ContactSphere, SegmentTable, SpherePart};
 use ambulo::model::{CoordinateId, CoordinateKind, Model, Movement, Side};
 use ambulo::optimal::{Bound, Continuation, Problem, Quantity, Sample, Solution, Term, WalkCosts, WalkProblem};
 use cpu_time::ThreadTime;
@@ -67,7 +67,7 @@ impl Walker {
         let costs = WalkCosts { knots: KNOTS, per_knot: PER_KNOT, ..WalkCosts::default() };
         // Without the ball, between heel and toe.
         let soles: Vec<ContactSphere> =
-            human.soles.iter().filter(|sole| !sole.name.starts_with("ball")).cloned().collect();
+            human.soles.iter().filter(|sole| sole.part != SpherePart::Ball).cloned().collect();
         let WalkProblem { mut problem, mut guess, .. } =
             WalkProblem::new(&human, &soles, SHOES, &walk, &costs).map_err(|e| e.to_string())?;
         lean_with_pelvis(&problem, &mut guess);

@@ -1,8 +1,8 @@
 //! Soles of the feet, and stature, from a built-in figure or from usual proportions.
 
 use super::Leg;
-use crate::model::anthropometry::ContactSphere;
 use crate::model::anthropometry::dimensions::{ANKLE_HEIGHT, FOOT_LENGTH, FOOT_WIDTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
+use crate::model::anthropometry::{ContactSphere, SpherePart};
 use crate::model::{BodyId, Side};
 use crate::numerics::elementary::cbrt;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -61,9 +61,8 @@ impl Sole {
     /// Computes the sole from heel, ball and toe spheres; its ends are those of the outermost spheres.
     #[must_use]
     pub fn of_spheres(spheres: &[ContactSphere], side: Side, half_width: f64) -> Option<Sole> {
-        let of_side = || spheres.iter().filter(|s| s.side == side);
-        let named = |stem: &str| of_side().find(|s| s.name.starts_with(stem));
-        let (heel, ball, toe) = (named("heel")?, named("ball")?, named("toe")?);
+        let first = |part: SpherePart| spheres.iter().find(|sphere| sphere.side == side && sphere.part == part);
+        let (heel, ball, toe) = (first(SpherePart::Heel)?, first(SpherePart::Ball)?, first(SpherePart::Toes)?);
         let under = |sphere: &ContactSphere, forward: f64| SolePoint {
             body: sphere.body,
             place: sphere.center + Vec3::new(forward, -sphere.radius, 0.0),

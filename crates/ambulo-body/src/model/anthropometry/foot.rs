@@ -7,6 +7,25 @@ use crate::spatial::{Inertia, InertiaError, Mat3, Vec3};
 /// Mass of the toes, share of the foot mass: `toes_r` over `calcn_r` and `toes_r` of Gait2392, 0.2166 of 1.4666 kg.
 const TOES_MASS: f64 = 0.148;
 
+/// The part of the foot that a contact sphere belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SpherePart {
+    /// The heel.
+    Heel,
+    /// The ball of the foot.
+    Ball,
+    /// The toes.
+    Toes,
+    /// No part of a foot: a sphere at another body, which touches a seat or a wall.
+    Other,
+}
+
+impl SpherePart {
+    /// The parts of a foot from rear to front, with the beginnings of the names of their spheres.
+    pub const OF_FOOT: [(SpherePart, &'static str); 3] =
+        [(SpherePart::Heel, "heel"), (SpherePart::Ball, "ball"), (SpherePart::Toes, "toe")];
+}
+
 /// A sphere under a foot: heel, ball of the foot or toes.
 ///
 /// In upright standing all of them touch the ground. They lie on the mid-line of the foot; the heel sphere begins at the heel, the
@@ -14,8 +33,10 @@ const TOES_MASS: f64 = 0.148;
 /// 35 mm, front 15 mm; Falisse 2022: 32 mm; SCONE: 30 mm).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSphere {
-    /// `heel_r`, `ball_r`, `toe_r`, `heel_l`, `ball_l` or `toe_l`.
+    /// `heel_r`, `ball_r`, `toe_r`, `heel_l`, `ball_l` or `toe_l`; for files and messages.
     pub name: String,
+    /// Its part of the foot.
+    pub part: SpherePart,
     /// The foot.
     pub side: Side,
     /// The body that it is fixed to.
@@ -42,13 +63,10 @@ pub(super) fn soles(model: &Model, d: &Dimensions, toe_joint: bool) -> Vec<Conta
             Some(toes) if toe_joint => (Some(toes), tip - ball(d)),
             _ => (calcn, tip),
         };
-        let places = [
-            ("heel", calcn, heel, d.heel_radius),
-            ("ball", calcn, ball(d), d.ball_radius),
-            ("toe", toes, tip, d.toe_radius),
-        ];
-        spheres.extend(places.into_iter().filter_map(|(name, body, center, radius)| {
-            body.map(|body| ContactSphere { name: format!("{name}_{letter}"), side, body, center, radius })
+        let places = [(calcn, heel, d.heel_radius), (calcn, ball(d), d.ball_radius), (toes, tip, d.toe_radius)];
+        let parts = SpherePart::OF_FOOT.into_iter().zip(places);
+        spheres.extend(parts.filter_map(|((part, name), (body, center, radius))| {
+            Some(ContactSphere { name: format!("{name}_{letter}"), part, side, body: body?, center, radius })
         }));
     }
     spheres

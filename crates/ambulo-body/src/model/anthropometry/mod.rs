@@ -57,7 +57,7 @@ mod ranges;
 mod table;
 
 pub use dimensions::Dimensions;
-pub use foot::ContactSphere;
+pub use foot::{ContactSphere, SpherePart};
 pub use table::{SegmentTable, UnknownTable};
 
 use super::anatomy::Sole;

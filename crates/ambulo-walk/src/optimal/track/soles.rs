@@ -7,7 +7,7 @@ use super::{FootGuide, TrackError};
 use crate::contact::HuntCrossley;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::{Leg, Sole};
-use crate::model::anthropometry::ContactSphere;
+use crate::model::anthropometry::{ContactSphere, SpherePart};
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::Vec3;
@@ -24,10 +24,8 @@ const LOAD: f64 = 0.25;
 const FEW: usize = 5;
 /// Largest distance by which spheres are moved [m]; a larger one means that the sole of the model is not where the foot was.
 const MOST_M: f64 = 0.08;
-/// Names of the pairs of spheres, at the three points of a sole.
-const PAIRS: [&str; 3] = ["heel", "ball", "toe"];
-/// Spheres of one foot.
-pub(super) const PER_FOOT: usize = 2 * PAIRS.len();
+/// Spheres of one foot: a pair at each of the three points of a sole.
+pub(super) const PER_FOOT: usize = 2 * SpherePart::OF_FOOT.len();
 
 /// The spheres of both feet: right, then left; of each foot heel, ball and toe, each medial, then lateral.
 pub(super) fn spheres(
@@ -83,14 +81,14 @@ fn of_foot(leg: &Leg, sole: &Sole, side: Side) -> Vec<ContactSphere> {
     let radius = RADIUS * sole.half_width;
     let to_end = [radius - sole.half_width, 0.0, sole.half_width - radius];
     let mut spheres = Vec::new();
-    for ((point, stem), shift) in sole.points.iter().zip(PAIRS).zip(to_end) {
-        let half = sole.half_width * if stem == "heel" { HEEL } else { 1.0 };
+    for ((point, (part, stem)), shift) in sole.points.iter().zip(SpherePart::OF_FOOT).zip(to_end) {
+        let half = sole.half_width * if part == SpherePart::Heel { HEEL } else { 1.0 };
         let aside = (half - radius).max(0.4 * half);
         for (edge, sign) in [("medial", -1.0), ("lateral", 1.0)] {
             let outwards = if side == Side::Right { sign } else { -sign };
             let center = point.place + ahead * shift + up * radius + right * (outwards * aside);
             let name = format!("{stem}_{}_{edge}", side.letter());
-            spheres.push(ContactSphere { name, side, body: point.body, center, radius });
+            spheres.push(ContactSphere { name, part, side, body: point.body, center, radius });
         }
     }
     spheres

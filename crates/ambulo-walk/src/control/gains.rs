@@ -1,0 +1,58 @@
+//! Gains of a plan from the costs of deviations.
+//!
+//!   Q = diag(h / Δx²)          R = diag(h / Δτ²)
+//!
+//! | code | symbol | unit | meaning |
+//! |---|---|---|---|
+//! | `place`, `rate` | Δx | rad, m; rad/s, m/s | deviation of an entry of the state that costs 1 per second |
+//! | `torque` | Δτ | N.m | the same of the torque of a joint |
+//! | `step_s` | h | s | time step |
+//!
+//! [`super::riccati`] has the equation of the gains K and of the matrix P.
+
+use super::feedback::{delay_steps, share_of, size_of};
+use super::plan::{CyclePlan, Root};
+use super::riccati::{Costs, StepMap, foreseen};
+use super::settings::{ControlError, ControlSettings, TrackingCosts};
+use crate::model::anthropometry::Human;
+use crate::optimal::StandingMovements;
+use nalgebra::{DMatrix, DVector};
+
+/// Gains of all steps of a plan with these maps, and the matrix P of [`super::pace::Pace::value`].
+pub(super) fn gains(
+    human: &Human,
+    plan: &CyclePlan,
+    maps: &[StepMap],
+    settings: &ControlSettings,
+    step_s: f64,
+) -> Result<(Vec<DMatrix<f64>>, DMatrix<f64>), ControlError> {
+    let (costs, delay) = (costs(human, plan, &settings.costs, step_s), delay_steps(settings, step_s));
+    let (gains, mut value) = costs.periodic(maps).ok_or(ControlError::Riccati)?;
+    let joined = (plan.step_at(StandingMovements::JOINS[1]) + delay) % maps.len();
+    costs.gains(&maps[joined..], &mut value).ok_or(ControlError::Riccati)?;
+    Ok((foreseen(maps, &gains, delay), value))
+}
+
+/// The diagonal matrices Q and R of a time step.
+pub(super) fn costs(human: &Human, plan: &CyclePlan, costs: &TrackingCosts, step_s: f64) -> Costs {
+    let Root { forward, up, sideways, turns } = &plan.root;
+    let place = |c: usize| match c {
+        c if c == *up => costs.height,
+        c if Some(c) == *sideways => costs.sideways,
+        c if turns.contains(&c) => costs.pelvis,
+        _ => costs.angle,
+    };
+    let rate = |c: usize| match c {
+        c if c == *forward || Some(c) == *sideways => costs.velocity[0],
+        c if c == *up => costs.velocity[1],
+        _ => costs.rate,
+    };
+    let torque = |c: &usize| costs.torque * share_of(human, *c).0 * size_of(human);
+    let of_state = plan.places().into_iter().map(place).chain((0..human.model.coordinates().len()).map(rate));
+    let of_input = plan.joints();
+    let diagonal = |deviations: Vec<f64>| {
+        let squares = deviations.iter().map(|deviation| step_s / (deviation * deviation));
+        DMatrix::from_diagonal(&DVector::from_iterator(deviations.len(), squares))
+    };
+    Costs { state: diagonal(of_state.collect()), input: diagonal(of_input.iter().map(torque).collect()) }
+}
