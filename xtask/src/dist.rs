@@ -90,7 +90,7 @@ fn check_tag(tag: &str, version: &str, changes: &str) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "CHANGELOG.md has no heading `{heading}`\nhint: rename `## Unreleased` in the commit that sets the version"
+        "CHANGELOG.md has no heading `{heading}`\nhint: add it in the commit that sets the version"
     ))
 }
 

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Documents with a complete list of the commands of `cargo xtask`.
-const WITH_COMMANDS: [&str; 3] = ["ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"];
+const WITH_COMMANDS: [&str; 2] = ["ARCHITECTURE.md", "CONTRIBUTING.md"];
 /// Begins the list of commands in a document; the list ends at a blank line.
 const COMMAND_LIST: &str = "Commands of `cargo xtask`:";
 /// Documents with a complete list of the examples, one table row each.
