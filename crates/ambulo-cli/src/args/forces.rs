@@ -32,7 +32,7 @@ results of an earlier run in DIR are replaced as a whole; other files stay. docs
 always written.
 
 The verdict says whether a person could make this motion (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
-residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the data
+residual forces; docs/JUDGEMENT.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the data
 are bad or the motion is infeasible.")]
 pub(crate) struct ForcesArgs {
     /// The recording: markers (.c3d, .trc, .csv with three columns per marker, _motion.tsv of BIDS), poses of segments (.c3d, .mvnx), coordinates (.mot, .sto, _motion.tsv), orientations of sensors (.sto with quaternions), a skeleton (.bvh), a motion of the SMPL family (.npz) or a subject of AddBiomechanics (.b3d).
@@ -114,7 +114,7 @@ pub(crate) struct ForcesArgs {
     /// A point mass fixed to a body, with its position in the body's frame in metres; may be repeated.
     #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
     pub(crate) add_mass: Vec<AddedMassArg>,
-    /// Limits of what a person can do, used for the verdict: .toml (docs/FEASIBILITY.md) [default: built in].
+    /// Limits of what a person can do, used for the verdict: .toml (docs/JUDGEMENT.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
     /// Folder for the results.

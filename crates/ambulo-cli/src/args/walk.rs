@@ -58,7 +58,7 @@ clinical.csv, times_and_distances.csv, states.csv (the states of the gait's mach
 results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep writes only
 some of them; summary.json is always written.
 
-The verdict says whether a person could make this motion (docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could
+The verdict says whether a person could make this motion (docs/JUDGEMENT.md). Exit code: 0 if results were written, 2 if nothing could
 be computed; with --check, 1 if the data are bad or the motion is infeasible.")]
 pub(crate) struct WalkArgs {
     #[command(flatten)]
@@ -88,7 +88,7 @@ pub(crate) struct WalkArgs {
     /// Only print the state machines of the gait and, while they run, each change of their states: time, machine, old and new state, and the condition that was true.
     #[arg(long)]
     pub(crate) states: bool,
-    /// Limits of what a person can do, used for the verdict: .toml (docs/FEASIBILITY.md) [default: built in].
+    /// Limits of what a person can do, used for the verdict: .toml (docs/JUDGEMENT.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
     /// Folder for the results [default: out]; with --states, for the figure of the gait [default: none].
