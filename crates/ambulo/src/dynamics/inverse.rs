@@ -62,7 +62,7 @@ pub struct JointReaction {
     pub wrench: Wrench,
 }
 
-/// Result of inverse dynamics over a trajectory.
+/// Result of inverse dynamics over a trajectory: generalised forces, powers, and the reaction wrench of every joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forces {
     /// Generalised forces [N.m or N]: one column per coordinate, one entry per frame.
