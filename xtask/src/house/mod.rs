@@ -1,21 +1,26 @@
-//! Size and shape of the product's source: `cargo xtask house [--baseline REV] [--list]`.
+//! Size and shape of the product's source: `cargo xtask house [--baseline REV] [--list] [--wrap]`.
 //!
 //! Product is `crates/*/src` without items for tests; `xtask` and `viewer` are not counted. A function's lines run from its
-//! signature to its closing brace. A private function is a free function without `pub`.
+//! signature to its closing brace. A private function is a free function without `pub`. Long lines are counted in tests and `xtask`, too.
 
+mod columns;
 mod imports;
 mod items;
 mod source;
 pub(crate) mod tokens;
 
 use crate::workspace::{self, Revision};
+use columns::MOST_COLUMNS;
 use items::{Function, Reach};
 use source::{Crate, File};
+use std::fs;
 use std::path::Path;
 use tokens::Token;
 
 /// Longest function that is allowed.
 const LONGEST_FUNCTION: usize = 60;
+/// Most long lines that are listed without `--list`.
+const MOST_SHOWN: usize = 20;
 /// Most circles of files that are allowed.
 const MOST_CIRCLES: usize = 8;
 
@@ -37,6 +42,8 @@ struct House {
     circles: Vec<String>,
     /// Test files that no test program contains.
     forgotten_tests: Vec<String>,
+    /// Lines over [`MOST_COLUMNS`].
+    long_lines: Vec<String>,
 }
 
 /// Measures the tree, and a revision next to it; fails where the tree exceeds a limit.
@@ -48,8 +55,11 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         match word {
             "--baseline" => baseline = Some(words.next().ok_or("--baseline needs a revision, such as a commit")?),
             "--list" => listed = true,
+            "--wrap" => wrap(&workspace::root())?,
             other => {
-                return Err(format!("unknown option `{other}`\nhint: cargo xtask house [--baseline REV] [--list]"));
+                return Err(format!(
+                    "unknown option `{other}`\nhint: cargo xtask house [--baseline REV] [--list] [--wrap]"
+                ));
             }
         }
     }
@@ -62,6 +72,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     print_list("functions over 60 lines", &now.long_functions);
     print_list("circles of files", &now.circles);
     print_list("test files that are not a module of tests/main.rs", &now.forgotten_tests);
+    let shown = if listed { now.long_lines.len() } else { now.long_lines.len().min(MOST_SHOWN) };
+    print_list("lines over 120 columns (--list: all of them)", &now.long_lines[..shown]);
     if listed {
         print_list("private functions called once", &now.called_once);
     }
@@ -75,6 +87,17 @@ fn print_list(title: &str, places: &[String]) {
     }
 }
 
+/// Breaks long comments and texts of all Rust source. Run `cargo fmt` afterwards.
+fn wrap(workspace: &Path) -> Result<(), String> {
+    for file in source::all(workspace)? {
+        let text = columns::wrapped(&file.text).map_err(|e| format!("{}: {e}", file.path))?;
+        if text != file.text {
+            fs::write(workspace.join(&file.path), text).map_err(|e| format!("{}: cannot write: {e}", file.path))?;
+        }
+    }
+    Ok(())
+}
+
 impl House {
     fn measure(workspace: &Path) -> Result<House, String> {
         let mut house = House::default();
@@ -83,6 +106,10 @@ impl House {
         }
         house.function_lines.sort_unstable();
         house.forgotten_tests = source::forgotten_tests(workspace)?;
+        for file in source::all(workspace)? {
+            let lines = columns::long_lines(&file.text).into_iter();
+            house.long_lines.extend(lines.map(|line| format!("{}:{line}", file.path)));
+        }
         Ok(house)
     }
 
@@ -128,6 +155,12 @@ impl House {
                 "there are test files that never run\nhint: name them in the `tests/main.rs` next to them".to_owned()
             );
         }
+        if !self.long_lines.is_empty() {
+            return Err(format!(
+                "{} lines have more than {MOST_COLUMNS} columns\nhint: `cargo xtask house --wrap`, then `cargo fmt --all`; break the others by hand",
+                self.long_lines.len()
+            ));
+        }
         if long == 0 && circles <= MOST_CIRCLES {
             return Ok(());
         }
@@ -137,7 +170,7 @@ impl House {
     }
 
     /// The names and values of the table's rows.
-    fn rows(&self) -> [(&'static str, usize); 12] {
+    fn rows(&self) -> [(&'static str, usize); 13] {
         let share = |share: f64| {
             let last = self.function_lines.len().saturating_sub(1);
             self.function_lines.get((last as f64 * share).round() as usize).copied().unwrap_or(0)
@@ -155,6 +188,7 @@ impl House {
             ("private functions", self.private_functions),
             ("private functions called once", self.called_once.len()),
             ("circles of files", self.circles.len()),
+            ("lines over 120 columns", self.long_lines.len()),
         ]
     }
 }
@@ -211,13 +245,15 @@ mod tests {
     }
 
     #[test]
-    fn a_long_function_or_a_ninth_circle_exceeds_the_limits() {
+    fn a_long_function_a_ninth_circle_or_a_long_line_exceeds_the_limits() {
         let mut house = House { circles: vec!["a b".to_owned(); MOST_CIRCLES], ..House::default() };
         assert!(house.judge().is_ok());
         house.circles.push("c d".to_owned());
         assert!(house.judge().is_err());
         let house = House { long_functions: vec!["f: 61 lines".to_owned()], ..House::default() };
         assert!(house.judge().is_err_and(|message| message.starts_with("1 functions have more than 60 lines")));
+        let house = House { long_lines: vec!["a.rs:1".to_owned()], ..House::default() };
+        assert!(house.judge().is_err_and(|message| message.starts_with("1 lines have more than 120 columns")));
     }
 
     #[test]
