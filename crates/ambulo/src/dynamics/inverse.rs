@@ -78,7 +78,7 @@ pub struct Forces {
 pub struct ReactionReader<'a> {
     trajectory: &'a Trajectory,
     loads: Vec<LoadSeries>,
-    /// Scratch memory with eight frames, and the first of them.
+    /// The last computed block of eight frames, and the index of its first frame.
     block: RefCell<(Workspace, Option<usize>)>,
 }
 
