@@ -89,9 +89,7 @@ fn check_tag(tag: &str, version: &str, changes: &str) -> Result<(), String> {
     if changes.lines().any(|line| line == heading || line.starts_with(&format!("{heading} "))) {
         return Ok(());
     }
-    Err(format!(
-        "CHANGELOG.md has no heading `{heading}`\nhint: rename `## Unreleased` in the commit that sets the version"
-    ))
+    Err(format!("CHANGELOG.md has no heading `{heading}`\nhint: add it in the commit that sets the version"))
 }
 
 fn target(name: &str) -> Result<&'static Target, String> {

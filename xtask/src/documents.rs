@@ -1,16 +1,12 @@
-//! Tests of the documents: links, lists of commands and lists of examples.
+//! Tests of the documents: links, commands of `cargo xtask` that they name, and lists of examples.
 
 use crate::{MEASUREMENTS, OWN, workspace};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Documents with a complete list of the commands of `cargo xtask`.
-const WITH_COMMANDS: [&str; 3] = ["ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"];
-/// Begins the list of commands in a document; the list ends at a blank line.
-const COMMAND_LIST: &str = "Commands of `cargo xtask`:";
 /// Documents with a complete list of the examples, one table row each.
-const WITH_EXAMPLES: [&str; 1] = ["ARCHITECTURE.md"];
+const WITH_EXAMPLES: [&str; 1] = ["docs/SCENES.md"];
 const EXAMPLE_TABLE: &str = "| example | shows |";
 
 #[test]
@@ -33,18 +29,6 @@ fn every_relative_link_leads_to_a_file() {
 fn links_are_found_outside_of_code() {
     let text = "[a](A.md) ![p](p.png) `[b](B.md)`\n```\n[c](C.md)\n```\n[d](D.md#part)\n";
     assert_eq!(links(text), ["A.md", "p.png", "D.md#part"]);
-}
-
-#[test]
-fn lists_of_commands_are_complete() {
-    let commands: BTreeSet<&str> = OWN.iter().chain(&MEASUREMENTS).copied().collect();
-    for name in WITH_COMMANDS {
-        let text = read(&workspace::root().join(name));
-        let (_, list) = text.split_once(COMMAND_LIST).unwrap_or_else(|| panic!("{name} lacks `{COMMAND_LIST}`"));
-        let list = list.split("\n\n").next().unwrap_or_default();
-        let listed: BTreeSet<&str> = list.split('`').skip(1).step_by(2).collect();
-        assert_eq!(listed, commands, "{name}");
-    }
 }
 
 #[test]

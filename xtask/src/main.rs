@@ -27,6 +27,7 @@ usage: cargo xtask <command>
   check             run what CI runs: format, lints, house, tests, documentation, viewer; stops at the first failure
                     [--full: and everything that takes longer]
   house             print size and shape of the source; fails where it exceeds a limit  [--baseline REV] [--list]
+                    [--wrap: break comments and texts over 120 columns first]
   build-time        time a cold release build of the `ambulo` command  [--baseline REV]
   measured          write the generated pages of docs/measured/  [PAGE..] [--check: list pages that are out of date]
   mutants           run mutants of the science and write docs/measured/MUTANTS.md  [MODULE..] [--sample N] [--seed S]

@@ -10,7 +10,7 @@ use ambulo::model::{BySide, Movement};
 use ambulo::optimal::{Hill, StrengthCurve};
 use ambulo::spatial::{Vec3, Wrench};
 
-const DOCUMENT: &str = include_str!("../../../docs/FEASIBILITY.md");
+const DOCUMENT: &str = include_str!("../../../docs/JUDGEMENT.md");
 pub(crate) const GRAVITY: f64 = 9.80665;
 
 pub(crate) fn man() -> Human {
@@ -455,7 +455,7 @@ fn an_invalid_thresholds_file_is_rejected_with_line_and_key() {
     );
     assert!(error.ends_with("hint: did you mean \"sliding\"?"), "{error}");
     let error = Thresholds::from_toml("[friction\n").unwrap_err().to_string();
-    assert!(error.contains("this is not TOML") && error.contains("docs/FEASIBILITY.md"), "{error}");
+    assert!(error.contains("this is not TOML") && error.contains("docs/JUDGEMENT.md"), "{error}");
 }
 
 #[test]

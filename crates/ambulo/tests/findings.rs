@@ -93,9 +93,9 @@ fn page() -> String {
     let mut page = "\
 # Warnings and notes
 
-Every verb reports what it found odd in the input, what it assumed and what limits the results. A **note** is for information; after a
+Every command reports unusual input, assumptions and limits of its results. A **note** is for information; after a
 **warning** results may be wrong and should be checked. Both appear on standard error, in `summary.json` (`findings`, with `code`,
-`severity`, `message` and `count`) and on the report page. A message states where and what was found; this list has the meaning and the
+`severity`, `message` and `count`) and on the report page. A message states the place and the value; this list has the meaning and the
 remedy of each code.
 
 This page is written from `crates/ambulo-body/src/findings/code.rs` by the test `findings`; do not edit.

@@ -252,7 +252,7 @@ fn the_table_in_the_documentation_has_the_limits() {
         format!("| `{}` | {} | {good} | {bad} | {} |\n", measure.name(), measure.meaning(), measure.unit())
     };
     let table: String = std::iter::once(head.to_owned()).chain(Measure::ALL.iter().map(row)).collect();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/QUALITY.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/JUDGEMENT.md");
     let text = std::fs::read_to_string(&path).unwrap();
     let start = text.find("| measure |").unwrap();
     let end = start + text[start..].find("\n\n").unwrap() + 1;
@@ -260,5 +260,5 @@ fn the_table_in_the_documentation_has_the_limits() {
         std::fs::write(&path, format!("{}{table}{}", &text[..start], &text[end..])).unwrap();
         return;
     }
-    assert!(text[start..end] == table, "docs/QUALITY.md is out of date; run this test with AMBULO_WRITE=1");
+    assert!(text[start..end] == table, "docs/JUDGEMENT.md is out of date; run this test with AMBULO_WRITE=1");
 }

@@ -261,8 +261,8 @@ struct Count {
     unbalanced: f64,
 }
 
-/// Runs a scene; the complaint, if there is one.
-fn complaint(seed: u64, count: &mut Count) -> Option<String> {
+/// Runs a scene and returns what is wrong, if anything.
+fn problem(seed: u64, count: &mut Count) -> Option<String> {
     let r = &mut Random::new(seed);
     let world = random_scene(r);
     let mut run = Run::new(world, 10_f64.powf(r.between(-4.0, -2.0)));
@@ -302,12 +302,12 @@ fn complaint(seed: u64, count: &mut Count) -> Option<String> {
 /// Four tests, so that they run side by side.
 fn random_scenes_stay_finite_and_in_balance(seeds: Range<u64>) {
     let mut count = Count::default();
-    let mut complaints = Vec::new();
+    let mut problems = Vec::new();
     for seed in seeds {
-        match catch_unwind(AssertUnwindSafe(|| complaint(seed, &mut count))) {
+        match catch_unwind(AssertUnwindSafe(|| problem(seed, &mut count))) {
             Ok(None) => {}
-            Ok(Some(text)) => complaints.push(format!("seed {seed}: {text}")),
-            Err(_) => complaints.push(format!("seed {seed}: panic")),
+            Ok(Some(text)) => problems.push(format!("seed {seed}: {text}")),
+            Err(_) => problems.push(format!("seed {seed}: panic")),
         }
     }
     println!(
@@ -317,7 +317,7 @@ fn random_scenes_stay_finite_and_in_balance(seeds: Range<u64>) {
         count.iterations as f64 / count.steps as f64,
         count.unbalanced
     );
-    assert!(complaints.is_empty(), "{} scenes:\n{}", complaints.len(), complaints.join("\n"));
+    assert!(problems.is_empty(), "{} scenes:\n{}", problems.len(), problems.join("\n"));
 }
 
 #[test]

@@ -17,7 +17,7 @@ const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 /// CSS pixels per millimetre: 96 per inch.
 const PIXELS_A_MILLIMETRE: f64 = 96.0 / 25.4;
 /// Time limit; Chromium needs about a second.
-const PATIENCE: Duration = Duration::from_secs(60);
+const TIMEOUT: Duration = Duration::from_secs(60);
 /// Interval at which Chromium's end is checked.
 const PAUSE: Duration = Duration::from_millis(20);
 /// Window size for the report page [CSS pixels].
@@ -120,11 +120,11 @@ fn run_with_patience(command: &mut Command, name: &str) -> Result<(), String> {
         match child.try_wait().map_err(|e| format!("{name}: cannot wait for it: {e}"))? {
             Some(status) if status.success() => return Ok(()),
             Some(status) => return Err(format!("{name}: {status}")),
-            None if start.elapsed() > PATIENCE => {
+            None if start.elapsed() > TIMEOUT => {
                 // It may have ended by itself in between; either way it is reported as hanging.
                 let _ = child.kill();
                 let _ = child.wait();
-                return Err(format!("{name}: no picture within {} s, stopped", PATIENCE.as_secs()));
+                return Err(format!("{name}: no picture within {} s, stopped", TIMEOUT.as_secs()));
             }
             None => sleep(PAUSE),
         }

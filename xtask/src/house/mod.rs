@@ -1,21 +1,26 @@
-//! Size and shape of the product's source: `cargo xtask house [--baseline REV] [--list]`.
+//! Size and shape of the product's source: `cargo xtask house [--baseline REV] [--list] [--wrap]`.
 //!
 //! Product is `crates/*/src` without items for tests; `xtask` and `viewer` are not counted. A function's lines run from its
-//! signature to its closing brace. A private function is a free function without `pub`.
+//! signature to its closing brace. A private function is a free function without `pub`. Long lines are counted in tests and `xtask`, too.
 
+mod columns;
 mod imports;
 mod items;
 mod source;
 pub(crate) mod tokens;
 
 use crate::workspace::{self, Revision};
+use columns::MOST_COLUMNS;
 use items::{Function, Reach};
 use source::{Crate, File};
+use std::fs;
 use std::path::Path;
 use tokens::Token;
 
 /// Longest function that is allowed.
 const LONGEST_FUNCTION: usize = 60;
+/// Most long lines that are listed without `--list`.
+const MOST_SHOWN: usize = 20;
 /// Most circles of files that are allowed.
 const MOST_CIRCLES: usize = 8;
 /// Most lines of a crate, and of a module: a folder or a file in its `src`.
@@ -43,6 +48,8 @@ struct House {
     circles: Vec<String>,
     /// Test files that no test program contains.
     forgotten_tests: Vec<String>,
+    /// Lines over [`MOST_COLUMNS`].
+    long_lines: Vec<String>,
 }
 
 /// A crate or a module by its path below `crates/`.
@@ -61,8 +68,11 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         match word {
             "--baseline" => baseline = Some(words.next().ok_or("--baseline needs a revision, such as a commit")?),
             "--list" => listed = true,
+            "--wrap" => wrap(&workspace::root())?,
             other => {
-                return Err(format!("unknown option `{other}`\nhint: cargo xtask house [--baseline REV] [--list]"));
+                return Err(format!(
+                    "unknown option `{other}`\nhint: cargo xtask house [--baseline REV] [--list] [--wrap]"
+                ));
             }
         }
     }
@@ -80,6 +90,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     print_list("functions over 60 lines", &now.long_functions);
     print_list("circles of files", &now.circles);
     print_list("test files that are not a module of tests/main.rs", &now.forgotten_tests);
+    let shown = if listed { now.long_lines.len() } else { now.long_lines.len().min(MOST_SHOWN) };
+    print_list("lines over 120 columns (--list: all of them)", &now.long_lines[..shown]);
     if listed {
         print_list("private functions called once", &now.called_once);
     }
@@ -93,6 +105,17 @@ fn print_list(title: &str, places: &[String]) {
     }
 }
 
+/// Breaks long comments and texts of all Rust source. Run `cargo fmt` afterwards.
+fn wrap(workspace: &Path) -> Result<(), String> {
+    for file in source::all(workspace)? {
+        let text = columns::wrapped(&file.text).map_err(|e| format!("{}: {e}", file.path))?;
+        if text != file.text {
+            fs::write(workspace.join(&file.path), text).map_err(|e| format!("{}: cannot write: {e}", file.path))?;
+        }
+    }
+    Ok(())
+}
+
 impl House {
     fn measure(workspace: &Path) -> Result<House, String> {
         let mut house = House::default();
@@ -101,6 +124,10 @@ impl House {
         }
         house.function_lines.sort_unstable();
         house.forgotten_tests = source::forgotten_tests(workspace)?;
+        for file in source::all(workspace)? {
+            let lines = columns::long_lines(&file.text).into_iter();
+            house.long_lines.extend(lines.map(|line| format!("{}:{line}", file.path)));
+        }
         Ok(house)
     }
 
@@ -160,6 +187,12 @@ impl House {
                 ));
             }
         }
+        if !self.long_lines.is_empty() {
+            return Err(format!(
+                "{} lines have more than {MOST_COLUMNS} columns\nhint: `cargo xtask house --wrap`, then `cargo fmt --all`; break the others by hand",
+                self.long_lines.len()
+            ));
+        }
         if long == 0 && circles <= MOST_CIRCLES {
             return Ok(());
         }
@@ -169,7 +202,7 @@ impl House {
     }
 
     /// The names and values of the table's rows.
-    fn rows(&self) -> [(&'static str, usize); 14] {
+    fn rows(&self) -> [(&'static str, usize); 15] {
         let share = |share: f64| {
             let last = self.function_lines.len().saturating_sub(1);
             self.function_lines.get((last as f64 * share).round() as usize).copied().unwrap_or(0)
@@ -189,6 +222,7 @@ impl House {
             ("private functions", self.private_functions),
             ("private functions called once", self.called_once.len()),
             ("circles of files", self.circles.len()),
+            ("lines over 120 columns", self.long_lines.len()),
         ]
     }
 }
@@ -257,13 +291,15 @@ mod tests {
     }
 
     #[test]
-    fn a_long_function_or_a_ninth_circle_exceeds_the_limits() {
+    fn a_long_function_a_ninth_circle_or_a_long_line_exceeds_the_limits() {
         let mut house = House { circles: vec!["a b".to_owned(); MOST_CIRCLES], ..House::default() };
         assert!(house.judge().is_ok());
         house.circles.push("c d".to_owned());
         assert!(house.judge().is_err());
         let house = House { long_functions: vec!["f: 61 lines".to_owned()], ..House::default() };
         assert!(house.judge().is_err_and(|message| message.starts_with("1 functions have more than 60 lines")));
+        let house = House { long_lines: vec!["a.rs:1".to_owned()], ..House::default() };
+        assert!(house.judge().is_err_and(|message| message.starts_with("1 lines have more than 120 columns")));
     }
 
     #[test]

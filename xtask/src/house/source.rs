@@ -44,6 +44,15 @@ pub(super) fn crates(workspace: &Path) -> Result<Vec<Crate>, String> {
     Ok(list)
 }
 
+/// All Rust source of crates, their tests and the automation; paths begin at the root of the workspace.
+pub(super) fn all(workspace: &Path) -> Result<Vec<File>, String> {
+    let mut files = Vec::new();
+    for folder in ["crates", "xtask"] {
+        collect(workspace, &workspace.join(folder), &mut files)?;
+    }
+    Ok(files)
+}
+
 /// Files of `crates/*/tests` that neither `tests/main.rs` nor `Cargo.toml` names.
 pub(super) fn forgotten_tests(workspace: &Path) -> Result<Vec<String>, String> {
     let mut forgotten = Vec::new();

@@ -25,7 +25,7 @@ use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A solid that can touch others, in its own frame. Clones share large data.
+/// A solid that can touch others, in its own frame: geometry alone, without friction or restitution. Clones share large data.
 #[derive(Debug, Clone)]
 pub struct Shape {
     pub(super) form: Form,

@@ -62,7 +62,7 @@ pub struct JointReaction {
     pub wrench: Wrench,
 }
 
-/// Result of inverse dynamics over a trajectory.
+/// Result of inverse dynamics over a trajectory: generalised forces, powers, and the reaction wrench of every joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forces {
     /// Generalised forces [N.m or N]: one column per coordinate, one entry per frame.
@@ -78,7 +78,7 @@ pub struct Forces {
 pub struct ReactionReader<'a> {
     trajectory: &'a Trajectory,
     loads: Vec<LoadSeries>,
-    /// Scratch memory with eight frames, and the first of them.
+    /// The last computed block of eight frames, and the index of its first frame.
     block: RefCell<(Workspace, Option<usize>)>,
 }
 

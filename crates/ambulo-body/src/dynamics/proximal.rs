@@ -64,8 +64,8 @@ const SLOW: f64 = 0.5;
 const STEADY: f64 = 0.3;
 /// A round that leaves more than this share of the departure has failed.
 const STUCK: f64 = 0.999;
-/// Number of steps after which the best iterate is kept.
-const PATIENCE: usize = 12;
+/// Number of steps after which the best iterate is kept and slip directions take half steps.
+const BEFORE_HALF_STEPS: usize = 12;
 /// Number of steps after which contacts are solved by [`super::nonsmooth_newton`].
 const STALLED: usize = 30;
 /// Maximum number of Newton steps after the convex problem.
@@ -252,7 +252,7 @@ impl Newton<'_, '_> {
                 return true;
             }
             let last_round = convergence.iterations >= most;
-            if whole && (convergence.iterations >= PATIENCE || last_round) {
+            if whole && (convergence.iterations >= BEFORE_HALF_STEPS || last_round) {
                 self.w.best.keep(motions, coordinates, lambda, convergence);
             }
             if whole {
@@ -282,7 +282,7 @@ impl Newton<'_, '_> {
                 self.factor(convergence);
             }
             // Half steps damp slip directions that oscillate.
-            let share = if whole && self.slips() && convergence.iterations >= PATIENCE { 0.5 } else { 1.0 };
+            let share = if whole && self.slips() && convergence.iterations >= BEFORE_HALF_STEPS { 0.5 } else { 1.0 };
             whole = self.newton_step(motions, coordinates, lambda, whole && alike);
             if whole && share < 1.0 {
                 self.step_back(1.0 - share, motions, coordinates, lambda);

@@ -47,32 +47,32 @@ codes! {
         "Nothing to do.";
     ModelMassless "model.massless" Warning
         "A body of the model has no mass."
-        "Check the mass of the body; a massless body is right only where another body carries its mass.";
+        "Check the mass of the body; zero is correct only if another body includes its mass.";
     ModelInertia "model.inertia" Warning
-        "A body's inertia is one that no rigid body can have."
+        "The inertia of a body is physically impossible."
         "Correct the inertia in the model file: moments of inertia are positive, and none exceeds the sum of the other two.";
     ModelBushing "model.bushing" Note
-        "A bushing of the model, a spring with a damper between two bodies, acts on both: the forces of the coordinates are those that act besides it."
-        "Nothing to do. To leave it out, switch it off in the model, or exclude it in the set-up of inverse dynamics.";
+        "A bushing (a spring with a damper between two bodies) is included in inverse dynamics; forces of the coordinates are in addition to it."
+        "Nothing to do; to leave it out, switch it off in the model or exclude it in the set-up of inverse dynamics.";
     ModelConstraint "model.constraint" Warning
         "A constraint of the model is not enforced; forces that pass through it are reported at the joints of the tree."
-        "Read the forces of the joints around the constraint with care, or use a model without it.";
+        "Interpret forces of the joints around the constraint with care, or use a model without it.";
     // Input files.
     FileOdd "file.odd" Warning
-        "A file departs from its format, and was read with the assumption that the message states."
-        "Check that the assumption is right, or export the file again.";
+        "A file deviates from its format; it was read with the assumption in the message."
+        "Check the assumption, or export the file again.";
     FileUnitGuessed "file.unit_guessed" Warning
-        "The file states no unit of length; the size of the person or of the force plates told it."
+        "The file states no unit of length; it was inferred from the size of the person or of the force plates."
         "Check the stature in the result, or set the unit in the file.";
     // Recorded coordinates.
     MotionUnitUnstated "motion.unit_unstated" Warning
         "The file does not state whether its angles are in degrees or radians; they were read as radians."
         "Add `inDegrees=yes` or `inDegrees=no` to the header.";
     MotionDegreesAsRadians "motion.degrees_as_radians" Warning
-        "Angles were read as radians but are as large as degrees would be."
+        "Angles were read as radians, but they are as large as angles in degrees."
         "Set `inDegrees=yes` in the header of a `.mot` or `.sto` file; a `.csv` file cannot state its unit.";
     MotionRadiansAsDegrees "motion.radians_as_degrees" Warning
-        "Angles were read as degrees but are as small as radians would be."
+        "Angles were read as degrees, but they are as small as angles in radians."
         "Set `inDegrees=no` in the header.";
     MotionUnwrapped "motion.unwrapped" Note
         "An angle jumps by a whole turn between two frames; the turns were removed."
@@ -81,7 +81,7 @@ codes! {
         "A coordinate jumps between two frames; rates and forces are wrong there."
         "Correct these frames, or leave them out.";
     MotionUnknownCoordinate "motion.unknown_coordinate" Warning
-        "Columns of the recording have names that the model has no coordinate for; they were not used."
+        "Columns of the recording match no coordinate of the model; they were not used."
         "Check that recording and model belong together, or rename the columns.";
     MotionMissingCoordinate "motion.missing_coordinate" Warning
         "The recording has no column for coordinates of the model; their default values were used throughout."
@@ -102,11 +102,11 @@ codes! {
         "Missing samples were filled by a spline."
         "Check the filled stretches, or fill them in the program that made the recording.";
     MotionShorterThanScene "motion.shorter_than_scene" Warning
-        "A motion that drives a scene ends before the scene does; its last values are held from then on."
+        "A motion that drives a scene ends before the scene; its last values are kept until the end."
         "Shorten the scene or lengthen the motion.";
     MotionClock "motion.clock" Warning
-        "The person falls too slowly or too fast in flight phases, so the stated frame rate is wrong."
-        "Correct the frame rate in the file; the message states the one that gravity needs. Until then the quality of the data is bad.";
+        "The acceleration in flight phases is not gravity, so the stated frame rate is wrong."
+        "Correct the frame rate in the file; the message states the rate that agrees with gravity.";
     // Skeletons.
     BvhAxes "bvh.axes" Note
         "States which axes of the skeleton file are up and forward."
@@ -115,13 +115,13 @@ codes! {
         "The upward axis of the skeleton file is not clear from the posture."
         "Check that the figure stands upright in the result.";
     BvhUnit "bvh.unit" Warning
-        "The unit of length of the skeleton file was guessed, and the guess does not fit a person well."
+        "The unit of length of the skeleton file was guessed, and the resulting body size is unusual."
         "Give the person's stature.";
     BvhJointsMissing "bvh.joints_missing" Warning
         "Useful joints were not recognised by their names."
         "Rename the joints of the skeleton to usual names.";
     BvhRestPose "bvh.rest_pose" Note
-        "The resting pose of the file is not upright standing, so a T- or A-pose of the recording, or else its mean posture, is used for it."
+        "The rest pose of the file is not upright standing; a T- or A-pose of the recording, or its mean posture, is used instead."
         "Nothing to do if the message names a pose; otherwise check that the person is upright on average.";
     BvhPose "bvh.pose" Note
         "The first frame is a calibration pose and was left out."
@@ -130,68 +130,68 @@ codes! {
         "The floor was placed at the height where the ankles are lowest."
         "Nothing to do if the person stands on flat ground.";
     BvhLengths "bvh.lengths" Note
-        "Lengths of the skeleton differ from those of a usual body."
+        "Segment lengths of the skeleton are unusual."
         "Check the skeleton: forces depend on the lengths of its segments.";
     BvhLowTrust "bvh.low_trust" Warning
         "A skeleton file has no mass, no unit and mostly filtered motion: forces are estimates for comparison only."
-        "Use markers or joint coordinates where forces matter.";
+        "Use markers or joint coordinates if accurate forces are needed.";
     // Motions of the SMPL family.
     SmplBody "smpl.body" Note
         "States where the lengths of a motion of the SMPL family come from."
         "Give the SMPL model that the motion was made with, or the person's stature.";
     // Subjects of AddBiomechanics.
     B3dForceMissing "b3d.force_missing" Warning
-        "The file marks the ground force of some frames as missing; only the longest time with measured forces was used, or forces were predicted."
+        "Ground forces are marked as missing in some frames; only the longest time with measured forces was used, or forces were predicted."
         "Choose another time range, or predict the forces of the whole trial.";
     B3dUnobserved "b3d.unobserved" Note
-        "Coordinates of the model were not observed in this trial, and have assumed values."
+        "Coordinates of the model were not measured in this trial; their values are assumed."
         "Do not use the moments of these joints.";
     B3dFiltered "b3d.filtered" Note
         "The motion in the file was filtered before."
         "Nothing to do, or switch the filter of the motion off.";
     B3dStatedMass "b3d.stated_mass" Warning
-        "The mass that the file states is not that of its model; forces are computed with the model."
-        "State the mass of the person: the model is then scaled to it.";
+        "The stated mass differs from the mass of the model in the file; forces are computed with the model."
+        "Give the mass of the person; the model is then scaled to it.";
     B3dFormDefaults "b3d.form_defaults" Warning
-        "Stated mass, stature and age are those with which the form of AddBiomechanics begins."
-        "State the mass of the person if it is known.";
+        "Stated mass, stature and age equal the default values of the AddBiomechanics form."
+        "Give the mass of the person if it is known.";
     // Orientations of sensors.
     SensorsFitted "sensors.fitted" Note
-        "Sensors turn the body; the message says how far the body is from them."
-        "Check how the sensor with the largest angle sat; it may have moved on the body.";
+        "The body was fitted to orientations of sensors; the message states the remaining angles."
+        "Check the sensor with the largest angle; it may have moved on the body.";
     SensorsHeading "sensors.heading" Note
         "The orientations of the sensors were turned about the vertical, so that the person faces forward."
         "Check that the person walks forward in the result; an axis of a sensor that points forward can show the direction instead.";
     SensorsHeld "sensors.held" Note
-        "Coordinates that turn no sensor keep their default values."
+        "Coordinates that rotate no sensor keep their default values."
         "Nothing to do; toes and wrists are often without sensors.";
     SensorsMissing "sensors.missing" Warning
-        "A sensor sent nothing in some frames."
+        "A sensor has no data in some frames."
         "Check the sensor; short gaps are bridged, longer ones leave coordinates unknown.";
     SensorsPlaced "sensors.placed" Warning
-        "Orientations do not show where the person is; the place of the pelvis follows from the feet on the ground."
-        "Read forces along the floor, speed and step lengths as estimates, and do not use running, jumping or stairs.";
+        "Orientations do not contain the position of the person; the position of the pelvis was derived from the feet on the ground."
+        "Treat horizontal forces, speed and step lengths as estimates; do not use recordings of running, jumping or stairs.";
     SensorsUnknown "sensors.unknown" Warning
-        "Sensors are on no body of the model, or share one."
+        "Sensors match no body of the model, or several match the same body."
         "Name the columns by the bodies of the model, with the ending `_imu`.";
     SensorsUnrest "sensors.unrest" Warning
-        "The person moves where the default posture of the model is assumed."
+        "The person moves during the time for which the default posture of the model is assumed."
         "Record the person standing still in the default posture of the model, and give that as the standing trial.";
     // Poses of segments.
     PosesUsed "poses.used" Note
-        "The file holds poses of body segments, as markerless motion capture or a suit of inertial sensors computes them; they drive the body, and markers of the file are not used."
+        "The file contains poses of body segments (markerless motion capture or an inertial suit); the body follows them, and markers of the file are not used."
         "Nothing to do.";
     PosesOdd "poses.odd" Warning
-        "Poses of segments are no rotations, are missing, or show no level floor."
+        "Poses of segments are not valid rotations, are missing, or do not agree with a level floor."
         "Check the export of the file.";
     PosesAssumed "poses.assumed" Note
-        "What the poses of the segments do not tell about the body was assumed."
+        "Segment lengths and masses that the poses do not contain were assumed."
         "Give the stature; check that the floor is at height zero.";
     PosesLengths "poses.lengths" Note
-        "Lengths between the joint centres of the poses differ from those of a usual body."
+        "Distances between the joint centres of the poses are unusual."
         "Check the unit of length and the stature.";
     PosesGap "poses.gap" Warning
-        "Poses of a segment are missing for longer than is bridged; its coordinates have no value there."
+        "Poses of a segment are missing for longer than the largest gap that is bridged; its coordinates have no value there."
         "Choose a time range without the gap.";
     PosesBridged "poses.bridged" Note
         "Missing poses of a segment were bridged by a smooth curve."
@@ -210,20 +210,20 @@ codes! {
         "The forward direction is not clear: the body does not travel, and heel, toe and pelvis markers are missing."
         "Name heel, toe and pelvis markers as a marker set does.";
     LaboratoryBackwards "laboratory.backwards" Warning
-        "The body walks backwards; forward is the direction in which it faces."
+        "The body walks backwards; forward is the direction that it faces."
         "Check left and right markers if the person walked forwards.";
     LaboratorySideways "laboratory.sideways" Warning
-        "The body walks in another direction than it faces; forward is the direction in which it faces."
+        "The body does not walk in the direction that it faces; forward is the direction that it faces."
         "Check whether left and right markers are exchanged.";
     LaboratoryTurning "laboratory.turning" Warning
-        "The body turns on its way, so that one forward direction does not suit the whole recording."
-        "Read angles of the pelvis and fore-aft forces with care, or choose a straight part of the recording.";
+        "The body turns, so one forward direction does not suit the whole recording."
+        "Interpret angles of the pelvis and fore-aft forces with care, or choose a straight part of the recording.";
     LaboratoryUnitChanged "laboratory.unit_changed" Warning
-        "By the file's unit the markers span an impossible height; lengths were rescaled."
+        "With the unit in the file, the height of the markers is impossible; lengths were rescaled."
         "Correct the unit in the file.";
     LaboratorySizeOdd "laboratory.size_odd" Warning
-        "The markers span a height that is neither a standing person's nor explained by a wrong unit."
-        "Check the unit of the file, and for markers that are not on the person.";
+        "The height of the markers is not that of a standing person, and a wrong unit does not explain it."
+        "Check the unit of the file, and whether markers are not on the person.";
     // Markers.
     MarkersZeroIsGap "markers.zero_is_gap" Warning
         "Positions of exactly 0 0 0 were read as gaps."
@@ -233,10 +233,10 @@ codes! {
         "Check the export of the file.";
     MarkersNameTwice "markers.name_twice" Warning
         "Two points have the same name; the one that is present for longer was used."
-        "Give every marker a name of its own.";
+        "Give every marker a different name.";
     MarkersUncommon "markers.uncommon" Note
-        "Only the markers that both the recording and the model have are fitted."
-        "Name markers as in the model, if more of them should be used.";
+        "Only markers that are in both the recording and the model are fitted."
+        "To use more markers, name them as in the model.";
     MarkersEnds "markers.ends" Note
         "Frames at the ends with less than half of the markers were left out."
         "Nothing to do.";
@@ -244,48 +244,48 @@ codes! {
         "A marker is missing at some times."
         "Nothing to do; the other markers determine the posture there.";
     MarkersJump "markers.jump" Warning
-        "A marker left its place on the body at some times and was not used there."
+        "A marker moved away from its position on the body at some times and was not used there."
         "Correct the trajectory of the marker.";
     MarkersUnfitted "markers.unfitted" Warning
         "The fit of the body to the markers took too many steps at some times and was stopped; coordinates are approximate there, or have no values."
-        "Correct markers that jump or have the labels of others, or leave those times out.";
+        "Correct markers that jump or have wrong labels, or leave those times out.";
     MarkersSwap "markers.swap" Warning
         "Two markers had exchanged labels at some times and were exchanged back."
         "Correct the labels.";
     MarkersMisplaced "markers.misplaced" Warning
-        "A marker is far from its place on the body throughout; its weight was reduced."
+        "A marker is far from its position on the body throughout; its weight was reduced."
         "Check whether it moved after the standing trial or has another marker's label.";
     MarkersBridged "markers.bridged" Note
         "Too few markers determine a coordinate at some times; a smooth curve fills the gap."
-        "Read the coordinate with care there.";
+        "Interpret the coordinate with care there.";
     MarkersGap "markers.gap" Warning
         "Too few markers determine a coordinate for too long; it has no value there."
         "Fill the markers' trajectories, or allow longer gaps.";
     MarkersHeld "markers.held" Note
-        "No marker shows some coordinates of the body; constant values are used."
+        "No marker determines some coordinates of the body; constant values are used."
         "Add markers on the named segments if these coordinates matter.";
     MarkersWindow "markers.window" Warning
         "Markers are missing for too long outside a part of the recording; only this part was analysed."
         "Allow longer gaps, or choose another part of the recording.";
     MarkersTask "markers.task" Warning
-        "A coordinate that the fit of the markers should hold near a value is not on the model, or no marker moves with it."
+        "A coordinate with a target value in the marker fit is not in the model, or no marker moves with it."
         "Correct the name of the coordinate, or leave the task out.";
     // The body.
     CalibrationAssumed "calibration.assumed" Note
-        "An assumption by which the body was built from the markers."
-        "Give what is assumed (stature, mass, standing trial) if it is known.";
+        "States an assumption that was made to build the body from the markers."
+        "Give stature, mass or a standing trial if they are available.";
     CalibrationNotStanding "calibration.not_standing" Warning
         "The person moves in most of the standing trial; all of its frames were used."
         "Use a trial in which the person stands still, or no standing trial.";
     CalibrationOtherPerson "calibration.other_person" Warning
-        "The standing trial names another person than the recording; its body was used."
+        "Standing trial and recording name different persons; the standing trial was used."
         "Give the standing trial of this person, or correct the name of the subject in the files.";
     CalibrationTrunkUpright "calibration.trunk_upright" Note
-        "No marker shows the trunk; it is assumed upright above the pelvis."
+        "The trunk has no marker; it is assumed upright above the pelvis."
         "Add markers on the trunk.";
     KeypointsNoise "keypoints.noise" Note
-        "The recording has keypoints of video instead of markers; their noise was estimated from the recording, and positions far from their paths were left out."
-        "Nothing to do; more cameras, or a better calibration of them, make the noise smaller.";
+        "The recording has keypoints of video instead of markers; their noise was estimated, and positions far from their paths were left out."
+        "Nothing to do; more cameras or a better calibration of the cameras reduce the noise.";
     ScalingFitted "scaling.fitted" Note
         "States how the model was scaled to the person and how well its markers fit."
         "Nothing to do.";
@@ -303,10 +303,10 @@ codes! {
         "Nothing to do, unless the names of these markers differ in the trial.";
     // Set-ups of OpenSim's tools.
     SetupUnused "setup.unused" Note
-        "Something in a set-up of OpenSim was not used."
-        "Check that the results do not need it.";
+        "A part of a set-up of OpenSim was not used."
+        "Check that the results do not depend on it.";
     SetupReplaced "setup.replaced" Note
-        "An option replaced what a set-up of OpenSim states."
+        "An option replaced a value of a set-up of OpenSim."
         "Leave the option out to use the set-up as it is.";
     SubjectNotWritten "subject.not_written" Note
         "The body could not be written as `subject.osim`."
@@ -316,16 +316,16 @@ codes! {
         "The body mass was measured by force plates in the standing trial."
         "Nothing to do.";
     MassWeighed "mass.weighed" Note
-        "No mass is stated; the person was weighed by the force plates while moving."
+        "No mass is stated; it was measured by the force plates during the motion."
         "Nothing to do, or state the mass.";
     MassMismatch "mass.mismatch" Warning
-        "The mass by force plates over whole gait cycles differs from the model's by 3 to 5 %: results are normalised by the measured mass, the dynamics use the model's."
+        "The mass on the force plates over whole gait cycles differs from the mass of the model by 3 to 5 %: results are normalised by the measured mass, dynamics use the mass of the model."
         "Scale the model to this person.";
     MassStandingMismatch "mass.standing_mismatch" Warning
-        "The stated body mass was not used: the standing trial and the motion on the force plates agree on another one."
+        "The stated body mass was not used: the standing trial and the motion on the force plates agree on a different mass."
         "Give the measured mass, or check the standing trial.";
     MassContradicted "mass.contradicted" Warning
-        "Force plates, in motion or in the standing trial, measured another mass than forces are computed with: by more than 5 %, and more than the error of the measurement."
+        "The mass on the force plates, in motion or in the standing trial, differs from the body mass by more than 5 % and more than the error of the measurement."
         "Give the right mass, or scale the model to this person; check that every foot is on a plate.";
     MassScaled "mass.scaled" Note
         "The model was scaled to the stated mass and stature."
@@ -338,10 +338,10 @@ codes! {
         "A force plate was left out."
         "The message states what is missing or wrong in the file.";
     PlatesOriginTurned "plates.origin_turned" Note
-        "ORIGIN of a plate has the opposite sign, as many programs write it, and was reversed."
+        "ORIGIN of a plate has the opposite sign, a usual error of programs, and was reversed."
         "Nothing to do.";
     PlatesUnitChanged "plates.unit_changed" Warning
-        "By the file's unit the force plates have an impossible size; their lengths were rescaled."
+        "With the unit in the file, the size of the force plates is impossible; their lengths were rescaled."
         "Correct the unit in the file.";
     PlatesUnitUnknown "plates.unit_unknown" Warning
         "The unit of a force is unknown; it was read as newtons."
@@ -350,7 +350,7 @@ codes! {
         "The file has a polynomial that corrects the centre of pressure; it was not used."
         "Nothing to do; the correction is some millimetres.";
     PlatesForceOnPlate "plates.force_on_plate" Warning
-        "The file holds the force of the foot on the plate; all signs of the plate were reversed."
+        "The file contains the force of the foot on the plate; all signs of the plate were reversed."
         "Nothing to do if the vertical force is now upward.";
     PlatesNoCalibration "plates.no_calibration" Warning
         "A plate of this type has no calibration matrix; its channels were used as they are."
@@ -359,10 +359,10 @@ codes! {
         "The file does not state where the sensors of a plate are; its moments and centre of pressure are meaningless."
         "Add ORIGIN of the plate to the file.";
     PlatesBaseline "plates.baseline" Note
-        "A plate showed a small force without load; it was subtracted."
+        "An unloaded plate measured a small force; it was subtracted."
         "Nothing to do.";
     PlatesLargeBaseline "plates.large_baseline" Warning
-        "A plate showed a large force without load; it was subtracted."
+        "An unloaded plate measured a large force; it was subtracted."
         "Zero the plates before recording.";
     PlatesClipped "plates.clipped" Warning
         "A channel of a plate reached the end of its range; the force is too small there."
@@ -380,8 +380,8 @@ codes! {
         "Two feet were on one plate at the same time; this load was assigned to neither foot."
         "State the foot of the plate, if all of the load belongs to one.";
     PlatesSilent "plates.silent" Warning
-        "A force plate, or a whole force table, shows no load although feet stood on the ground there."
-        "Check that the plate was switched on and that the forces are those of this trial; or switch the plate off.";
+        "A force plate, or a whole force table, has no load although feet were on the ground there."
+        "Check that the plate was switched on and that the forces belong to this trial, or leave the plate out.";
     PlatesUnassigned "plates.unassigned" Warning
         "The load of a plate could not be assigned to a foot."
         "State the foot of the plate.";
@@ -389,7 +389,7 @@ codes! {
         "One foot was on two plates at the same time; both forces were added."
         "Nothing to do.";
     PlatesNoWindow "plates.no_window" Warning
-        "At no time was every loaded foot wholly on a plate: totals and forces at the pelvis cannot be judged."
+        "There is no time with every loaded foot wholly on a plate: totals and forces at the pelvis cannot be judged."
         "Record steps on plates, or predict the forces.";
     // Loads from files.
     LoadsGuessed "loads.guessed" Note
@@ -397,7 +397,7 @@ codes! {
         "State them if the guess is wrong.";
     LoadsWorldAxes "loads.world_axes" Note
         "Forces from a table are not in the markers' axes; they are read as x forward, y up, z right."
-        "Turn the table's forces if their axes are others.";
+        "Rotate the forces of the table if their axes are different.";
     LoadsSwitchedOff "loads.switched_off" Note
         "A load is switched off in its file and was not used."
         "Nothing to do.";
@@ -414,19 +414,19 @@ codes! {
         "A load acts on a body that is neither left nor right; it is used, but not in `grf.mot`."
         "Check the body on which the load acts.";
     LoadsSeveralBodies "loads.several_bodies" Note
-        "Loads act on several bodies of one side; `grf.mot` has their sum."
+        "Loads act on several bodies of one side; `grf.mot` contains their sum."
         "Nothing to do.";
     LoadsDownward "loads.downward" Warning
-        "A ground force pulls the foot down; it appears to be the force of the foot on the plate."
+        "A ground force points down; it appears to be the force of the foot on the plate."
         "Change the sign of forces and torques.";
     LoadsFarFromFoot "loads.far_from_foot" Warning
         "A force acts nearer to the other foot than to its own; right and left may be exchanged."
         "Exchange the bodies on which the loads act.";
     LoadsUnderOtherFoot "loads.under_other_foot" Warning
-        "A load lies under the other foot than the one that its file or its name states; it was used as stated."
-        "Correct the body of the load, or leave out the statement, so that the centre of pressure decides.";
+        "The centre of pressure of a load is under the other foot than stated by its file or its name; it was used as stated."
+        "Correct the body of the load, or remove it, so that the centre of pressure decides.";
     LoadsOtherHeight "loads.other_height" Warning
-        "The foot that carries a load of a force table is far above or below its centre of pressure."
+        "The foot on which a load of a force table acts is far above or below its centre of pressure."
         "Check that forces and motion have the same origin; on stairs, that the points have the height of their step.";
     LoadsUnassigned "loads.unassigned" Warning
         "A load of a force table is near neither foot and was left out at this time."
@@ -436,14 +436,14 @@ codes! {
         "The device was recorded for a part of the motion only; elsewhere its contribution is zero."
         "Choose the time in which the device was recorded.";
     DeviceUnknownColumn "device.unknown_column" Warning
-        "A column of the device's table is no generalised force of the model; it was not used."
+        "A column of the device's table is not a generalised force of the model; it was not used."
         "Name columns as in `moments.sto`.";
     // Events and cycles.
     EventsNotUsed "events.not_used" Note
         "An event of the file is neither a foot strike nor a foot off of a side; it was not used."
         "Nothing to do.";
     EventsNoFootMarkers "events.no_foot_markers" Note
-        "A foot has no marker on heel or toe, so that its events cannot be detected from motion."
+        "A foot has no marker on heel or toe, so its events cannot be detected from motion."
         "Put markers on heel and toe of both feet.";
     EventsColumns "events.columns" Note
         "States which columns were read as the upward forces of the feet."
@@ -452,10 +452,10 @@ codes! {
         "No foot strike was detected."
         "Check the range, and the threshold of force if forces were measured.";
     CyclesNone "cycles.none" Note
-        "No whole gait cycle was recorded, so that results per cycle are not written."
+        "No whole gait cycle was recorded, so results per cycle are not written."
         "Record two foot strikes of the same foot.";
     CyclesOtherFootUnseen "cycles.other_foot_unseen" Warning
-        "Within a cycle the other foot's swing and stance were not detected; it may have been off the plates."
+        "Swing and stance of the other foot were not detected within a cycle; it may have been off the plates."
         "Do not use the total force of this cycle.";
     FootfallsNone "footfalls.none" Warning
         "No stance phase was detected from the motion."
@@ -468,38 +468,38 @@ codes! {
         "Without measured forces the ground forces are predicted from the motion."
         "Give measured forces if there are any.";
     ComparisonNone "comparison.none" Warning
-        "No foot was wholly on a plate of its own, so that the prediction could not be compared with force plates."
+        "No foot was alone and wholly on a plate, so the prediction could not be compared with force plates."
         "Nothing to do.";
     PredictionFeetUnseen "prediction.feet_unseen" Warning
-        "No marker shows the direction of a foot: its stances, centre of pressure and moments are uncertain."
+        "No marker determines the direction of a foot: its stances, centre of pressure and moments are uncertain."
         "Put markers on heel and toe of both feet.";
     PredictionShort "prediction.short" Warning
         "The recording is shorter than a gait cycle; forces near its ends are uncertain."
         "Use a longer recording; `grf_sd.mot` has the standard deviations.";
     PredictionWeight "prediction.weight" Warning
-        "The mean vertical force over whole cycles is not the body weight."
+        "The mean vertical force over whole cycles differs from the body weight."
         "Check unit, rate and filter of the motion, and that the ground alone carries the body.";
     PredictionImpulse "prediction.impulse" Warning
         "The fore-aft force does not agree with the change of the body's speed."
         "Check unit, rate and filter of the motion.";
     PredictionFriction "prediction.friction" Warning
-        "A foot needs more friction than there is."
+        "A foot needs more friction than is available."
         "Check the motion of the feet and the stances.";
     PredictionPull "prediction.pull" Warning
         "The motion accelerates downwards faster than gravity, which no floor can cause."
         "Check unit and rate of the motion.";
     PredictionFeetSlide "prediction.feet_slide" Warning
-        "Loaded feet slide on the floor, so that the forces predicted from the motion are worse than stated."
+        "Loaded feet slide on the floor, so predicted forces are less accurate than their standard deviations state."
         "Refit the motion, or correct the angles of the legs.";
     RefitDone "refit.done" Note
-        "The motion was changed so that loaded feet do not slide; says by how much, and what was gained."
+        "The motion was changed so that loaded feet do not slide; the message states the change and the improvement."
         "Nothing to do.";
     RefitNone "refit.none" Warning
-        "No foot rests on the floor, so that the refit changed nothing."
+        "No foot is at rest on the floor, so the refit changed nothing."
         "Check axes and units of the motion, and that feet touch the ground.";
     PredictionUntested "prediction.untested" Warning
-        "Ground forces were predicted for an activity on which the prediction was never compared with force plates."
-        "Use force plates, or read ground forces and joint moments as estimates.";
+        "The prediction of ground forces was never compared with force plates in this activity."
+        "Use force plates, or treat ground forces and joint moments as estimates.";
     PredictionNotThroughTheFeet "prediction.not_through_the_feet" Warning
         "The motion needs forces that cannot act through the feet alone."
         "Check for a hand on a rail, a seat, a load that is carried, and errors of the motion.";
@@ -508,20 +508,20 @@ codes! {
         "Residual forces at the root are large: motion, forces and model do not agree, and joint moments cannot be trusted."
         "Check files, sides and time origin; choose the time in which every loaded foot is on a plate.";
     ConsistencyIncompleteForces "consistency.incomplete_forces" Warning
-        "Motion and forces disagreed by more than half the body weight, as if a foot had been where nothing measures; the motion was changed for it."
-        "Choose the time in which all forces are known.";
+        "Motion and forces disagree by more than half the body weight, as if a foot were on ground without a plate; the motion was changed to agree."
+        "Choose the time in which all forces were measured.";
     ConsistencyResidualLeft "consistency.residual_left" Warning
         "Within its tolerances the motion cannot agree with the forces: more than 1 % of body weight, or of body weight times one metre, is left at the root."
         "Use wider tolerances or another mass, or check for forces that were not measured.";
     ConsistencyLargeChange "consistency.large_change" Warning
-        "A coordinate was changed by more than the usual error of motions: 2 degrees, or 30 mm at the root."
+        "A coordinate was changed by more than the usual error of a motion: 2 degrees, or 30 mm at the root."
         "Check mass, body and forces.";
     ConsistencyNotSettled "consistency.not_settled" Warning
         "Residual reduction did not converge."
-        "Read its results with care; wider tolerances may help.";
+        "Interpret the results with care; wider tolerances may help.";
     TrackingResidualLeft "tracking.residual_left" Warning
-        "Tracking found no motion that feet on the ground alone can make: residual forces of more than 0.5 % of body weight are left at the root."
-        "Choose a shorter time, or check the size of the body and whether something else carries the person.";
+        "Tracking did not remove the residual forces: more than 0.5 % of body weight is left at the root."
+        "Choose a shorter time; check the size of the body, and whether anything but the feet supports the person.";
     TrackingLargeChange "tracking.large_change" Warning
         "Tracking changed the rotations by more than 5 degrees (rms), more than the error of recorded motions."
         "Check mass, body and the motion of the feet; use predicted forces instead.";
@@ -536,22 +536,22 @@ codes! {
         "No small change makes this gait dynamically consistent; residual forces remain, and the verdict judges them."
         "Choose another speed, step length or style.";
     WalkReplayFell "walk.replay_fell" Note
-        "Torques without feedback were replayed on the figure; it falls or is still up after the time that the message gives."
-        "Nothing to do: torques that know nothing of the motion do not keep a figure upright.";
+        "Torques were replayed on the figure without feedback; the message states when it falls."
+        "Nothing to do: torques without feedback do not keep a figure upright.";
     WalkReplayFigure "walk.replay_figure" Warning
         "The replayed torques were computed for a figure of another mass."
         "Use the figure that the torques were computed for, or compute torques for this one.";
     FigureFell "figure.fell" Warning
-        "A figure that walks by its own torques fell: its pelvis sank below 0.7 of its first height over the ground. Its joints are then only damped, it lies on the ground, and the run ends 2 s after all such figures have fallen."
+        "A figure that walks by its own torques fell: its pelvis is below 0.7 of its first height over the ground. Its joints are then only damped, and the run ends 2 s after all such figures have fallen."
         "Nothing to do if it was meant to fall; otherwise lift its soles further (`lift`), push it less, or choose another speed.";
     DriveGaveWay "drive.gave_way" Warning
-        "A drive without a largest force would need an unreasonable one, above 1,000 times the total weight; it gave way."
+        "A drive without a largest force would need more than 1,000 times the total weight; it gave way."
         "Prescribe a motion that the other constraints allow, or give the drive a largest force.";
     DriveAtLimit "drive.at_limit" Note
-        "A drive with a largest force or moment reached it, and follows its motion no further than that allows."
-        "Nothing to do if it is meant to press or to hold; otherwise allow a larger force.";
+        "A drive reached its largest force or moment and does not follow its motion exactly."
+        "Nothing to do if this is intended; otherwise allow a larger force.";
     StartContradictory "start.contradictory" Warning
-        "The initial velocities contradict joints, drives or closed loops; the nearest ones by mass are used."
+        "The initial velocities contradict joints, drives or closed loops; the nearest consistent velocities are used."
         "Give velocities that the joints allow, or only the rates of their coordinates.";
     EnergyRose "energy.rose" Warning
         "The mechanical energy rose above that of the start although nothing drives the scene."
@@ -566,7 +566,7 @@ codes! {
         "Two bodies pass through each other, because their contact law needs a sphere or a capsule."
         "Use the regularised law.";
     ClosureRedundant "closure.redundant" Note
-        "A loop closure repeats constraints of others; of all possible forces the least-squares ones are given."
+        "A loop closure repeats other constraints; of all possible forces, the least-squares solution is given."
         "Nothing to do, or remove the closure.";
     // Conversion of files and the report.
     ConvertAxes "convert.axes" Note
@@ -576,10 +576,10 @@ codes! {
         "The file that was converted does not state the unit of its angles."
         "Add `inDegrees` to the header of the new file.";
     ConvertHeights "convert.heights" Warning
-        "Force plates have different heights; every centre of pressure was put at the height of the first."
+        "Force plates have different heights; every centre of pressure was moved to the height of the first."
         "Nothing to do if the differences are small.";
     ConvertLost "convert.lost" Note
-        "Parts of the file that the new format cannot hold."
+        "Lists parts of the file that the new format cannot store."
         "Keep the original file.";
     ConvertRig "convert.rig" Note
         "States by how much the motion of a result differs from the animation file whose skeleton it was written into."
@@ -588,7 +588,7 @@ codes! {
         "Joints of an animation file lack the channels that a changed motion needs, so they keep or approximate it."
         "Give the joints that the message names three rotation channels (and the pelvis three position channels), and export the file again.";
     ConvertOtherName "convert.other_name" Warning
-        "A result was computed from a file of another name than the one whose skeleton it was written into."
+        "A result was written into the skeleton of a file with another name than its source."
         "Check that both are the same take.";
     ReportNotWritten "report.not_written" Warning
         "The report page could not be written."

@@ -80,7 +80,7 @@ impl From<Record> for Finding {
     }
 }
 
-/// Warnings and notes, in the order in which they first occurred.
+/// Warnings and notes, in the order in which they first occurred. Lost data is an error instead.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(transparent)]

@@ -99,9 +99,9 @@ impl Reference {
     fn fitted(recording: &MarkerRecording, recognised: &RecognisedMarkers) -> Option<Reference> {
         let (table, mass) = (SegmentTable::DeLevaMale, ANY_MASS_KG);
         let person = PersonMeasurements { table, mass, height: None, measurements: BodyMeasurements::default() };
-        let mut unheard = Findings::default();
-        let human = calibrate(recording, Trial::Moving, recognised, &person, &mut unheard).ok()?.human;
-        let fit = fit_markers(&human.model, recording, &FitSettings::default(), &mut unheard).ok()?;
+        let mut ignored = Findings::default();
+        let human = calibrate(recording, Trial::Moving, recognised, &person, &mut ignored).ok()?.human;
+        let fit = fit_markers(&human.model, recording, &FitSettings::default(), &mut ignored).ok()?;
         let coordinates = human.model.coordinates();
         let known = |frame: &usize| fit.motion.columns.iter().flatten().all(|column| column[*frame].is_finite());
         let step = recording.frames().div_ceil(FRAMES).max(1);

@@ -4,7 +4,10 @@ use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, CoordinateKind, Drive, Model};
 use crate::motion::{SmoothMotion, TimeGrid};
 
-/// A complete motion of a model. All numbers are finite; couplers and locks are obeyed.
+/// A complete motion of a model: every coordinate with rate and acceleration on a uniform time grid. All numbers are finite;
+/// couplers and locks are obeyed.
+///
+/// Poses of bodies are not stored: recomputing them where they are used is cheaper than reading them from memory.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
     grid: TimeGrid,

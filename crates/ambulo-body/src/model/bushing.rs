@@ -21,7 +21,7 @@ use super::BodyId;
 use crate::numerics::elementary::{asin, atan2, sin_cos};
 use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
-/// A spring and a damper between two frames.
+/// A spring and a damper between two frames. Inverse dynamics computes their load from the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bushing {
     /// Name of the bushing.

@@ -166,8 +166,8 @@ pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model,
     for (body, joint) in &order {
         let joint = import_joint(joint, &body_ids, &mut coordinates)?;
         let is_added = added.contains(&body.name);
-        let unheard = &mut Findings::default();
-        let inertia = import_inertia(body, if is_added { unheard } else { findings })?;
+        let ignored = &mut Findings::default();
+        let inertia = import_inertia(body, if is_added { ignored } else { findings })?;
         bodies.push(Body { name: body.name.clone(), inertia, joint });
     }
     for constraint in &document.constraints {

@@ -143,7 +143,10 @@ pub struct Marker {
     pub fixed: bool,
 }
 
-/// A tree of bodies, its coordinates and markers.
+/// A tree of bodies, its coordinates and markers; it never changes.
+///
+/// Bodies come parent first, each with the joint that carries it. A joint has at most three rotations and three translations, each
+/// a function of at most one coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     name: String,

@@ -11,7 +11,7 @@ use crate::findings::{Code, Findings};
 use crate::model::Model;
 use ambulo_formats::table::Table;
 
-/// Generalised forces of a device over time.
+/// Generalised forces of a device over time, such as the moments of an exoskeleton.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeviceRecording {
     /// Times [s], strictly increasing.

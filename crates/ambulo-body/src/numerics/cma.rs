@@ -123,7 +123,7 @@ impl Cma {
         &self.mean
     }
 
-    /// Size of the distribution: the mean standard deviation of the unknowns is near it.
+    /// Step size sigma of CMA-ES: near the mean standard deviation of the unknowns.
     #[must_use]
     pub fn sigma(&self) -> f64 {
         self.sigma

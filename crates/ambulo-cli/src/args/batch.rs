@@ -13,19 +13,22 @@ use std::str::FromStr;
   ambulo batch demo/input -o batch
   ambulo batch demo/input -o batch --dry-run -- --predict
 
-SOURCE is a folder, also a BIDS data set (every recording in it and in its folders is a trial; standing trials, models and tables of ground forces are found by the rules of
-docs/VALIDATE.md, and trials.toml states what differs), a list of trials (.csv or .jsonl, docs/BATCH.md), or a subject of AddBiomechanics (.b3d).
-Words after `--` are options of `ambulo forces` for every trial.
+SOURCE is a folder, a list of trials (.csv or .jsonl, docs/BATCH.md), or a subject of AddBiomechanics (.b3d).
+Every recording in a folder and its subfolders is a trial; BIDS data sets are supported. Standing trials, models
+and tables of ground forces are found by the rules of docs/VALIDATE.md, and trials.toml states exceptions. Words
+after `--` are options of `ambulo forces` for every trial.
 
-Files written to DIR, for DuckDB, polars, pandas and Spark: trials/, frames/, cycles/, events/, each with one file for some trials. The file in trials/
-appears last and closes its part. summary.html appears when all parts of all shards are closed. A trial that cannot be computed is a row with its error. After an interruption --resume computes the parts that are
-not closed; the files are the same, byte for byte, as those of an unbroken run, whatever --jobs is. Exit code: 0 if any trial has results, 2 if none;
-with --check 1 if a trial could not be computed, has bad data or an infeasible motion.")]
+Files written to DIR, for DuckDB, polars, pandas and Spark: trials/, frames/, cycles/, events/, each with one
+file for a part of the trials. The file in trials/ is written last and completes its part. summary.html is
+written when all parts of all shards are complete. A trial that cannot be computed is a row with its error.
+After an interruption, --resume computes the missing parts; the files have the same bytes as those of an
+uninterrupted run, with any number of --jobs. Exit code: 0 if any trial has results, 2 if none; with --check 1
+if a trial could not be computed, has bad data or an infeasible motion.")]
 pub(crate) struct BatchArgs {
     /// A folder with recordings, a list of trials (.csv, .jsonl) or a subject of AddBiomechanics (.b3d).
     #[arg(value_name = "SOURCE")]
     pub(crate) source: PathBuf,
-    /// Folder for the results: a new one, or with --resume that of an interrupted batch.
+    /// Folder for the results: a new one, or with --resume the folder of an interrupted batch.
     #[arg(short, long, value_name = "DIR", default_value = "batch")]
     pub(crate) output: PathBuf,
     /// Trials that are computed at the same time [default: the number of processors; 1 in a job of Slurm, PBS, LSF or Grid Engine].
@@ -37,7 +40,7 @@ pub(crate) struct BatchArgs {
     /// Continue an interrupted batch in its folder.
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Tables of frames that are written, cycles and events, separated by commas.
+    /// Tables to write, separated by commas: tables of frames, cycles, events.
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "kinematics,moments,powers,grf,grf_sd,cycles,events", value_parser = tables())]
     pub(crate) keep: Vec<String>,
     /// Trials in one file of each table.

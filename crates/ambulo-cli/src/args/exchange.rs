@@ -22,8 +22,9 @@ Conversions:
   .bvh         to .trc (joint centres) or .csv (channels)
   folder       of results to .glb (figure or scene, ground forces as arrows), .bvh (figure, or with --rig the animator's own skeleton) or .csv (time, quantity, unit, value)
 
-Data that the new format cannot hold are reported. Positions are in metres in .csv, in millimetres in .trc and .c3d. An existing output
-is only overwritten with --force, the input never. A folder whose files belong to two runs is refused.")]
+Data that the new format cannot store are reported. Positions are in metres in .csv, in millimetres in .trc and
+.c3d. An existing output is only overwritten with --force, the input never. A folder with files of two runs is
+refused.")]
 pub(crate) struct ConvertArgs {
     /// The file to read, or a folder of results.
     pub(crate) input: PathBuf,
@@ -38,7 +39,7 @@ pub(crate) struct ConvertArgs {
     /// The OpenSim model (.osim) of the coordinates in a .mot or .sto; needed for .bvh and .glb.
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
-    /// The animation file (.bvh) that a folder of results was computed from: the .bvh that is written has its skeleton, joint names and fingers.
+    /// The animation file (.bvh) from which the results were computed; the written .bvh has its skeleton, joint names and fingers.
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
     #[command(flatten)]
@@ -62,9 +63,10 @@ pub(crate) enum C3dPart {
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo events demo/input/walk.c3d
 
-Lists foot strikes and foot offs from force plates (20 N), from the motion of the feet (the median of four published methods) and from
-the file's own list, and compares the sources. Reads .c3d (all three), .trc, .mvnx and .bvh (motion), .mot and .sto (ground forces). Plate events
-are left out where a foot was only partly on a plate or shared it with the other foot.")]
+Lists foot strikes and foot offs from force plates (20 N), from the motion of the feet (the median of four
+published methods) and from the list in the file, and compares the sources. Reads .c3d (all three), .trc, .mvnx
+and .bvh (motion), .mot and .sto (ground forces). Plate events are left out if a foot was only partly on a plate
+or shared it with the other foot.")]
 pub(crate) struct EventsArgs {
     /// The recording.
     pub(crate) input: PathBuf,

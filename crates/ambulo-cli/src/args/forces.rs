@@ -19,26 +19,30 @@ use std::path::{Path, PathBuf};
   ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
   ambulo forces --setup Setup_Scale.xml --setup Setup_IK.xml --setup Setup_InverseDynamics.xml -o out
 
-Markers (.c3d, .trc) are fitted with the built-in body, which is calibrated from --static or else from the trial itself, or with an OpenSim
-model, which --static scales. Poses of segments in a .c3d (Theia3D) or a .mvnx (Xsens) drive the built-in body directly.
-A .sto with quaternions (OpenSense) turns a model, or the built-in body of --mass and --height; --static is then a .sto of the person standing. A .b3d has its own model and coordinates; with --model its markers are fitted instead. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
-were not measured, they are predicted from the motion; with --predict, the prediction is compared with the measurement. With --track, motion
-and forces agree to rounding, without force plates.
+Markers (.c3d, .trc) are fitted with the built-in body or with an OpenSim model. The built-in body is calibrated
+from --static, or from the trial itself; a model is scaled by --static. Poses of segments in a .c3d (Theia3D) or
+a .mvnx (Xsens) drive the built-in body directly. A .sto with quaternions (OpenSense) drives a model, or the
+built-in body of --mass and --height; --static is then a .sto of the person standing. A .b3d has its own model
+and coordinates; with --model its markers are fitted instead. Force plates in a C3D are used unless --grf is
+given. docs/MARKERS.md lists the marker names. If ground forces were not measured, they are predicted from the
+motion; with --predict, the prediction is compared with the measurement. With --track, motion and forces agree
+to rounding, without force plates.
 
-Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body
-used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict or --track and force plates grf_measured.mot. The
-results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep writes only some of them; summary.json is
-always written.
+Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
+events.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, report.html (open it with
+`ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --device moments_biological.sto; with
+predicted forces grf_sd.mot; with --predict or --track and force plates grf_measured.mot. The results of an
+earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep
+writes only some of them; summary.json is always written.
 
-The verdict says whether a person could make this motion (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
-residual forces; docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could be computed; with --check, 1 if the data
-are bad or the motion is infeasible.")]
+The verdict states whether a person could make this motion (strength, joint ranges, power, friction, centre of
+pressure, sliding, flight, residual forces; docs/JUDGEMENT.md). Exit code: 0 if results were written, 2 if
+nothing could be computed; with --check, 1 if the data are bad or the motion is infeasible.")]
 pub(crate) struct ForcesArgs {
     /// The recording: markers (.c3d, .trc, .csv with three columns per marker, _motion.tsv of BIDS), poses of segments (.c3d, .mvnx), coordinates (.mot, .sto, _motion.tsv), orientations of sensors (.sto with quaternions), a skeleton (.bvh), a motion of the SMPL family (.npz) or a subject of AddBiomechanics (.b3d).
     #[arg(required_unless_present = "setup")]
     pub(crate) input: Option<PathBuf>,
-    /// Set-up of OpenSim's ScaleTool, InverseKinematicsTool, InverseDynamicsTool, IMUPlacer or IMUInverseKinematicsTool (.xml), which names files and settings; may be repeated, once for each tool, for one run of all (docs/OPENSIM.md).
+    /// Set-up of OpenSim's ScaleTool, InverseKinematicsTool, InverseDynamicsTool, IMUPlacer or IMUInverseKinematicsTool (.xml), with files and settings; may be given once per tool, all in one run (docs/OPENSIM.md).
     #[arg(long, value_name = "FILE")]
     pub(crate) setup: Vec<PathBuf>,
     /// The body as an OpenSim model (.osim), or `built-in`; required for coordinates [default for markers, sensors and skeletons: the built-in body; for a .b3d: its own model].
@@ -72,10 +76,10 @@ pub(crate) struct ForcesArgs {
     /// Predict the ground forces as with --predict, corrected by the calibration of this person (.toml, written by `ambulo calibrate`).
     #[arg(long, value_name = "FILE", conflicts_with = "no_ground")]
     pub(crate) person: Option<PathBuf>,
-    /// Change the motion until feet on soft ground alone supply its external forces, near the recorded motion and the predicted forces (docs/OPTIMAL.md). Measured forces are only compared with the result.
+    /// Track: find the motion nearest to the recording whose external forces come from feet on soft ground alone (docs/OPTIMAL.md). Measured forces are only compared with the result.
     #[arg(long, conflicts_with_all = ["no_ground", "predict", "consistent"])]
     pub(crate) track: bool,
-    /// Change the motion as little as needed so that loaded feet do not slide, before forces are computed (docs/GROUND_FORCES.md); a note says what it gained.
+    /// Change the motion as little as needed so that loaded feet do not slide, before forces are computed (docs/GROUND_FORCES.md); a note reports the improvement.
     #[arg(long, conflicts_with = "no_ground")]
     pub(crate) refit: bool,
     /// Compute without ground forces (a swinging leg, a flight); the residual force at the root then contains the whole weight.
@@ -114,7 +118,7 @@ pub(crate) struct ForcesArgs {
     /// A point mass fixed to a body, with its position in the body's frame in metres; may be repeated.
     #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
     pub(crate) add_mass: Vec<AddedMassArg>,
-    /// Limits of what a person can do, used for the verdict: .toml (docs/FEASIBILITY.md) [default: built in].
+    /// Limits of the feasibility checks: .toml (docs/JUDGEMENT.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
     /// Folder for the results.
@@ -173,9 +177,10 @@ impl ForcesArgs {
   ambulo calibrate demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 -o person.toml
   ambulo forces demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 --person person.toml -o out
 
-Errors of predicted ground forces are personal and repeat. The trials, of one person walking over force plates with each foot on a plate of
-its own, are predicted and compared with the plates; FILE has the mean difference over the stance for each foot, and the size of the person, by
-which a prediction of somebody else is refused. One trial is enough to begin, more are better (docs/GROUND_FORCES.md).")]
+Errors of predicted ground forces are similar in all trials of a person. The trials show one person walking
+over force plates, each foot on a separate plate. They are predicted and compared with the plates. FILE has the
+mean difference over the stance for each foot, and the size of the person, so that predictions of other persons
+are refused. One trial is enough; more are better (docs/GROUND_FORCES.md).")]
 pub(crate) struct CalibrateArgs {
     /// Trials of one person walking over force plates (.c3d).
     #[arg(required = true)]
@@ -243,7 +248,7 @@ pub(crate) struct SubjectArgs {
     /// Standing trial of the same person: .c3d or .trc; for sensors a .sto with quaternions.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
-    /// Body mass [kg]; a standing trial on force plates that differs by less than 5 % is used instead, a given model is scaled to it
+    /// Body mass [kg]; the mass of a standing trial on force plates is used instead if it differs by less than 5 %. A given model is scaled to it
     /// [default: as measured by the force plates or stated in the recording; with --model the model's].
     #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
     pub(crate) mass: Option<f64>,
@@ -257,7 +262,7 @@ pub(crate) struct SubjectArgs {
     /// The marker set: a name from docs/MARKERS.md or a .toml [default: recognised from the marker names].
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) markers: Option<String>,
-    /// Markers for --model in a file of their own: an OpenSim MarkerSet (.xml). A marker replaces the one of its name, others are added.
+    /// Markers for --model from a separate OpenSim MarkerSet (.xml). Markers replace those with the same name; others are added.
     #[arg(long, value_name = "FILE")]
     pub(crate) marker_set: Option<PathBuf>,
     /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; may be repeated [default: detected].
@@ -275,12 +280,12 @@ pub(crate) struct SubjectArgs {
 // How the orientations of sensors are read.
 #[derive(Debug, Clone, Default, ClapArgs)]
 pub(crate) struct SensorArgs {
-    /// Sensors: the axis of one that points forward in the standing posture, such as pelvis_imu:-z (OpenSim's base_imu_label and
-    /// base_heading_axis) [default: the bending of the knees shows the direction].
+    /// Sensors: sensor and axis that point forward in the standing posture, such as pelvis_imu:-z (OpenSim's base_imu_label and
+    /// base_heading_axis) [default: direction in which the knees bend].
     #[arg(long, value_name = "SENSOR:AXIS")]
     pub(crate) heading: Option<HeadingAxis>,
-    /// Sensors: turn from their earth to the axes of the model, of which y is up: angles about the fixed axes x, y and z in degrees
-    /// (OpenSim's sensor_to_opensim_rotations) [default: -90,0,0, for an earth with z up].
+    /// Sensors: rotation from the sensors' world axes to the axes of the model (y up): angles about the fixed axes x, y and z in degrees
+    /// (OpenSim's sensor_to_opensim_rotations) [default: -90,0,0, for a world with z up].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub(crate) earth: Option<EarthTurn>,
 }

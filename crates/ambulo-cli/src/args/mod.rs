@@ -36,7 +36,7 @@ pub(crate) struct Args {
     pub(crate) command: Option<Command>,
 }
 
-// Options are described only of the subcommand that is asked for: describing those of all of them would take most of the time until a run begins.
+// Only the options of the requested subcommand are described. Describing all of them would take most of the start time.
 // Groups of options have no doc comments, which clap would then show as the description of the subcommand.
 #[derive(Debug, Subcommand)]
 #[command(defer = true)]
@@ -45,7 +45,7 @@ pub(crate) enum Command {
     Forces(Box<ForcesArgs>),
     /// Calibrate the predicted ground forces of a person with trials on force plates, for `forces --person`.
     Calibrate(Box<CalibrateArgs>),
-    /// Judge predicted ground forces on a folder of recordings with force plates: per trial, person and activity, on one page.
+    /// Compare predicted ground forces with force plates in a folder of recordings: per trial, person and activity, on one page.
     Validate(ValidateArgs),
     /// Compute all recordings of a folder or a list into Parquet tables: in parallel, in shards, resumable after any interruption.
     Batch(BatchArgs),
@@ -82,12 +82,12 @@ pub(crate) enum Command {
 // Whether files that Ambulo did not write are replaced.
 #[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct ReplaceArgs {
-    /// Also replace files that are in the way and that no run of Ambulo wrote, or that were changed since; never an input.
+    /// Also replace existing files that were not written by Ambulo or were changed since; never an input.
     #[arg(long)]
     force: bool,
 }
 
-/// How to treat an existing file that no earlier run recorded as its own.
+/// How to treat an existing file that no earlier run wrote.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Existing {
     /// It stays, and nothing is written.

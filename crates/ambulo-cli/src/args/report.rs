@@ -9,9 +9,9 @@ use std::path::PathBuf;
   ambulo report demo
   ambulo report demo --compare slow -o demo_and_slow.html
 
-Writes report.html again from the files of a result folder, as `ambulo forces`, `walk`, `demo` and `simulate` do. The page is one file and
-loads nothing from elsewhere. --compare adds the curves, tables and figures of up to two other folders. docs/REPORT.md describes the page. A folder whose files
-belong to two runs is refused.")]
+Writes report.html again from the files of a result folder, as `ambulo forces`, `walk`, `demo` and `simulate` do.
+The page is one file and loads nothing from elsewhere. --compare adds the curves, tables and figures of up to two
+other folders. docs/REPORT.md describes the page. A folder with files of two runs is refused.")]
 pub(crate) struct ReportArgs {
     /// The result folder.
     pub(crate) folder: PathBuf,
@@ -31,8 +31,9 @@ pub(crate) struct ReportArgs {
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo view demo
 
-Opens a page, or report.html of a result folder, in the browser. Without a browser, or if BROWSER=none is set, prints the path of the page.
-Writes the page first if the folder has none. A folder whose files belong to two runs is refused.")]
+Opens a page, or report.html of a result folder, in the browser. Without a browser, or if BROWSER=none is set,
+prints the path of the page. Writes the page first if the folder has none. A folder with files of two runs is
+refused.")]
 pub(crate) struct ViewArgs {
     /// A result folder, or a page (.html).
     #[arg(value_name = "DIR_OR_FILE")]

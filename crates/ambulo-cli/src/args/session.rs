@@ -11,14 +11,16 @@ use std::path::PathBuf;
   ambulo session demo/input --dry-run
   ambulo session demo/input/walk.mot demo/input/figure.osim -o session     # these files only
 
-DIR is a visit: the trials of one person, with at most one standing trial. The files of each trial are found by the rules of docs/VALIDATE.md, and
-trials.toml states what differs: person, age, static, mass, height, model, grf, loads, exclude. All trials use one body, calibrated once. Each is computed as
-`ambulo forces --predict` does; forces are measured where force plates measured the whole stance of a cycle. Words after `--` are options of
-`ambulo forces` for every trial.
+DIR is a visit: the trials of one person, with at most one standing trial. The files of each trial are found by
+the rules of docs/VALIDATE.md, and trials.toml states exceptions: person, age, static, mass, height, model, grf,
+loads, exclude. All trials use one body, calibrated once. Each trial is computed as by `ambulo forces --predict`.
+Forces are measured if force plates measured the whole stance of a cycle, else predicted. Words after `--` are
+options of `ambulo forces` for every trial.
 
-Files written to OUT: session.html (open it with `ambulo view OUT`), summary.json, cycles.csv, times_and_distances.csv, deviations.csv; with --compare
-differences.csv; with --norm norm.json. A trial that cannot be computed is a row with its reason. Exit code: 0 if any trial has a cycle that counts, 2 if
-none. docs/SESSION.md has the rules and the definitions.")]
+Files written to OUT: session.html (open it with `ambulo view OUT`), summary.json, cycles.csv,
+times_and_distances.csv, deviations.csv; with --compare differences.csv; with --norm norm.json. A trial that
+cannot be computed is a row with its reason. Exit code: 0 if any trial has a cycle that counts, 2 if none.
+docs/SESSION.md has the rules and the definitions.")]
 pub(crate) struct SessionArgs {
     /// The folder with the recordings of the visit; or the files: recordings, standing trial, models, tables of forces.
     #[arg(value_name = "DIR|FILES", required = true, num_args = 1..)]
@@ -26,10 +28,10 @@ pub(crate) struct SessionArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "OUT", default_value = "session")]
     pub(crate) output: PathBuf,
-    /// An earlier session of the person (the OUT of that time), to show what changed.
+    /// Folder of an earlier session of the person, to show the changes.
     #[arg(long, value_name = "EARLIER")]
     pub(crate) compare: Option<PathBuf>,
-    /// Own reference group: norm.json of an earlier run, or a folder with the recordings or the sessions of healthy people, one folder per person [default: children of Schwartz et al. 2008].
+    /// Your own reference group: norm.json of an earlier run, or a folder with recordings or sessions of healthy subjects, one folder per subject [default: children of Schwartz et al. 2008].
     #[arg(long, value_name = "FILE|DIR")]
     pub(crate) norm: Option<PathBuf>,
     /// Write no name, no path and no date into any file.

@@ -17,40 +17,41 @@ use std::str::FromStr;
   ambulo stream MODEL.osim --rate 200 --input tcp:5005 --page=8080
   ambulo stream out/subject.osim --rate 100 --input tcp:5005 --markers --unit mm --axes +y,+z
 
-Frames come in as coordinates of the model, results go back to where they came from: standard output, the same connection, or the sender of the
-datagrams. With --format json every message is a line. The first one may name the coordinates, the frames follow:
+Frames are coordinates of the model. Results are sent to the source of the frames: standard output, the same
+connection, or the sender of the datagrams. With --format json every message is a line. The first line may name
+the coordinates, then frames follow:
 
   {\"coordinates\": [\"pelvis_tilt\", \"pelvis_tx\"], \"angles\": \"deg\"}
   {\"frame\": 0, \"q\": [1.5, 0.02]}
   {\"frame\": 1, \"q\": [1.6, null]}
 
-With --markers a frame has positions instead; null is a marker that is not seen:
+With --markers a frame has positions instead; null is a missing marker:
 
   {\"markers\": [\"RASI\", \"LASI\"], \"unit\": \"mm\", \"axes\": \"+y,+z\"}
   {\"frame\": 0, \"markers\": [[812.5, 101.0, 960.2], null]}
 
-Angles are radians unless the first line says `deg`, lengths are metres; null is a missing value. `frame` counts the frames, or `time` gives their
-time in seconds: from it the command sees frames that were lost, doubled, late or out of order, says so, and goes on. docs/STREAMING.md
-describes both formats, the delays and the accuracy of each.")]
+Angles are in radians unless the first line states `deg`, lengths in metres; null is a missing value. `frame`
+counts the frames, or `time` is their time in seconds. Frames that are missing, repeated, late or out of order
+are reported, and the stream continues. docs/STREAMING.md describes formats, delays and accuracy.")]
 pub(crate) struct StreamArgs {
     /// The OpenSim model (.osim) of the coordinates.
     pub(crate) model: PathBuf,
     /// Frame rate of the motion [Hz].
     #[arg(long, value_name = "HZ", value_parser = number)]
     pub(crate) rate: f64,
-    /// Time from a frame to its forces [ms]: 0 at once, 70 as accurate as it gets without waiting for the next step.
+    /// Delay from a frame to its forces [ms]: 0 is immediate; 70 is the most accurate without waiting for the next step.
     #[arg(long, value_name = "MS", default_value_t = 70.0, value_parser = milliseconds)]
     pub(crate) delay: f64,
-    /// Where frames come from: stdin, tcp:[IP:]PORT or udp:[IP:]PORT; without an address only this computer can connect (127.0.0.1).
+    /// Source of the frames: stdin, tcp:[IP:]PORT or udp:[IP:]PORT; without an address only this computer can connect (127.0.0.1).
     #[arg(long, value_name = "SOURCE", default_value = "stdin", value_parser = endpoint)]
     pub(crate) input: Endpoint,
-    /// Frames are positions of markers, to which the model is fitted; it must have these markers at their places on the person, as subject.osim of `ambulo forces` has.
+    /// Frames are marker positions, to which the model is fitted; it must have these markers at their positions on the person, like subject.osim of `ambulo forces`.
     #[arg(long)]
     pub(crate) markers: bool,
-    /// Unit of the markers, unless the first line has another.
+    /// Unit of the markers, unless the first line states it.
     #[arg(long, value_enum, default_value_t, requires = "markers")]
     pub(crate) unit: MarkerUnit,
-    /// Axes of the markers' laboratory that point forward and up, such as +y,+z; those of the model are +x,+y.
+    /// Axes of the laboratory that point forward and up, such as +y,+z; in the model they are +x,+y.
     #[arg(long, value_name = "FORWARD,UP", default_value_t, allow_hyphen_values = true, requires = "markers")]
     pub(crate) axes: LabAxes,
     /// Form of frames and results.
@@ -59,7 +60,7 @@ pub(crate) struct StreamArgs {
     /// Show a page with the moving figure and the curves of the last seconds in the browser, at this port (0: the system chooses one); without an address only this computer can open it.
     #[arg(long, value_name = "[IP:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = "0", value_parser = local_address)]
     pub(crate) page: Option<SocketAddr>,
-    /// Print the coordinates that a frame has and the columns of a result, and stop.
+    /// Print the coordinates of a frame and the columns of a result, and stop.
     #[arg(long)]
     pub(crate) describe: bool,
     /// Print nothing but errors on standard error.
@@ -70,7 +71,7 @@ pub(crate) struct StreamArgs {
 /// Form of frames and results.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StreamFormat {
-    /// A line of JSON each.
+    /// One line of JSON each.
     #[default]
     Json,
     /// Records of one size: the number of the frame as 32-bit integer, then 32-bit numbers, all little-endian.
@@ -120,14 +121,14 @@ impl Axis {
 }
 
 impl LabAxes {
-    /// Rotation from the axes of the laboratory to those of the world: x forward, y up, z right.
+    /// Rotation from laboratory to world axes: x forward, y up, z right.
     pub(crate) fn world_from_lab(self) -> Mat3 {
         let (forward, up) = (self.forward.direction(), self.up.direction());
         Mat3::from_rows(&[forward.transpose(), up.transpose(), forward.cross(&up).transpose()])
     }
 }
 
-/// Those of the world.
+/// World axes.
 impl Default for LabAxes {
     fn default() -> LabAxes {
         LabAxes { forward: Axis { number: 0, is_negative: false }, up: Axis { number: 1, is_negative: false } }

@@ -10,10 +10,11 @@ use std::path::PathBuf;
   ambulo simulate examples/pendulum.toml -o out
   ambulo simulate examples/pile.toml --keep report,energy -o out
 
-Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, shapes.json, summary.json, report.html
-(open it with `ambulo view DIR`); moments.sto if the scene has figures; figures/*.svg (the quantities under `plot` in the
-scene, or else energy, contacts, joints and heights). Files that would be empty are not written; --keep writes only some of them. The results of an earlier run in DIR are replaced as a whole; other files stay. docs/SCENES.md describes scene files,
-docs/OUTPUTS.md the results.")]
+Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, shapes.json,
+summary.json, report.html (open it with `ambulo view DIR`); moments.sto if the scene has figures; figures/*.svg
+(the quantities under `plot` in the scene, or else energy, contacts, joints and heights). Files that would be
+empty are not written; --keep writes only some of them. The results of an earlier run in DIR are replaced as a
+whole; other files stay. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]
 pub(crate) struct SimulateArgs {
     /// The scene (.toml).
     pub(crate) scene: PathBuf,
@@ -47,15 +48,18 @@ pub(crate) struct SimulateArgs {
 #[command(after_help = "Example (in the source folder, which contains examples/):
   ambulo tune examples/pushed-walker.toml -o tuned.toml
 
-The figure walks on level ground without the rest of its scene and is pushed at the trunk for 0.2 s: forward and backward, or from all sides if
-it has three dimensions. CMA-ES changes the gains; the cost counts falls, the deviation from the plan, effort and speed. The pushes that compare
-candidates, those that choose the result and those of the report are three different sets, drawn from --seed. Gains that are not better than
-those of the scene are not chosen. docs/PHYSICAL_WALK.md has the formula.
+The figure walks alone on level ground and is pushed at the trunk for 0.2 s: forward and backward, or from all
+sides if it has three dimensions. CMA-ES changes the gains. The cost counts falls, the deviation from the plan,
+effort and speed. Three different sets of pushes, drawn from --seed, compare the candidates, choose the result
+and make the report. Gains that are not better than the gains of the scene are not chosen.
+docs/PHYSICAL_WALK.md has the formula.
 
-Files written after every generation: FILE with the key `control` to paste into the scene, and FILE with the ending .state.json for --resume. A
-run that is stopped loses one generation at most. The result depends on all options but --jobs.
+Files written after every generation: FILE with the key `control` to paste into the scene, and FILE with the
+extension .state.json for --resume. A stopped run loses at most one generation. The result depends on all
+options but --jobs.
 
-Gains: stiffness, damping, angle_deg, rate_deg, pelvis_deg, height, sideways, velocity, velocity_up, torque, as in docs/SCENES.md.")]
+Gains: stiffness, damping, angle_deg, rate_deg, pelvis_deg, height, sideways, velocity, velocity_up, torque, as
+in docs/SCENES.md.")]
 pub(crate) struct TuneArgs {
     /// The scene (.toml), with a figure that has the key `control`.
     pub(crate) scene: PathBuf,
@@ -65,10 +69,10 @@ pub(crate) struct TuneArgs {
     /// Name of the figure [default: the first one with `control`].
     #[arg(long, value_name = "NAME")]
     pub(crate) figure: Option<String>,
-    /// Gains to tune, separated by commas [default: all but torque, and but sideways in the plane].
+    /// Gains to tune, separated by commas [default: all but torque; in the plane also without sideways].
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub(crate) gains: Vec<String>,
-    /// Number of evaluations; the last generation is not begun if it would exceed it.
+    /// Number of evaluations; a generation that would exceed it is not started.
     #[arg(long, value_name = "N", default_value_t = 330, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     pub(crate) evaluations: u32,
     /// Seed of the search and of its pushes.
@@ -97,12 +101,13 @@ pub(crate) struct TuneArgs {
   ambulo info demo/input/walk.c3d
   ambulo info demo/input/walk.c3d --markers mine.toml
 
-Reads recordings (.c3d), markers (.trc), skeletons (.bvh), models (.osim), tables (.mot, .sto, .csv) and external loads (.xml). Lists the
-content (rates, markers and their gaps, marker set, poses of segments, force plates, events, subject), problems, and a command to try next.")]
+Reads recordings (.c3d), markers (.trc), skeletons (.bvh), models (.osim), tables (.mot, .sto, .csv) and external
+loads (.xml). Lists the content (rates, markers and their gaps, marker set, poses of segments, force plates,
+events, subject), problems, and a command to try next.")]
 pub(crate) struct InfoArgs {
     /// The file.
     pub(crate) file: PathBuf,
-    /// Write the markers of the file with their meaning as a marker set, for `ambulo forces --markers FILE`: recognised by name, or proposed by where they sit on the body; an existing file is only overwritten with --force.
+    /// Write the markers of the file and their meaning as a marker set for `ambulo forces --markers FILE`: recognised by name, or proposed by position; an existing file is only overwritten with --force.
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) markers: Option<PathBuf>,
     #[command(flatten)]
@@ -141,11 +146,12 @@ pub(crate) struct CompareArgs {
 #[command(after_help = "Example:
   ambulo reproduce -o paper
 
-The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking. Files written to DIR: report.html (all results on one
-page; open it with `ambulo view DIR`), claims.json (each claim with the numbers computed, whether it holds, and why), figures/figure1 to
-figure7 as .svg and .csv, muscles.csv (what net moments imply about muscles), torques.csv and torques.toml (torque curves as harmonics),
-assumptions.csv (values that the paper does not give, and how other values change its claims). The results of an earlier run in DIR are
-replaced as a whole; other files stay. --keep writes only some of the files. docs/REPRODUCTION.md describes them.
+The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking. Files written to DIR:
+report.html (all results on one page; open it with `ambulo view DIR`), claims.json (each claim with its numbers
+and judgement), figures/figure1 to figure7 as .svg and .csv, muscles.csv (what net moments imply about muscles),
+torques.csv and torques.toml (torque curves as harmonics), assumptions.csv (values that the paper does not give,
+and how other values change its claims). The results of an earlier run in DIR are replaced as a whole; other
+files stay. --keep writes only some of the files. docs/REPRODUCTION.md describes them.
 
 Exit code: 0 whether or not claims hold, 2 if nothing could be computed.")]
 pub(crate) struct ReproduceArgs {

@@ -12,15 +12,17 @@ use std::path::PathBuf;
   ambulo validate demo/input --mass 75 --height 1.75 -o validation
   ambulo validate demo/input --dry-run
 
-Predicts the ground forces of every recording with force plates in DIR and its folders, as `ambulo forces --predict`, and compares them with the
-plates. A folder with recordings is a person. A recording in which the person stands still is the standing trial of the others in its folder.
-Markers (.c3d, .trc) and coordinates (.mot, .sto) without plates have the table of ground forces that has the same name but for words such as
-`grf`: walk1.trc, walk1_grf.mot. The only model (.osim) of a folder is that of its .trc, .mot and .sto. A .b3d is a person with its trials.
-trials.toml in DIR states what differs: person, kind, static, mass, height, model, grf, loads, exclude (docs/VALIDATE.md). --dry-run prints what was found.
+Predicts the ground forces of every recording with force plates in DIR and its subfolders, as by
+`ambulo forces --predict`, and compares them with the plates. A folder with recordings is a person. A recording
+of the person standing still is the standing trial of the others in its folder. Markers (.c3d, .trc) and
+coordinates (.mot, .sto) without plates use the table of ground forces with the same name except for words such
+as `grf`: walk1.trc, walk1_grf.mot. The only model (.osim) of a folder is used for its .trc, .mot and .sto. A
+.b3d is a person with several trials. trials.toml in DIR states exceptions: person, kind, static, mass, height,
+model, grf, loads, exclude (docs/VALIDATE.md). --dry-run prints the files that were found.
 
-Files written to OUT: validation.html (open it with `ambulo view OUT/validation.html`), validation.md (the same tables), stances.csv (each
-stance), means.csv (each trial, person and kind of trial), summary.json. A trial that cannot be judged is listed with its error. Exit code: 0 if
-at least one trial was judged, 2 if none.")]
+Files written to OUT: validation.html (open it with `ambulo view OUT/validation.html`), validation.md (the same
+tables), stances.csv (each stance), means.csv (each trial, person and kind of trial), summary.json. A trial that
+cannot be judged is listed with its error. Exit code: 0 if at least one trial was judged, 2 if none.")]
 pub(crate) struct ValidateArgs {
     /// The folder with the recordings.
     #[arg(value_name = "DIR")]
@@ -40,7 +42,7 @@ pub(crate) struct ValidateArgs {
     /// Judge tracking as well (`ambulo forces --track`): one to three seconds per trial.
     #[arg(long)]
     pub(crate) track: bool,
-    /// Only print which files are judged, with what, and which are not.
+    /// Only print which files are judged, with their settings, and which are not.
     #[arg(long)]
     pub(crate) dry_run: bool,
     /// Trials that are computed at the same time [default: the number of processors]; the results do not depend on it.

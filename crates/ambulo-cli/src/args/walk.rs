@@ -14,8 +14,8 @@ use std::path::PathBuf;
 #[command(after_help = "Example:
   ambulo demo -o demo
 
-The same as `ambulo walk -o demo`, and the walk is also written to DIR/input as a recording (C3D, TRC, BVH, coordinates), which the
-examples of the other commands use (`ambulo forces --help`).")]
+The same as `ambulo walk -o demo`. The walk is also written to DIR/input as a recording (C3D, TRC, BVH,
+coordinates), which the examples of the other commands use (`ambulo forces --help`).")]
 pub(crate) struct DemoArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
@@ -39,27 +39,30 @@ pub(crate) struct DemoArgs {
   ambulo walk --gait slow --states
   ambulo walk --slope 8 --load 15kg:back -o uphill
 
-Modes: `optimal` finds a walk in three dimensions on soft shoes that is near the angles and forces of people and needs no force from outside
-(docs/OPTIMAL.md); the usual figures at slow, free and fast speed are solved beforehand, others take some seconds. `predict` also walks in
-three dimensions, but follows no curves of people: muscles work as little as they can; it takes some seconds, and slopes, loads, weak joints
-and devices are allowed. `corrected` (or --planar)
-walks in the sagittal plane: it changes the gait by a few degrees until it has no residual forces, and simulates it on soft shoes. `paper`
-drives the joints with the unchanged curves, holds the trunk upright and has rigid soles, as Faure, Debunne, Cani and Multon did in 1997.
-`optimal` takes gaits with the curves of people and a constant pace; `corrected` takes any gait whose machines do the same in every cycle,
-the others are walked in the mode `paper`. The gaits standard, long, short and goose (a high step) are from the paper, and parade is a
-step with straight knees; without --style they use style 1997 in the mode
-`paper` and style knots in the mode `corrected`. If no motion near a gait is dynamically consistent, a warning says so.
+Modes (docs/WALKS.md says which mode to use when):
+  optimal    3-D, near normative curves, no residual forces; usual figures and speeds are solved beforehand
+  predict    3-D, minimises muscle effort, follows no recorded curves; slopes, loads, weak joints, devices
+  corrected  sagittal plane (--planar), nearest motion to the gait without residual forces; any gait whose
+             machines repeat in every cycle
+  physical   3-D, by the figure's own torques along its optimal walk; it may fall
+  paper      sagittal plane, exactly the curves of the gait, trunk held upright, rigid soles, as in the 1997 paper
 
-Two of --speed, --step-length and --cadence determine the third. With one of them, the others follow from the usual relation of step length
-and cadence to speed (docs/GAITS.md, which also describes gait files). In both cases the gait's own values are ignored.
+The gaits standard, long, short and goose (a high step) are from the paper; parade is a step with straight
+knees. Without --style they use style 1997 in the mode `paper` and style knots in the mode `corrected`.
+If no motion near a gait is dynamically consistent, a warning reports it.
 
-Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-clinical.csv, times_and_distances.csv, states.csv (the states of the gait's machines), summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The
-results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep writes only
-some of them; summary.json is always written.
+Two of --speed, --step-length and --cadence determine the third. With one of them, the others follow from the
+usual relation of step length and cadence to speed (docs/GAITS.md, which also describes gait files). In both
+cases the gait's own values are ignored.
 
-The verdict says whether a person could make this motion (docs/FEASIBILITY.md). Exit code: 0 if results were written, 2 if nothing could
-be computed; with --check, 1 if the data are bad or the motion is infeasible.")]
+Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
+events.csv, cycles.csv, clinical.csv, times_and_distances.csv, states.csv (states of the gait's machines),
+summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The results of an
+earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep
+writes only some of them; summary.json is always written.
+
+The verdict states whether a person could make this motion (docs/JUDGEMENT.md). Exit code: 0 if results were
+written, 2 if nothing could be computed; with --check, 1 if the data are bad or the motion is infeasible.")]
 pub(crate) struct WalkArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArgs,
@@ -67,7 +70,7 @@ pub(crate) struct WalkArgs {
     pub(crate) figure: FigureArgs,
     #[command(flatten)]
     pub(crate) conditions: ConditionArgs,
-    /// How the walk is computed [default: optimal for a steady gait of people; corrected for other gaits with equal sides; else paper].
+    /// How the walk is computed [default: optimal for a steady gait with normative curves; corrected for other gaits that repeat; else paper].
     #[arg(long, value_enum)]
     pub(crate) mode: Option<WalkMode>,
     /// Walk in the sagittal plane: the same as `--mode corrected`.
@@ -76,7 +79,7 @@ pub(crate) struct WalkArgs {
     /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = super::forces::AngleConvention::Clinical)]
     pub(crate) convention: super::forces::AngleConvention,
-    /// Replay torques without feedback: a torques.toml of `ambulo reproduce`, with the gait of --gait [default then: standard] in the mode paper.
+    /// Replay torques without feedback, in the mode paper: a torques.toml of `ambulo reproduce` [--gait then defaults to standard].
     #[arg(long, value_name = "FILE")]
     pub(crate) torques: Option<PathBuf>,
     /// Whole gait cycles per foot, 1 to 1000.
@@ -85,10 +88,10 @@ pub(crate) struct WalkArgs {
     /// Frame rate of the results, 20 to 5000 Hz.
     #[arg(long, value_name = "HZ", default_value_t = 100.0, allow_negative_numbers = true, value_parser = number)]
     pub(crate) rate: f64,
-    /// Only print the state machines of the gait and, while they run, each change of their states: time, machine, old and new state, and the condition that was true.
+    /// Only print the state machines of the gait and each change of their states: time, machine, old and new state, and the condition that was true.
     #[arg(long)]
     pub(crate) states: bool,
-    /// Limits of what a person can do, used for the verdict: .toml (docs/FEASIBILITY.md) [default: built in].
+    /// Limits of the feasibility checks: .toml (docs/JUDGEMENT.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
     /// Folder for the results [default: out]; with --states, for the figure of the gait [default: none].
@@ -110,13 +113,15 @@ pub(crate) struct WalkArgs {
   ambulo sweep --speed 0.8:1.6:0.2 --mass 60,80,100 -o sweep
   ambulo sweep --speed 1.2 --slope=-8,0,8 --load 0,15 -o hills
 
-Every combination of the values is one walk in three dimensions, the same as `ambulo walk` computes with these options: from the curves of
-people, or predicted if a slope, a load, a weak joint or a device is given. LIST is numbers separated by commas, or FROM:TO:STEP. A walk takes
-some seconds; walks are computed side by side, as many as there are processors.
+Each combination of the values is one walk in three dimensions, as `ambulo walk` computes it with these
+options: near normative curves, or predicted if a slope, a load, a weak joint or a device is given. LIST is
+numbers separated by commas, or FROM:TO:STEP. A walk takes some seconds; as many walks as there are
+processors are computed at the same time.
 
-Files written to DIR: sweep.csv (angle, rate, moment, power and ground force over the gait cycle of each foot of each walk), walks.csv (one
-row per walk with the extremes of all quantities; walks that were not found, and why), figures/*.svg, summary.json, report.html (envelopes
-over all walks; open it with `ambulo view DIR`). docs/OUTPUTS.md describes the columns.
+Files written to DIR: sweep.csv (angle, rate, moment, power and ground force over the gait cycle of each foot
+of each walk), walks.csv (one row per walk with the extremes of all quantities; walks that were not found, and
+why), figures/*.svg, summary.json, report.html (envelopes over all walks; open it with `ambulo view DIR`).
+docs/OUTPUTS.md describes the columns.
 
 Exit code: 0 if a walk was found, 2 if none was; with --check, 1 if a walk was not found or is infeasible.")]
 pub(crate) struct SweepArgs {
@@ -132,16 +137,16 @@ pub(crate) struct SweepArgs {
     /// Slopes of the ground [%], uphill is positive; implies predicted walks.
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub(crate) slope: Option<Values>,
-    /// Loads [kg] that are carried: on the back, half in each hand, or at the pelvis [default: back]; implies predicted walks.
+    /// Carried loads [kg]: on the back, half in each hand, or at the pelvis [default: back]; implies predicted walks.
     #[arg(long, value_name = "LIST[:back|hands|pelvis]", allow_hyphen_values = true)]
     pub(crate) load: Option<Loads>,
-    /// Share of its strength that a joint has left, in all walks, such as ankle=0.6; repeatable; implies predicted walks.
+    /// Remaining share of a joint's strength in all walks, such as ankle=0.6; repeatable; implies predicted walks.
     #[arg(long, value_name = "JOINT=SHARE", value_parser = weakness)]
     pub(crate) weak: Vec<(String, f64)>,
     /// Devices at joints in all walks, springs or given moments: .toml (docs/OPTIMAL.md); implies predicted walks.
     #[arg(long, value_name = "FILE")]
     pub(crate) device: Option<PathBuf>,
-    /// Predict all walks: muscles work as little as they can, and no curves of people are followed.
+    /// Predict all walks: minimise muscle effort and follow no recorded curves.
     #[arg(long)]
     pub(crate) predict: bool,
     /// Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997.
@@ -199,16 +204,16 @@ pub(crate) struct ConditionArgs {
     /// Slope of the ground, -40 to 40 percent; uphill is positive. This and the following options imply `--mode predict`.
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = number)]
     pub(crate) slope: Option<f64>,
-    /// Load that is carried: on the back, half in each hand, or at the pelvis [default: back].
+    /// Carried load: on the back, half in each hand, or at the pelvis [default: back].
     #[arg(long, value_name = "KG[:back|hands|pelvis]", allow_negative_numbers = true, value_parser = load)]
     pub(crate) load: Option<Load>,
-    /// Share of its strength that a joint has left, such as ankle=0.6 (both sides) or knee_r=0.5; repeatable.
+    /// Remaining share of a joint's strength, such as ankle=0.6 (both sides) or knee_r=0.5; repeatable.
     #[arg(long, value_name = "JOINT=SHARE", value_parser = weakness)]
     pub(crate) weak: Vec<(String, f64)>,
     /// Devices at joints, springs or given moments: .toml (docs/OPTIMAL.md).
     #[arg(long, value_name = "FILE")]
     pub(crate) device: Option<PathBuf>,
-    /// Distance between the paths of both feet, 0 to 0.5 m [default: what the muscles choose].
+    /// Distance between the paths of both feet, 0 to 0.5 m [default: the one with the least muscle effort].
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub(crate) step_width: Option<f64>,
     /// Let both sides move differently even if their conditions are the same.
@@ -236,15 +241,15 @@ pub(crate) struct FigureArgs {
 /// How a walk is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum WalkMode {
-    /// In three dimensions, found by optimal motion, on soft shoes.
+    /// 3-D walk on soft shoes, near normative curves.
     Optimal,
-    /// In three dimensions, on soft shoes, by muscles that work as little as they can, without curves of people.
+    /// Predicted: 3-D walk on soft shoes that minimises muscle effort; no recorded curves are used.
     Predict,
-    /// In the sagittal plane, dynamically consistent, on soft shoes.
+    /// Dynamically consistent walk in the sagittal plane, on soft shoes.
     Corrected,
-    /// As in the 1997 paper: rigid soles, the trunk held upright.
+    /// As in the 1997 paper: rigid soles, trunk held upright.
     Paper,
-    /// In three dimensions, on soft shoes, by the figure's own torques along its optimal walk; it may fall.
+    /// 3-D walk by the figure's own torques along its optimal walk, on soft shoes; it may fall.
     Physical,
 }
 

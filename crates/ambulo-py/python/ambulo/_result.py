@@ -147,7 +147,7 @@ class Result:
 
     @property
     def verdict(self) -> dict[str, Any] | None:
-        """Whether a person could make this motion, with reasons (docs/FEASIBILITY.md)."""
+        """Whether a person could make this motion, with reasons (docs/JUDGEMENT.md)."""
         return self.summary.get("verdict")
 
     @property

@@ -9,14 +9,14 @@ const SKEW: f64 = 1e-9;
 /// An error in the description of a world.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-#[error("{what} `{name}`: {complaint}")]
+#[error("{what} `{name}`: {problem}")]
 pub struct WorldError {
     /// Kind of part: body, joint, closure or surface.
     pub what: &'static str,
     /// Name of the part, or its number.
     pub name: String,
     /// What was found and what was expected.
-    pub complaint: String,
+    pub problem: String,
 }
 
 impl World {
@@ -31,18 +31,18 @@ impl World {
         for (number, joint) in self.joints.iter().enumerate() {
             if let Some(other) = last[joint.child].filter(|other| *other != number) {
                 let (child, other) = (&self.bodies[joint.child].name, &self.joints[other].name);
-                let complaint = format!("carries `{child}`, which `{other}` already carries; close loops by closures");
-                return Err(WorldError { what: "joint", name: joint.name.clone(), complaint });
+                let problem = format!("carries `{child}`, which `{other}` already carries; close loops by closures");
+                return Err(WorldError { what: "joint", name: joint.name.clone(), problem });
             }
         }
         for closure in &self.closures {
-            let wrong = |complaint| WorldError { what: "closure", name: closure.name.clone(), complaint };
+            let wrong = |problem| WorldError { what: "closure", name: closure.name.clone(), problem };
             self.known(closure.first).map_err(wrong)?;
             closure.second.map_or(Ok(()), |second| self.known(second)).map_err(wrong)?;
             frame(&closure.first_from_joint).and_then(|()| frame(&closure.second_from_joint)).map_err(wrong)?;
         }
         for (number, surface) in self.surfaces.iter().enumerate() {
-            let wrong = |complaint| WorldError { what: "surface", name: number.to_string(), complaint };
+            let wrong = |problem| WorldError { what: "surface", name: number.to_string(), problem };
             match surface.owner {
                 Owner::Body(body) => self.known(body).map_err(wrong)?,
                 Owner::Obstacle(obstacle) if obstacle >= self.obstacles.len() => {
@@ -60,7 +60,7 @@ impl World {
 
     fn check_bodies(&self) -> Result<(), WorldError> {
         for body in &self.bodies {
-            let wrong = |complaint| WorldError { what: "body", name: body.name.clone(), complaint };
+            let wrong = |problem| WorldError { what: "body", name: body.name.clone(), problem };
             let inertia =
                 Inertia::new(body.mass, Vec3::zeros(), body.inertia).map_err(|error| wrong(error.to_string()))?;
             if let Some(defect) = inertia.defect() {
@@ -75,7 +75,7 @@ impl World {
     }
 
     fn check_joint(&self, joint: &TreeJoint) -> Result<(), WorldError> {
-        let wrong = |complaint| WorldError { what: "joint", name: joint.name.clone(), complaint };
+        let wrong = |problem| WorldError { what: "joint", name: joint.name.clone(), problem };
         self.known(joint.child).map_err(wrong)?;
         joint.parent.map_or(Ok(()), |parent| self.known(parent)).map_err(wrong)?;
         frame(&joint.parent_from_joint).and_then(|()| frame(&joint.child_from_joint)).map_err(wrong)?;

@@ -7,7 +7,7 @@ use crate::motion::{ForceRecording, TimeGrid};
 use crate::spatial::Vec3;
 use std::ops::Range;
 
-/// A simulated walk: posture and forces, one row per step.
+/// A simulated walk: posture, forces in the joints and on the ground, one row per time step, and impacts separately.
 #[derive(Debug, Clone)]
 pub struct WalkRecording {
     /// The figure's model.

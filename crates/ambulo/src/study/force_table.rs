@@ -114,9 +114,9 @@ impl Walker<'_> {
     /// The feet over time; `None` if the motion cannot be used before it is smoothed.
     fn foot_paths(&self) -> Option<FootPaths> {
         let settings = SmoothSettings { smoother: Smoother::Off, window: self.window, rate_hz: None };
-        let unheard = &mut Findings::default();
-        let smoothed = smooth(self.model, self.motion, settings, unheard).ok()?;
-        let trajectory = Trajectory::complete(self.model, smoothed, unheard).ok()?;
+        let ignored = &mut Findings::default();
+        let smoothed = smooth(self.model, self.motion, settings, ignored).ok()?;
+        let trajectory = Trajectory::complete(self.model, smoothed, ignored).ok()?;
         FootPaths::new(self.model, &trajectory, self.soles)
     }
 

@@ -366,16 +366,16 @@ impl Statements {
 
     /// The ways in which the ground forces weigh a body that is only there to be weighed.
     fn weighed_before(&self, markers: &MarkerSource, settings: &Settings) -> Result<Vec<MassEstimate>, StudyError> {
-        let unheard = &mut Findings::default();
-        let body = self.follow(markers, settings, unheard, &mut Progress::default())?;
-        let (forces, _) = self.forces_under(&body, settings, unheard)?;
+        let ignored = &mut Findings::default();
+        let body = self.follow(markers, settings, ignored, &mut Progress::default())?;
+        let (forces, _) = self.forces_under(&body, settings, ignored)?;
         let model = &body.subject.model;
         let whole = body
             .longest_without_gap_s()
             .map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) });
         let smoothing = SmoothSettings { smoother: settings.smoother, window: whole, rate_hz: None };
-        let smoothed = smooth(model, &body.fit.motion, smoothing, unheard).map_err(AnalysisError::Motion)?;
-        let trajectory = Trajectory::complete(model, smoothed, unheard).map_err(AnalysisError::Trajectory)?;
+        let smoothed = smooth(model, &body.fit.motion, smoothing, ignored).map_err(AnalysisError::Motion)?;
+        let trajectory = Trajectory::complete(model, smoothed, ignored).map_err(AnalysisError::Trajectory)?;
         Ok(Carried::new(model, &trajectory, &forces, &body.subject.person.soles, Some(&body)).estimates())
     }
 

@@ -46,11 +46,11 @@ pub(super) const NEEDS_TRUNK: [usize; 2] = [2, 4];
 
 /// Nothing of the estimated deviations, only what the trial itself shows.
 const OF_TRIAL_ALONE: DeviationCalibration = {
-    const NOTHING: DeviationScaling = DeviationScaling { factor: 0.0, floor: 0.0 };
+    const NONE: DeviationScaling = DeviationScaling { factor: 0.0, floor: 0.0 };
     DeviationCalibration {
-        force: [[NOTHING; 5]; 3],
-        center: [NOTHING; 2],
-        free_moment: NOTHING,
+        force: [[NONE; 5]; 3],
+        center: [NONE; 2],
+        free_moment: NONE,
         of_misfit: OF_MISFIT,
         of_center_misfit: OF_CENTER_MISFIT,
         of_sideways: OF_SIDEWAYS,

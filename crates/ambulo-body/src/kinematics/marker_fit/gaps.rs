@@ -39,13 +39,13 @@ const PASSES: usize = 30;
 const STEPS_BETWEEN: usize = 1;
 /// The posture has converged when no unknown moves by more from one fit to the next [rad or m].
 const REST: f64 = 1e-7;
-/// The fit of a frame whose posture still moves by more when no linear solve is left is reported [rad or m]: 0.06 degrees.
+/// The fit of a frame is reported if its posture moves by more in the last linear solve [rad or m]: 0.06 degrees.
 const NEARLY_AT_REST: f64 = 1e-3;
 /// Third derivative of a joint angle [rad/s³]: 0.3 rad at 2 Hz give 0.3 (4π)³.
 const JERK: f64 = 600.0;
 
-/// An unfinished fit with a larger root mean square distance from the markers is none [m]: about the distance between neighbouring joints.
-const LOST: f64 = 0.2;
+/// An unfinished fit with a larger root mean square distance from the markers is rejected [m]: about the distance between neighbouring joints.
+const FAILED_RMS: f64 = 0.2;
 
 /// Known values this far on both sides of a gap determine its curve [s].
 const REACH_S: f64 = 0.25;
@@ -123,7 +123,7 @@ fn is_lost(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize) -> bool 
     frames.load(frame, problem);
     let cost = problem.pose_at(frames.posture(frame));
     let total: f64 = problem.frame_weights.iter().sum();
-    cost > LOST * LOST * total
+    cost > FAILED_RMS * FAILED_RMS * total
 }
 
 /// Weight of each marker: the inverse square of its drift, 1 for [`DRIFT`]; its own weight if the drift is unknown.

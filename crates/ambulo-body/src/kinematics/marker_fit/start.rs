@@ -17,8 +17,8 @@ const MOST_ANGLES: usize = 3;
 const FAR: f64 = 0.04;
 /// Placements whose costs differ by less than this share are the same.
 const SAME: f64 = 1e-6;
-/// So are placements whose costs differ by less than markers that are 1 µm off [m²].
-const NOTHING: f64 = 1e-12;
+/// Costs that differ by less are the same: markers that are 1 µm off [m²].
+const NEGLIGIBLE: f64 = 1e-12;
 const TURNS: [f64; 4] = [0.0, FRAC_PI_2, PI, -FRAC_PI_2];
 
 /// The posture that brings the model closest to the loaded markers.
@@ -78,7 +78,7 @@ fn placements(problem: &mut FitProblem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
     // nearer to the default posture is used.
     let far = |x: &[f64]| x.iter().zip(default).map(|(x, d)| (x - d) * (x - d)).sum::<f64>();
     found.dedup_by(|later, earlier| {
-        let same = (later.0 - earlier.0).abs() <= SAME * earlier.0.abs() + NOTHING;
+        let same = (later.0 - earlier.0).abs() <= SAME * earlier.0.abs() + NEGLIGIBLE;
         if same && far(&later.1) < far(&earlier.1) {
             std::mem::swap(later, earlier);
         }

@@ -59,7 +59,7 @@ pub struct SizeSettings {
     pub mass: Option<f64>,
 }
 
-/// A model scaled to a person.
+/// A model scaled to a person, with the positions of the person's markers.
 #[derive(Debug, Clone)]
 pub struct SizedModel {
     /// The model, with the markers at their positions on the person.

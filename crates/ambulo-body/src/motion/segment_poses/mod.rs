@@ -227,7 +227,7 @@ impl SegmentPoses {
         MarkerRecording { name: name.to_owned(), rate_hz: self.rate_hz, times: self.times.clone(), markers }
     }
 
-    /// Position of the ball of the foot in the foot [m].
+    /// Ball of the foot, in axes of the foot [m].
     fn ball(&self, side: Side) -> Option<Vec3> {
         let in_foot = |frame: usize| {
             let foot = self.at(PosedSegment::Foot(side), frame)?.inverse();

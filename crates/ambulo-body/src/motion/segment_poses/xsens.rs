@@ -1,10 +1,10 @@
 //! Poses of segments in motions of Xsens MVN.
 //!
-//! In the T-pose all segments have the axes x forward, y left, z up, so that an arm lies along y. Arms are turned here to those of hanging
-//! arms with palms forward, which [`SegmentPoses`] has; in the T-pose palms are downwards (thumbs forward when the arm hangs).
+//! In the T-pose all segments have the axes x forward, y left, z up, so an arm lies along y. Arms are turned here to the axes of hanging
+//! arms with palms forward, as in [`SegmentPoses`]. In the T-pose palms are downwards (thumbs forward when the arm hangs).
 //!
-//! The floor is where heels and toes are while the flags of the file say that they touch it. Without flags the height zero of the file is
-//! kept. Positions are those that MVN computes from orientations, lengths and contacts; they are not measured.
+//! Floor height: height of heels and toes while the file's contact flags are set. Without flags the height zero of the file is
+//! kept. MVN computes positions from orientations, lengths and contacts; they are not measured.
 //!
 //! Sources: MVN User Manual, document MV0319P.N (June 2015), sections 19.5 to 19.7; the calibration poses `identity`, `tpose` and
 //! `tpose-isb` of an upper-body recording of MVN 2019, of which `tpose-isb` has the turns of the arms; Xsens' reader for Python, which

@@ -5,7 +5,7 @@
 //! a browser sends it, must be this server.
 //!
 //! The stream never waits for a browser: every browser has a queue of [`QUEUE`] events; those that find it full are skipped, and a browser that takes
-//! nothing for [`PATIENCE`] is disconnected.
+//! nothing for [`TIMEOUT`] is disconnected.
 
 use anyhow::Result;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
@@ -18,16 +18,16 @@ use std::time::{Duration, Instant};
 
 /// Events that wait for a browser: about a second of motion.
 const QUEUE: usize = 64;
-/// A browser may take nothing for so long.
-const PATIENCE: Duration = Duration::from_secs(5);
-/// A comment is sent after so long without events, so that a browser that has gone is noticed.
-const SILENCE: Duration = Duration::from_secs(2);
+/// Time without progress after which a browser is disconnected.
+const TIMEOUT: Duration = Duration::from_secs(5);
+/// Time without events after which a comment is sent, so that a closed browser is detected.
+const KEEP_ALIVE: Duration = Duration::from_secs(2);
 /// Largest request [bytes].
 const LARGEST_REQUEST: u64 = 1 << 14;
 /// Browsers at the same time.
 const MOST_BROWSERS: usize = 16;
-/// How long the end of a stream waits for the last events to be sent.
-const FAREWELL: Duration = Duration::from_millis(500);
+/// Longest time to send the last events at the end of a stream.
+const CLOSING_TIME: Duration = Duration::from_millis(500);
 
 /// The browsers that watch, and what each sees first.
 #[derive(Default)]
@@ -105,7 +105,7 @@ impl PageServer {
     /// Waits a moment until the events were sent.
     pub(super) fn finish(&self) {
         let begun = Instant::now();
-        while self.waiting.load(Ordering::Relaxed) > 0 && begun.elapsed() < FAREWELL {
+        while self.waiting.load(Ordering::Relaxed) > 0 && begun.elapsed() < CLOSING_TIME {
             thread::sleep(Duration::from_millis(5));
         }
     }
@@ -115,8 +115,8 @@ impl PageServer {
     }
 
     fn answer(&self, mut connection: &TcpStream, html: &str) -> std::io::Result<()> {
-        connection.set_read_timeout(Some(PATIENCE))?;
-        connection.set_write_timeout(Some(PATIENCE))?;
+        connection.set_read_timeout(Some(TIMEOUT))?;
+        connection.set_write_timeout(Some(TIMEOUT))?;
         let request = Request::read(connection)?;
         match request.status() {
             200 if request.path == "/events" => {
@@ -154,7 +154,7 @@ impl PageServer {
 
     fn send_queue(&self, mut connection: &TcpStream, queue: &Receiver<Arc<str>>) -> std::io::Result<()> {
         loop {
-            match queue.recv_timeout(SILENCE) {
+            match queue.recv_timeout(KEEP_ALIVE) {
                 Ok(event) => {
                     let sent = connection.write_all(event.as_bytes());
                     self.waiting.fetch_sub(1, Ordering::Relaxed);

@@ -139,7 +139,7 @@ pub enum TrackError {
     },
     /// A spring between bodies.
     #[error(
-        "the model `{model}` has the bushing `{bushing}`, which the tracked motion would not feel; expected a model without bushings"
+        "the model `{model}` has the bushing `{bushing}`, which tracking does not support; expected a model without bushings"
     )]
     Bushing {
         /// Name of the model.

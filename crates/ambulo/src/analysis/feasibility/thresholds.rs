@@ -4,7 +4,7 @@ use super::verdict::Check;
 use crate::optimal::{ECCENTRIC, StrengthCurve};
 use crate::toml_reader::{Source, Table, TomlError, Value};
 
-/// Limits of every check. docs/FEASIBILITY.md gives the reasons for the defaults.
+/// Limits of every check. docs/JUDGEMENT.md gives the reasons for the defaults.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Thresholds {
     /// Shorter violations are noise [s]; two frames at 60 Hz are longer.
@@ -94,7 +94,7 @@ impl Thresholds {
     /// # Errors
     /// Text that is not TOML, unknown keys, values outside their range.
     pub fn from_toml(text: &str) -> Result<Thresholds, TomlError> {
-        let source = Source::new(text, "docs/FEASIBILITY.md");
+        let source = Source::new(text, "docs/JUDGEMENT.md");
         let parsed = source.parse()?;
         let root = Table::root(&source, &parsed);
         const SECTIONS: [&str; 9] =

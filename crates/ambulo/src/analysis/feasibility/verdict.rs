@@ -130,7 +130,7 @@ impl VerdictState {
     }
 }
 
-/// Whether a motion is feasible, and why not.
+/// Whether a motion is feasible, and if not, the reasons: time, quantity, value and limit of each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Verdict {

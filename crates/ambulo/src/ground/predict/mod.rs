@@ -62,7 +62,8 @@ const RULE: &str = "maximum a posteriori estimate (lever rule, normative curves 
 /// The same with the calibration of a person.
 const RULE_OF_PERSON: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness), calibrated for the person on force plates";
 
-/// Predicted ground reaction forces with standard deviations.
+/// Ground reaction forces predicted from motion alone, with standard deviations, the stances of both feet, and the total wrench
+/// by Newton's law that they add up to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
     /// Ground reaction forces on the right and the left foot.

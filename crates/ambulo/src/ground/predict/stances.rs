@@ -14,7 +14,7 @@ use crate::spatial::Vec3;
 const USUAL_STANCE: f64 = 2.1;
 /// A longer stance is standing, not a step, in √(L/g): in very slow walking (V* = 0.17) it is 68 % of a cycle of 5.9.
 const LONGEST_STEP: f64 = 6.0;
-/// Steps of stairs differ by more than this [m]: half the rise of a usual step, as in docs/ACTIVITY.md.
+/// Steps of stairs differ by more than this [m]: half the rise of a usual step, as in docs/JUDGEMENT.md.
 const LEAST_RISE_M: f64 = 0.08;
 /// Below this share of √(g L) the body stands still.
 const UNDER_WAY: f64 = 0.08;

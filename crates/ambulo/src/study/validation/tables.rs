@@ -155,7 +155,7 @@ pub fn each_trial(trials: &[&JudgedTrial]) -> Section {
         let head = words.into_iter().chain([trial.quality.word().to_owned(), trial.stances.len().to_string()]);
         table.row(head.chain(summary_cells(|figure| figure.of(&trial.agreement))));
     }
-    let note = "Data: whether recording, body and measured forces fit together (`quality` in docs/QUALITY.md); errors of doubtful and bad data may be those of the data.";
+    let note = "Data: whether recording, body and measured forces fit together (`quality` in docs/JUDGEMENT.md); errors of doubtful and bad data may be those of the data.";
     Section { title: "Each trial", table, note: note.to_owned() }
 }
 
