@@ -2,7 +2,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { after } from "node:test";
 import { pathToFileURL } from "node:url";
-import { type Browser, type BrowserContextOptions, chromium, firefox, type Page } from "playwright-core";
+import { type Browser, type BrowserContext, type BrowserContextOptions, chromium, firefox, type Page } from "playwright-core";
 
 export type { BrowserContextOptions, Page };
 
@@ -18,6 +18,9 @@ const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/go
 const FIREFOX = ["/usr/bin/firefox-esr", "/usr/bin/firefox"];
 /** WebGL without a graphics card. */
 const ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+/** What takes longer does not come; how long a page takes depends on the machine [ms]. */
+export const HANGS = 600_000;
 
 let running: Promise<Browser> | null = null;
 
@@ -35,9 +38,16 @@ function pathOf(name: "CHROMIUM" | "FIREFOX", paths: string[]): string {
 /** The browser, which is started when it is first needed. */
 export function browser(): Promise<Browser> {
   running ??= IN_FIREFOX
-    ? firefox.launch({ channel: "moz-firefox", executablePath: pathOf("FIREFOX", FIREFOX) })
-    : chromium.launch({ executablePath: pathOf("CHROMIUM", CHROMIUM), args: ARGUMENTS });
+    ? firefox.launch({ channel: "moz-firefox", executablePath: pathOf("FIREFOX", FIREFOX), timeout: HANGS })
+    : chromium.launch({ executablePath: pathOf("CHROMIUM", CHROMIUM), args: ARGUMENTS, timeout: HANGS });
   return running;
+}
+
+/** A new context of the browser, as a new visitor has it. */
+export async function newContext(options: BrowserContextOptions): Promise<BrowserContext> {
+  const context = await (await browser()).newContext(options);
+  context.setDefaultTimeout(HANGS);
+  return context;
 }
 
 /** Closes the browser; otherwise this process would not end. */
@@ -65,7 +75,7 @@ export async function withPage(
   options: BrowserContextOptions = {},
   before = "",
 ): Promise<void> {
-  const context = await (await browser()).newContext({ viewport: DESKTOP, ...options });
+  const context = await newContext({ viewport: DESKTOP, ...options });
   try {
     await context.addInitScript(before);
     const page = await context.newPage();

@@ -24,8 +24,9 @@ use std::process::ExitCode;
 const HELP: &str = "\
 usage: cargo xtask <command>
 
-  check             run what CI runs: format, lints, house, tests, documentation, viewer; stops at the first failure
-                    [--full: and everything that takes longer]
+  check             run what CI runs: format, lints, house, tests, documentation, viewer, in lanes side by side, up to the first failure;
+                    prints the time of each step and the slowest tests  [--full: and everything that takes longer]
+                    [--shuffle SEED: only the tests, in an order that the seed decides]
   house             print size and shape of the source; fails where it exceeds a limit  [--baseline REV] [--list]
                     [--wrap: break comments and texts over 120 columns first]
   build-time        time a cold release build of the `ambulo` command  [--baseline REV]
@@ -33,7 +34,7 @@ usage: cargo xtask <command>
   mutants           run mutants of the science and write docs/measured/MUTANTS.md  [MODULE..] [--sample N] [--seed S]
                     [--resume: those not yet run] [--retry: survivors again] [--page: only the page]
   python            make a wheel of the Python package from the module that `cargo test` has compiled, and test it in a bare environment
-                    [--with PROGRAM: in an environment of another Python] [--measure: build the wheel for users with maturin and
+                    [--profile NAME: the module of another profile] [--with PROGRAM: in an environment of another Python] [--measure: build the wheel for users with maturin and
                     print its size and times] [--free-threaded: compile the module for free-threaded Python]
   web               build the page that computes in the browser and the documents into target/page
                     [--test: and test them in Chromium, and in Firefox if it is there]  [--site: with the API documentation]

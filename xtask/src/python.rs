@@ -1,4 +1,4 @@
-//! The Python package: `cargo xtask python`, with `--with PROGRAM`, `--measure` or `--free-threaded`.
+//! The Python package: `cargo xtask python`, with `--profile NAME`, `--with PROGRAM`, `--measure` or `--free-threaded`.
 //!
 //! Without an option it makes a wheel from the module that `cargo test` has compiled, installs it into a bare virtual environment, checks that it
 //! needs nothing but NumPy, and runs the tests of `crates/ambulo-py/tests` and stubtest; with `--with` in the environment of another Python.
@@ -21,11 +21,14 @@ const BARE: &str = "import ambulo, importlib.metadata as m; names = sorted({d.na
 
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     match words {
-        [] => test(interpreter()),
-        [option, program] if option == "--with" => test(program),
+        [] => test(interpreter(), "debug"),
+        [option, profile] if option == "--profile" => test(interpreter(), profile),
+        [option, program] if option == "--with" => test(program, "debug"),
         [option] if option == "--measure" => measure(),
         [option] if option == "--free-threaded" => free_threaded(),
-        _ => Err("usage: cargo xtask python [--with PROGRAM | --measure | --free-threaded]".to_owned()),
+        _ => {
+            Err("usage: cargo xtask python [--profile NAME | --with PROGRAM | --measure | --free-threaded]".to_owned())
+        }
     }
 }
 
@@ -34,9 +37,9 @@ pub(crate) fn interpreter() -> &'static str {
     if cfg!(windows) { "python" } else { "python3" }
 }
 
-/// Tests the package in an environment of this Python.
-fn test(program: &str) -> Result<(), String> {
-    let module = workspace::target().join("debug/deps").join(format!("{DLL_PREFIX}_ambulo{DLL_SUFFIX}"));
+/// Tests the package in an environment of this Python, with the module in this folder of cargo's profiles.
+fn test(program: &str, profile: &str) -> Result<(), String> {
+    let module = workspace::target().join(profile).join("deps").join(format!("{DLL_PREFIX}_ambulo{DLL_SUFFIX}"));
     if !module.is_file() {
         return Err(format!(
             "{}: there is no such file; expected the compiled module\nhint: `cargo test --package ambulo-py --no-run` compiles it",

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 /// From now on, a panic prints what to do and ends the program with exit code 2, as every other failure.
-pub(crate) fn install() {
+pub fn install() {
     std::panic::set_hook(Box::new(|panic| {
         // Standard error may be closed, which is no reason to panic again.
         let _ = writeln!(std::io::stderr(), "{}", message(&panic.to_string()));

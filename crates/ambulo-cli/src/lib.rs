@@ -75,6 +75,27 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
+/// For the tests of this crate.
+#[doc(hidden)]
+pub mod internals {
+    use crate::args::Args;
+    use clap::{CommandFactory, Parser};
+
+    pub use crate::bug_report::install as install_bug_report;
+
+    /// The command line with the options of all verbs as they are described, which is late.
+    #[must_use]
+    pub fn command_line() -> clap::Command {
+        Args::command()
+    }
+
+    /// Why words, of which the first is the name of the program, are refused before anything is run.
+    #[must_use]
+    pub fn refusal(words: &[&str]) -> Option<clap::Error> {
+        Args::try_parse_from(words).err()
+    }
+}
+
 /// The result of a command that ran to its end; it sets the exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Completion {

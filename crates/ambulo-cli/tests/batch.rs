@@ -27,7 +27,7 @@ const TRIALS: usize = 5;
 
 /// A folder `set` with five walks of a figure in folders of their own, and a broken recording.
 fn set(name: &str) -> Workbench {
-    let bench = Workbench::empty(name).removed_at_the_end();
+    let bench = Workbench::empty(name).always_removed();
     for trial in 0..TRIALS {
         fs::create_dir_all(bench.folder.join(format!("set/person {trial}"))).unwrap();
         bench.write(&format!("set/person {trial}/figure.osim"), demo_input("figure.osim"));
@@ -245,7 +245,7 @@ fn frozen(trc: &str) -> String {
 
 #[test]
 fn trials_that_share_a_scaled_model_have_the_results_of_each_alone() {
-    let bench = Workbench::empty("batch_one_model").removed_at_the_end();
+    let bench = Workbench::empty("batch_one_model").always_removed();
     bench.run(&["demo", "-o", "demo", "--quiet", "--keep", "recording"]).done();
     bench.write("figure.osim", bench.read("demo/input/figure.osim"));
     // A stride is enough: markers are fitted frame by frame.
@@ -327,7 +327,7 @@ fn a_full_disk_loses_no_closed_part() {
 
 #[test]
 fn spoiled_motions_are_ranked_before_the_good_one_with_the_reason() {
-    let bench = Workbench::empty("batch_ranked").removed_at_the_end();
+    let bench = Workbench::empty("batch_ranked").always_removed();
     // Name, column, what is added to it at a time [s], and a part of the reason.
     type Added = fn(f64) -> f64;
     let spoiled: [(&str, &str, Added, &str); 4] = [
@@ -414,7 +414,7 @@ fn the_page_is_written_when_all_shards_are_complete() {
 #[test]
 fn the_error_against_one_plate_is_in_the_column_of_its_foot() {
     let Some(data) = shared_data::data() else { return };
-    let bench = Workbench::empty("batch_one_foot").removed_at_the_end();
+    let bench = Workbench::empty("batch_one_foot").always_removed();
     // The right foot stood on a plate; the left one did not.
     let folder = data.join("biomechzoo-HC036A");
     let shown = |name: &str| folder.join(name).display().to_string();

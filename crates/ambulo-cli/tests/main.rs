@@ -6,11 +6,6 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
-#[allow(dead_code, unused_imports, reason = "only the description of the command line is used")]
-#[path = "../src/args/mod.rs"]
-mod args;
-#[path = "../src/bug_report.rs"]
-mod bug_report;
 #[path = "../../ambulo/tests/shared_data/mod.rs"]
 mod shared_data;
 #[path = "../../ambulo-report/tests/svg_reader/mod.rs"]

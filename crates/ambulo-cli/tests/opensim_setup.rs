@@ -206,7 +206,7 @@ fn set_ups_that_contradict_each_other_or_an_option_are_refused() {
 /// The recordings of an OpenSim tutorial, with set-ups of our own; `None` without data.
 fn tutorial(name: &str, recordings: &str) -> Option<Workbench> {
     let source = data()?.join(recordings);
-    let bench = Workbench::empty(&format!("opensim_{name}")).removed_at_the_end();
+    let bench = Workbench::empty(&format!("opensim_{name}")).always_removed();
     for file in std::fs::read_dir(source).unwrap() {
         let file = file.unwrap().path();
         if file.is_file() {

@@ -1,12 +1,14 @@
-//! Every numeric option of every verb with extreme values: an error, or results with finite numbers; no panic, no signal, at most 10 s of
-//! processor time and 1 GB of memory.
+//! Every numeric option of every verb with extreme values: an error, or results with finite numbers; no panic, no signal, no run without end,
+//! at most 1 GB of memory.
+//!
+//! Most values are refused while the words are parsed. That is tried here, with the parser of the program; the program itself runs with the rest.
 //!
 //! The options come from the definition of the command line, so that a new one is tested as well. A third of the values is tried by default,
 //! chosen by a fixed hash; all of them if `AMBULO_SWEEP=all` is set, as by `cargo xtask check --full`.
 
-use crate::args::Args;
 use crate::workbench::{Run, Workbench};
-use clap::{Arg, CommandFactory};
+use ambulo_cli::internals;
+use clap::Arg;
 use std::any::TypeId;
 use std::path::{Path, PathBuf};
 
@@ -80,7 +82,7 @@ fn takes_a_number(option: &Arg) -> bool {
 
 /// The command line with the options of all verbs, which a run describes only when it needs them.
 fn command_line() -> clap::Command {
-    let mut command = Args::command();
+    let mut command = internals::command_line();
     command.build();
     command
 }
@@ -105,15 +107,19 @@ struct Base {
 }
 
 impl Base {
-    /// Runs the command, with one option added if it is given, and checks the run.
-    fn run(&self, bench: &Workbench, added: Option<(&str, &str)>) -> Run {
+    /// Runs the command, with one option added if it is given, and checks the run. None if the words are refused before anything is run.
+    fn run(&self, bench: &Workbench, added: Option<(&str, &str)>) -> Option<Run> {
         let others = self.options.iter().filter(|(name, _)| added.is_none_or(|(option, _)| option != *name));
         let options = others.copied().chain(added).map(|(name, value)| format!("--{name}={value}"));
         let words: Vec<String> = self.words.iter().map(|word| (*word).to_owned()).chain(options).collect();
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        if let Some(refusal) = internals::refusal(&[&["ambulo"][..], &words].concat()) {
+            check_refusal(refusal.exit_code(), &refusal.to_string(), &words);
+            return None;
+        }
         let run = bench.run_within_limits(&words);
         check(&run, &words, &bench.folder.join("out"));
-        run
+        Some(run)
     }
 
     fn has(&self, option: &str) -> bool {
@@ -144,27 +150,30 @@ fn was_a_bug(option: &str, value: &str) -> bool {
 
 /// Tries the values of every numeric option of a verb on each base.
 fn sweep(bench: &Workbench, verb: &str, bases: &[Base]) {
-    let (mut runs, mut accepted) = (0, 0);
+    let (mut tried, mut started, mut accepted) = (0, 0, 0);
+    let is_accepted = |run: &Run| run.code != Some(2);
     // Otherwise every value could be refused for another reason.
-    assert!(bases.iter().all(|base| base.run(bench, None).code != Some(2)), "a base of `{verb}` fails");
+    let works = |base: &Base| base.run(bench, None).as_ref().is_some_and(is_accepted);
+    assert!(bases.iter().all(works), "a base of `{verb}` fails");
     for (option, value_name) in options(verb) {
         let all = forms(&value_name).iter().flat_map(|form| VALUES.map(|value| (form, value)));
         for (form, value) in all.filter(|(form, value)| is_chosen(&option, form, value) || was_a_bug(&option, value)) {
             for base in bases.iter().filter(|base| base.has(&option)) {
                 let run = base.run(bench, Some((&option, &form.replace('#', value))));
-                runs += 1;
-                accepted += usize::from(run.code != Some(2));
+                tried += 1;
+                started += usize::from(run.is_some());
+                accepted += usize::from(run.as_ref().is_some_and(is_accepted));
             }
         }
     }
-    println!("{verb}: {runs} runs, {accepted} accepted");
-    assert!(runs > 0, "`{verb}` has no numeric option");
+    println!("{verb}: {tried} tried, {started} started, {accepted} accepted");
+    assert!(started > 0, "`{verb}` has no numeric option");
 }
 
 fn check(run: &Run, words: &[&str], results: &Path) {
     assert!(matches!(run.code, Some(0..=2)), "{words:?}: {:?} {}", run.code, run.stderr);
-    if run.code == Some(2) {
-        assert!(run.stderr.starts_with("error: ") && run.stderr.len() < 2000, "{words:?}: {}", run.stderr);
+    if let Some(code @ 2) = run.code {
+        check_refusal(code, &run.stderr, words);
         return;
     }
     let Ok(files) = std::fs::read_dir(results) else { return };
@@ -173,6 +182,10 @@ fn check(run: &Run, words: &[&str], results: &Path) {
         assert_eq!(not_finite(&text), None, "{words:?}: {}", path.display());
     }
     std::fs::remove_dir_all(results).unwrap();
+}
+
+fn check_refusal(code: i32, message: &str, words: &[&str]) {
+    assert!(code == 2 && message.starts_with("error: ") && message.len() < 2000, "{words:?}: {code} {message}");
 }
 
 fn is_table(path: &Path) -> bool {
@@ -239,7 +252,7 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
 /// Where options are described late, clap takes the description of a group of options for that of the subcommand, if the group has one.
 #[test]
 fn each_subcommand_keeps_its_own_description() {
-    let [described_late, described] = [Args::command(), command_line()];
+    let [described_late, described] = [internals::command_line(), command_line()];
     for verb in described_late.get_subcommands() {
         let found = described.find_subcommand(verb.get_name()).and_then(clap::Command::get_about);
         assert!(verb.get_about().is_some(), "{}", verb.get_name());

@@ -1,6 +1,6 @@
 //! A panic is reported as a bug, with exit code 2.
 
-use crate::bug_report;
+use ambulo_cli::internals::install_bug_report;
 use std::process::Command;
 
 /// Set for the child of the test below, which panics.
@@ -9,7 +9,7 @@ const CHILD: &str = "AMBULO_TEST_PANICS";
 #[test]
 fn a_panic_says_that_it_is_a_bug_and_where_to_report_it() {
     if std::env::var_os(CHILD).is_some() {
-        bug_report::install();
+        install_bug_report();
         panic!("the knee has four ends");
     }
     let this_test = ["--exact", "panics::a_panic_says_that_it_is_a_bug_and_where_to_report_it", "--nocapture"];

@@ -17,7 +17,7 @@ use std::fs;
 
 /// A folder, with the walk that `ambulo demo` writes beside it.
 fn laboratory(name: &str) -> Workbench {
-    let bench = Workbench::empty(name).removed_at_the_end();
+    let bench = Workbench::empty(name).always_removed();
     bench.run(&["demo", "-o", "demo", "--keep", "recording", "--quiet"]).done();
     bench
 }
@@ -265,7 +265,7 @@ const NAMES: [&str; 5] = ["Beatrix", "Muster", "HC032A", "visit", "session_real"
 #[test]
 fn a_real_visit_has_one_body_and_can_be_anonymous() {
     let Some(data) = data() else { return };
-    let bench = Workbench::empty("session_real").removed_at_the_end();
+    let bench = Workbench::empty("session_real").always_removed();
     let folder = bench.folder.join("visit Beatrix Muster");
     fs::create_dir_all(&folder).unwrap();
     for name in ["HC032A01.c3d", "HC032A03.c3d", "HC032A18.c3d"] {

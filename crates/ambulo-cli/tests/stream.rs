@@ -21,6 +21,9 @@ use std::net::{SocketAddr, TcpListener, TcpStream, UdpSocket};
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
+/// An answer that takes longer does not come.
+const HANGS: Duration = Duration::from_secs(600);
+
 /// Frames of a replay; the walk has 2.9 s.
 const FRAMES: usize = 200;
 /// Frames of the shorter ones.
@@ -187,7 +190,7 @@ fn a_datagram_of_another_program_ends_no_sequence() {
     let address = address(&mut server);
     let socket = || {
         let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
-        socket.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
+        socket.set_read_timeout(Some(HANGS)).unwrap();
         socket.connect(address).unwrap();
         socket
     };
@@ -265,7 +268,7 @@ fn records_over_udp_have_the_numbers_of_lines() {
     let count = description["columns"].as_array().unwrap().len();
     let mut server = started(&bench, &["--input", "udp:0", "--format", "f32"]);
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
-    socket.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
+    socket.set_read_timeout(Some(HANGS)).unwrap();
     socket.connect(address(&mut server)).unwrap();
     let mut found: Vec<(u64, Vec<f64>)> = Vec::new();
     let mut datagram = vec![0; 1 << 16];
@@ -346,7 +349,7 @@ fn marker_lines(recording: &MarkerRecording, axes: &str) -> Vec<String> {
 #[test]
 fn the_markers_of_a_c3d_from_another_process_have_the_forces_of_the_batch() {
     let Some(data) = data() else { return };
-    let bench = Workbench::empty("stream_markers").removed_at_the_end();
+    let bench = Workbench::empty("stream_markers").always_removed();
     let file = |name: &str| data.join("biomechzoo-HC032A").join(name).display().to_string();
     let (walk, standing) = (file("HC032A03.c3d"), file("HC032A01.c3d"));
     let batch =
@@ -445,7 +448,7 @@ fn page_address(child: &mut Child) -> SocketAddr {
 
 fn get(address: SocketAddr, path: &str) -> TcpStream {
     let mut link = TcpStream::connect(address).unwrap();
-    link.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+    link.set_read_timeout(Some(HANGS)).unwrap();
     write!(link, "GET {path} HTTP/1.1\r\nHost: {address}\r\n\r\n").unwrap();
     link
 }

@@ -14,7 +14,7 @@ use std::fs;
 /// A folder `lab` with two persons of real recordings, a broken file, and a recording without plates.
 fn laboratory(name: &str) -> Option<Workbench> {
     let data = data()?;
-    let bench = Workbench::empty(name).removed_at_the_end();
+    let bench = Workbench::empty(name).always_removed();
     for (person, files) in [
         ("biomechzoo-HC032A", &["HC032A01.c3d", "HC032A03.c3d"][..]),
         ("biomechzoo-HC030A", &["HC030A01.c3d", "HC030A22.c3d"]),
@@ -124,7 +124,7 @@ fn a_list_states_persons_files_and_what_is_left_out() {
 
 #[test]
 fn files_that_belong_together_are_found_by_their_names() {
-    let bench = Workbench::empty("validate_names").removed_at_the_end();
+    let bench = Workbench::empty("validate_names").always_removed();
     bench.run(&["demo", "--keep", "recording", "-o", "demo", "--quiet"]).done();
     let found = |folder: &str| bench.run(&["validate", folder, "--dry-run", "--json"]).done().stdout;
     let list: serde_json::Value = serde_json::from_str(&found("demo/input")).unwrap();

@@ -4,7 +4,6 @@ use crate::c3d_bytes::File;
 use crate::shared_data::data;
 use ambulo_formats::c3d::{C3d, Channel, Event, Point};
 use proptest::prelude::*;
-use std::time::{Duration, Instant};
 
 /// A small recording with all groups: two points, two channels, a platform, events.
 fn sample() -> File {
@@ -80,9 +79,9 @@ fn every_real_recording_survives_being_cut_in_header_and_parameters() {
     }
 }
 
+/// Reading as much as these files announce would take hours and more memory than there is.
 #[test]
-fn counts_without_measure_cost_neither_time_nor_memory() {
-    let start = Instant::now();
+fn counts_without_measure_are_not_believed() {
     let mut file = sample();
     for word in [2, 3, 4, 5, 9, 10] {
         let mut damaged = file.clone();
@@ -96,7 +95,6 @@ fn counts_without_measure_cost_neither_time_nor_memory() {
     file.float(1, "FRAMES", &[], &[1e30]).float(1, "LONG_FRAMES", &[], &[2e9]).integer(5, "USED", &[], &[-1]);
     file.integer(4, "USED", &[], &[-1]);
     use_all(&file.bytes());
-    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
 }
 
 /// A file made by the crate's own writer.

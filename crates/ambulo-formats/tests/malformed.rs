@@ -5,7 +5,6 @@ use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
 use proptest::prelude::*;
-use std::time::{Duration, Instant};
 
 const STORAGE: &str = "Coordinates\nversion=1\nnRows=2\nnColumns=3\ninDegrees=yes\nendheader\n\
                        time\tx\ty\n0.0\t-12.5\t0.93\n0.01\t-12.25\t0.94\n";
@@ -263,15 +262,12 @@ fn a_very_long_line_is_refused() {
 }
 
 #[test]
-fn a_hundred_megabytes_of_garbage_are_refused_in_seconds() {
+fn a_hundred_megabytes_of_garbage_are_refused() {
     let kinds: [Vec<u8>; 4] =
         [vec![0; 100 << 20], vec![b'a'; 100 << 20], b"a b\n".repeat(25 << 20), b"\xff,\"\n".repeat(25 << 20)];
     for garbage in kinds {
-        let start = Instant::now();
         assert!(Table::read_storage(&garbage).is_err() && Table::read_csv(&garbage).is_err());
         assert!(Trc::read(&garbage).is_err() && ExternalLoads::read(&garbage).is_err());
-        // Measured 0.1 to 0.3 s; the margin is for a loaded machine.
-        assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
     }
 }
 

@@ -692,8 +692,9 @@ fn smoothing_out_of_range_is_refused() {
 // ---------------------------------------------------------------- speed
 
 #[test]
-fn thirty_columns_fit_and_evaluate_within_a_second() {
-    // Printed for `cargo test --release -- --nocapture`; the limit only catches a cost that is no longer linear.
+fn thirty_columns_fit_and_evaluate_in_time() {
+    // The limit only catches a cost that is no longer linear. It is checked where the machine does nothing else: `cargo xtask check --full`.
+    let is_checked = std::env::var_os("AMBULO_TIMES").is_some();
     for n in [300usize, 10_000] {
         let times = even_times(n, 100.0);
         let columns: Vec<Vec<f64>> =
@@ -719,6 +720,6 @@ fn thirty_columns_fit_and_evaluate_within_a_second() {
             evaluated - fitted,
             smoothed - evaluated
         );
-        assert!(evaluated.as_secs_f64() < 1.0);
+        assert!(!is_checked || evaluated.as_secs_f64() < 1.0);
     }
 }
