@@ -16,6 +16,7 @@ use crate::motion::filter::LowPass;
 use crate::motion::{
     ForceRecording, Motion, MotionError, SmoothSettings, Smoother, Window, check_range, interpolate, smooth,
 };
+use crate::numerics::mean;
 use crate::spatial::Vec3;
 
 /// How a recording is analysed.
@@ -410,7 +411,7 @@ fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findin
     if weighed.is_empty() {
         return Mass { kg: stated, source: MassSource::Model };
     }
-    let mean = weighed.iter().sum::<f64>() / weighed.len() as f64;
+    let mean = mean(&weighed);
     if (mean / stated - 1.0).abs() > WHOLE_BODY_SHARE {
         return Mass { kg: stated, source: MassSource::Model };
     }

@@ -7,10 +7,11 @@
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, FRICTION, FRICTIONS, Scope};
 use super::mode::Run;
-use super::steady::{STEADY_CYCLES, Steady, rms};
+use super::steady::{STEADY_CYCLES, Steady};
 use crate::kinematics::each_body_motion;
 use crate::model::Side;
 use crate::model::anthropometry::ContactSphere;
+use crate::numerics::rms;
 
 /// Slip per step that counts as none [m].
 const NO_SLIP_M: f64 = 1e-3;

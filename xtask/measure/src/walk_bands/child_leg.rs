@@ -14,7 +14,7 @@
 
 use crate::harmonics::Harmonics;
 use crate::normative::{self, CADENCES, Curves, Sheet};
-use ambulo::reproduction::correlation;
+use ambulo::numerics::correlation;
 use ambulo::spatial::STANDARD_GRAVITY;
 
 /// The leg length from one joint.

@@ -8,7 +8,7 @@ use ambulo::gait::{Gait, Speed, Trunk, Walk};
 use ambulo::kinematics::each_body_motion;
 use ambulo::model::Model;
 use ambulo::model::anthropometry::{Build, Human};
-use ambulo::reproduction::{extremes, mean, rms};
+use ambulo::numerics::{extremes, mean, rms};
 use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::walking::{StanceSlip, WalkRecording};
 use cpu_time::ThreadTime;
