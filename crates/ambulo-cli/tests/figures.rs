@@ -5,6 +5,7 @@ use crate::svg_reader::{Figure, Panel};
 use crate::workbench::Workbench;
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side};
+use ambulo::numerics::correlation;
 use ambulo_report::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo_report::normative::band;
 use ambulo_results::Convention;
@@ -48,14 +49,6 @@ impl Cycles {
 
 fn figure(bench: &Workbench, name: &str) -> Figure {
     Figure::read(&bench.text(&format!("out/figures/{name}.svg")))
-}
-
-fn correlation(a: &[f64], b: &[f64]) -> f64 {
-    let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
-    let (ma, mb) = (mean(a), mean(b));
-    let product =
-        |x: &[f64], mx: f64, y: &[f64], my: f64| x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum::<f64>();
-    product(a, ma, b, mb) / (product(a, ma, a, ma) * product(b, mb, b, mb)).sqrt()
 }
 
 /// Correlation of the drawn mean with the normative mean, for both sides.

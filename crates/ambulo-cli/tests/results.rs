@@ -3,6 +3,7 @@
 use crate::workbench::{FORCES, RAW, Workbench};
 use ambulo::findings::Findings;
 use ambulo::model::from_osim;
+use ambulo::numerics::mean;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
@@ -13,10 +14,6 @@ fn largest_difference(a: &Table, b: &Table, column: &str) -> f64 {
     let (a, b) = (a.column(column).unwrap(), b.column(column).unwrap());
     assert_eq!(a.len(), b.len(), "{column}");
     a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
 }
 
 #[test]

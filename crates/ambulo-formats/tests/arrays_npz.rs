@@ -23,7 +23,11 @@ fn archives_that_numpy_wrote_are_read() {
     assert_eq!(found("gender").data, Data::Text("female".into()));
     assert_eq!(found("gender_bytes").data, Data::Text("male".into()));
     assert_eq!(found("object").data, Data::Other("|O".into()), "a pickle is not opened");
-    assert_eq!(Npz::names(STORED).unwrap().len(), 10);
+    let names: Vec<_> = ["hip", "kneé", "", "ankle"].map(str::to_owned).into();
+    assert_eq!(found("names").texts(), Some(&names[..]), "without the zeros that fill them up");
+    assert_eq!(found("names_columns").texts().unwrap().concat(), "abcdef", "the first axis runs first there");
+    assert_eq!((found("gender").texts(), found("poses").texts()), (None, None));
+    assert_eq!(Npz::names(STORED).unwrap().len(), 12);
 }
 
 fn made() -> Npz {

@@ -6,7 +6,8 @@ use super::convergence::JOINTS;
 use super::evidence::{GAITS, Scope};
 use super::mode::Run;
 use super::muscles::GROUPS;
-use super::steady::{STEADY_CYCLES, Steady, mean};
+use super::steady::{STEADY_CYCLES, Steady};
+use ambulo_body::numerics::{mean, range};
 
 /// Departure of the mean speed from that of the gait up to which the legs carry the body as asked.
 const AS_ASKED: f64 = 0.2;
@@ -120,7 +121,7 @@ pub(super) const MUSCLES: Statement = Statement {
                 let size = |work: &Work| work.concentric - work.eccentric;
                 shares.push(size(&works[0]) / (size(&works[0]) + size(&works[1])));
             }
-            difference = difference.max(super::steady::range_of(&shares));
+            difference = difference.max(range(&shares));
         }
         all.push(("largest_difference_of_extensor_share".into(), difference));
         all

@@ -10,7 +10,8 @@ use ambulo_body::numerics::elementary::ln;
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, RATES_HZ, Scope};
 use super::mode::Run;
-use super::steady::{POINTS, Steady, mean, range_of, rms};
+use super::steady::{POINTS, Steady};
+use ambulo_body::numerics::{mean, range, rms};
 
 pub(super) const JOINTS: [(&str, &str); 3] =
     [("hip", "hip_flexion_r"), ("knee", "knee_angle_r"), ("ankle", "ankle_angle_r")];
@@ -111,7 +112,7 @@ fn distance(run: &Run, reference: &Run, coordinate: &str) -> Distance {
         next = end;
     }
     let share = |off: &[f64], range: f64| rms(off) / range;
-    Distance { torque: share(&off, range_of(&fine.mean_cycle(&truth))), impulse: share(&off_sum, range_of(&true_sums)) }
+    Distance { torque: share(&off, range(&fine.mean_cycle(&truth))), impulse: share(&off_sum, range(&true_sums)) }
 }
 
 /// Sum of the impulses of impacts on a coordinate between two instants [N.m.s].
@@ -149,7 +150,7 @@ fn measure_period(evidence: &Evidence) -> Numbers {
     let Ok(steady) = Steady::of(run) else { return numbers };
     for (joint, coordinate) in JOINTS {
         let cycles = steady.cycles(&steady.effort(coordinate));
-        let range = range_of(&steady.mean_cycle(&steady.effort(coordinate)));
+        let range = range(&steady.mean_cycle(&steady.effort(coordinate)));
         let worst = cycles.windows(2).enumerate().map(|(cycle, pair)| {
             let at =
                 |point: usize| steady.start_s() + run.cycle_s * (cycle as f64 + point as f64 / (POINTS - 1) as f64);

@@ -3,7 +3,8 @@
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, Scope};
 use super::paper_human::MASS;
-use super::steady::{Steady, extremes, mean, rms};
+use super::steady::Steady;
+use ambulo_body::numerics::{extremes, mean, rms};
 
 /// The estimate of the paper: 80 kg, 1.2 m, ±6 m/s² [N.m].
 const ESTIMATE: f64 = MASS * 6.0 * CENTER_HEIGHT;

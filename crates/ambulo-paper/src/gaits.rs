@@ -2,7 +2,8 @@
 
 use super::claim::{ClaimKind, Numbers, Statement, number};
 use super::evidence::{Evidence, GAITS, Scope};
-use super::steady::{Steady, correlation, extremes, rms};
+use super::steady::Steady;
+use ambulo_body::numerics::{correlation, extremes, rms};
 
 /// Correlation of curves with the same global shape.
 const ALIKE: f64 = 0.8;

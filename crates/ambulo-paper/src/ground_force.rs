@@ -3,8 +3,9 @@
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, Scope};
 use super::mode::Run;
-use super::steady::{POINTS, STEADY_CYCLES, Steady, correlation, mean_of};
+use super::steady::{POINTS, STEADY_CYCLES, Steady, mean_of};
 use ambulo_body::model::Side;
+use ambulo_body::numerics::correlation;
 
 /// A peak is higher than the minima next to it by at least this [body weights].
 const PROMINENCE: f64 = 0.1;

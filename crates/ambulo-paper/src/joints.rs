@@ -3,8 +3,9 @@
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::convergence::JOINTS;
 use super::evidence::Scope;
-use super::steady::{Steady, correlation, mean, range_of, rms};
+use super::steady::Steady;
 use ambulo_body::model::Side;
+use ambulo_body::numerics::{correlation, mean, range, rms};
 
 /// A change of a curve within one millisecond by more than this share of its range is a jump.
 const JUMP: f64 = 0.05;
@@ -79,7 +80,7 @@ pub(super) const CONTINUOUS: Statement = Statement {
         let step = steady.run.recording.grid().step_s;
         for (joint, coordinate) in JOINTS {
             let series = steady.effort(coordinate);
-            let range = range_of(&series[steady.rows()]);
+            let range = range(&series[steady.rows()]);
             let steps: Vec<f64> = steady
                 .rows()
                 .skip(1)

@@ -54,4 +54,4 @@ pub use paper_human::{HEIGHT, MASS, paper_human};
 pub use paper_settings::PaperSettings;
 pub use shares::{OpenValues, StoredShares, judged_of_the_paper, read_shares, shares_csv, stored_shares};
 pub use statements::{claims, judgements};
-pub use steady::{IMPACT_MARGIN_S, POINTS, STEADY_CYCLES, Steady, correlation, extremes, mean, mean_of, range_of, rms};
+pub use steady::{IMPACT_MARGIN_S, POINTS, STEADY_CYCLES, Steady};

@@ -4,8 +4,9 @@ use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{MASSES, Scope};
 use super::mode::Run;
 use super::paper_human::MASS;
-use super::steady::{Steady, correlation, rms};
+use super::steady::Steady;
 use ambulo_body::model::Side;
+use ambulo_body::numerics::{correlation, rms};
 
 /// The largest difference of torques from the ratio of the masses that is a rounding error.
 const EXACT: f64 = 1e-6;

@@ -4,7 +4,8 @@
 //! stops are included.
 
 use super::mode::Run;
-use super::steady::{STEADY_CYCLES, Steady, mean};
+use super::steady::{STEADY_CYCLES, Steady};
+use ambulo_body::numerics::mean;
 
 /// Parts of the gait cycle: name, begin and end [share of the cycle] (Perry's phases; unverified page).
 pub const PHASES: [(&str, f64, f64); 7] = [

@@ -7,10 +7,11 @@
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, FRICTION, FRICTIONS, Scope};
 use super::mode::Run;
-use super::steady::{STEADY_CYCLES, Steady, rms};
+use super::steady::{STEADY_CYCLES, Steady};
 use ambulo_body::kinematics::each_body_motion;
 use ambulo_body::model::Side;
 use ambulo_body::model::anthropometry::ContactSphere;
+use ambulo_body::numerics::rms;
 
 /// Slip per step that counts as none [m].
 const NO_SLIP_M: f64 = 1e-3;

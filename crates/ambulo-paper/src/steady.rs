@@ -121,42 +121,7 @@ impl<'a> Steady<'a> {
 }
 
 /// Mean of curves, point by point.
-#[must_use]
-pub fn mean_of(curves: &[Vec<f64>]) -> Vec<f64> {
+pub(super) fn mean_of(curves: &[Vec<f64>]) -> Vec<f64> {
     let count = curves.len().max(1) as f64;
     (0..POINTS).map(|point| curves.iter().map(|curve| curve[point]).sum::<f64>() / count).collect()
-}
-
-/// Largest minus smallest value.
-#[must_use]
-pub fn range_of(values: &[f64]) -> f64 {
-    let (low, high) = extremes(values);
-    high - low
-}
-
-/// Smallest and largest value.
-#[must_use]
-pub fn extremes(values: &[f64]) -> (f64, f64) {
-    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
-}
-
-/// Mean of values.
-#[must_use]
-pub fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
-}
-
-/// Root mean square of values.
-#[must_use]
-pub fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|x| x * x).sum::<f64>() / values.len().max(1) as f64).sqrt()
-}
-
-/// Pearson correlation of two curves of the same length; 0 if one is constant.
-#[must_use]
-pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
-    let (x, y) = (mean(a), mean(b));
-    let products = |f: &dyn Fn(f64, f64) -> f64| a.iter().zip(b).map(|(a, b)| f(a - x, b - y)).sum::<f64>();
-    let spread = (products(&|a, _| a * a) * products(&|_, b| b * b)).sqrt();
-    if spread > 0.0 { products(&|a, b| a * b) / spread } else { 0.0 }
 }

@@ -5,10 +5,11 @@
 
 use super::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, FigureError, PALE};
 use super::html::{Document, code, escaped, html_table};
+use ambulo::numerics::finite_mean;
 use ambulo::study::QualityState;
 use ambulo::study::validation::{
-    self, Component, DEFINITIONS, Figure, JudgedTrial, LegJoint, PhaseError, Section, TextTable, kinds, mean,
-    over_kind, persons, phase_errors, stance_rows,
+    self, Component, DEFINITIONS, Figure, JudgedTrial, LegJoint, PhaseError, Section, TextTable, kinds, over_kind,
+    persons, phase_errors, stance_rows,
 };
 use ambulo_formats::table::guarded;
 use ambulo_results::OutputFile;
@@ -346,7 +347,7 @@ fn means_csv(judged: &[&JudgedTrial]) -> String {
         let of_person: Vec<&JudgedTrial> = judged.iter().filter(|trial| trial.person == person).copied().collect();
         for kind in kinds(&of_person) {
             let own: Vec<&JudgedTrial> = of_person.iter().filter(|trial| trial.kind == kind).copied().collect();
-            let of = |figure: Figure| mean(own.iter().map(|trial| figure.of(&trial.agreement)));
+            let of = |figure: Figure| finite_mean(own.iter().map(|trial| figure.of(&trial.agreement)));
             row(["person", "", person, kind], &own, &of);
         }
     }

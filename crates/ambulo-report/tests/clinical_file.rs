@@ -6,6 +6,7 @@ use crate::svg_reader::Figure;
 use ambulo::findings::Findings;
 use ambulo::model::{Model, to_osim};
 use ambulo::motion::coordinates_from_table;
+use ambulo::numerics::mean;
 use ambulo::study::{self, ForceTable, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
@@ -65,10 +66,6 @@ fn files((outcome, findings): &(Outcome, Findings), convention: Convention) -> F
 
 fn clinical(files: &Files) -> Table {
     Table::read_csv(&files["clinical.csv"]).unwrap().0
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// Largest difference between the mean curves of a panel of `kinematics.svg` and a column of `clinical.csv` over the same cycles [deg].

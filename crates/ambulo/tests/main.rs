@@ -126,6 +126,7 @@ mod smpl_motions;
 mod splines;
 mod stance_heights;
 mod standing_ground;
+mod statistics;
 mod synthetic_walk;
 mod times_and_distances;
 mod unchanged_results;

@@ -9,6 +9,7 @@ use ambulo::model::anthropometry::{Build, ContactSphere, Human, SegmentTable, Sp
 use ambulo::model::full_body::full_body;
 use ambulo::model::{BySide, Side};
 use ambulo::motion::TimeGrid;
+use ambulo::numerics::correlation;
 use ambulo::optimal::{Bound, EffortCosts, Key, MovementError, MovementProblem, MovementSettings, Quantity};
 use ambulo::optimal::{Sample, Solution};
 use ambulo::spatial::Vec3;
@@ -293,12 +294,4 @@ fn predicted_forces_of_a_squat_have_its_centre_of_pressure_and_its_ankle_moment(
         println!("squat to {depth} of leg length: centre of pressure {rms_mm:.1} mm, ankle moment r {r:.3}");
         assert!(rms_mm < 25.0 && r > 0.9, "{rms_mm} mm, r {r}");
     }
-}
-
-fn correlation(a: &[f64], b: &[f64]) -> f64 {
-    let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
-    let (ma, mb) = (mean(a), mean(b));
-    let product =
-        |x: &[f64], mx: f64, y: &[f64], my: f64| -> f64 { x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum() };
-    product(a, ma, b, mb) / (product(a, ma, a, ma) * product(b, mb, b, mb)).sqrt()
 }

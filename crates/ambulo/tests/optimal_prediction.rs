@@ -5,6 +5,7 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, JointMomentLaws, Walk};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::{Movement, Side};
+use ambulo::numerics::correlation;
 use ambulo::optimal::{
     Bound, Device, EffortCosts, Load, LoadPlace, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Prediction, Quantity,
     STAGES, Solution, Span, Term, WalkConditions, WalkCosts, WalkProblem, metabolic_power,
@@ -73,14 +74,6 @@ impl Predicted {
     fn root(&self) -> f64 {
         self.solution.progress.last().unwrap().root.1
     }
-}
-
-fn correlation(a: &[f64], b: &[f64]) -> f64 {
-    let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
-    let (ma, mb) = (mean(a), mean(b));
-    let sum =
-        |x: &[f64], mx: f64, y: &[f64], my: f64| -> f64 { x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum() };
-    sum(a, ma, b, mb) / (sum(a, ma, a, ma) * sum(b, mb, b, mb)).sqrt()
 }
 
 /// Curves of people are in no cost of this walk.

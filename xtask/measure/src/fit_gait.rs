@@ -11,11 +11,12 @@ mod polynomial;
 mod recipe;
 mod write;
 
-use crate::harmonics::Harmonics;
+use crate::harmonics::harmonics;
 use crate::normative::{self, CADENCES, Curves, SPEEDS, Sheet};
 use crate::walk_bands::child_leg;
 use crate::workspace;
 use ambulo::gait::{Laws, LegJoint, Style};
+use ambulo::numerics::Harmonics;
 use ambulo::spatial::STANDARD_GRAVITY;
 use errors::CurveError;
 use ground_forces::Forces;
@@ -209,7 +210,7 @@ impl Form {
 
 /// Mean and some harmonics, as quadratics of speed.
 fn write_wave(text: &mut String, name: &str, curves: &Curves, form: Form, orders: &[usize]) {
-    let waves: Vec<Harmonics> = curves.iter().map(|curve| Harmonics::of(curve)).collect();
+    let waves: Vec<Harmonics> = curves.iter().map(|curve| harmonics(curve)).collect();
     let law = |part: &dyn Fn(&Harmonics) -> f64| {
         write::law(&polynomial::fit(&SPEEDS, &waves.iter().map(part).collect::<Vec<f64>>(), 2), form.digits)
     };
@@ -217,7 +218,7 @@ fn write_wave(text: &mut String, name: &str, curves: &Curves, form: Form, orders
     let mean = if form.with_mean { law(&|wave| wave.mean) } else { "0.0".into() };
     let _ = write!(text, "\n[{name}]\nmean{unit} = {mean}\n");
     for &order in orders {
-        let [cos, sin] = [0, 1].map(|i| law(&move |wave: &Harmonics| wave.factors[order - 1][i]));
+        let (cos, sin) = (law(&|wave| wave.cosine[order - 1]), law(&|wave| wave.sine[order - 1]));
         let _ = write!(text, "[[{name}.harmonic]]\norder = {order}\ncos{unit} = {cos}\nsin{unit} = {sin}\n");
     }
 }
@@ -262,6 +263,7 @@ fn curves_of(style: Style, tables: &[Curves], used: &[usize]) -> Result<Laws, St
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::harmonics::value_slope_curvature;
 
     /// Skipped without the tables.
     #[test]
@@ -300,7 +302,7 @@ mod tests {
     fn harmonics_have_the_derivatives_of_the_curve() {
         let wave = |phase: f64| 3.0 + 2.0 * (std::f64::consts::TAU * 2.0 * phase).cos();
         let samples: Vec<f64> = (0..normative::SAMPLES).map(|i| wave(i as f64 / 50.0)).collect();
-        let [value, slope, curvature] = Harmonics::of(&samples).at(0.5);
+        let [value, slope, curvature] = value_slope_curvature(&harmonics(&samples), 0.5);
         let turn = 4.0 * std::f64::consts::PI;
         assert!((value - 5.0).abs() < 1e-12 && slope.abs() < 1e-10 && (curvature + 2.0 * turn * turn).abs() < 1e-9);
     }

@@ -9,7 +9,6 @@
 mod made;
 mod video;
 
-use crate::table::Table;
 use crate::validate::recording::{self, Group, Recording};
 use crate::workspace;
 use ambulo::analysis::LaboratoryRecording;
@@ -17,6 +16,7 @@ use ambulo::findings::Findings;
 use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::MarkerRecording;
+use ambulo::study::validation::TextTable as Table;
 use ambulo::study::{
     self, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Outcome, Settings, Source,
 };

@@ -6,7 +6,7 @@
 //! Times are CPU time of the thread per frame [us], the median of 31 to 41 passes over all frames. Compare only times of one
 //! run: between runs, the same program varied by up to 30 %. All programs are built with `-O3 -march=native`.
 
-use crate::npz;
+use ambulo_formats::npz::Npz;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -306,19 +306,20 @@ fn prepare_data(settings: &Settings) -> Result<PathBuf, String> {
 /// `frames.npz` as the C programs read it: frames and joints, joint names, then angles (rad), rates (rad/s) and
 /// accelerations (rad/s^2) of one frame on each line. Every number reads back to the same bits.
 fn frames_text(npz: &Path) -> Result<String, String> {
-    let arrays = npz::read(npz)?;
-    let array = |name: &str| arrays.get(name).ok_or_else(|| format!("{}: no array `{name}`", npz.display()));
-    let wrong = |name: &'static str| move |e: String| format!("{}: array `{name}` {e}", npz.display());
-    let names = array("names")?.text().map_err(wrong("names"))?;
+    let bytes = fs::read(npz).map_err(|e| format!("{}: cannot read: {e}", npz.display()))?;
+    let arrays = Npz::read(&bytes).map_err(|e| format!("{}: {e}", npz.display()))?;
+    let array = |name: &str| arrays.array(name).ok_or_else(|| format!("{}: no array `{name}`", npz.display()));
+    let wrong = |name: &str, found: &str| format!("{}: array `{name}` {found}", npz.display());
+    let names = array("names")?.texts().ok_or_else(|| wrong("names", "has no texts"))?;
     let frames = array("q")?.shape.first().copied().unwrap_or_default();
     let mut blocks = Vec::new();
     for name in ["q", "qd", "qdd"] {
         let block = array(name)?;
         if block.shape != [frames, names.len()] {
             let expected = [frames, names.len()];
-            return Err(wrong(name)(format!("has shape {:?}, expected {expected:?}", block.shape)));
+            return Err(wrong(name, &format!("has shape {:?}, expected {expected:?}", block.shape)));
         }
-        blocks.push(block.numbers().map_err(wrong(name))?);
+        blocks.push(block.numbers().ok_or_else(|| wrong(name, "has no numbers"))?);
     }
     let mut text = format!("{frames} {}\n{}\n", names.len(), names.join(" "));
     for frame in 0..frames {

@@ -9,13 +9,13 @@ mod placement;
 mod spatial;
 mod standing;
 
-use crate::random::Random;
 use crate::workspace;
 use ambulo::contact::Shape;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::numerics::Harmonics;
+use ambulo::numerics::Random;
 use ambulo::optimal::Solution;
 use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::control::{Balance, ControlSettings, PhysicalWalk, TorqueCurves, WalkController};
@@ -362,7 +362,7 @@ fn tiles_walked(figure: &Figure, settings: &ControlSettings, steps: usize) -> Re
         walk.world_mut().obstacles[0].pose = Pose::at(Vec3::new(0.0, -5.0, 0.0));
         for tile in -2..110 {
             if tile >= 2 {
-                height += TILE * (2.0 * random.unit() - 1.0);
+                height += TILE * (2.0 * random.share() - 1.0);
             }
             let half = Vec3::new(0.5 * length, 1.0, 2.0);
             let place = Vec3::new((f64::from(tile) + 0.5) * length, height - half.y, 0.0);

@@ -32,11 +32,8 @@
 //!
 //! Rapier is built with `-C target-cpu=native`, MuJoCo is a prebuilt library. Compare only times of one run.
 
-mod flat_json;
-
 use crate::workspace;
-use flat_json::{Value, quoted};
-use std::collections::BTreeMap;
+use serde_json::{Map, Value};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -371,10 +368,10 @@ fn json(timings: &[PeerTiming]) -> String {
             Outcome::NotInstalled { hint } => ("not_installed", hint),
             Outcome::Failed { reason } => ("failed", reason),
         };
-        let [peer, scene, setting] = [timing.peer.name(), timing.scene.name(), timing.setting].map(quoted);
+        let [peer, scene, setting] = [timing.peer.name(), timing.scene.name(), timing.setting].map(Value::from);
         let size = timing.size;
         let head = format!("\"peer\": {peer}, \"scene\": {scene}, \"size\": {size}, \"setting\": {setting}");
-        format!("{{{head}, \"{key}\": {}}}", quoted(why_not))
+        format!("{{{head}, \"{key}\": {}}}", Value::from(why_not.as_str()))
     };
     format!("[\n{}\n]\n", timings.iter().map(object).collect::<Vec<_>>().join(",\n"))
 }
@@ -389,13 +386,13 @@ fn measure(command: &mut Command) -> Result<Outcome, Outcome> {
 }
 
 fn read(line: &str) -> Result<Outcome, String> {
-    let object = flat_json::parse(line)?;
-    if let Some(Value::Text(reason)) = object.get("error") {
+    let object: Map<String, Value> = serde_json::from_str(line).map_err(|e| e.to_string())?;
+    if let Some(Value::String(reason)) = object.get("error") {
         return Ok(Outcome::Refused { reason: reason.clone() });
     }
     let number = |key: &str| finite(&object, key);
     let needed = |key: &str| number(key)?.ok_or_else(|| format!("`{key}` is null"));
-    let Some(Value::Text(version)) = object.get("version") else { return Err("no text `version`".to_owned()) };
+    let Some(Value::String(version)) = object.get("version") else { return Err("no text `version`".to_owned()) };
     let stance = object.contains_key("pelvis_height_m").then(|| {
         Ok::<_, String>(Stance {
             contact_force_n: number("contact_force_n")?,
@@ -413,7 +410,7 @@ fn read(line: &str) -> Result<Outcome, String> {
         p90_us: needed("p90_us")?,
         steps: needed("steps")?,
         constraint_error_m: [number("constraint_error_worst_m")?, number("constraint_error_last_m")?],
-        diverged: object.get("diverged") != Some(&Value::Flag(false)),
+        diverged: object.get("diverged") != Some(&Value::Bool(false)),
         energy_change_j: if stance.is_none() { number("energy_change_j")? } else { None },
         stance: stance.transpose()?,
         line: line.to_owned(),
@@ -421,9 +418,9 @@ fn read(line: &str) -> Result<Outcome, String> {
 }
 
 /// A required number; `None` if it was not finite.
-fn finite(object: &BTreeMap<String, Value>, key: &str) -> Result<Option<f64>, String> {
+fn finite(object: &Map<String, Value>, key: &str) -> Result<Option<f64>, String> {
     match object.get(key) {
-        Some(Value::Number(number)) => Ok(Some(*number)),
+        Some(Value::Number(number)) => Ok(number.as_f64()),
         Some(Value::Null) => Ok(None),
         _ => Err(format!("no number `{key}`")),
     }

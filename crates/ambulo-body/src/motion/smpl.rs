@@ -176,7 +176,9 @@ fn numbers<'n>(npz: &'n Npz, name: &str) -> Option<Result<Shaped<'n>, SmplError>
     Some(match &array.data {
         Data::Numbers(numbers) => Ok((numbers, &array.shape)),
         Data::Text(_) => Err(SmplError::NoNumbers { array: name.to_owned(), found: "a text".to_owned() }),
-        Data::Other(kind) => Err(SmplError::NoNumbers { array: name.to_owned(), found: kind.clone() }),
+        Data::Texts { kind, .. } | Data::Other(kind) => {
+            Err(SmplError::NoNumbers { array: name.to_owned(), found: kind.clone() })
+        }
     })
 }
 

@@ -1,5 +1,5 @@
 //! Numerical methods: natural splines and their banded solver, periodic and uniform B-splines, band matrices, nonlinear
-//! least squares, evolution strategies, random numbers, medians, harmonics. Nothing here knows mechanics.
+//! least squares, evolution strategies, random numbers, statistics, harmonics. Nothing here knows mechanics.
 //!
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.
@@ -12,7 +12,6 @@ pub mod elementary;
 mod harmonics;
 mod least_squares;
 mod matrix_product;
-mod median;
 mod natural_spline;
 mod periodic_spline;
 mod profile_cholesky;
@@ -21,6 +20,7 @@ mod shown;
 pub(crate) mod sin_cos;
 mod spline_fitter;
 mod spline_grid;
+mod statistics;
 mod uniform_spline;
 mod whittaker;
 
@@ -33,7 +33,6 @@ pub use harmonics::Harmonics;
 pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
 #[doc(hidden)]
 pub use matrix_product::product;
-pub use median::median;
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
 pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues, quintic_splines};
 pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
@@ -41,6 +40,7 @@ pub use random::Random;
 #[doc(hidden)]
 pub use shown::Shown;
 pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};
+pub use statistics::{correlation, extremes, finite_mean, mean, median, range, rms, sample_deviation};
 pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};
 pub use whittaker::Whittaker;
 

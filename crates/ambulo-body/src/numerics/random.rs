@@ -10,10 +10,16 @@ use crate::numerics::elementary::{cos, ln};
 pub struct Random(u64);
 
 impl Random {
+    /// The sequence of a seed.
+    #[must_use]
+    pub fn seeded(seed: u64) -> Random {
+        Random(seed)
+    }
+
     /// One of many sequences of a seed.
     #[must_use]
     pub fn new(seed: u64, number: u64) -> Random {
-        Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03))
+        Random::seeded(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03))
     }
 
     /// From 0 to below 1.
@@ -24,6 +30,11 @@ impl Random {
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A whole number from 0 to below `count`.
+    pub fn below(&mut self, count: usize) -> usize {
+        ((self.share() * count as f64) as usize).min(count.saturating_sub(1))
     }
 
     /// Normally distributed, with mean 0 and standard deviation 1 (Box and Muller 1958; unverified).

@@ -1,6 +1,6 @@
 //! Archives of NumPy arrays: `.npz`, a ZIP whose entries are `.npy` files, stored or deflated.
 //!
-//! Numbers of any size and byte order become `f64`, truth values 0 and 1; texts of one element become a `String`. Pickled objects are
+//! Numbers of any size and byte order become `f64`, truth values 0 and 1; texts become `String`s. Pickled objects are
 //! never unpickled: an entry that holds them is listed as [`Data::Other`].
 //!
 //! Not handled, and rejected: encrypted archives, archives in several parts or above 4 GB, other methods of compression.
@@ -16,6 +16,8 @@ use crate::error::Error;
 pub const MAX_UNPACKED: usize = 1 << 30;
 /// Largest number of entries.
 pub const MAX_ENTRIES: usize = 4096;
+/// Largest number of texts of an array; one with more is [`Data::Other`].
+pub const MAX_TEXTS: usize = 65_536;
 
 /// Arrays with their names, in the order of the archive.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -40,6 +42,13 @@ pub enum Data {
     Numbers(Vec<f64>),
     /// A single text.
     Text(String),
+    /// Several texts, and their type as the file describes it, such as `<U8`.
+    Texts {
+        /// The type.
+        kind: String,
+        /// The texts.
+        texts: Vec<String>,
+    },
     /// Something else: the type as the file describes it, such as `|O` for pickled objects.
     Other(String),
 }
@@ -50,7 +59,16 @@ impl Array {
     pub fn numbers(&self) -> Option<&[f64]> {
         match &self.data {
             Data::Numbers(numbers) => Some(numbers),
-            Data::Text(_) | Data::Other(_) => None,
+            Data::Text(_) | Data::Texts { .. } | Data::Other(_) => None,
+        }
+    }
+
+    /// The texts of an array that has several; `None` if it has no texts, or a single one.
+    #[must_use]
+    pub fn texts(&self) -> Option<&[String]> {
+        match &self.data {
+            Data::Texts { texts, .. } => Some(texts),
+            Data::Numbers(_) | Data::Text(_) | Data::Other(_) => None,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! One array: a magic word, a header in the syntax of Python, and the elements.
 
 use super::zip::Entry;
-use super::{Array, Data};
+use super::{Array, Data, MAX_TEXTS};
 use crate::error::{Error, quoted};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
@@ -48,12 +48,17 @@ pub(super) fn read(bytes: &[u8], entry: &Entry) -> Result<Array, Error> {
             "as many as the shape",
         ));
     }
+    let elements = elements.chunks_exact(kind.bytes);
+    let plain = || description.trim_matches(['\'', '"']).to_owned();
     let data = match kind.letter {
-        'S' | 'U' if count == Some(1) => Data::Text(text(kind, elements)),
-        'S' | 'U' => Data::Other(description.trim_matches(['\'', '"']).to_owned()),
-        _ => Data::Numbers(elements.chunks_exact(kind.bytes).map(|element| number(kind, element)).collect()),
+        'S' | 'U' if elements.len() > MAX_TEXTS => Data::Other(plain()),
+        'S' | 'U' => match (elements.map(|element| text(kind, element)).collect::<Vec<_>>(), count) {
+            (mut one, Some(1)) => Data::Text(one.pop().unwrap_or_default()),
+            (texts, _) => Data::Texts { kind: plain(), texts: ordered(texts, &shape, is_columns) },
+        },
+        _ => Data::Numbers(ordered(elements.map(|element| number(kind, element)).collect(), &shape, is_columns)),
     };
-    Ok(if is_columns { by_rows(Array { shape, data }) } else { Array { shape, data } })
+    Ok(Array { shape, data })
 }
 
 /// The text after `'key':` up to the comma that ends it.
@@ -135,15 +140,16 @@ fn text(kind: Kind, element: &[u8]) -> String {
     element.chunks_exact(4).map(letter).collect::<String>().trim_end_matches('\0').to_owned()
 }
 
-/// An array whose first axis runs first, with its last axis first.
-fn by_rows(array: Array) -> Array {
-    let Data::Numbers(columns) = &array.data else { return array };
-    let shape = &array.shape;
+/// Elements with their last axis first; `is_columns` if their first axis runs first.
+fn ordered<T: Clone>(elements: Vec<T>, shape: &[usize], is_columns: bool) -> Vec<T> {
+    if !is_columns {
+        return elements;
+    }
     let mut index = vec![0; shape.len()];
-    let mut rows = Vec::with_capacity(columns.len());
-    for _ in 0..columns.len() {
+    let mut rows = Vec::with_capacity(elements.len());
+    for _ in 0..elements.len() {
         let place = index.iter().zip(shape).rev().fold(0, |place, (i, length)| place * length + i);
-        rows.push(columns[place]);
+        rows.push(elements[place].clone());
         for axis in (0..shape.len()).rev() {
             index[axis] += 1;
             if index[axis] < shape[axis] {
@@ -152,7 +158,7 @@ fn by_rows(array: Array) -> Array {
             index[axis] = 0;
         }
     }
-    Array { shape: array.shape, data: Data::Numbers(rows) }
+    rows
 }
 
 pub(super) fn write(name: &str, array: &Array) -> Result<Vec<u8>, Error> {
@@ -163,7 +169,9 @@ pub(super) fn write(name: &str, array: &Array) -> Result<Vec<u8>, Error> {
             let letters: Vec<u8> = text.chars().flat_map(|letter| (letter as u32).to_le_bytes()).collect();
             (format!("<U{}", letters.len() / 4), letters)
         }
-        Data::Other(kind) => return refused(format!("`{name}` of the type `{kind}`"), "numbers or a text"),
+        Data::Texts { kind, .. } | Data::Other(kind) => {
+            return refused(format!("`{name}` of the type `{kind}`"), "numbers or a text");
+        }
     };
     let count = array.shape.iter().try_fold(1_usize, |count, length| count.checked_mul(*length));
     let is_whole = match &array.data {

@@ -14,6 +14,8 @@ arrays = {
     "flags": numpy.array([True, False]),
     "signed": numpy.array([-3, 7], dtype=numpy.int8),
     "gender": numpy.array("female"),
+    "names": numpy.array(["hip", "kneé", "", "ankle"]),
+    "names_columns": numpy.asfortranarray([["a", "b", "c"], ["d", "e", "f"]]),
     "gender_bytes": numpy.array(b"male"),
     "object": numpy.array([{"a": 1}], dtype=object),
 }

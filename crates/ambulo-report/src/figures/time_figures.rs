@@ -10,6 +10,7 @@ use ambulo::analysis::{Analysis, residual_sizes};
 use ambulo::ground::predict::Prediction;
 use ambulo::ground::{BodyForces, feet};
 use ambulo::model::{Model, Side};
+use ambulo::numerics::rms;
 use ambulo::spatial::Vec3;
 
 const HEIGHT: f64 = 84.0;
@@ -50,7 +51,6 @@ pub fn residual_figure(model: &Model, analysis: &Analysis, caption: &str) -> Res
         return Ok(None);
     }
     let weight = analysis.mass.kg * model.gravity().norm();
-    let rms = |values: &[f64]| (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt();
     let stroke = Stroke::solid(&style.text.color, 0.8 * style.lines_pt.mean);
     let line = |values: Vec<f64>| vec![Series { role: "residual", side: None, values, spread: None, stroke }];
     let [force, moment] = [0, 1].map(|k| sizes.iter().map(|size| size[k]).collect::<Vec<f64>>());

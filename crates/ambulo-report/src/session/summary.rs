@@ -1,5 +1,6 @@
 //! What `summary.json` of a session has: the person, the trials, times and distances, the profile; read back by later sessions.
 
+use ambulo::numerics::{mean, sample_deviation};
 use ambulo::study::session::VariableScore;
 use ambulo_results::{Convention, WalkingSummary};
 use serde::{Deserialize, Serialize};
@@ -30,10 +31,8 @@ impl Spread {
     /// Of at least one number.
     #[must_use]
     pub fn of(values: &[f64]) -> Option<Spread> {
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let variance = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
-        (!values.is_empty()).then(|| Spread { mean, sd: (values.len() > 1).then(|| variance.sqrt()), n: values.len() })
+        let sd = sample_deviation(values);
+        (!values.is_empty()).then(|| Spread { mean: mean(values), sd, n: values.len() })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::cycles::{Cycle, cycles};
 use super::events::{Contact, Event, EventKind, contacts_from_force, events};
-use super::feasibility::{Verdict, over_ground};
+use super::feasibility::over_ground;
 use super::plausibility;
 use super::progress::{Progress, Stage, Stopped};
 use super::residual::{Residual, residual_within};
@@ -16,6 +16,7 @@ use crate::motion::filter::LowPass;
 use crate::motion::{
     ForceRecording, Motion, MotionError, SmoothSettings, Smoother, Window, check_range, interpolate, smooth,
 };
+use crate::numerics::mean;
 use crate::spatial::Vec3;
 
 /// How a recording is analysed.
@@ -47,7 +48,7 @@ impl AnalysisSettings {
 pub struct Analysis {
     /// The motion that was used.
     pub trajectory: Trajectory,
-    /// Whether residual reduction changed it ([`super::reduce_residual`]).
+    /// Whether it differs from the recorded one, so that motion and forces agree ([`super::reduce_residual`], [`super::track`]).
     pub adjusted: bool,
     /// The ground forces at the times of the trajectory.
     pub ground: GroundForces,
@@ -63,8 +64,6 @@ pub struct Analysis {
     pub speed_m_s: Option<f64>,
     /// Residual force and moment.
     pub residual: Option<Residual>,
-    /// Whether a person could make the motion; `None` before [`super::feasibility::check`].
-    pub verdict: Option<Verdict>,
 }
 
 /// Body mass and where it comes from.
@@ -285,18 +284,7 @@ pub(super) fn with_forces(
     let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|over| over.speed);
     let (first, frames) = grid.inside(within.unwrap_or_default());
     let residual = residual_within(model, &forces, first..first + frames);
-    Ok(Analysis {
-        trajectory,
-        adjusted: false,
-        ground,
-        forces,
-        events,
-        cycles,
-        mass,
-        speed_m_s,
-        residual,
-        verdict: None,
-    })
+    Ok(Analysis { trajectory, adjusted: false, ground, forces, events, cycles, mass, speed_m_s, residual })
 }
 
 /// Puts the requested time range into the error of a range that is too short, with the time that motion and forces both cover.
@@ -410,7 +398,7 @@ fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findin
     if weighed.is_empty() {
         return Mass { kg: stated, source: MassSource::Model };
     }
-    let mean = weighed.iter().sum::<f64>() / weighed.len() as f64;
+    let mean = mean(&weighed);
     if (mean / stated - 1.0).abs() > WHOLE_BODY_SHARE {
         return Mass { kg: stated, source: MassSource::Model };
     }

@@ -22,6 +22,7 @@ use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{TimeGrid, interpolate};
 use crate::numerics::elementary::acos;
+use crate::numerics::{mean, sample_deviation};
 use crate::spatial::Vec3;
 
 /// A floor velocity below this share of the walking speed is taken as zero.
@@ -197,11 +198,11 @@ impl TimesAndDistances {
     pub fn spread(&self, quantity: StrideQuantity, side: Option<Side>) -> Option<StrideStatistics> {
         let chosen = self.strides.iter().filter(|stride| side.is_none_or(|side| stride.side == side));
         let values: Vec<f64> = chosen.filter_map(|stride| quantity.of(stride)).collect();
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let variance = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
-        let standard_deviation = (values.len() > 1).then(|| variance.sqrt());
-        (!values.is_empty()).then_some(StrideStatistics { mean, standard_deviation, strides: values.len() })
+        (!values.is_empty()).then(|| StrideStatistics {
+            mean: mean(&values),
+            standard_deviation: sample_deviation(&values),
+            strides: values.len(),
+        })
     }
 
     /// Symmetry index of the means of both feet: (right - left) over their mean. 0 is symmetric, positive if the right one is larger. `None`

@@ -206,24 +206,13 @@ impl KnownMass {
 }
 
 impl BodyMass {
-    /// A mass that nothing but a statement or a model gives.
-    #[must_use]
-    pub fn alone(kg: f64, source: MassWitness) -> BodyMass {
-        let state = if source == MassWitness::Model { MassState::Unknown } else { MassState::Stated };
-        let sources = vec![MassEstimate { by: source, kg, error_kg: 0.0, times: 1, time_s: None }];
-        BodyMass {
-            state,
-            kg,
-            source,
-            normalised_by: MassSource::Model,
-            plates_kg: None,
-            plates_error_kg: None,
-            sources,
-        }
-    }
-
     /// From all sources; `model_kg` is the mass that the forces are computed with.
-    pub(super) fn of(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>) -> BodyMass {
+    pub(super) fn of(
+        model_kg: f64,
+        known: &KnownMass,
+        motion: Vec<MassEstimate>,
+        normalised_by: MassSource,
+    ) -> BodyMass {
         let moving = combined(&motion);
         let chosen = known.decided(&motion).filter(|chosen| (chosen.kg / model_kg - 1.0).abs() < SAME_MASS);
         let source = chosen.map_or(MassWitness::Model, |chosen| chosen.by);
@@ -241,13 +230,12 @@ impl BodyMass {
         sources.push(MassEstimate { by: MassWitness::Model, ..used });
         let [plates_kg, plates_error_kg] =
             [plates.as_ref().map(|plates| plates.kg), plates.as_ref().map(|plates| plates.error_kg)];
-        let normalised_by = MassSource::Model;
         BodyMass { state, kg: model_kg, source, normalised_by, plates_kg, plates_error_kg, sources }
     }
 
     /// After residual reduction, which may have changed the mass of the body.
-    pub(super) fn computed_with(self, model_kg: f64, normalised_by: MassSource) -> BodyMass {
-        BodyMass { kg: model_kg, normalised_by, ..self }
+    pub(super) fn after_reduction(self, model_kg: f64) -> BodyMass {
+        BodyMass { kg: model_kg, ..self }
     }
 
     /// The motion on the plates, all ways of weighing together.

@@ -10,15 +10,14 @@
 //! of its three rotations are the moments, those of its three translations the forces.
 
 use super::timing::{Timing, cpu_us};
-use crate::npz::{self, Array};
 use crate::workspace;
 use ambulo::dynamics::{Workspace, inverse_frame, inverse_frames};
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Posture, Trajectory};
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::TimeGrid;
+use ambulo_formats::npz::{Array, Npz};
 use ambulo_formats::osim::OsimModel;
-use std::collections::BTreeMap;
 use std::fmt;
 use std::fs;
 use std::hint::black_box;
@@ -76,9 +75,12 @@ impl Human {
         let at = |e: &dyn fmt::Display| format!("{}: {e}", path.display());
         let document = OsimModel::read(&fs::read(&path).map_err(|e| at(&e))?).map_err(|e| at(&e))?;
         let model = from_osim(&document, &mut Findings::default()).map_err(|e| at(&e))?;
-        let (recorded, answer) =
-            (npz::read(&folder.join("frames.npz"))?, npz::read(&folder.join("tau_pinocchio.npz"))?);
-        let names = array(&recorded, "names")?.text()?;
+        let arrays = |name: &str| {
+            let bytes = fs::read(folder.join(name)).map_err(|e| format!("{name}: cannot read: {e}"))?;
+            Npz::read(&bytes).map_err(|e| format!("{name}: {e}"))
+        };
+        let (recorded, answer) = (arrays("frames.npz")?, arrays("tau_pinocchio.npz")?);
+        let names = array(&recorded, "names")?.texts().ok_or("the array `names` has no texts")?;
         let frames = array(&recorded, "q")?.shape.first().copied().unwrap_or_default();
         let place = |blocks: &[(&Array, &[(&str, usize)])]| rows(&model, frames, blocks);
         let columns: Vec<(&str, usize)> = names.iter().enumerate().map(|(i, name)| (name.as_str(), i)).collect();
@@ -162,7 +164,7 @@ fn rows(model: &Model, frames: usize, blocks: &[(&Array, &[(&str, usize)])]) -> 
         if found != frames || width != columns.len() {
             return Err(format!("{found} rows of {width} numbers, expected {frames} of {}", columns.len()));
         }
-        let numbers = array.numbers()?;
+        let numbers = array.numbers().ok_or("an array of the reference human has no numbers")?;
         for (name, column) in *columns {
             let id = model.coordinate(name).ok_or_else(|| format!("the model has no coordinate `{name}`"))?;
             for frame in 0..frames {
@@ -180,8 +182,8 @@ fn trajectory(model: &Model, frames: usize, motion: &[Vec<f64>; 3]) -> Result<Tr
     Trajectory::new(model, TimeGrid { start_s: 0.0, step_s: STEP_S, frames }, columns).map_err(|e| e.to_string())
 }
 
-fn array<'a>(arrays: &'a BTreeMap<String, Array>, name: &str) -> Result<&'a Array, String> {
-    arrays.get(name).ok_or_else(|| format!("reference human: no array `{name}`"))
+fn array<'a>(arrays: &'a Npz, name: &str) -> Result<&'a Array, String> {
+    arrays.array(name).ok_or_else(|| format!("reference human: no array `{name}`"))
 }
 
 #[cfg(test)]

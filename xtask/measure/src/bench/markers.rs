@@ -8,12 +8,12 @@
 
 use super::machine;
 use super::timing::{Timing, cpu_us};
-use crate::random::Random;
 use crate::workspace;
 use ambulo::findings::Findings;
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::model::Model;
 use ambulo::motion::{MarkerRecording, markers_from_trc};
+use ambulo::numerics::Random;
 use ambulo::spatial::Vec3;
 use ambulo_formats::trc::Trc;
 use std::fmt::Write as _;

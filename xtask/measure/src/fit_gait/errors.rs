@@ -1,6 +1,6 @@
 //! How far laws are from the mean curves.
 
-use crate::harmonics::Harmonics;
+use crate::harmonics::{harmonics, value_slope_curvature};
 use crate::normative::{Curves, SPEEDS};
 use ambulo::gait::{CyclicCurve, Jet, SpeedRange};
 
@@ -18,7 +18,7 @@ pub(crate) struct CurveError {
 pub(crate) fn of(curve: &CyclicCurve, range: &SpeedRange, curves: &Curves, i: usize) -> CurveError {
     let speed = range.held(Jet::constant(SPEEDS[i]));
     let samples = &curves[i][..curves[i].len() - 1];
-    let reference = Harmonics::of(&curves[i]);
+    let reference = harmonics(&curves[i]);
     let (mut square, mut largest, mut missed, mut total) = (0.0, 0.0_f64, 0.0, 0.0);
     for (k, sample) in samples.iter().enumerate() {
         let phase = k as f64 / samples.len() as f64;
@@ -29,7 +29,7 @@ pub(crate) fn of(curve: &CyclicCurve, range: &SpeedRange, curves: &Curves, i: us
     }
     for k in 0..FINE {
         let phase = k as f64 / FINE as f64;
-        let [_, _, expected] = reference.at(phase);
+        let [_, _, expected] = value_slope_curvature(&reference, phase);
         missed += (curve.at(Jet::new(phase, 1.0, 0.0), speed).acceleration.to_degrees() - expected).powi(2);
         total += expected * expected;
     }

@@ -4,9 +4,10 @@
 //! independent curves.
 
 use super::{polynomial, write};
-use crate::harmonics::Harmonics;
+use crate::harmonics::harmonics;
 use crate::normative::{self, Curves, SPEEDS, Sheet};
 use ambulo::gait::GroundForceLaws;
+use ambulo::numerics::Harmonics;
 use std::fmt::Write;
 
 /// Speeds through which the laws go: very slow, free, very fast.
@@ -45,13 +46,13 @@ impl Forces {
     fn laws(&self) -> String {
         let mut text = String::new();
         for ((table, _), curves) in QUANTITIES.iter().zip(&self.curves) {
-            let waves = USED.map(|i| Harmonics::of(&curves[i]));
+            let waves = USED.map(|i| harmonics(&curves[i]));
             let law = |part: &dyn Fn(&Harmonics) -> f64| {
                 write::law(&polynomial::fit(&USED.map(|i| SPEEDS[i]), &waves.each_ref().map(part), 2), DIGITS)
             };
             let _ = write!(text, "\n[{table}]\nmean = {}\n", law(&|wave| wave.mean));
-            for k in 0..waves[0].factors.len() {
-                let [cos, sin] = [0, 1].map(|i| law(&move |wave: &Harmonics| wave.factors[k][i]));
+            for k in 0..waves[0].cosine.len() {
+                let (cos, sin) = (law(&|wave| wave.cosine[k]), law(&|wave| wave.sine[k]));
                 let _ = write!(text, "[[{table}.harmonic]]\norder = {}\ncos = {cos}\nsin = {sin}\n", k + 1);
             }
         }

@@ -6,8 +6,9 @@
 
 use super::polynomial;
 use super::recipe::{Mark, Recipe, Wanted};
-use crate::harmonics::Harmonics;
+use crate::harmonics::{harmonics, value_slope_curvature};
 use crate::normative::{Curves, SPEEDS};
+use ambulo::numerics::Harmonics;
 
 /// Steps of a search over a whole cycle.
 const STEPS_PER_PERCENT: usize = 20;
@@ -26,11 +27,11 @@ pub(crate) struct KnotLaws {
 /// A joint's knots as laws of a degree, from the speeds with these numbers.
 pub(crate) fn laws(recipe: &Recipe, curves: &Curves, used: &[usize], degree: usize) -> Vec<KnotLaws> {
     let speeds: Vec<f64> = used.iter().map(|i| SPEEDS[*i]).collect();
-    let harmonics: Vec<Harmonics> = used.iter().map(|i| Harmonics::of(&curves[*i])).collect();
+    let waves: Vec<Harmonics> = used.iter().map(|i| harmonics(&curves[*i])).collect();
     let mut times: Vec<Vec<f64>> = vec![Vec::new(); recipe.knots.len()];
     for (k, wanted) in recipe.knots.iter().enumerate() {
         if !matches!(wanted.mark, Mark::Between(..)) {
-            let found: Vec<f64> = harmonics.iter().map(|curve| search(curve, wanted.mark)).collect();
+            let found: Vec<f64> = waves.iter().map(|curve| search(curve, wanted.mark)).collect();
             times[k] = polynomial::fit(&speeds, &found, degree);
         }
     }
@@ -39,12 +40,15 @@ pub(crate) fn laws(recipe: &Recipe, curves: &Curves, used: &[usize], degree: usi
             times[k] = times[a].iter().zip(&times[b]).map(|(a, b)| a + share * (b - a)).collect();
         }
     }
-    recipe.knots.iter().zip(times).map(|(wanted, at)| on_curves(wanted, at, &speeds, &harmonics, degree)).collect()
+    recipe.knots.iter().zip(times).map(|(wanted, at)| on_curves(wanted, at, &speeds, &waves, degree)).collect()
 }
 
 fn on_curves(wanted: &Wanted, at: Vec<f64>, speeds: &[f64], curves: &[Harmonics], degree: usize) -> KnotLaws {
-    let read: Vec<[f64; 3]> =
-        speeds.iter().zip(curves).map(|(speed, curve)| curve.at(polynomial::at(&at, *speed) / 100.0)).collect();
+    let read: Vec<[f64; 3]> = speeds
+        .iter()
+        .zip(curves)
+        .map(|(speed, curve)| value_slope_curvature(curve, polynomial::at(&at, *speed) / 100.0))
+        .collect();
     let ends = [0, 1, 2].map(|i| {
         let column: Vec<f64> = read.iter().map(|ends| ends[i]).collect();
         polynomial::fit(speeds, &column, degree)
@@ -58,7 +62,7 @@ fn search(curve: &Harmonics, mark: Mark) -> f64 {
     let best = |low: f64, high: f64, rated: fn([f64; 3]) -> f64| {
         let count = ((high - low) * STEPS_PER_PERCENT as f64) as usize;
         let percents = (0..=count).map(|i| low + i as f64 / STEPS_PER_PERCENT as f64);
-        let rating = |percent: f64| rated(curve.at(percent / 100.0));
+        let rating = |percent: f64| rated(value_slope_curvature(curve, percent / 100.0));
         percents.max_by(|a, b| rating(*a).total_cmp(&rating(*b))).unwrap_or(low)
     };
     match mark {

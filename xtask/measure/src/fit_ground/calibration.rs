@@ -158,7 +158,7 @@ fn factor(subjects: &[Vec<Vec<Sample>>], floor: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use ambulo::numerics::Random;
 
     /// Stances whose errors are normal with `true_factor` times what the equations say, and a floor.
     fn stances(seed: u64, true_factor: f64, floor: f64) -> Vec<Vec<Sample>> {

@@ -11,6 +11,7 @@ use ambulo::ground::predict::{
     Prediction, Prescribed, StanceCurve, StanceErrors, predict,
 };
 use ambulo::motion::filter::LowPass;
+use ambulo::numerics;
 use ambulo::study::{Outcome, PredictedGround, Source};
 use std::path::Path;
 
@@ -309,8 +310,8 @@ pub(super) fn figures(cases: &[Case], subject: &str, parameters: &FittedParamete
     std::array::from_fn(|k| mean(own.iter().map(|agreement| mean(agreement.feet.iter().map(|foot| of_foot(foot)[k])))))
 }
 
-/// Mean of numbers.
+/// Mean of numbers; NaN without any, so that a fit without cases is not the best one.
 pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
-    sum / count
+    let all: Vec<f64> = values.collect();
+    if all.is_empty() { f64::NAN } else { numerics::mean(&all) }
 }

@@ -4,8 +4,8 @@ use super::calibration::{Band, Bands, spread};
 use super::cases::COMPONENTS;
 use super::numbers::{NUMBERS, Number};
 use super::{Fit, Fold, Order, Outcome, WithoutTrunk};
-use crate::table::Table;
 use ambulo::ground::predict::{DeviationScaling, FittedParameters, KNOTS, StanceCurve};
+use ambulo::study::validation::TextTable as Table;
 
 /// Components of a force in the order of the figures.
 const FORCES: [&str; 3] = ["up", "forward", "sideways"];

@@ -4,7 +4,7 @@
 //! success and shrinks on failure so that one trial in five succeeds (Rechenberg's rule; unverified), and starts anew where it has
 //! become too small to matter.
 
-use crate::random::Random;
+use ambulo::numerics::Random;
 
 /// Most numbers that one step changes.
 const MOST_CHANGED: usize = 4;

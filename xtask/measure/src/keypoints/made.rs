@@ -1,10 +1,10 @@
 //! Keypoints made from a recording with markers: joint centres, shoulders, heel and toes of the body that follows the markers.
 
-use crate::random::Random;
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::marker_set::{Landmark, MarkerSet, Segment};
 use ambulo::model::{Model, Side};
 use ambulo::motion::{MarkerPath, MarkerRecording};
+use ambulo::numerics::Random;
 use ambulo::spatial::Vec3;
 use ambulo::study::{Outcome, TrackedMarkers, Tracking};
 
@@ -107,14 +107,14 @@ fn places(outcome: &Outcome, model: &Model, set: &MarkerSet) -> Vec<(String, usi
 pub(super) fn with_errors(recording: &MarkerRecording, errors: Errors, seed: u64) -> MarkerRecording {
     let mut random = Random::seeded(seed);
     let path = |path: &MarkerPath| {
-        let phase = [0; 3].map(|_| std::f64::consts::TAU * random.unit());
+        let phase = [0; 3].map(|_| std::f64::consts::TAU * random.share());
         let positions = path.positions.iter().zip(&recording.times).map(|(position, time)| {
             let slow =
                 phase.map(|phase| 2f64.sqrt() * errors.slow_m * (std::f64::consts::TAU * SLOW_HZ * time + phase).sin());
             let white = [0; 3].map(|_| errors.white_m * random.normal());
             let away = [0; 3].map(|_| random.normal());
-            let far = FAR_M[0] + (FAR_M[1] - FAR_M[0]) * random.unit();
-            let is_outlier = random.unit() < errors.outliers;
+            let far = FAR_M[0] + (FAR_M[1] - FAR_M[0]) * random.share();
+            let is_outlier = random.share() < errors.outliers;
             let away = if is_outlier { Vec3::from(away).normalize() * far } else { Vec3::zeros() };
             position + Vec3::from(slow) + Vec3::from(white) + away
         });

@@ -2,12 +2,12 @@
 
 use super::made::tracked;
 use super::{JOINTS, moment, outcome};
-use crate::table::Table;
 use ambulo::findings::Findings;
 use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::MarkerRecording;
 use ambulo::spatial::Vec3;
+use ambulo::study::validation::TextTable as Table;
 use ambulo::study::{GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, Outcome, Source};
 use cpu_time::ThreadTime;
 use std::fs;

@@ -3,7 +3,7 @@
 use super::Found;
 use super::curves::{QUANTITIES, Quantity};
 use crate::normative::{Band, Sheet};
-use ambulo_paper::{correlation, extremes};
+use ambulo::numerics::{correlation, extremes};
 
 /// One line of the page: quantity, limit, result at one speed, and whether the limit is met.
 pub(super) struct Criterion {

@@ -4,9 +4,9 @@ use super::criteria::{self, Criterion};
 use super::curves::QUANTITIES;
 use super::{BUILDS, FREE, Found, MAN, Results};
 use crate::normative::two_laboratories;
-use crate::table::Table;
 use crate::walk_bands::build_name;
-use ambulo_paper::correlation;
+use ambulo::numerics::correlation;
+use ambulo::study::validation::TextTable as Table;
 use std::fmt::Write as _;
 
 const HEAD: &str = "\

@@ -3,13 +3,13 @@
 use super::curves::{Cycle, QUANTITIES};
 use super::{FREE, MAN};
 use crate::normative::{Band, SPEEDS, two_laboratories};
-use crate::table::Table;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::Human;
 use ambulo::model::full_body::full_body;
+use ambulo::numerics::correlation;
 use ambulo::optimal::{Device, Load, LoadPlace, OptimalWalk, WalkConditions, metabolic_power};
-use ambulo_paper::correlation;
+use ambulo::study::validation::TextTable as Table;
 use cpu_time::ThreadTime;
 
 /// Speeds of the curve of cost of transport [m/s].

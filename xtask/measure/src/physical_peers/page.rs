@@ -1,6 +1,6 @@
 //! The page docs/measured/PHYSICAL_PEERS.md, from recorded outcomes.
 
-use crate::table::Table;
+use ambulo::study::validation::TextTable as Table;
 use serde_json::Value;
 use std::fmt::Write as _;
 

@@ -2,7 +2,7 @@
 
 use super::{AFTER_PUSH, HOLD_S, LIFT, PHASES, PUSH_S, RAMP_S, Results, SEEDS, SPEED, TILE, Tuned, Walked};
 use super::{spatial, standing};
-use crate::table::Table;
+use ambulo::study::validation::TextTable as Table;
 use std::fmt::Write;
 
 pub(super) fn text(results: &Results) -> String {

@@ -1,9 +1,9 @@
 //! The other law of balance: foot placement instead of the feedback of the whole state.
 
 use super::{AFTER_PUSH, Figure, PHASES, PUSHES, Walked, controller, pushes_survived, walked, with_controller};
-use crate::table::Table;
 use ambulo::simulation::control::{Balance, ControlSettings, FootPlacement};
 use ambulo::spatial::Vec3;
+use ambulo::study::validation::TextTable as Table;
 
 /// Gains that are tried, each with each.
 const DISTANCES: [f64; 5] = [0.0, 0.25, 0.5, 1.0, 2.0];

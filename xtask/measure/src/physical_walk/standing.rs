@@ -1,13 +1,13 @@
 //! Stopping, standing and walking off.
 
 use super::{BUILDS, Figure, MAN, PUSH_S, PUSHED_KG, controller, spatial, with_controller};
-use crate::table::Table;
 use crate::walk_bands::build_name;
 use ambulo::model::anthropometry::Human;
 use ambulo::optimal::StandingMovements;
 use ambulo::simulation::StepSettings;
 use ambulo::simulation::control::{ControlSettings, PhysicalWalk};
 use ambulo::spatial::{Vec3, Wrench};
+use ambulo::study::validation::TextTable as Table;
 use cpu_time::ThreadTime;
 
 /// Time of walking before the figure is told to stop [s], longest time until it stands, time in which it comes to rest, and time of standing after it [s].

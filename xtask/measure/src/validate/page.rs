@@ -5,7 +5,7 @@ use super::recording::Group;
 use super::refit::{self, Refitted};
 use super::tracking::{self, Tracked};
 use super::trial::Trial;
-use crate::table::Table;
+use ambulo::study::validation::TextTable as Table;
 use ambulo::study::validation::{self, Component, DEFINITIONS, Figure, JudgedTrial, LegJoint, number, over_persons};
 
 /// A criterion for a mean over subjects.

@@ -1,10 +1,11 @@
 //! What a calibration on one trial of a person changes in the other trials of that person.
 
 use super::recording::{Group, Recording};
-use crate::table::Table;
 use ambulo::analysis::GroundAgreement;
 use ambulo::ground::predict::{PersonalErrors, Prescribed};
-use ambulo::study::validation::{Component, Figure, LegJoint, mean, number};
+use ambulo::numerics::finite_mean;
+use ambulo::study::validation::TextTable as Table;
+use ambulo::study::validation::{Component, Figure, LegJoint, number};
 use ambulo::study::{Outcome, Source, personal_errors};
 use std::path::Path;
 
@@ -73,7 +74,7 @@ pub(super) fn section(all: &[Calibrated]) -> String {
     let head = ["person", "calibrated on", "judged on", "pairs", "calibration"].into_iter();
     let mut table = Table::new(&head.chain(COLUMNS.iter().map(|(name, ..)| *name)).collect::<Vec<_>>());
     let figures = |of: &Calibrated, with: usize| {
-        COLUMNS.map(|(_, figure, _)| mean(of.agreements.iter().map(|pair| figure.of(&pair[with]))))
+        COLUMNS.map(|(_, figure, _)| finite_mean(of.agreements.iter().map(|pair| figure.of(&pair[with]))))
     };
     let mut row = |head: [String; 4], word: &str, values: [f64; 7], digits: Option<usize>| {
         let cells = COLUMNS.iter().zip(values).map(|((.., own), value)| number(value, digits.unwrap_or(*own)));
@@ -94,8 +95,9 @@ pub(super) fn section(all: &[Calibrated]) -> String {
     for groups in kinds {
         let own: Vec<&Calibrated> = all.iter().filter(|one| one.groups == groups).collect();
         let pairs: usize = own.iter().map(|one| one.agreements.len()).sum();
-        let over =
-            |with: usize| -> [f64; 7] { std::array::from_fn(|k| mean(own.iter().map(|one| figures(one, with)[k]))) };
+        let over = |with: usize| -> [f64; 7] {
+            std::array::from_fn(|k| finite_mean(own.iter().map(|one| figures(one, with)[k])))
+        };
         let change = std::array::from_fn(|k| 100.0 * (over(1)[k] / over(0)[k] - 1.0));
         let head = || {
             let [first, other] = groups.map(|group| group.word().to_owned());

@@ -1,14 +1,14 @@
 //! Given angles whose loaded feet slide, without and with a refit: slow random errors are added to angles that fit.
 
 use super::recording::{self, Recording};
-use crate::table::Table;
 use ambulo::analysis::GroundAgreement;
 use ambulo::findings::Findings;
 use ambulo::ground::predict::PredictSettings;
 use ambulo::model::{Model, Movement};
 use ambulo::motion::Motion;
-use ambulo::numerics::Random;
-use ambulo::study::validation::{Component, Figure, mean, number};
+use ambulo::numerics::{Random, finite_mean};
+use ambulo::study::validation::TextTable as Table;
+use ambulo::study::validation::{Component, Figure, number};
 use ambulo::study::{self, GroundSettings, Settings, Source};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -101,8 +101,9 @@ pub(super) fn section(all: &[Refitted]) -> String {
         for (k, word) in ["as given", "refitted"].into_iter().enumerate() {
             let head =
                 [*label, &number(*degrees, 0), &number(*mm, 0), &agreements.len().to_string(), word].map(str::to_owned);
-            let figures = COLUMNS
-                .map(|(_, figure, digits)| number(mean(agreements.iter().map(|pair| figure.of(&pair[k]))), digits));
+            let figures = COLUMNS.map(|(_, figure, digits)| {
+                number(finite_mean(agreements.iter().map(|pair| figure.of(&pair[k]))), digits)
+            });
             table.row(head.into_iter().chain(figures));
         }
     }

@@ -1,10 +1,11 @@
 //! Tracking by feet on soft ground, next to the prediction and the plates.
 
 use super::recording::Recording;
-use crate::table::Table;
 use ambulo::analysis::{ComparedAnalyses, GroundAgreement, ground_agreement, track};
+use ambulo::numerics::finite_mean;
 use ambulo::optimal::TrackSettings;
-use ambulo::study::validation::{Figure, SUMMARY, mean, number, summary_cells};
+use ambulo::study::validation::TextTable as Table;
+use ambulo::study::validation::{Figure, SUMMARY, number, summary_cells};
 use ambulo::study::{Outcome, PredictedGround};
 use cpu_time::ThreadTime;
 
@@ -86,7 +87,7 @@ pub(super) fn section(all: &[&Tracked]) -> String {
         let solved: Vec<_> =
             walking.filter_map(|one| Some([&one.predicted, &one.found.as_ref().ok()?.agreement])).collect();
         for (k, from) in ["prediction", "tracking"].into_iter().enumerate() {
-            let of = |figure: Figure| mean(solved.iter().map(|pair| figure.of(pair[k])));
+            let of = |figure: Figure| finite_mean(solved.iter().map(|pair| figure.of(pair[k])));
             table.row(row(["mean over recordings", "walking", word(is_known), from], of));
         }
     }

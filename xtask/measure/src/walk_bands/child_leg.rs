@@ -12,10 +12,10 @@
 //! and are plausible for children; the ankle correlates better and gives the leg of an adult. The choice of the knee is a judgement, so the
 //! page shows all three and the results that depend on the choice.
 
-use crate::harmonics::Harmonics;
+use crate::harmonics::{harmonics, value_slope_curvature};
 use crate::normative::{self, CADENCES, Curves, Sheet};
+use ambulo::numerics::correlation;
 use ambulo::spatial::STANDARD_GRAVITY;
-use ambulo_paper::correlation;
 
 /// The leg length from one joint.
 #[derive(Debug, Clone)]
@@ -70,9 +70,9 @@ fn from_joint(joint: &'static str, powers: &Curves, angles: &Curves, moments: &C
 
 /// Moment times angular velocity per cycle [W.s/kg]; an extensor moment works where flexion falls.
 fn work_rate(angles: &[f64], moments: &[f64]) -> Vec<f64> {
-    let harmonics = Harmonics::of(angles);
+    let curve = harmonics(angles);
     let count = (angles.len() - 1) as f64;
-    let flexion = |i: usize| harmonics.at(i as f64 / count)[1].to_radians();
+    let flexion = |i: usize| value_slope_curvature(&curve, i as f64 / count)[1].to_radians();
     moments.iter().enumerate().map(|(i, moment)| -moment * flexion(i)).collect()
 }
 

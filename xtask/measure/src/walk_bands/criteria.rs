@@ -3,7 +3,7 @@
 use super::curve::{QUANTITIES, Quantity, inside, rms_difference};
 use super::cycle::Cycle;
 use crate::normative::Band;
-use ambulo_paper::correlation;
+use ambulo::numerics::correlation;
 
 /// Peak-to-peak forward speed of the centre of mass of healthy people over its mean, very slow to very fast.
 pub(super) const SPEED_RANGES: [f64; 5] = [0.26, 0.19, 0.16, 0.135, 0.10];

@@ -8,9 +8,9 @@ use ambulo::gait::{Gait, Speed, Trunk, Walk};
 use ambulo::kinematics::each_body_motion;
 use ambulo::model::Model;
 use ambulo::model::anthropometry::{Build, Human};
+use ambulo::numerics::{extremes, mean, rms};
 use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::walking::{StanceSlip, WalkRecording};
-use ambulo_paper::{extremes, mean, rms};
 use cpu_time::ThreadTime;
 
 /// Step of the simulator [s].

@@ -6,9 +6,9 @@ use super::cycle::Cycle;
 use super::trend::{LEAST_R, trends};
 use super::{FREE, MAN, Results};
 use crate::normative::{Band, SPEEDS};
-use crate::table::Table;
 use ambulo::model::anthropometry::Build;
-use ambulo_paper::correlation;
+use ambulo::numerics::correlation;
+use ambulo::study::validation::TextTable as Table;
 use std::fmt::Write as _;
 
 const HEAD: &str = "\

@@ -3,8 +3,8 @@
 use super::curve::{QUANTITIES, rms_difference};
 use super::cycle::Cycle;
 use crate::normative::two_laboratories;
-use crate::table::Table;
-use ambulo_paper::correlation;
+use ambulo::numerics::correlation;
+use ambulo::study::validation::TextTable as Table;
 
 /// Names of the table, in the order of [`QUANTITIES`]; it has no ground forces.
 const NAMES: [&str; 6] = [

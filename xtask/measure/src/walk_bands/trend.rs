@@ -2,7 +2,7 @@
 
 use super::Results;
 use super::curve::Peaks;
-use ambulo_paper::correlation;
+use ambulo::numerics::correlation;
 
 /// Smallest correlation over the five speeds for which peaks follow the normative ones.
 pub(super) const LEAST_R: f64 = 0.90;

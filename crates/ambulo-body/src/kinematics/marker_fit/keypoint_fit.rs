@@ -23,7 +23,7 @@ use crate::findings::Findings;
 use crate::kinematics::keypoints::{KeypointReport, Keypoints};
 use crate::model::{Model, Movement, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
-use crate::numerics::median;
+use crate::numerics::{mean, median};
 use std::borrow::Cow;
 
 /// Distance of a joint centre of a network from that of the body, besides noise [m].
@@ -165,5 +165,5 @@ fn thigh_rotation(model: &Model, problem: &FitProblem<'_>, sensitivities: &[f64]
     let rotations: Vec<usize> = Side::BOTH.into_iter().filter_map(rotation).collect();
     let own = (0..problem.tree.unknowns()).filter(|&u| rotations.contains(&problem.tree.coordinate(u)));
     let deviations: Vec<f64> = own.map(|u| MODEL_ERROR_M * sensitivities[u]).collect();
-    if deviations.is_empty() { f64::NAN } else { deviations.iter().sum::<f64>() / deviations.len() as f64 }
+    if deviations.is_empty() { f64::NAN } else { mean(&deviations) }
 }

@@ -12,6 +12,7 @@ use super::standing::{complete, poses};
 use crate::findings::{Code, Findings};
 use crate::model::Model;
 use crate::motion::MarkerRecording;
+use crate::numerics::mean;
 use crate::spatial::Vec3;
 
 /// Scales axes of bodies by distances between pairs of markers.
@@ -139,6 +140,6 @@ impl Distances<'_> {
             .filter(|&frame| a.is_seen(frame) && b.is_seen(frame))
             .map(|frame| (a.positions[frame] - b.positions[frame]).norm())
             .collect();
-        (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
+        (!distances.is_empty()).then(|| mean(&distances))
     }
 }

@@ -20,6 +20,7 @@ pub use sole::{Sole, SolePoint, Stature};
 
 use super::posture::ModelPosture;
 use super::{BodyId, BySide, Coordinate, CoordinateId, Model, Side};
+use crate::numerics::mean;
 use crate::spatial::{Mat3, Pose, Vec3};
 use axes::Oriented;
 use legs::{LegChain, Tree};
@@ -197,7 +198,7 @@ impl Anatomy {
 
     fn thigh_and_shank_m(&self) -> Option<f64> {
         let legs: Vec<f64> = self.legs.values().flatten().map(|leg| leg.thigh_and_shank_m).collect();
-        (!legs.is_empty()).then(|| legs.iter().sum::<f64>() / legs.len() as f64)
+        (!legs.is_empty()).then(|| mean(&legs))
     }
 }
 

@@ -6,6 +6,7 @@
 //! FORCE_PLATFORM:ZERO frames of the file have the same level and the load is several times as large.
 //! Pinned by: tests/force_plate.rs
 
+use crate::numerics::finite_mean;
 use std::ops::Range;
 
 /// Length of a block [s].
@@ -58,7 +59,7 @@ pub(super) fn find(
     if (quiet.len() * length) as f64 / rate_hz < SHORTEST_QUIET_S {
         return None;
     }
-    let level = mean(quiet.iter().map(|b| b.mean));
+    let level = mean_level(quiet.iter().map(|b| b.mean));
     let noise = quiet.iter().map(|b| b.deviation).fold(0.0, f64::max);
     if level > 0.0 && share_below(vertical, level - LEVEL_WIDTH_N.max(QUIET_FACTOR * noise)) > RINGING_SHARE {
         return None;
@@ -66,7 +67,7 @@ pub(super) fn find(
     let peak = vertical.iter().copied().filter(|x| x.is_finite()).fold(f64::NEG_INFINITY, f64::max);
     let zero = zero.filter(|span| span.len() >= 2 && span.end <= vertical.len());
     let confirming = zero.filter(|span| {
-        let there = mean(vertical[span.clone()].iter().copied());
+        let there = mean_level(vertical[span.clone()].iter().copied());
         (there - level).abs() <= LEVEL_WIDTH_N.max(QUIET_FACTOR * noise)
     });
     let sure = level <= LARGEST_UNCONFIRMED_N || (confirming.is_some() && level <= CONFIRMED_SHARE * (peak - level));
@@ -75,7 +76,7 @@ pub(super) fn find(
             Some(span) => vec![span.clone()],
             None => quiet.iter().map(|b| b.samples.clone()).collect(),
         };
-        let over = |values: &[f64]| mean(spans.iter().flat_map(|s| values[s.clone()].iter().copied()));
+        let over = |values: &[f64]| mean_level(spans.iter().flat_map(|s| values[s.clone()].iter().copied()));
         Baseline {
             levels: channels.iter().map(|c| over(c)).collect(),
             vertical_n: over(vertical),
@@ -86,7 +87,7 @@ pub(super) fn find(
 
 fn blocks(vertical: &[f64], length: usize) -> Vec<Block> {
     let block = |(i, part): (usize, &[f64])| {
-        let mean = mean(part.iter().copied());
+        let mean = mean_level(part.iter().copied());
         let variance = part.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / part.len() as f64;
         Block { samples: i * length..i * length + part.len(), mean, deviation: variance.sqrt() }
     };
@@ -111,7 +112,8 @@ fn share_below(values: &[f64], limit: f64) -> f64 {
     values.iter().filter(|x| **x < limit).count() as f64 / values.len().max(1) as f64
 }
 
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.filter(|x| x.is_finite()).fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
-    if count > 0.0 { sum / count } else { 0.0 }
+/// Mean of the finite values; 0 if there are none.
+fn mean_level(values: impl Iterator<Item = f64>) -> f64 {
+    let mean = finite_mean(values);
+    if mean.is_nan() { 0.0 } else { mean }
 }

@@ -35,6 +35,6 @@ fn in_words(name: &str, array: &Array) -> String {
         Data::Numbers(numbers) if array.shape.is_empty() => format!("{name}: {}", numbers.first().unwrap_or(&f64::NAN)),
         Data::Numbers(_) => format!("{name}: {shape}numbers"),
         Data::Text(text) => format!("{name}: `{text}`"),
-        Data::Other(kind) => format!("{name}: {shape}of type `{kind}`, not read"),
+        Data::Texts { kind, .. } | Data::Other(kind) => format!("{name}: {shape}of type `{kind}`, not read"),
     }
 }

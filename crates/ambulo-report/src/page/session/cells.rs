@@ -1,6 +1,7 @@
 //! Builds tables and their cells from lists of results.
 
 use ambulo::numerics::elementary::powi;
+use ambulo::numerics::{mean, sample_deviation};
 
 use crate::page::contract::{Cell, Table};
 use ambulo_results::SpreadSummary;
@@ -38,11 +39,8 @@ fn rounded(x: f64, digits: usize) -> String {
 
 /// Mean of several numbers, with the standard deviation if there are at least two.
 pub(super) fn mean_cell(values: &[f64], digits: usize, range: Option<[f64; 2]>) -> Cell {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let mut cell = number(Some(mean), digits, range);
-    if values.len() > 1 {
-        let sd = (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
+    let mut cell = number(Some(mean(values)), digits, range);
+    if let Some(sd) = sample_deviation(values) {
         cell.text += &format!(" ± {sd:.digits$}");
     }
     cell

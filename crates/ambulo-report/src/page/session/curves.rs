@@ -11,6 +11,8 @@ use crate::page::contract::{Band, CycleCurve, MeanCurve, Origin, PageCycle, Pane
 use ambulo::analysis::CYCLE_SAMPLES;
 use ambulo::model::Side;
 use ambulo::motion::interpolate;
+use ambulo::numerics;
+use ambulo::study::session::CurveStatistics;
 use ambulo_formats::table::Table;
 use ambulo_results::{CLINICAL, CYCLES, Convention, CycleRow};
 
@@ -104,26 +106,20 @@ fn over_cycle(results: &Results, cycle: &PageCycle, side: Side, column: &str, va
 }
 
 fn mean_curve(results: &Results, side: Side, curves: &[ShownCurve], block: &mut Block) -> Option<MeanCurve> {
-    let (mean, sd) = mean_and_deviation(curves)?;
+    let CurveStatistics { mean, sd, count } = statistics(curves)?;
     let foot_offs: Vec<f64> = results.cycles_of(side).filter_map(|cycle| cycle.foot_off_percent).collect();
     Some(MeanCurve {
         side: sides::page(side),
-        cycles: curves.len(),
+        cycles: count,
         values: block.add(&mean),
         sd: sd.map(|sd| block.add(&sd)),
-        foot_off_percent: (!foot_offs.is_empty()).then(|| foot_offs.iter().sum::<f64>() / foot_offs.len() as f64),
+        foot_off_percent: (!foot_offs.is_empty()).then(|| numerics::mean(&foot_offs)),
     })
 }
 
-/// Mean point by point; with at least two curves also the sample standard deviation.
-pub(super) fn mean_and_deviation(curves: &[ShownCurve]) -> Option<(Vec<f64>, Option<Vec<f64>>)> {
-    let count = curves.len() as f64;
-    let length = curves.first()?.values.len();
-    let at = |k: usize| curves.iter().map(move |curve| curve.values[k]);
-    let mean: Vec<f64> = (0..length).map(|k| at(k).sum::<f64>() / count).collect();
-    let squares = |k: usize| at(k).map(|x| (x - mean[k]).powi(2)).sum::<f64>();
-    let sd = (curves.len() > 1).then(|| (0..length).map(|k| (squares(k) / (count - 1.0)).sqrt()).collect());
-    Some((mean, sd))
+/// Mean and standard deviation point by point.
+pub(super) fn statistics(curves: &[ShownCurve]) -> Option<CurveStatistics> {
+    CurveStatistics::of(&curves.iter().map(|curve| curve.values.as_slice()).collect::<Vec<_>>())
 }
 
 /// Traces of both sides over time; a pelvis or trunk coordinate with the same meaning on both sides gives one trace.

@@ -11,6 +11,7 @@ use crate::clinical::ClinicalQuantity;
 use crate::page::contract::{Cell, Table};
 use ambulo::analysis::symmetry_index;
 use ambulo::model::Side;
+use ambulo::numerics::mean;
 use ambulo_results::WalkingSummary;
 
 /// Asymmetry above this is marked [%].
@@ -128,10 +129,10 @@ pub(super) fn table(values: &[Extracted]) -> Table {
 
 /// The table of differences between the sides.
 pub(super) fn symmetry(values: &[Extracted], walking: &WalkingSummary) -> Table {
-    let extracted = values
-        .iter()
-        .filter(|value| value.compared)
-        .map(|value| (value.label, value.unit, value.digits, value.sides.each_ref().map(|side| mean(side))));
+    let extracted = values.iter().filter(|value| value.compared).map(|value| {
+        let means = value.sides.each_ref().map(|side| (!side.is_empty()).then(|| mean(side)));
+        (value.label, value.unit, value.digits, means)
+    });
     let rows: Vec<Vec<Cell>> = time_distance::sides(walking)
         .into_iter()
         .chain(extracted)
@@ -159,10 +160,6 @@ pub(super) fn symmetry(values: &[Extracted], walking: &WalkingSummary) -> Table 
         empty: rows.is_empty().then(|| "There are no whole cycles of both sides to compare.".to_owned()),
         rows,
     }
-}
-
-fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
 fn foot_off(results: &Results, curve: &ShownCurve) -> Option<f64> {

@@ -1,6 +1,6 @@
 //! The first screen: recording, source of the forces, speed, steps, asymmetry, and the largest differences from normal.
 
-use super::curves::{mean_and_deviation, shown_cycles};
+use super::curves::{shown_cycles, statistics};
 use super::header::{fact, forces, recording};
 use super::results::Results;
 use super::size::BodySize;
@@ -88,7 +88,7 @@ impl Deviation<'_> {
     fn of<'a>(results: &Results, size: &BodySize, quantity: &'a ClinicalQuantity) -> Option<Deviation<'a>> {
         let normal = band(quantity.id, size.walking_speed()?, results.convention())?;
         let of_side = |side| {
-            let (mean, _) = mean_and_deviation(&shown_cycles(results, quantity, side))?;
+            let mean = statistics(&shown_cycles(results, quantity, side))?.mean;
             Deviation::between(quantity, side, &mean, &normal)
         };
         Side::BOTH.into_iter().filter_map(of_side).max_by(|a, b| a.in_sd.total_cmp(&b.in_sd))

@@ -2,6 +2,7 @@
 
 use super::{FootGuide, TrackError};
 use crate::model::{BySide, CoordinateId, Displacement, Drive, Joint, JointAxis, Model};
+use crate::numerics::{extremes, mean};
 use crate::spatial::Vec3;
 
 /// Floors of different stances may differ by this height [m].
@@ -29,14 +30,14 @@ pub(super) fn checked(model: &Model) -> Result<(), TrackError> {
 /// The height of the floor [m].
 pub(super) fn level(feet: &BySide<FootGuide>) -> Result<f64, TrackError> {
     let all: Vec<f64> = feet.values().flat_map(|foot| foot.floors_m.iter().copied()).collect();
-    let (low, high) = all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &x| (a.min(x), b.max(x)));
+    let (low, high) = extremes(&all);
     if all.is_empty() {
         return Err(TrackError::NoStance);
     }
     if high - low > LEVEL_M {
         return Err(TrackError::UnevenFloor { what: "height", found: high - low, most: LEVEL_M, unit: "m" });
     }
-    Ok(all.iter().sum::<f64>() / all.len() as f64)
+    Ok(mean(&all))
 }
 
 /// The velocity of the floor [m/s].

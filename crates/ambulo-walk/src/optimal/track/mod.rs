@@ -24,6 +24,7 @@ use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, CoordinateKind, Drive, Model, Side};
 use crate::motion::TimeGrid;
+use crate::numerics::mean;
 use crate::spatial::Vec3;
 use floor::{belt, checked, floor_velocity, level, steady};
 use soles::{PER_FOOT, Soles};
@@ -355,7 +356,7 @@ impl<'a> TrackProblem<'a> {
                     squares.extend(pairs.map(|(a, b)| (a - b).powi(2)));
                 }
             }
-            (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+            mean(&squares).sqrt()
         })
     }
 }

@@ -7,7 +7,7 @@ use crate::model::anatomy::{Movement, Sole};
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
 use crate::numerics::elementary::atan2;
-use crate::numerics::median;
+use crate::numerics::{mean, median, range};
 use crate::spatial::Vec3;
 
 /// Filters have no neighbours at the ends, so the first and last moments show nothing [s].
@@ -157,7 +157,7 @@ fn turn(instants: &[Instant], grid: TimeGrid) -> f64 {
         unwrapped.push(last);
     }
     let width = ((STRIDE_S / grid.step_s).round() as usize).clamp(1, (instants.len() / 3).max(1));
-    let means: Vec<f64> = unwrapped.windows(width).map(|part| part.iter().sum::<f64>() / width as f64).collect();
+    let means: Vec<f64> = unwrapped.windows(width).map(mean).collect();
     range(&means)
 }
 
@@ -228,9 +228,4 @@ fn knee_range(model: &Model, trajectory: &Trajectory, from: usize, to: usize) ->
     let knee = |side| model.anatomy().coordinate(Movement::KneeFlexion, Some(side));
     let ranges = Side::BOTH.into_iter().filter_map(knee).map(|(id, _)| range(&trajectory.values(id)[from..to]));
     ranges.fold(0.0, f64::max)
-}
-
-fn range(values: &[f64]) -> f64 {
-    let fold = |start, pick: fn(f64, f64) -> f64| values.iter().copied().fold(start, pick);
-    if values.is_empty() { 0.0 } else { fold(f64::NEG_INFINITY, f64::max) - fold(f64::INFINITY, f64::min) }
 }

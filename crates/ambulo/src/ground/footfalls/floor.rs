@@ -6,7 +6,7 @@
 use super::Footfall;
 use super::signals::{FootPath, Signals};
 use crate::model::Side;
-use crate::numerics::median;
+use crate::numerics::{mean, median};
 use std::ops::Range;
 
 /// Heights within this range are one floor [m]: estimated soles have errors of 1 to 3 cm, stairs are 15 to 20 cm high.
@@ -33,7 +33,7 @@ pub(super) fn share_floors(falls: &mut [Footfall]) {
         let on_it: Vec<&mut Footfall> = falls.iter_mut().filter(is_on_it).collect();
         let of_side = |side: Side| median(on_it.iter().filter(|f| f.side == side).map(|f| f.floor_height_m));
         let of_sides: Vec<f64> = Side::BOTH.into_iter().filter_map(of_side).collect();
-        let height = of_sides.iter().sum::<f64>() / of_sides.len() as f64;
+        let height = mean(&of_sides);
         for fall in on_it {
             fall.floor_height_m = height;
         }

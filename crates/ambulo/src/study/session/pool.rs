@@ -6,6 +6,7 @@
 
 use super::{CycleForces, SessionCycle, depends_on_forces};
 use crate::model::Side;
+use crate::numerics::rms;
 
 /// Mean and standard deviation of curves of the same length.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,11 +79,6 @@ pub fn pooled(cycles: &[SessionCycle], quantity: &str, side: Side) -> Option<Poo
 pub fn side_difference(right: Option<&PooledCurve>, left: Option<&PooledCurve>) -> Option<f64> {
     let (right, left) = right.zip(left).filter(|(right, left)| right.forces == left.forces)?;
     Some(rms_difference(&right.statistics.mean, &left.statistics.mean))
-}
-
-/// Root mean square.
-pub(super) fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|x| x * x).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
 /// Root mean square difference.

@@ -18,9 +18,10 @@
 //! Posture 30:265), unverified; variables and the pelvis of the left side as in the implementation of pyCGM2 (`CGM1_GPS`, read in excerpts).
 
 use super::SessionCycle;
-use super::pool::{CurveStatistics, rms, rms_difference};
+use super::pool::{CurveStatistics, rms_difference};
 use crate::model::{BySide, Side};
 use crate::motion::interpolate;
+use crate::numerics::rms;
 
 /// The angles of the profile, those of the pelvis first.
 pub const PROFILE: [&str; 9] = [

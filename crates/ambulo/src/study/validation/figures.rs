@@ -2,6 +2,7 @@
 
 use super::trial::JudgedTrial;
 use crate::analysis::{EventAgreement, FootAgreement, ForceAgreement, GroundAgreement, MomentAgreement};
+use crate::numerics::finite_mean;
 
 /// A component of a ground force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,9 +115,9 @@ impl Figure {
     /// The figure of one agreement; not a number where there is none.
     #[must_use]
     pub fn of(self, agreement: &GroundAgreement) -> f64 {
-        let feet = |pick: &dyn Fn(&FootAgreement) -> f64| mean(agreement.feet.iter().map(pick));
+        let feet = |pick: &dyn Fn(&FootAgreement) -> f64| finite_mean(agreement.feet.iter().map(pick));
         let moments = |joint: LegJoint, pick: &dyn Fn(&MomentAgreement) -> f64| {
-            mean(agreement.moments.iter().filter(|moment| joint.has(moment)).map(pick))
+            finite_mean(agreement.moments.iter().filter(|moment| joint.has(moment)).map(pick))
         };
         match self {
             Figure::Rmse(of) => feet(&|foot| 100.0 * of.of(foot).rmse_bw),
@@ -146,8 +147,8 @@ fn events_ms(events: &[EventAgreement; 2]) -> f64 {
 /// Mean over persons of the mean of their values; a value comes with the person.
 pub fn over_persons<'a>(values: impl Iterator<Item = (&'a str, f64)>) -> f64 {
     let values: Vec<(&str, f64)> = values.collect();
-    let of_person = |person: &str| mean(values.iter().filter(|(of, _)| *of == person).map(|(_, value)| *value));
-    mean(distinct(values.iter().map(|(person, _)| *person)).into_iter().map(of_person))
+    let of_person = |person: &str| finite_mean(values.iter().filter(|(of, _)| *of == person).map(|(_, value)| *value));
+    finite_mean(distinct(values.iter().map(|(person, _)| *person)).into_iter().map(of_person))
 }
 
 /// Mean over persons of a figure of their trials of a kind.
@@ -175,11 +176,4 @@ fn distinct<'a>(words: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
         }
     }
     all
-}
-
-/// Mean of what is a number; not a number where nothing is.
-#[must_use]
-pub fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let known: Vec<f64> = values.filter(|x| x.is_finite()).collect();
-    known.iter().sum::<f64>() / known.len() as f64
 }

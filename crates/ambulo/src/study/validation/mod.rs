@@ -28,7 +28,7 @@ mod tables;
 mod text_table;
 mod trial;
 
-pub use figures::{Component, Figure, LegJoint, kinds, mean, over_kind, over_persons, persons};
+pub use figures::{Component, Figure, LegJoint, kinds, over_kind, over_persons, persons};
 pub use methods::Method;
 pub use phase_errors::{PhaseError, phase_errors};
 pub use stance_rows::{StanceRow, stance_rows};

@@ -1,11 +1,12 @@
 //! Tables of judged trials.
 
-use super::figures::{Component, Figure, LegJoint, kinds, mean, over_kind, persons};
+use super::figures::{Component, Figure, LegJoint, kinds, over_kind, persons};
 use super::methods::Method;
 use super::text_table::TextTable;
 use super::trial::JudgedTrial;
 use crate::analysis::{FootAgreement, ForceAgreement};
 use crate::model::Side;
+use crate::numerics::finite_mean;
 
 /// A table with its title and, below it, a note; the note may be empty.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -139,7 +140,7 @@ pub fn person_means(trials: &[&JudgedTrial]) -> Section {
         let of_person: Vec<&JudgedTrial> = trials.iter().filter(|trial| trial.person == person).copied().collect();
         for kind in kinds(&of_person) {
             let own = || of_person.iter().filter(|trial| trial.kind == kind);
-            let cells = summary_cells(|figure| mean(own().map(|trial| figure.of(&trial.agreement))));
+            let cells = summary_cells(|figure| finite_mean(own().map(|trial| figure.of(&trial.agreement))));
             table.row([person.to_owned(), kind.to_owned(), own().count().to_string()].into_iter().chain(cells));
         }
     }
@@ -191,7 +192,7 @@ fn by_fifth(trials: &[&JudgedTrial], digits: usize, of: impl Fn(&ForceAgreement)
 /// A figure of a fifth of the stances of a trial: the mean over its stances.
 fn in_fifth(trial: &JudgedTrial, component: Component, fifth: usize, of: impl Fn(&ForceAgreement) -> f64) -> f64 {
     let parts = trial.stances.iter().filter_map(|stance| stance.fifth(fifth).agreement(trial.weight_n));
-    mean(parts.map(|foot| of(&component.of(&foot))))
+    finite_mean(parts.map(|foot| of(&component.of(&foot))))
 }
 
 fn each_foot<'a>(trials: &[&'a JudgedTrial]) -> impl Iterator<Item = (&'a JudgedTrial, &'a FootAgreement)> {

@@ -8,7 +8,7 @@ use super::scaling::Scaling;
 use super::stance::Standing;
 use super::{Results, accuracy::Accuracy};
 use crate::simulators::{Measurement, Outcome, PeerTiming, Scene};
-use crate::table::Table;
+use ambulo::study::validation::TextTable as Table;
 use std::fmt::Write as _;
 
 const HEAD: &str = "\
