@@ -439,7 +439,7 @@ value: string,
  */
 allowed: string | null, 
 /**
- * Whether it is; nothing if nobody can say.
+ * Whether it is; nothing if it is unknown.
  */
 good: boolean | null, };
 
@@ -641,7 +641,7 @@ name: string,
  */
 side: PageSide | null, 
 /**
- * Main, or measured beside a prediction.
+ * Main, or measured next to a prediction.
  */
 role: Role, 
 /**

@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The file holds no bytes, or only white space.
+    /// The file contains no bytes, or only white space.
     #[error("the file is empty; expected {expected}")]
     Empty {
         /// What a valid file begins with.

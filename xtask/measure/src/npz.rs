@@ -5,7 +5,7 @@
 //! | code      | meaning                                                                     |
 //! |-----------|-----------------------------------------------------------------------------|
 //! | `descr`   | NumPy's name of the element type: `<f8` is a little-endian 8-byte float     |
-//! | `fortran` | true when the file holds columns one after the other (last index slowest)   |
+//! | `fortran` | true when the file contains columns one after the other (last index slowest)   |
 //! | `shape`   | length of each dimension; empty for a single value                          |
 //!
 //! Source: NumPy Enhancement Proposal 1 and `numpy/lib/format.py` (versions 1.0, 2.0, 3.0 of the header).
@@ -38,7 +38,7 @@ pub(crate) enum Values {
 }
 
 impl Array {
-    /// The numbers, or an error that says the array holds text.
+    /// The numbers, or an error that states the array holds text.
     pub(crate) fn numbers(&self) -> Result<&[f64], String> {
         match &self.values {
             Values::Numbers(numbers) => Ok(numbers),
@@ -46,7 +46,7 @@ impl Array {
         }
     }
 
-    /// The strings, or an error that says the array holds numbers.
+    /// The strings, or an error that states the array holds numbers.
     pub(crate) fn text(&self) -> Result<&[String], String> {
         match &self.values {
             Values::Text(text) => Ok(text),

@@ -4,7 +4,7 @@
 //! is faster than max(F / P, B / W), with P and W what this processor reaches at most, measured here in loops that do nothing else.
 //!
 //! Operations and bytes are counted, not estimated: this program runs the kernel under valgrind's callgrind, which counts how often each
-//! instruction is executed, and `objdump` says what the instruction is. A run with twice as many frames, minus a run with some, leaves out the
+//! instruction is executed, and `objdump` states what the instruction is. A run with twice as many frames, minus a run with some, leaves out the
 //! preparation. Additions, multiplications, divisions and roots of double precision count, each lane of a vector by itself, a fused
 //! multiplication and addition as two; the bytes are those of all memory operands, so most of them come from the first cache.
 //!

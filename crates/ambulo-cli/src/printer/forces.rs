@@ -74,7 +74,7 @@ fn outline(summary: &Summary) -> Result<()> {
         let quantity = summary.times_and_distances.quantities.iter().find(|quantity| quantity.quantity == name)?;
         Some(quantity.both.as_ref()?.mean)
     };
-    // The straight line between the ends of a curved path says little about the walk.
+    // The straight line between the ends of a curved path gives little information about the walk.
     let along_path = summary.times_and_distances.path_speed_m_s.map(|speed| format!("{speed:.2} m/s along the path"));
     let speed = along_path.or(summary.speed_m_s.map(|speed| format!("{speed:.2} m/s")));
     let walk = [

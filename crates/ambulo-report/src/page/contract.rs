@@ -323,7 +323,7 @@ pub struct Trace {
 pub enum Role {
     /// What the panel is about.
     Main,
-    /// What was measured, beside a prediction: black or white, thin.
+    /// What was measured, next to a prediction: black or white, thin.
     Measured,
     /// What may not be passed: grey.
     Limit,
@@ -397,7 +397,7 @@ pub struct Judged {
     pub value: String,
     /// What is allowed, in words.
     pub allowed: Option<String>,
-    /// Whether it is; nothing if nobody can say.
+    /// Whether it is; nothing if it is unknown.
     pub good: Option<bool>,
 }
 
@@ -558,7 +558,7 @@ pub struct ViewForce {
     pub name: String,
     /// Whose side.
     pub side: Option<PageSide>,
-    /// Main, or measured beside a prediction.
+    /// Main, or measured next to a prediction.
     pub role: Role,
     /// Where it acts, world [m]; no number while it does not act.
     pub point: [Series; 3],
@@ -678,7 +678,7 @@ mod tests {
     use std::path::Path;
     use ts_rs::{Config, TS};
 
-    /// `viewer/src/contract.ts` says what the types above say. With AMBULO_WRITE=1 it is written.
+    /// `viewer/src/contract.ts` states what the types above say. With AMBULO_WRITE=1 it is written.
     #[test]
     fn the_viewer_knows_the_contract() {
         let config = Config::new().with_large_int("number");

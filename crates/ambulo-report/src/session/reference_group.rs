@@ -25,13 +25,13 @@ const VERSION: u32 = 1;
 /// A standard deviation needs two people.
 const FEWEST: usize = 2;
 
-/// Mean and standard deviation between people.
+/// Mean and standard deviation between subjects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceGroup {
     format: String,
     version: u32,
-    /// Number of people.
+    /// Number of subjects.
     pub persons: usize,
     /// Youngest and oldest [years]; `null` unless the age of everybody is stated.
     pub ages_years: Option<[f64; 2]>,
@@ -53,13 +53,13 @@ pub struct ReferenceGroup {
 pub struct GroupCurve {
     /// Unit.
     pub unit: String,
-    /// Number of people.
+    /// Number of subjects.
     pub persons: usize,
     /// `measured` or `predicted`; `null` for angles.
     pub forces: Option<String>,
     /// Mean at 0, 1, ... 100 % of the cycle.
     pub mean: Vec<f64>,
-    /// Standard deviation between people.
+    /// Standard deviation between subjects.
     pub sd: Vec<f64>,
 }
 
@@ -225,7 +225,7 @@ fn group_curve(people: &[&Session], quantity: &str, unit: &str) -> Option<GroupC
     of_source(None)
 }
 
-/// Mean and standard deviation between people of the mean of both sides.
+/// Mean and standard deviation between subjects of the mean of both sides.
 fn group_times(people: &[&Session]) -> BTreeMap<String, Spread> {
     let mut values: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     for person in people {

@@ -93,7 +93,7 @@ pub struct RepresentativeSummary {
 pub struct ReferenceSummary {
     /// The group in a sentence.
     pub words: String,
-    /// Number of people, if it is known.
+    /// Number of subjects, if it is known.
     pub persons: Option<usize>,
     /// Youngest and oldest [years].
     pub ages_years: Option<[f64; 2]>,

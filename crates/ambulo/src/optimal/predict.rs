@@ -1,7 +1,7 @@
 //! Walks that are predicted: muscles work as little and as smoothly as they can. No curve of people is a target.
 //!
 //! What remains of people are speed and cadence, the instants at which the feet must be clear of the ground, and the start of the solver: the
-//! walk that follows people's curves. Their weight then falls to zero stage by stage.
+//! walk that follows normative curves. Their weight then falls to zero stage by stage.
 //!
 //! The costs are those of `muscles`, and the rates of joint moments.
 
@@ -16,7 +16,7 @@ use crate::gait::Walk;
 use crate::model::anthropometry::Human;
 use crate::model::{CoordinateId, Side};
 
-/// Weights of people's curves in the stages of a solution.
+/// Weights of normative curves in the stages of a solution.
 const PEOPLE: [f64; 3] = [0.1, 0.01, 0.0];
 /// Steeper slopes are reached in steps of this size.
 const SLOPE_STEP: f64 = 0.08;
@@ -62,7 +62,7 @@ impl WalkProblem {
         Ok(Prediction { problem, solution })
     }
 
-    /// This problem with the costs of muscles, and with a weight of people's curves: 1 as they are, 0 without them.
+    /// This problem with the costs of muscles, and with a weight of normative curves: 1 as they are, 0 without them.
     #[must_use]
     pub fn of_muscles(
         &self,

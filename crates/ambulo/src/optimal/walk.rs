@@ -100,7 +100,7 @@ pub struct WalkCosts {
     pub slip: f64,
     /// Power of the dimensionless speed that it grows with.
     pub slip_exponent: f64,
-    /// Height by which soles are lifted further than people lift theirs, in the middle of swing [m]: for uneven ground.
+    /// Height by which soles are lifted further than usual, in the middle of swing [m]: for uneven ground.
     pub lift: f64,
 }
 

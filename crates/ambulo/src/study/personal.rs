@@ -21,7 +21,7 @@ pub enum CalibrationError {
         /// Which one.
         trial: usize,
     },
-    /// No foot on a plate of its own.
+    /// No foot on a separate plate.
     #[error(
         "no foot was wholly on a plate of its own from strike to off; expected at least one such stance in each trial"
     )]

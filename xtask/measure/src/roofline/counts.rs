@@ -178,7 +178,7 @@ fn size_of_register(register: &str) -> f64 {
     }
 }
 
-/// Without a register, the last letter of the instruction says the width: `addl $0x1,0x4(%rip)`.
+/// Without a register, the last letter of the instruction states the width: `addl $0x1,0x4(%rip)`.
 fn size_of_suffix(name: &str) -> f64 {
     match name.chars().last() {
         Some('b') => 1.0,

@@ -276,7 +276,7 @@ impl<'a> Conversation<'a> {
         Ok(())
     }
 
-    /// The end of the frames: answers those of the delay, and says what came.
+    /// The end of the frames: answers those of the delay, and states what came.
     pub(super) fn end(&mut self) -> Result<()> {
         let ended = std::mem::replace(&mut self.stream, self.setup.stream()?);
         let finished = self.finish(ended);

@@ -1,6 +1,6 @@
-//! What the number of a frame says: whether frames before it were lost, or it came twice, late or anew.
+//! What the number of a frame states: whether frames before it were lost, or it came twice, late or anew.
 
-/// How many of the last numbers are remembered, to tell a doubled frame from a late one.
+/// How many of the last numbers are remembered, to distinguish a doubled frame from a late one.
 const REMEMBERED: u64 = 64;
 
 /// Place of a frame in its sequence.

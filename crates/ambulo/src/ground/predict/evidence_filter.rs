@@ -8,7 +8,7 @@
 //!   k(t) ∝ ∫ 2^(-(ν / f)²) / (1 + (ν / f_c)^(2 order)) cos(2π ν t) dν
 //!
 //! * Of all other estimated forces and moments: the Gaussian alone. They have little between 4 and 6 Hz but the strike, which markers do not show; with
-//!   H as well their noise is amplified: in walking the errors of people left out were 3 % larger, in running the fore-aft error rose from 4.6 to 6.1 % of
+//!   H as well their noise is amplified: in walking the errors of subjects left out were 3 % larger, in running the fore-aft error rose from 4.6 to 6.1 % of
 //!   body weight (measured during development).
 
 use super::stances::{GaitType, Stance};

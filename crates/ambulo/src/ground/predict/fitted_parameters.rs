@@ -14,7 +14,7 @@ pub struct FittedParameters {
     pub force_noise: [f64; 3],
     /// Noise of the moment about the mass centre: about forward, up, sideways [body weights × m].
     pub moment_noise: [f64; 3],
-    /// Standard deviations of the prior, as a multiple of those between people: forward, up.
+    /// Standard deviations of the prior, as a multiple of those between subjects: forward, up.
     pub spread: [f64; 2],
     /// Standard deviation of the lateral force [body weights].
     pub sideways_spread: f64,
@@ -72,7 +72,7 @@ impl Default for FittedParameters {
     }
 }
 
-/// The mean errors that people and laboratories left out have, too.
+/// The mean errors that subjects and laboratories left out have, too.
 const ERRORS: ErrorsByDescent = ErrorsByDescent {
     usual: StanceErrors {
         force: [
@@ -109,7 +109,7 @@ const ERRORS: ErrorsByDescent = ErrorsByDescent {
     ],
 };
 
-/// From the errors of people whose laboratory was left out.
+/// From the errors of subjects whose laboratory was left out.
 const CALIBRATION: DeviationCalibration = DeviationCalibration {
     force: [
         [

@@ -33,7 +33,7 @@ use crate::spatial::{Mat3, Pose, Vec3};
 use ambulo_formats::c3d::{C3d, Rotation};
 use std::ops::RangeInclusive;
 
-/// A segment with a pose of its own.
+/// A segment with its own pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PosedSegment {
     /// Pelvis.

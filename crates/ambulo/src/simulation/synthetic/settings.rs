@@ -18,7 +18,7 @@ use std::ops::RangeInclusive;
 pub enum SyntheticMode {
     /// In three dimensions, found by optimal motion on soft shoes: no force but those of its own joints and of the ground.
     Optimal,
-    /// In three dimensions, predicted: as optimal, but muscles work as little as they can instead of following curves of people.
+    /// In three dimensions, predicted: as optimal, but muscles work as little as they can instead of following normative curves.
     Predicted,
     /// In the sagittal plane, dynamically consistent, on soft shoes.
     Corrected,

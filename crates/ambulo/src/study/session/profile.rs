@@ -38,7 +38,7 @@ pub const PROFILE: [&str; 9] = [
 const OF_PELVIS: usize = 3;
 /// More standard deviations from the mean are outside of the range of healthy people: 95 % of a normal distribution are inside.
 const RANGE_SD: f64 = 2.0;
-/// A smaller standard deviation between people, as a share of the largest, is no measure [1].
+/// A smaller standard deviation between subjects, as a share of the largest, is no measure [1].
 const LEAST_SD: f64 = 0.05;
 
 /// Mean and standard deviation of a reference group over the cycle, at equal distances from 0 to 100 %.
@@ -46,7 +46,7 @@ const LEAST_SD: f64 = 0.05;
 pub struct NormalCurve {
     /// Mean.
     pub mean: Vec<f64>,
-    /// Standard deviation between people.
+    /// Standard deviation between subjects.
     pub sd: Vec<f64>,
 }
 

@@ -25,7 +25,7 @@ use std::collections::BTreeSet;
 
 /// A cycle that is so many times as far from the median as usual is far from the others.
 const FAR: f64 = 2.0;
-/// With fewer cycles a median says nothing about the others.
+/// With fewer cycles a median gives no information about the others.
 const FEWEST: usize = 3;
 /// Smaller distances are rounding [deg].
 const LEAST_DEG: f64 = 1e-6;
