@@ -162,7 +162,7 @@ impl Sweep {
         Ok(Sweep { gait, build, mode, conditions, points, load })
     }
 
-    /// What was swept, for the page.
+    /// Title of the page: the swept quantities.
     fn title(&self) -> String {
         let mode = match self.mode {
             SyntheticMode::Predicted => "predicted without curves of people",

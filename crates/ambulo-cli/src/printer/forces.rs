@@ -65,7 +65,7 @@ fn print_mass(summary: &Summary) -> Result<()> {
     print_line(&format!("  mass      {:.2} kg ({}, {state}{plates})", mass.kg, mass.source.words()))
 }
 
-/// The numbers that tell whether a run is the expected one.
+/// The numbers by which a run is recognised as the expected one.
 fn outline(summary: &Summary) -> Result<()> {
     if let Some(subject) = &summary.subject {
         subject::print_markers(subject)?;

@@ -1,4 +1,4 @@
-//! An own reference group: mean and standard deviation between healthy people, from a session of each of them; written as `norm.json`.
+//! A user's reference group: mean and standard deviation between healthy subjects, from one session each; written as `norm.json`.
 //!
 //! Each person counts once: the mean of the mean curves of both sides. Moments, powers and ground forces are those of people with measured
 //! forces, if there are at least two, otherwise predicted ones.
@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 /// The word by which the file is recognised.
 const FORMAT: &str = "ambulo-reference-group";
 const VERSION: u32 = 1;
-/// A standard deviation needs two people.
+/// A standard deviation needs two subjects.
 const FEWEST: usize = 2;
 
 /// Mean and standard deviation between subjects.
@@ -67,7 +67,7 @@ pub struct GroupCurve {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReferenceGroupError {
-    /// Too few people.
+    /// Too few subjects.
     #[error(
         "found {found} persons with cycles; expected at least {FEWEST}, because a standard deviation is computed between them"
     )]
@@ -86,10 +86,10 @@ pub enum ReferenceGroupError {
 }
 
 impl ReferenceGroup {
-    /// Of the sessions of several people; sessions without cycles are left out.
+    /// From the sessions of several subjects; sessions without cycles are left out.
     ///
     /// # Errors
-    /// Fewer than two people, or different conventions.
+    /// Fewer than two subjects, or different conventions.
     pub fn of(sessions: &[Session]) -> Result<ReferenceGroup, ReferenceGroupError> {
         let people: Vec<&Session> =
             sessions.iter().filter(|session| session.cycles.iter().any(|cycle| cycle.excluded.is_none())).collect();

@@ -1,4 +1,4 @@
-//! Finding the walk of a figure: one that follows people, or one that is predicted for some conditions.
+//! Finding the walk of a figure: near normative curves, or predicted for some conditions.
 
 use super::conditions::WalkConditions;
 use super::error::{LARGEST_BETWEEN, OptimalWalkError};

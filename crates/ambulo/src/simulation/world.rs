@@ -99,7 +99,7 @@ pub struct Follows {
     pub parent: Option<usize>,
 }
 
-/// What acts on one coordinate of a joint. Angles in rad, distances in m.
+/// Actuation of one coordinate of a joint. Angles in rad, distances in m.
 #[derive(Debug, Clone, Default)]
 pub struct JointCoordinate {
     /// Prescribed motion.

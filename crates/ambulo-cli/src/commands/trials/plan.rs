@@ -71,7 +71,7 @@ pub(crate) struct Plan {
 enum Content {
     /// With force plates.
     Plates,
-    /// The person stands still.
+    /// Standing still.
     Still,
     /// Without forces.
     Motion,
@@ -299,7 +299,7 @@ fn content(file: &FoundFile, stated: &StatedTrial) -> Content {
     }
 }
 
-/// What lies beside each other.
+/// Files that belong together.
 struct Folders<'a> {
     /// Name of the folder of all trials.
     root: String,

@@ -34,7 +34,7 @@ const HIGHEST: f64 = 3.0;
 pub(super) struct EvidenceFilters {
     /// Of the force that the motion requires, and of most estimated forces.
     pub(super) gaussian: EvidenceFilter,
-    /// Of the vertical force in running; `None` where nobody runs or the motion was not filtered.
+    /// Of the vertical force in running; `None` without running, or if the motion was not filtered.
     running: Option<EvidenceFilter>,
 }
 

@@ -41,7 +41,7 @@ pub struct FittedParameters {
 }
 
 impl FittedParameters {
-    /// A number that tells these parameters from others: FNV-1a of their digits.
+    /// A checksum of these parameters: FNV-1a of their digits.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
@@ -72,7 +72,7 @@ impl Default for FittedParameters {
     }
 }
 
-/// The mean errors that subjects and laboratories left out have, too.
+/// Mean errors that also occur in subjects and laboratories left out.
 const ERRORS: ErrorsByDescent = ErrorsByDescent {
     usual: StanceErrors {
         force: [

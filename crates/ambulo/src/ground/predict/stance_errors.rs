@@ -43,7 +43,7 @@ pub struct StanceCurve(pub [f64; KNOTS.len()]);
 /// The values of a curve at foot strike and foot off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
-    /// Whatever the samples tell.
+    /// Determined by the samples.
     Free,
     /// Zero: a force begins and ends there.
     Zero,

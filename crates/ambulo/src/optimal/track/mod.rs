@@ -161,7 +161,7 @@ pub enum TrackError {
         "the {what} of the floor differs by {found:.3} {unit} between stances; expected one level floor or belt (at most {most} {unit})"
     )]
     UnevenFloor {
-        /// What differs.
+        /// Difference.
         what: &'static str,
         /// By how much.
         found: f64,
