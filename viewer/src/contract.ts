@@ -51,7 +51,7 @@ name: string,
  */
 data: DataQuality | null, 
 /**
- * What to know first; nothing for scenes.
+ * Summary at the top of the page; nothing for scenes.
  */
 glance: Glance | null, 
 /**
@@ -317,7 +317,7 @@ mean: Series,
  */
 sd: Series, 
 /**
- * Who: citation, people, speed.
+ * Source: citation, group, speed.
  */
 citation: string, };
 
@@ -343,7 +343,7 @@ values: Series,
  */
 sd: Series | null, 
 /**
- * Where it stands in the files.
+ * Its column in the files.
  */
 origin: Origin | null, };
 
@@ -417,7 +417,7 @@ groups: Array<Group>,
  */
 tables: Array<Table>, 
 /**
- * What was odd on the way.
+ * Warnings and notes.
  */
 findings: Array<PageFinding>, 
 /**
@@ -439,7 +439,7 @@ value: string,
  */
 allowed: string | null, 
 /**
- * Whether it is; nothing if nobody can say.
+ * Whether it is; nothing if it is unknown.
  */
 good: boolean | null, };
 
@@ -481,7 +481,7 @@ facts: Array<Fact>,
  */
 deviations: Array<string>, 
 /**
- * Who the healthy people are, or why there is no comparison.
+ * The reference group, or why there is no comparison.
  */
 norm: string, };
 
@@ -497,7 +497,7 @@ state: PageVerdict,
  */
 sentence: string, 
 /**
- * What stands against the motion.
+ * Reasons why the motion is infeasible.
  */
 red: Array<RedSpan>, 
 /**
@@ -537,7 +537,7 @@ export type View = {
  */
 bodies: Array<ViewBody>, 
 /**
- * What stands still: obstacles of a scene. In world axes.
+ * Fixed obstacles of a scene, in world axes.
  */
 fixed: Array<ViewShape>, 
 /**
@@ -641,7 +641,7 @@ name: string,
  */
 side: PageSide | null, 
 /**
- * Main, or measured beside a prediction.
+ * Main, or measured next to a prediction.
  */
 role: Role, 
 /**

@@ -24,7 +24,7 @@ struct Target {
 enum Linker {
     /// The one that the compiler takes by itself.
     Own,
-    /// Zig, through `cargo zigbuild`: for other processors, and for a C library as old as the version says.
+    /// Zig, through `cargo zigbuild`: for other processors, and for a C library as old as the version states.
     Zig { glibc: Option<&'static str> },
 }
 

@@ -25,7 +25,7 @@ use std::time::Duration;
 
 const TRIALS: usize = 5;
 
-/// A folder `set` with five walks of a figure in folders of their own, and a broken recording.
+/// A folder `set` with five walks of a figure in separate folders, and a broken recording.
 fn set(name: &str) -> Workbench {
     let bench = Workbench::empty(name).always_removed();
     for trial in 0..TRIALS {

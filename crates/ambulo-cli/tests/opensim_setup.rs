@@ -135,7 +135,7 @@ fn a_set_up_of_inverse_dynamics_is_the_command_with_its_files_and_settings() {
     forces(&bench, &["--setup", "setups/id.xml", "-o", "setup"]).done();
     assert_eq!(bench.text("options/moments.sto"), bench.text("setup/moments.sto"));
     assert!(findings(&bench, "setup").iter().all(|(code, _)| code != "model.bushing"));
-    // An option replaces what the set-up says.
+    // An option replaces what the set-up states.
     forces(&bench, &["--setup", "setups/id.xml", "--cutoff", "10", "--to", "1.2", "-o", "other"]).done();
     assert_ne!(bench.text("options/moments.sto"), bench.text("other/moments.sto"));
     assert_found(&bench, "other", "setup.replaced", "--cutoff 10 replaces 6 of the set-up");
@@ -165,7 +165,7 @@ fn inverse_kinematics_and_dynamics_are_one_run() {
     // A knee that is held straight by a task.
     let task = "<IKTaskSet><objects><IKCoordinateTask name=\"knee_angle_r\"><weight>1000</weight><value_type>manual_value</value_type>\
         <value>0</value></IKCoordinateTask></objects></IKTaskSet>";
-    // In a file of its own, as in the tutorials of OpenSim 2, whose file of coordinates was needed by no task.
+    // In a separate file, as in the tutorials of OpenSim 2, whose file of coordinates was needed by no task.
     bench.write("setups/tasks.xml", format!("<OpenSimDocument Version=\"20302\">{task}</OpenSimDocument>"));
     let elsewhere = "<IKTaskSet file=\"tasks.xml\"/><coordinate_file>missing.mot</coordinate_file>";
     bench.write("setups/ik.xml", kinematics(elsewhere));

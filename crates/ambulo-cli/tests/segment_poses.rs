@@ -1,5 +1,5 @@
 //! Poses of segments in a C3D or a `.mvnx`: results with and without force plates in the same file, agreement with the motion that they were made
-//! from, and what `info` says.
+//! from, and what `info` states.
 
 use crate::workbench::Workbench;
 use ambulo::findings::Findings;

@@ -15,7 +15,7 @@ use crate::workbench::Workbench;
 use ambulo_formats::c3d::C3d;
 use std::fs;
 
-/// A folder, with the walk that `ambulo demo` writes beside it.
+/// A folder, with the walk that `ambulo demo` writes next to it.
 fn laboratory(name: &str) -> Workbench {
     let bench = Workbench::empty(name).always_removed();
     bench.run(&["demo", "-o", "demo", "--keep", "recording", "--quiet"]).done();

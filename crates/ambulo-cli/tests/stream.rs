@@ -2,7 +2,7 @@
 //!
 //! | claim                                                                        | tolerance                                    |
 //! |------------------------------------------------------------------------------|----------------------------------------------|
-//! | a replayed recording has the forces of `ambulo forces` on all of it           | 8 % of body weight, as docs/STREAMING.md says |
+//! | a replayed recording has the forces of `ambulo forces` on all of it           | 8 % of body weight, as docs/STREAMING.md states |
 //! | lines and records, standard input, TCP and UDP have the same numbers          | exact; records of single precision 0.5 N     |
 //! | lost, doubled, late and broken frames: each is named, the others have results | exact                                        |
 //! | markers of a C3D from another process have the forces of the batch           | 60 N                                         |
@@ -53,7 +53,7 @@ fn started(bench: &Workbench, more: &[&str]) -> Child {
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// The address that a server says it waits on; its standard error is read in the background from then on.
+/// The address that a server states it waits on; its standard error is read in the background from then on.
 fn address(child: &mut Child) -> SocketAddr {
     let mut errors = BufReader::new(child.stderr.take().unwrap());
     let mut first = String::new();

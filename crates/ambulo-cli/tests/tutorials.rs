@@ -1,6 +1,6 @@
 //! Every command of docs/tutorials, typed in order into an empty folder.
 //!
-//! A command whose comment says `exits with N` must do so; every other must end with 0.
+//! A command whose comment states `exits with N` must do so; every other must end with 0.
 
 use crate::workbench::Workbench;
 use std::path::{Path, PathBuf};

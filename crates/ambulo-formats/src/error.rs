@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The file holds no bytes, or only white space.
+    /// The file contains no bytes, or only white space.
     #[error("the file is empty; expected {expected}")]
     Empty {
         /// What a valid file begins with.
@@ -17,9 +17,9 @@ pub enum Error {
     Line {
         /// Line number, counted from 1.
         line: usize,
-        /// What was found there, shortened.
+        /// Found text, shortened.
         found: String,
-        /// What the format allows there.
+        /// Values that the format allows.
         expected: String,
     },
     /// The file ends too early.
@@ -43,9 +43,9 @@ pub enum Error {
         line: usize,
         /// Tag, with the `name` attribute where there is one.
         element: String,
-        /// What was found there, shortened.
+        /// Found text, shortened.
         found: String,
-        /// What the format allows there.
+        /// Values that the format allows.
         expected: String,
     },
     /// A value in a binary file is not allowed at its place.
@@ -55,7 +55,7 @@ pub enum Error {
         offset: usize,
         /// What was found there.
         found: String,
-        /// What the format allows there.
+        /// Values that the format allows.
         expected: String,
     },
     /// A binary file ends too early.
@@ -105,7 +105,7 @@ pub enum Error {
 pub struct Remark {
     /// Line number, counted from 1, if the remark is about one line.
     pub line: Option<usize>,
-    /// What was found and how it was read.
+    /// Found value and its interpretation.
     pub message: String,
 }
 

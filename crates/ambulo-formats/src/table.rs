@@ -1,6 +1,6 @@
 //! Tables of named numeric columns: OpenSim storage (`.mot`, `.sto`) and CSV.
 //!
-//! A table holds names, numbers, and whether the header states degrees. Which column is an angle, a
+//! A table contains names, numbers, and whether the header states degrees. Which column is an angle, a
 //! force or a length is not known here. Not-a-number and infinity are kept.
 //!
 //! | file | read | written |
@@ -123,7 +123,7 @@ impl Table {
     }
 }
 
-/// The coordinate whose value a column holds, by the column's name.
+/// The coordinate whose value a column contains, by the column's name.
 ///
 /// OpenSim writes positions and speeds into one table. This function finds the positions among all columns but `time`:
 ///

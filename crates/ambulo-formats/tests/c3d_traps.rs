@@ -105,7 +105,7 @@ fn a_first_frame_beyond_16_bits_is_believed_without_a_remark() {
 
 #[test]
 fn a_first_frame_is_taken_from_whoever_counts_the_frames_right() {
-    // Two frames; the header says 5 to 6, the group TRIAL 7 to 8, or 7 to 90.
+    // Two frames; the header states 5 to 6, the group TRIAL 7 to 8, or 7 to 90.
     for (last, first, told) in [(8, 7, "7 was used"), (90, 5, "5 was used")] {
         let mut file = File::new(1, 2, 0, 0, -1.0);
         file.word(4, 5).word(5, 6).texts(1, "LABELS", &["HEEL"]).reals(&[0.0; 8]);
@@ -259,7 +259,7 @@ fn more_than_255_points_and_channels_have_their_names_in_several_lists() {
 
 #[test]
 fn analog_counts_in_conflict_are_decided_by_the_size_of_the_file() {
-    // ANALOG:USED says 2 channels; the header counts 3 values a frame. Frames of 2 channels fill the file.
+    // ANALOG:USED states 2 channels; the header counts 3 values a frame. Frames of 2 channels fill the file.
     let mut file = File::new(0, 200, 3, 1, -1.0);
     file.integer(2, "USED", &[], &[2]).texts(2, "LABELS", &["A", "B"]);
     file.float(2, "SCALE", &[2], &[1.0; 2]).integer(2, "OFFSET", &[2], &[0; 2]).reals(&[1.0; 400]);
@@ -464,7 +464,7 @@ fn texts_are_utf_8_or_latin_1_without_blanks_at_their_end() {
 
 #[test]
 fn scales_in_conflict_are_decided_by_the_size_of_the_file() {
-    // 100 frames of one point as integers (800 bytes) or reals (1600 bytes); header says reals, POINT:SCALE integers.
+    // 100 frames of one point as integers (800 bytes) or reals (1600 bytes); header states reals, POINT:SCALE integers.
     for (storage, bytes) in [(Storage::Integer, 800), (Storage::Real, 1600)] {
         let mut file = File::new(1, 100, 0, 0, -0.5);
         file.texts(1, "LABELS", &["HEEL"]).float(1, "SCALE", &[], &[0.25]);

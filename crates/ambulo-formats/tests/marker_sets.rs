@@ -1,4 +1,4 @@
-//! Sets of markers in a file of their own.
+//! Sets of markers in a separate file.
 
 use ambulo_formats::osim::{OsimMarkerSet, OsimModel};
 

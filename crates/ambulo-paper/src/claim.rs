@@ -13,7 +13,7 @@ pub type Numbers = Vec<(String, f64)>;
 pub enum ClaimKind {
     /// A statement of the paper that could fail.
     Paper,
-    /// True of every program that is written as the paper says, or by the progress of computers.
+    /// True of every program that follows the paper, or by the progress of computers.
     ByConstruction,
     /// Not in the paper.
     Ours,

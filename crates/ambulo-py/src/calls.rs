@@ -98,7 +98,7 @@ fn computed<T: Send + 'static>(py: Python<'_>, verb: Verb<T>, words: Vec<String>
     computed.map_err(|failure| exception(py, failure))
 }
 
-/// Computes in a thread of its own, without the lock of the interpreter. Ctrl-C raises `KeyboardInterrupt` at once; the computation ends after
+/// Computes in a separate thread, without the lock of the interpreter. Ctrl-C raises `KeyboardInterrupt` at once; the computation ends after
 /// its present stage, and its result is dropped.
 fn interruptible<T: Send + 'static>(
     py: Python<'_>,

@@ -183,7 +183,7 @@ impl ClinicalQuantity {
     }
 }
 
-/// The quantities in a table, in display order; `has` tells whether its column `quantity` contains a name
+/// The quantities in a table, in display order; `has` returns whether its column `quantity` contains a name
 /// (`cycles.csv`: `knee_angle_angle`). Movements that the model lacks (varus of a hinged knee) are left out.
 #[must_use]
 pub fn clinical_quantities(names: &ClinicalNames, has: impl Fn(&str) -> bool) -> Vec<ClinicalQuantity> {

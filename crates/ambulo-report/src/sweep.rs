@@ -191,7 +191,7 @@ fn power_of(
     (!known.iter().any(|other| other.id == curve.id)).then_some(curve)
 }
 
-/// The files of a sweep: `sweep.csv`, `walks.csv`, `figures/*.svg` and `report.html`; `title` says what was swept.
+/// The files of a sweep: `sweep.csv`, `walks.csv`, `figures/*.svg` and `report.html`; `title` states what was swept.
 ///
 /// # Errors
 /// A style that cannot be read.
@@ -222,7 +222,7 @@ const FIGURES: [(&str, &str, &[Row]); 4] = [
     ("ankle", "Ankle", &[("ankle_dorsiflexion", "Dorsiflexion")]),
     ("ground", "Ground force on a foot", &[("ground_force", "")]),
 ];
-/// Curves of at most this many walks, or values of a condition, have a line of their own.
+/// Curves of at most this many walks, or values of a condition, have their own line.
 const MOST_LINES: usize = 6;
 /// Width of a figure [mm], and height of its axes [pt].
 const SIZE: (f64, f64) = (260.0, 110.0);

@@ -64,7 +64,7 @@ pub fn listed_section(listed: &[ListedTrial]) -> Section {
     Section { title: "Files of each trial", table, note: String::new() }
 }
 
-/// The files of a validation: `validation.html`, `validation.md`, `stances.csv`, `means.csv`. `title` says what was judged; `others` are
+/// The files of a validation: `validation.html`, `validation.md`, `stances.csv`, `means.csv`. `title` states what was judged; `others` are
 /// recordings that are no trials, each with the reason.
 ///
 /// # Errors

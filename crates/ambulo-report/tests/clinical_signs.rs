@@ -18,7 +18,7 @@ fn table(header: &str) -> Vec<Vec<String>> {
     rows.map(cells).collect()
 }
 
-/// Whether a cell says plus.
+/// Whether a cell states plus.
 fn plus(cell: &str) -> bool {
     assert!(["+", "-"].contains(&cell), "{cell}");
     cell == "+"

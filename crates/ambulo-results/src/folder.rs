@@ -124,7 +124,7 @@ impl<'a> Folder<'a> {
     /// `events.csv`, in the order of the file; empty without the file.
     ///
     /// # Errors
-    /// A file that holds anything else.
+    /// A file with other content.
     pub fn events(&self) -> Result<Vec<Event>, ResultsError> {
         if let Some(events) = self.written(EVENTS).and_then(OutputFile::listed_events) {
             return Ok(events.to_vec());
@@ -136,7 +136,7 @@ impl<'a> Folder<'a> {
     /// `cycles.csv`, in the order of the file; empty without the file.
     ///
     /// # Errors
-    /// A file that holds anything else.
+    /// A file with other content.
     pub fn cycles(&self) -> Result<Vec<CycleRow>, ResultsError> {
         if let Some(rows) = self.written(CYCLES).and_then(OutputFile::cycle_rows) {
             return Ok(rows);
@@ -148,7 +148,7 @@ impl<'a> Folder<'a> {
     /// `states.csv`, in the order of the file; empty without the file.
     ///
     /// # Errors
-    /// A file that holds anything else.
+    /// A file with other content.
     pub fn states(&self) -> Result<Vec<StatePeriod>, ResultsError> {
         let Some(text) = self.text(STATES)? else { return Ok(Vec::new()) };
         state_table::read(&text).map_err(|reason| self.unreadable(STATES, reason))

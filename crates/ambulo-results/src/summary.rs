@@ -57,7 +57,7 @@ pub struct Summary {
     pub filter: Filters,
     /// Convention for the angles of pelvis and hips in `clinical.csv`; `null` without that file.
     pub convention: Option<ConventionSummary>,
-    /// What the person does; the limits of the verdict follow it.
+    /// Activity of the person; it determines the limits of the verdict.
     #[serde(default)]
     pub activity: Option<Activity>,
     /// Times and distances of the strides.

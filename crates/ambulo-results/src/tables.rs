@@ -130,7 +130,7 @@ pub fn ground_columns(feet: &[(Side, impl Borrow<BodyForces>)], frames: usize) -
     columns
 }
 
-/// `external_loads.xml`: tells OpenSim how to apply `grf.mot`.
+/// `external_loads.xml`: how OpenSim applies `grf.mot`.
 pub(crate) fn external_loads(model: &Model, analysis: &Analysis) -> ExternalLoads {
     let force = |(side, foot): (Side, Cow<'_, BodyForces>)| {
         let prefix = format!("ground_force_{}_", side.letter());

@@ -50,7 +50,7 @@
 //!
 //! # Inverse dynamics of arrays
 //!
-//! A person of 72.6 kg who stands still; without ground forces, the root joint carries the body weight:
+//! A person of 72.6 kg standing still; without ground forces, the root joint carries the body weight:
 //!
 //! ```
 //! use ambulo::dynamics::{Workspace, inverse};

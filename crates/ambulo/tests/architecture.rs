@@ -82,7 +82,7 @@ struct Row {
     may_use: Vec<String>,
 }
 
-/// Everything that table and code disagree on, or that the table says against itself.
+/// Everything that table and code disagree on, or that the table states against itself.
 fn complaints(architecture: &str, sources: &[Source]) -> Vec<String> {
     let rows = match table(architecture, &MODULE_TABLE) {
         Ok(rows) => rows,
@@ -472,7 +472,7 @@ fn tree() -> Vec<Source> {
     ]
 }
 
-/// What the checker says of [`tree`] with one more file.
+/// What the checker states of [`tree`] with one more file.
 fn complaints_with(file: &str, text: &str) -> Vec<String> {
     let mut tree = tree();
     tree.push(source("base", file, text));

@@ -128,7 +128,7 @@ fn points_have_the_distance_that_the_general_query_finds() {
             let theirs = generic_gap(&a, &p, &b, &q);
             let what = format!("seed {seed}: {} on {}: {ours} {theirs}", a.name, b.name);
             if a.radius > 0.0 && theirs < -0.04 {
-                // An axis that runs through a solid parts from it along an edge, yet touches along the face beside it:
+                // An axis that runs through a solid parts from it along an edge, yet touches along the face next to it:
                 // the gap of that normal is lower, by the square of the angle of up to 0.1 between them.
                 assert!(ours < theirs + ITERATED && ours > theirs - 0.005, "{what}");
             } else {

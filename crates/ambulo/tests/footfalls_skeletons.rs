@@ -1,6 +1,6 @@
 //! When the feet stand, of BVH files: a walk in a figure of eight and jumps, without markers, plates or masses.
 //!
-//! The files are not part of the repository; without them each test says `skipped` and passes.
+//! The files are not part of the repository; without them each test states `skipped` and passes.
 
 use crate::shared_data;
 use ambulo::analysis::feasibility::Person;

@@ -34,7 +34,7 @@ impl Moving {
         Moving { model: model.clone(), soles, grid: trajectory.grid(), columns }
     }
 
-    /// A person who stands still for a while.
+    /// A person standing still for a while.
     fn standing(seconds: f64) -> Moving {
         let human = MAN.human().unwrap();
         let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: (100.0 * seconds) as usize };

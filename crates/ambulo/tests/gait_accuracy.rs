@@ -1,6 +1,6 @@
 //! The default curves against the normative means that they were fitted to: Schwartz, Rozumalski, Trost 2008, five speeds.
 //!
-//! The tables are not part of the repository. They are looked for in `shared/data` beside it, or in `$AMBULO_DATA/data`;
+//! The tables are not part of the repository. They are looked for in `shared/data` next to it, or in `$AMBULO_DATA/data`;
 //! without them the tests say `skipped` and pass.
 
 use ambulo::findings::Findings;

@@ -15,7 +15,7 @@ fn jet() -> impl Strategy<Value = Jet> {
     })
 }
 
-/// A number that moves as its jet says.
+/// A number that moves as its jet states.
 fn moving(x: Jet, t: f64) -> f64 {
     x.value + t * (x.rate + 0.5 * t * x.acceleration)
 }

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 const LEG: f64 = 0.92;
 
-/// A gait of style 1997 with a knee of its own; line numbers are counted below.
+/// A gait of style 1997 with its own knee; line numbers are counted below.
 const KNEE_1997: &str = r#"name = "marching"
 style = "1997"
 speed = 1.2
@@ -29,7 +29,7 @@ from_deg = [40, 30]
 to_deg = 5
 "#;
 
-/// A gait of the default style with an ankle of its own.
+/// A gait of the default style with its own ankle.
 const ANKLE: &str = r#"base = "slow"
 name = "flat-footed"
 

@@ -4,7 +4,7 @@ use crate::common::graphs::{METHODS, random_contacts, random_six, settings, solv
 use crate::common::random::Random;
 use ambulo::dynamics::{ConstraintGraph, Link, Method, Six};
 
-/// The graph with every hinge between bodies held at a motion of its own.
+/// The graph with every hinge between bodies held at a separate motion.
 fn followed(graph: &ConstraintGraph, r: &mut Random) -> ConstraintGraph {
     let mut held = graph.clone();
     held.links.clear();

@@ -1,7 +1,7 @@
 //! Against OpenSim: same recordings, same settings, and the generalised forces that its inverse dynamics tool wrote.
 //!
-//! The recordings are not part of the repository. They are looked for in `shared/data` beside it, or in
-//! `$AMBULO_DATA/data`; without them each test says `skipped` and passes.
+//! The recordings are not part of the repository. They are looked for in `shared/data` next to it, or in
+//! `$AMBULO_DATA/data`; without them each test states `skipped` and passes.
 
 use crate::shared_data::data;
 use ambulo::analysis::{Agreement, Analysis, AnalysisSettings, Curve, analyse, compare};

@@ -77,7 +77,7 @@ impl Predicted {
 }
 
 /// Curves of people are in no cost of this walk.
-/// Without people's curves, joints keep both of their limits, and slip has the cost of muscles.
+/// Without normative curves, joints keep both of their limits, and slip has the cost of muscles.
 #[test]
 fn a_prediction_keeps_both_limits_of_a_joint_and_has_its_own_cost_of_slip() {
     let start = &*MIRRORED;

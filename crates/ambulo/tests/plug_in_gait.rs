@@ -1,5 +1,5 @@
 //! Sagittal joint moments of seven children at the default settings, compared with those of Plug-in-Gait in the same C3D files (group POINT,
-//! `RHipMoment` and its like, N.mm/kg although the unit field says N.mm), while each foot is on its plate.
+//! `RHipMoment` and its like, N.mm/kg although the unit field states N.mm), while each foot is on its plate.
 //!
 //! `cargo test -p ambulo plug_in_gait -- --show-output` prints the comparison, with other filters of the forces as well.
 

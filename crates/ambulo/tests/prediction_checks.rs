@@ -1,6 +1,6 @@
 //! Checks of predictions without plates: consistent motions pass, forces that do not act through the feet are detected.
 //!
-//! The recordings are not part of the repository; without them their test says `skipped` and passes.
+//! The recordings are not part of the repository; without them their test states `skipped` and passes.
 
 use crate::footfall_trials::everything;
 use crate::walking_puppet::{Hand, NO_HAND, Puppet, moved, walk};

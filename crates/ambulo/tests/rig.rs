@@ -93,7 +93,7 @@ fn facing_z() -> Mat3 {
     Mat3::new(0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0)
 }
 
-/// A joint of the figure: the body that carries it and its place there, and whether it drives a body of its own or turns at will.
+/// A joint of the figure: the body that carries it and its place there, and whether it drives a separate body or turns at will.
 struct Part {
     name: String,
     parent: Option<usize>,
@@ -355,7 +355,7 @@ fn a_changed_motion_of_the_body_is_that_of_the_skeleton_and_the_rest_follows() {
     }
 }
 
-/// What a changed skeleton says about its changes [degrees].
+/// What a changed skeleton states about its changes [degrees].
 struct DifferencesOf {
     most: f64,
     rms: f64,

@@ -385,7 +385,7 @@ fn jammed_four_bar(max: Option<f64>) -> World {
 #[test]
 fn a_driven_four_bar_that_cannot_close_gives_way_and_says_so() {
     for max in [Some(50.0), None] {
-        // Without a limit of its own a drive gives way where rows contradict each other, not before. In the last step
+        // Without a separate limit a drive gives way where rows contradict each other, not before. In the last step
         // before, the elbow is at δ = √(2 h ω) = 0.08 rad from straight and must turn at ω/δ = 35 rad/s at once: 35 · 0.05 N.m.s
         // in 1 ms, 1/δ² of it in the bars: 3e5 N.
         let (mut run, messages) = endured(jammed_four_bar(max), 1.0, max.map_or(1e6, |m| m * 1.001));

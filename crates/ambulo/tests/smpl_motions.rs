@@ -96,7 +96,7 @@ fn both_layouts_of_the_arrays_and_both_names_of_the_rate_are_read() {
 
 #[test]
 fn joint_centres_of_the_users_model_follow_its_shape() {
-    // Each joint is a vertex of its own; the only shape lengthens the body by a tenth per unit.
+    // Each joint is a separate vertex; the only shape lengthens the body by a tenth per unit.
     let body = SmplBody::of_stature(&BUILD).unwrap();
     let npz = archive(60.0, &[[0.0, 0.0, 0.9]; 2], 0.0);
     let names = ["hip_r", "knee_r", "ankle_r", "shoulder_l", "wrist_l"];

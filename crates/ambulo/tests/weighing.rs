@@ -119,7 +119,7 @@ fn any_gait_cycle_on_the_plates_weighs_a_walker() {
             }
         }
     }
-    // Somebody else, or somebody who also stands beside the plates.
+    // Somebody else, or somebody who also stands next to the plates.
     let window_s = Some([0.1 * cycle_s, 1.3 * cycle_s]);
     for mass in masses(0.9, window_s, Some(1.1 * stated)).into_iter().chain(masses(1.1, window_s, None)) {
         assert_eq!(mass, Mass { kg: stated, source: MassSource::Model });

@@ -7,7 +7,7 @@
 //! | chain  | hinges             | links of 0.2 m and 1 kg along x, hinged to the world, about y and z by turns     |
 //! | ladder | closed loops       | two rails of such links 0.3 m apart, rungs of 0.5 kg at their ends, hinges all y |
 //!
-//! Steps of 1 ms, gravity 9.81 m/s². Each case runs in a process of its own, which prints one line of JSON:
+//! Steps of 1 ms, gravity 9.81 m/s². Each case runs in a separate process, which prints one line of JSON:
 //!
 //! | key                                           | meaning                                                         |
 //! |-----------------------------------------------|-----------------------------------------------------------------|

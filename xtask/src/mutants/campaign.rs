@@ -256,7 +256,7 @@ fn added(file: &str, source: &str, lines: &BTreeSet<usize>) -> String {
 fn escaped(name: &str) -> String {
     let mut pattern = String::new();
     for c in name.chars() {
-        // A backslash before any other sign may have a meaning of its own: `\<` is the beginning of a word.
+        // A backslash before any other sign may have its own meaning: `\<` is the beginning of a word.
         if r"\.+*?()|[]{}^$".contains(c) {
             pattern.push('\\');
         }

@@ -6,7 +6,7 @@
 //! `xtask/mutants/<module>.txt`, the reasons for survivors in `xtask/mutants/reasons.txt`; `docs/measured/MUTANTS.md` is written
 //! from both.
 //!
-//! It tests the commit, in a copy of its own below the target folder, so that nothing in the workspace changes while it runs. A
+//! It tests the commit, in a separate copy below the target folder, so that nothing in the workspace changes while it runs. A
 //! mutant takes about ten seconds.
 
 mod campaign;

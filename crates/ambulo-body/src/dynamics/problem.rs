@@ -1,4 +1,4 @@
-//! What the solvers of a constraint graph share: settings, the problem that they work on, and their line search.
+//! Common parts of the solvers of a constraint graph: settings, problem and line search.
 //!
 //! For a motion a + s Δ along a step Δ, the derivative of the convex function φ of Newton's method (see `proximal`) is
 //! φ'(s) = Δᵀ(A a - b) + s Δᵀ A Δ - (J Δ)ᵀ λ(s). It rises with s, since λ falls with J a.

@@ -26,7 +26,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Most frames that are compared.
 const FRAMES: usize = 60;
-/// Weight of the spread of a marker on a segment: markers move less on their own segment than landmarks differ between people.
+/// Weight of the spread of a marker on a segment: markers move less on their own segment than landmarks differ between subjects.
 const SPREAD_WEIGHT: f64 = 3.0;
 /// A landmark is proposed within this distance of its usual position, on a fitted body and on a standing one [m].
 const NEAR_M: [f64; 2] = [0.05, 0.12];

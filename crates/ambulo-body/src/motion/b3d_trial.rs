@@ -4,7 +4,7 @@
 //! order of the document, without those that a coupler drives (it leaves out the patellae). The mass centre, which the file also
 //! states, tells whether that order is right.
 //!
-//! The ground force of many frames is marked as missing, with a reason: a foot beside the plates, a force that contradicts the motion.
+//! The ground force of many frames is marked as missing, with a reason: a foot next to the plates, a force that contradicts the motion.
 //! Its value is then often zero and means nothing. Only the longest time without such a frame is used as measured.
 //!
 //! Source: keenon/nimblephysics, `dart/biomechanics/OpenSimParser.cpp` and `SubjectOnDisk.cpp`.

@@ -1,4 +1,4 @@
-//! The unit of length of a file that states none, or one that is no length: the size of the person tells.
+//! The unit of length of a file that states none or an invalid one: it is inferred from the size of the person.
 
 use super::real_points::real_points;
 use crate::findings::{Code, Findings};
@@ -14,7 +14,7 @@ const BODY_M: [f64; 2] = [0.35, 3.0];
 /// Edges of force plates [m].
 const PLATE_M: [f64; 2] = [0.25, 2.4];
 
-/// Metres per unit of the positions of a C3D: as stated, else as the size of the markers, or that of the force plates without markers, tells.
+/// Metres per unit of the positions of a C3D: as stated, else inferred from the size of the markers, or of the force plates without markers.
 /// `None` if neither does.
 pub(super) fn metres_per_unit(file: &C3d, findings: &mut Findings) -> Option<f64> {
     if let Some(metres) = file.metres_per_unit() {

@@ -200,7 +200,7 @@ impl PlainName {
         PlainName::without_ending(name, "study")
     }
 
-    /// A name without an ending that says nothing about the place.
+    /// A name without an ending that gives no information about the place.
     pub(super) fn without_ending(name: &str, ending: &str) -> PlainName {
         let plain: String = name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect();
         let plain = plain.strip_suffix(ending).unwrap_or(&plain).to_owned();

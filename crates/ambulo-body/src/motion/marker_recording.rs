@@ -167,7 +167,7 @@ pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerReco
 /// `Anna:LASI` becomes `LASI`. Of two points with the same name the one that is visible longer is kept.
 ///
 /// # Errors
-/// No unit of length that is stated or that the size of the markers tells, times that do not increase, no visible marker.
+/// A unit of length that is neither stated nor inferred from the size of the markers, times that do not increase, no visible marker.
 pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
     let Some(unit_m) = metres_per_unit(file, findings) else {
         return Err(MarkerError::Unit { found: file.point_unit.clone() });

@@ -20,7 +20,7 @@ struct Triple<'t> {
     columns: [&'t [f64]; 3],
 }
 
-/// Whether a table holds markers.
+/// Whether a table contains markers.
 #[must_use]
 pub fn is_marker_table(table: &Table) -> bool {
     triples(table).len() >= FEWEST

@@ -87,7 +87,7 @@ pub enum SplineError {
          at this sampling rate; resample to a lower one"
     )]
     SmoothingOutOfRange {
-        /// What was out of range.
+        /// Quantity that is out of range.
         name: &'static str,
         /// The value found.
         found: f64,

@@ -1,6 +1,6 @@
 //! Quantities of rigid bodies: pose, twist, wrench and inertia.
 //!
-//! Everything is expressed in world axes unless a name says otherwise, angular part before linear.
+//! Everything is expressed in world axes unless a name states otherwise, angular part before linear.
 
 mod inertia;
 mod pose;

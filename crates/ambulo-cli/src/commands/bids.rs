@@ -1,4 +1,4 @@
-//! Reads the three files of a BIDS motion: `*_motion.tsv`, and beside it `*_channels.tsv` and `*_motion.json`.
+//! Reads the three files of a BIDS motion: `*_motion.tsv`, and next to it `*_channels.tsv` and `*_motion.json`.
 
 use crate::caller::Caller;
 use crate::files;

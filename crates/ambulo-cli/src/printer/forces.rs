@@ -65,7 +65,7 @@ fn print_mass(summary: &Summary) -> Result<()> {
     print_line(&format!("  mass      {:.2} kg ({}, {state}{plates})", mass.kg, mass.source.words()))
 }
 
-/// The numbers that tell whether a run is the expected one.
+/// The numbers by which a run is recognised as the expected one.
 fn outline(summary: &Summary) -> Result<()> {
     if let Some(subject) = &summary.subject {
         subject::print_markers(subject)?;
@@ -74,7 +74,7 @@ fn outline(summary: &Summary) -> Result<()> {
         let quantity = summary.times_and_distances.quantities.iter().find(|quantity| quantity.quantity == name)?;
         Some(quantity.both.as_ref()?.mean)
     };
-    // The straight line between the ends of a curved path says little about the walk.
+    // The straight line between the ends of a curved path gives little information about the walk.
     let along_path = summary.times_and_distances.path_speed_m_s.map(|speed| format!("{speed:.2} m/s along the path"));
     let speed = along_path.or(summary.speed_m_s.map(|speed| format!("{speed:.2} m/s")));
     let walk = [

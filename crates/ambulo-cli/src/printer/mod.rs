@@ -111,7 +111,7 @@ pub(crate) fn progress(what: &str, print: PrintArgs) {
     }
 }
 
-/// Prints the state machines of a gait, then calls `run` and prints each change of state as soon as it is told.
+/// Prints the state machines of a gait, then calls `run` and prints each change of state as it happens.
 pub(crate) fn states(
     walk: &Walk,
     findings: &Findings,

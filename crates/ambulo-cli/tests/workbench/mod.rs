@@ -1,4 +1,4 @@
-//! Runs the program in a folder of its own, which contains an input for `forces`.
+//! Runs the program in a separate folder, which contains an input for `forces`.
 use ambulo_formats::table::Table;
 use serde_json::Value;
 use sha2::{Digest, Sha256};

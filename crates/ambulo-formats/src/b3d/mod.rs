@@ -9,9 +9,9 @@
 //! ```
 //!
 //! Lengths are metres, angles radians, forces newtons, in axes with y up; the ground acts on the bodies. Positions of markers that were
-//! not seen are not-a-number. A pass (kinematics, then dynamics, then a filter) has a model of its own, as the text of an `.osim`.
+//! not seen are not-a-number. A pass (kinematics, then dynamics, then a filter) has its own model, as the text of an `.osim`.
 //!
-//! The frames of a trial can be read alone: [`Header::trial_place`] tells where they are, so that a file of any size can be used.
+//! The frames of a trial can be read alone: [`Header::trial_place`] returns their position, so that a file of any size can be used.
 //! Not read: accelerometers, gyroscopes, EMG, exoskeletons, raw force plates, and quantities that follow from the others.
 //!
 //! Source: keenon/nimblephysics, `dart/proto/SubjectOnDisk.proto` and `dart/biomechanics/SubjectOnDisk.cpp`.
@@ -98,7 +98,7 @@ pub struct Pass {
     pub model: String,
 }
 
-/// What a pass does.
+/// Kind of a pass.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum PassKind {
     /// Scaling and marker fit.

@@ -21,7 +21,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Bvh, Vec<Remark>), Error> {
     Ok((Bvh { joints, frame_time_s, values: motion.values, frames: motion.frames }, remarks))
 }
 
-/// The words of a file, separated by white space; a brace is a word of its own.
+/// The words of a file, separated by white space; a brace is a separate word.
 struct Words<'a> {
     lines: Lines<'a>,
     line: Option<Line<'a>>,
@@ -215,7 +215,7 @@ fn read_motion_head(words: &mut Words<'_>) -> Result<(usize, f64), Error> {
     Ok((count, seconds.ok_or_else(|| time.error(expected))?))
 }
 
-/// The word after a label; the colon may be attached to the label or be a word of its own.
+/// The word after a label; the colon may be attached to the label or be a separate word.
 fn labelled(words: &mut Words<'_>, label: &[&str], expected: &str) -> Result<Word, Error> {
     for (k, part) in label.iter().enumerate() {
         let mut word = words.next(expected)?;

@@ -31,7 +31,7 @@ pub struct Event {
     pub icon: i16,
     /// `EVENT:GENERIC_FLAGS`, or the header's byte: whether programs show the event.
     pub flag: u8,
-    /// Where the file holds it.
+    /// Where the file contains it.
     pub place: EventPlace,
 }
 
@@ -53,7 +53,7 @@ impl Event {
     }
 }
 
-/// Where a file holds an event.
+/// Where a file contains an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventPlace {
     /// In the group EVENT.

@@ -1,4 +1,4 @@
-//! Rotations: poses of segments, in a section of their own.
+//! Rotations: poses of segments, in a separate section.
 //!
 //! For each frame, and within it for each sample, all segments: sixteen reals of a 4 x 4 matrix, column by column, then one real that
 //! states the reliability. The matrix maps points of the segment to points of the laboratory; its last column is the origin of the

@@ -1,4 +1,4 @@
-//! OpenSim `MarkerSet` documents: markers for a model, in a file of their own.
+//! OpenSim `MarkerSet` documents: markers for a model, in a separate file.
 //!
 //! Read: documents of all versions (`<body>`, or the name of a frame in a socket), also without the `<OpenSimDocument>` around the
 //! set, and models, of which only the markers are read.

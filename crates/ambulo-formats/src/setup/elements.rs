@@ -25,7 +25,7 @@ pub(super) fn time_range(node: Node<'_, '_>) -> Result<Option<[f64; 2]>, Error> 
     }
 }
 
-/// The members of a set with this tag; a set in a file of its own that was not put in its place is rejected.
+/// The members of a set with this tag; a set in a separate file that was not put in its place is rejected.
 pub(super) fn members<'a, 'i>(node: Node<'a, 'i>, set: &str) -> Result<Vec<Node<'a, 'i>>, Error> {
     let Some(set) = xml::child(node, set) else { return Ok(Vec::new()) };
     if let Some(file) = set.attribute("file") {

@@ -1,10 +1,10 @@
-//! Sets in files of their own: `<IKTaskSet file="tasks.xml"/>`.
+//! Sets in separate files: `<IKTaskSet file="tasks.xml"/>`.
 
 use crate::error::Error;
 use crate::xml;
 use roxmltree::{Document, Node};
 
-/// Tags of the sets that may be in files of their own.
+/// Tags of the sets that may be in separate files.
 const SETS: [&str; 4] = ["IKTaskSet", "MeasurementSet", "ScaleSet", "OrientationWeightSet"];
 
 /// Largest number of such sets in a document; a tool has at most three.

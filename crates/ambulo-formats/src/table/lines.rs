@@ -38,7 +38,7 @@ pub(crate) struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    /// Refuses an empty file and UTF-16 text. `expected` says what a valid file begins with.
+    /// Refuses an empty file and UTF-16 text. `expected` states what a valid file begins with.
     pub(crate) fn new(bytes: &'a [u8], expected: &'static str) -> Result<Self, Error> {
         if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
             let expected = "plain or UTF-8 text; save the file again as UTF-8".into();

@@ -1,4 +1,4 @@
-//! Where recordings lie that are not part of the repository: `shared/data` beside it.
+//! Where recordings lie that are not part of the repository: `shared/data` next to it.
 
 use std::path::{Path, PathBuf};
 

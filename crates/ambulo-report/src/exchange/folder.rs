@@ -22,7 +22,7 @@ pub enum ExchangeError {
     Nothing {
         /// The folder.
         folder: String,
-        /// What is missing, in a sentence.
+        /// Missing data, in a sentence.
         reason: String,
     },
     /// The format cannot store the data.

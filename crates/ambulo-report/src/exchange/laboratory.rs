@@ -1,7 +1,7 @@
 //! Writes a synthetic walk as a laboratory recording: a C3D file with Plug-in-Gait markers and a force plate under every step.
 //!
 //! Laboratory: millimetres, x to the right, y along the walk, z up. A plate is of type 2: forces on the foot [N] and moments about a
-//! sensor [N.mm] below the middle of its surface, in axes of its own that look down: x_p = -x, y_p = y, z_p = -z. With o from
+//! sensor [N.mm] below the middle of its surface, in its own axes that look down: x_p = -x, y_p = y, z_p = -z. With o from
 //! the sensor to the surface's middle the sensor's moment is M - F × o, M being that about the middle.
 //! The data are synthetic, without noise.
 //! Pinned by: tests/exchange.rs of the command

@@ -118,7 +118,7 @@ const PLANS: [Plan; 6] = [
     },
 ];
 
-/// Arranges panels in rows; if the pelvis has a row of its own, hip and trunk also begin a row.
+/// Arranges panels in rows; if the pelvis has its own row, hip and trunk also begin a row.
 fn rows(panels: &[CyclePanel<'_>], columns: usize) -> Vec<Range<usize>> {
     let central = |number: usize| panels[number].quantity.central;
     let pelvis = (0..panels.len()).take_while(|number| central(*number)).count();

@@ -58,7 +58,7 @@ pub struct Session {
     pub name: String,
     /// Whether the data can be used; nothing for scenes.
     pub data: Option<DataQuality>,
-    /// What to know first; nothing for scenes.
+    /// Summary at the top of the page; nothing for scenes.
     pub glance: Option<Glance>,
     /// Subject, mass, height, speed, model, filter, source of the forces, ... in the order to be shown.
     pub header: Vec<Fact>,
@@ -104,7 +104,7 @@ pub struct Glance {
     pub facts: Vec<Fact>,
     /// The curves that differ most from those of healthy people, a sentence each, the largest difference first.
     pub deviations: Vec<String>,
-    /// Who the healthy people are, or why there is no comparison.
+    /// The reference group, or why there is no comparison.
     pub norm: String,
 }
 
@@ -286,7 +286,7 @@ pub struct MeanCurve {
     pub foot_off_percent: Option<f64>,
 }
 
-/// What healthy people do at this speed.
+/// Normative band at this speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Band {
@@ -294,7 +294,7 @@ pub struct Band {
     pub mean: Series,
     /// Standard deviation there.
     pub sd: Series,
-    /// Who: citation, people, speed.
+    /// Source: citation, group, speed.
     pub citation: String,
 }
 
@@ -312,7 +312,7 @@ pub struct Trace {
     pub values: Series,
     /// Its standard deviation.
     pub sd: Option<Series>,
-    /// Where it stands in the files.
+    /// Its column in the files.
     pub origin: Option<Origin>,
 }
 
@@ -321,9 +321,9 @@ pub struct Trace {
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
 pub enum Role {
-    /// What the panel is about.
+    /// Quantity of the panel.
     Main,
-    /// What was measured, beside a prediction: black or white, thin.
+    /// Measured curve next to a prediction: black or white, thin.
     Measured,
     /// What may not be passed: grey.
     Limit,
@@ -381,7 +381,7 @@ pub struct Quality {
     pub groups: Vec<Group>,
     /// Marker errors, plates and feet, agreement by component, changes made, ...
     pub tables: Vec<Table>,
-    /// What was odd on the way.
+    /// Warnings and notes.
     pub findings: Vec<PageFinding>,
     /// What was taken for granted, in sentences.
     pub assumptions: Vec<String>,
@@ -397,7 +397,7 @@ pub struct Judged {
     pub value: String,
     /// What is allowed, in words.
     pub allowed: Option<String>,
-    /// Whether it is; nothing if nobody can say.
+    /// Whether it is so; nothing if unknown.
     pub good: Option<bool>,
 }
 
@@ -446,7 +446,7 @@ pub struct Feasibility {
     pub state: PageVerdict,
     /// The verdict in a sentence.
     pub sentence: String,
-    /// What stands against the motion.
+    /// Reasons why the motion is infeasible.
     pub red: Vec<RedSpan>,
     /// How near to its limit every kind of check comes.
     pub closest: Table,
@@ -476,7 +476,7 @@ pub struct RedSpan {
 pub struct View {
     /// The bodies that move.
     pub bodies: Vec<ViewBody>,
-    /// What stands still: obstacles of a scene. In world axes.
+    /// Fixed obstacles of a scene, in world axes.
     pub fixed: Vec<ViewShape>,
     /// Force plates.
     pub plates: Vec<ViewPlate>,
@@ -558,7 +558,7 @@ pub struct ViewForce {
     pub name: String,
     /// Whose side.
     pub side: Option<PageSide>,
-    /// Main, or measured beside a prediction.
+    /// Main, or measured next to a prediction.
     pub role: Role,
     /// Where it acts, world [m]; no number while it does not act.
     pub point: [Series; 3],
@@ -598,7 +598,7 @@ pub struct ViewContact {
     pub side: Option<PageSide>,
 }
 
-/// What a page shows of a motion that is arriving; places are those in the values of a [`LiveFrame`].
+/// Page of a motion that is arriving; indices refer to the values of a [`LiveFrame`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct LivePage {
@@ -678,7 +678,7 @@ mod tests {
     use std::path::Path;
     use ts_rs::{Config, TS};
 
-    /// `viewer/src/contract.ts` says what the types above say. With AMBULO_WRITE=1 it is written.
+    /// `viewer/src/contract.ts` states what the types above say. With AMBULO_WRITE=1 it is written.
     #[test]
     fn the_viewer_knows_the_contract() {
         let config = Config::new().with_large_int("number");

@@ -26,7 +26,7 @@ pub fn report_page(folders: &[Folder<'_>]) -> Result<String, ResultsError> {
     let mut sessions =
         folders.iter().map(|folder| session::session(folder, &mut block)).collect::<Result<Vec<_>, _>>()?;
     if folders.len() > 1 {
-        // Several runs may belong to one recording, so their folder names tell them apart.
+        // Several runs may belong to one recording, so they are named by their folders.
         for (session, folder) in sessions.iter_mut().zip(folders) {
             session.name.clone_from(&folder.name);
         }

@@ -1,4 +1,4 @@
-//! The people that a session is compared with: children of the literature, or an own reference group.
+//! Reference groups of a session: children of the literature, or the user's own group.
 
 use super::quantities::all;
 use super::reference_group::ReferenceGroup;
@@ -8,7 +8,7 @@ use ambulo::study::session::NormalCurve;
 use ambulo_results::Convention;
 use std::collections::BTreeMap;
 
-/// A number of healthy people in the unit of its table: their mean, and the range of most of them.
+/// Reference value in the unit of its table: mean and usual range of the group.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct NormalTime {
     pub(crate) mean: Option<f64>,

@@ -1,4 +1,4 @@
-//! An own reference group: mean and standard deviation between healthy people, from a session of each of them; written as `norm.json`.
+//! A user's reference group: mean and standard deviation between healthy subjects, from one session each; written as `norm.json`.
 //!
 //! Each person counts once: the mean of the mean curves of both sides. Moments, powers and ground forces are those of people with measured
 //! forces, if there are at least two, otherwise predicted ones.
@@ -22,16 +22,16 @@ use std::collections::BTreeMap;
 /// The word by which the file is recognised.
 const FORMAT: &str = "ambulo-reference-group";
 const VERSION: u32 = 1;
-/// A standard deviation needs two people.
+/// A standard deviation needs two subjects.
 const FEWEST: usize = 2;
 
-/// Mean and standard deviation between people.
+/// Mean and standard deviation between subjects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceGroup {
     format: String,
     version: u32,
-    /// Number of people.
+    /// Number of subjects.
     pub persons: usize,
     /// Youngest and oldest [years]; `null` unless the age of everybody is stated.
     pub ages_years: Option<[f64; 2]>,
@@ -53,13 +53,13 @@ pub struct ReferenceGroup {
 pub struct GroupCurve {
     /// Unit.
     pub unit: String,
-    /// Number of people.
+    /// Number of subjects.
     pub persons: usize,
     /// `measured` or `predicted`; `null` for angles.
     pub forces: Option<String>,
     /// Mean at 0, 1, ... 100 % of the cycle.
     pub mean: Vec<f64>,
-    /// Standard deviation between people.
+    /// Standard deviation between subjects.
     pub sd: Vec<f64>,
 }
 
@@ -67,7 +67,7 @@ pub struct GroupCurve {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReferenceGroupError {
-    /// Too few people.
+    /// Too few subjects.
     #[error(
         "found {found} persons with cycles; expected at least {FEWEST}, because a standard deviation is computed between them"
     )]
@@ -86,10 +86,10 @@ pub enum ReferenceGroupError {
 }
 
 impl ReferenceGroup {
-    /// Of the sessions of several people; sessions without cycles are left out.
+    /// From the sessions of several subjects; sessions without cycles are left out.
     ///
     /// # Errors
-    /// Fewer than two people, or different conventions.
+    /// Fewer than two subjects, or different conventions.
     pub fn of(sessions: &[Session]) -> Result<ReferenceGroup, ReferenceGroupError> {
         let people: Vec<&Session> =
             sessions.iter().filter(|session| session.cycles.iter().any(|cycle| cycle.excluded.is_none())).collect();
@@ -225,7 +225,7 @@ fn group_curve(people: &[&Session], quantity: &str, unit: &str) -> Option<GroupC
     of_source(None)
 }
 
-/// Mean and standard deviation between people of the mean of both sides.
+/// Mean and standard deviation between subjects of the mean of both sides.
 fn group_times(people: &[&Session]) -> BTreeMap<String, Spread> {
     let mut values: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     for person in people {

@@ -45,7 +45,7 @@ pub struct TrialSummary {
     pub recorded_on: Option<String>,
     /// Why nothing could be computed; the rest is then empty.
     pub error: Option<String>,
-    /// What the person does.
+    /// Activity of the person.
     pub activity: Option<String>,
     /// Walking speed [m/s].
     pub speed_m_s: Option<f64>,
@@ -87,12 +87,12 @@ pub struct RepresentativeSummary {
     pub left: Option<(String, usize)>,
 }
 
-/// The people that a session is compared with.
+/// The reference group of a session.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReferenceSummary {
     /// The group in a sentence.
     pub words: String,
-    /// Number of people, if it is known.
+    /// Number of subjects, if it is known.
     pub persons: Option<usize>,
     /// Youngest and oldest [years].
     pub ages_years: Option<[f64; 2]>,
@@ -171,7 +171,7 @@ pub struct SessionSummary {
     pub representative: Option<RepresentativeSummary>,
     /// Over the strides of the cycles that count.
     pub times_and_distances: WalkingSummary,
-    /// The people that the session is compared with; `null` if there are none.
+    /// The reference group of the session; `null` if there is none.
     pub reference: Option<ReferenceSummary>,
     /// Why it is not compared.
     pub no_reference: Option<String>,

@@ -21,7 +21,7 @@ pub struct SessionTrial {
     pub name: String,
     /// Day of the recording, as YYYY-MM-DD.
     pub recorded_on: Option<String>,
-    /// What was computed, or why nothing could be.
+    /// Result, or the reason why there is none.
     pub found: Result<ComputedTrial, String>,
 }
 

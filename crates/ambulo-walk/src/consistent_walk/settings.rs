@@ -44,7 +44,7 @@ pub enum ConsistentWalkError {
     /// A change of pace without a motion before or after it.
     #[error("found a change of pace without a motion before or after it; expected one on both sides")]
     Order,
-    /// The built-in laws of people could not be read.
+    /// The built-in normative laws could not be read.
     #[error(transparent)]
     Laws(#[from] TomlError),
 }

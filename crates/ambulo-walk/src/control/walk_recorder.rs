@@ -126,7 +126,7 @@ impl FigureRecorder {
         }
     }
 
-    /// What is said about a fall.
+    /// Message about a fall.
     pub(crate) fn told(&self, fall: &Fall) -> String {
         fall.told(&format!("`{}`", self.name), &self.human.model)
     }

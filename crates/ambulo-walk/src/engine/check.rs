@@ -15,7 +15,7 @@ pub struct WorldError {
     pub what: &'static str,
     /// Name of the part, or its number.
     pub name: String,
-    /// What was found and what was expected.
+    /// Found and expected value.
     pub problem: String,
 }
 

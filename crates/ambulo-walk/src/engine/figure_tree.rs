@@ -1,6 +1,6 @@
 //! The joints of a figure's model as joints of a world: every coordinate of the model is one of a joint, or of a free root.
 //!
-//! Each rotation of a joint is a hinge of the world, so that every angle of the model has a motor of its own; between the hinges of one joint are
+//! Each rotation of a joint is a hinge of the world, so that every angle of the model has its own motor; between the hinges of one joint are
 //! links without mass. The root of a planar figure is a planar joint, that of a figure in three dimensions is a free body.
 
 use super::joint::JointKind;

@@ -99,7 +99,7 @@ pub struct Follows {
     pub parent: Option<usize>,
 }
 
-/// What acts on one coordinate of a joint. Angles in rad, distances in m.
+/// Actuation of one coordinate of a joint. Angles in rad, distances in m.
 #[derive(Debug, Clone, Default)]
 pub struct JointCoordinate {
     /// Prescribed motion.
@@ -256,7 +256,7 @@ pub enum ImpactLaw {
     #[default]
     Coulomb,
     /// The whole velocity is cancelled, tangential part included, whatever the friction (section 3.3 of the 1997 paper).
-    /// Surfaces touch once their gap has closed. A point that was not in contact before strikes at an instant of its own,
+    /// Surfaces touch once their gap has closed. A point that was not in contact before strikes at a separate instant,
     /// while points at rest obey Coulomb's law; the step then continues from there. `StepWorkspace::impacts` lists the
     /// impacts, separately from the forces. Restitution has no effect, and compliant materials have no impacts. Only
     /// [`Integrator::Impulse`](super::Integrator::Impulse) supports this law.

@@ -16,7 +16,7 @@ const SAMPLES: usize = 200;
 pub(super) struct CurveFault {
     /// The knot with the error, or at the start of the segment with the error.
     pub(super) knot: usize,
-    /// What was found and what was expected.
+    /// Found and expected value.
     pub(super) message: String,
 }
 

@@ -60,10 +60,10 @@ pub enum GaitError {
         joint: &'static str,
         /// Knot with the error.
         knot: String,
-        /// What was found and what was expected.
+        /// Found and expected value.
         message: String,
     },
-    /// A change of a whole joint, or a machine that scales its curve, turns the joint further than people can.
+    /// A change of a whole joint, or a machine that scales its curve, exceeds the range of human joints.
     #[error(
         "{joint}, with its scale and offset: found {found_deg:.0}° in the cycle; expected angles from {:.0}° to {:.0}°. hint: use a scale nearer to 1 or a smaller offset", allowed_deg[0], allowed_deg[1]
     )]

@@ -227,7 +227,7 @@ fn read_changes(root: &Table<'_>, gait: &mut Gait, laws: &Laws) -> Result<(), Ga
     Ok(())
 }
 
-/// The changes of a `[[joint]]`: one for each side unless the name says one.
+/// The changes of a `[[joint]]`: one for each side unless the name states one.
 fn read_joint(table: &Table<'_>) -> Result<Vec<JointChange>, TomlError> {
     table.only(&[&["joint", "scale", "angle_deg"]])?;
     let value = table.need("joint", "the joint that changes")?;

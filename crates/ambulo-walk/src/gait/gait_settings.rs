@@ -303,7 +303,7 @@ impl Gait {
             && !self.machines.iter().any(|machine| machine.drives.moves_a_joint())
     }
 
-    /// Whether joint angles are those of people at the speed of the gait, without a change of curve, joint or step; the pace may differ.
+    /// Whether joint angles are the normative curves at the speed of the gait, without a change of curve, joint or step; the pace may differ.
     #[must_use]
     pub fn follows_people(&self) -> bool {
         let pace = Pace { length_scale: 1.0, cadence_scale: 1.0, ..self.pace };

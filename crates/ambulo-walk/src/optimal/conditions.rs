@@ -1,4 +1,4 @@
-//! Conditions of a walk that people's curves say nothing about: a slope, a load, weak joints, devices, a width of steps.
+//! Conditions of a walk that are not in normative curves: slope, load, weak joints, devices, step width.
 
 use super::error::OptimalWalkError;
 use crate::model::anthropometry::Human;

@@ -60,7 +60,7 @@ pub enum OptimalWalkError {
     /// A condition outside its range.
     #[error("found {what} of {}; expected {expected}", Shown(*found))]
     Condition {
-        /// What the number is.
+        /// Meaning of the number.
         what: &'static str,
         /// The number.
         found: f64,

@@ -1,4 +1,4 @@
-//! Finding the walk of a figure: one that follows people, or one that is predicted for some conditions.
+//! Finding the walk of a figure: near normative curves, or predicted for some conditions.
 
 use super::conditions::WalkConditions;
 use super::error::{LARGEST_BETWEEN, OptimalWalkError};
@@ -58,7 +58,7 @@ impl OptimalWalk {
         OptimalWalk::find_with(build, walk, &SPATIAL_STAGES)
     }
 
-    /// As [`OptimalWalk::find`], with soles that are lifted further than people lift theirs, by `lift_m` in the middle of swing.
+    /// As [`OptimalWalk::find`], with soles that are lifted further than usual, by `lift_m` in the middle of swing.
     ///
     /// # Errors
     /// As [`OptimalWalk::find`].
@@ -98,7 +98,7 @@ impl OptimalWalk {
         OptimalWalk { human, problem, solution, conditions: WalkConditions::default() }
     }
 
-    /// Predicts the walk of a figure under some conditions, without curves of people as targets. If the conditions differ between the sides, so
+    /// Predicts the walk of a figure under some conditions, without normative curves as targets. If the conditions differ between the sides, so
     /// does the walk.
     ///
     /// # Errors

@@ -265,7 +265,7 @@ fn first_guess(
 ) -> Result<Vec<Vec<f64>>, CurvedJointError> {
     let model = &problem.model;
     let times: Vec<f64> = problem.shares().iter().map(|share| share * problem.duration_s).collect();
-    // The last posture, standing, says where the feet are.
+    // The last posture, standing, determines the position of the feet.
     let mut postures: Vec<Vec<f64>> = times.iter().map(|_| vec![0.0; model.coordinates().len()]).collect();
     let key_times: Vec<f64> = keys.iter().map(|key| key.time_s).collect();
     let key_postures: Vec<Vec<f64>> = keys.iter().map(|key| posture(model, key)).collect();

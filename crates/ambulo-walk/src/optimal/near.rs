@@ -55,7 +55,7 @@ impl WalkProblem {
         self.problem.balanced(found, &[&Continuation::on(&stages)], &self.kept)
     }
 
-    /// The start of this problem near a solution of a similar one; `None` if the splines of that one do not tell those of all coordinates.
+    /// The start of this problem near a solution of a similar one; `None` if its splines do not determine all coordinates.
     fn start_near(&self, known: &WalkProblem, unknowns: &[f64]) -> Result<Option<Vec<f64>>, CurvedJointError> {
         let (own, other) = (&self.problem, &known.problem);
         let coordinates = own.model.coordinates();

@@ -20,7 +20,7 @@ pub enum Quantity {
     /// Square root of the power that muscles cost at a joint, √(p₊ P₊ + p₋ P₋) [√W], where P₊ and P₋ are positive and negative mechanical
     /// power. Both are smoothed: P₊ = (P + √(P² + `smooth_w`²)) / 2, P₋ = P₊ - P.
     RootPower {
-        /// What muscles do at the joint.
+        /// Action of the muscles at the joint.
         effort: Effort,
         /// Price p₊ of positive and p₋ of negative power.
         prices: [f64; 2],

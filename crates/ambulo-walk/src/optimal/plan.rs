@@ -12,7 +12,7 @@ use crate::toml_reader::{Source, Table, TomlError};
 
 /// Largest difference of speed and cycle at which a plan belongs to a walk.
 const SAME: f64 = 1e-9;
-/// What errors call a plan.
+/// Name of a plan in errors.
 const DOCUMENT: &str = "plan of a walk";
 
 const FILES: [(SegmentTable, &str); 12] = [
@@ -58,7 +58,7 @@ impl WalkPlan {
     }
 
     /// The built-in plan of a figure with the same table of segments whose dimensionless speed is nearest to that of a walk, and its walk; none
-    /// for a gait that is not that of people.
+    /// for a gait without normative curves.
     ///
     /// # Errors
     /// None of the built-in plans; a test reads them.

@@ -1,7 +1,7 @@
-//! Walks that are predicted: muscles work as little and as smoothly as they can. No curve of people is a target.
+//! Predicted walks: they minimise muscle effort. No recorded curve is a target.
 //!
-//! What remains of people are speed and cadence, the instants at which the feet must be clear of the ground, and the start of the solver: the
-//! walk that follows people's curves. Their weight then falls to zero stage by stage.
+//! From recordings come speed and cadence, the instants at which the feet must be clear of the ground, and the start of the solver: the
+//! walk near normative curves, whose weight falls to zero stage by stage.
 //!
 //! The costs are those of `muscles`, and the rates of joint moments.
 
@@ -16,7 +16,7 @@ use crate::gait::Walk;
 use crate::model::anthropometry::{Human, SpherePart};
 use crate::model::{CoordinateId, Side};
 
-/// Weights of people's curves in the stages of a solution.
+/// Weights of the normative curves in the stages of a solution.
 const PEOPLE: [f64; 3] = [0.1, 0.01, 0.0];
 /// Steeper slopes are reached in steps of this size.
 const SLOPE_STEP: f64 = 0.08;
@@ -24,14 +24,14 @@ const SLOPE_STEP: f64 = 0.08;
 /// A walk that was predicted.
 #[derive(Debug, Clone)]
 pub struct Prediction {
-    /// The problem without targets of people.
+    /// The problem without normative targets.
     pub problem: WalkProblem,
     /// Its solution.
     pub solution: Solution,
 }
 
 impl WalkProblem {
-    /// Predicts the walk of a figure under some conditions, starting from a walk that follows people: `unknowns` solve this problem.
+    /// Predicts the walk of a figure under some conditions, starting from a walk near normative curves: `unknowns` solve this problem.
     ///
     /// `human` is the figure of this problem; the conditions change it. Check [`Solution::unbalanced`] and [`Solution::overload`].
     ///
@@ -62,7 +62,7 @@ impl WalkProblem {
         Ok(Prediction { problem, solution })
     }
 
-    /// This problem with the costs of muscles, and with a weight of people's curves: 1 as they are, 0 without them.
+    /// This problem with the costs of muscles, and with a weight of normative curves: 1 as they are, 0 without them.
     #[must_use]
     pub fn of_muscles(
         &self,
@@ -90,11 +90,11 @@ fn flatter_slopes(slope: f64) -> impl Iterator<Item = f64> {
     (1..parts as usize).map(move |part| slope * part as f64 / parts)
 }
 
-/// Names of the terms of a walk that say how a foot moves and where the walk begins, not how people walk.
+/// Names of the terms of a walk for the motion of the feet and the start; they are no normative targets.
 const KEPT: [&str; 2] = ["place", "clearance"];
 
 impl MuscleTerms<'_> {
-    /// Keeps the terms of feet, limits of joints and, with the weights of muscles, slip and rates of moments; and those of people with their weight.
+    /// Keeps the terms of feet, limits of joints and, with the weights of muscles, slip and rates of moments, and normative terms with their weight.
     fn keep(&mut self, terms: &[Term], people: f64) {
         for term in terms {
             let own = match term.quantity {

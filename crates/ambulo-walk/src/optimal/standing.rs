@@ -192,7 +192,7 @@ fn joining(human: &Human, walk: &Solution, standing: Option<&[f64]>) -> Result<M
     let costs = EffortCosts { pelvis: PELVIS, ..EffortCosts::default() };
     let last = problem.instants() - 1;
     let [in_walk, at_rest] = if is_start { [last, 0] } else { [0, last] };
-    // The walk itself says where the pelvis is, but not how far the figure has come.
+    // The walk determines the height of the pelvis, but not the distance travelled.
     let [mut walked, rates, _] = walk.instant(join_s).posture;
     if let Some((forward, _)) = like.model.anatomy().coordinate(Movement::PelvisForward, None) {
         walked[forward.index()] = guess[in_walk][forward.index()];

@@ -86,7 +86,7 @@ pub struct WalkCosts {
     pub force: [f64; 2],
     /// Power of the dimensionless speed that the deviation of the forward force grows with.
     pub force_exponent: f64,
-    /// Weight of the ground forces of people in a gait whose curves are not those of people; 0 leaves them out.
+    /// Weight of the normative ground forces in a gait without normative curves; 0 leaves them out.
     pub others: f64,
     /// Sideways ground force of a foot that costs 1 [body weights]: it should be small. People's sideways forces are no target.
     pub sideways_force: f64,
@@ -100,7 +100,7 @@ pub struct WalkCosts {
     pub slip: f64,
     /// Power of the dimensionless speed that it grows with.
     pub slip_exponent: f64,
-    /// Height by which soles are lifted further than people lift theirs, in the middle of swing [m]: for uneven ground.
+    /// Height by which soles are lifted further than usual, in the middle of swing [m]: for uneven ground.
     pub lift: f64,
 }
 
@@ -209,7 +209,7 @@ pub const SPATIAL_STAGES: [Continuation; 8] = {
     stages
 };
 
-/// Stages of the solution of a gait that is far from those of people, such as a step with straight knees: friction becomes steeper in more stages of
+/// Stages of the solution of a gait far from normative gaits, such as a step with straight knees: friction becomes steeper in more stages of
 /// more steps.
 pub const FINE_STAGES: [Continuation; 11] = [
     Continuation { stiffness: 0.25, creep: 50.0, slip: 1.0, slack: 0.05, updates: 0, steps: 30, gain: 1e-3 },
@@ -452,7 +452,7 @@ impl Builder<'_> {
         self.add("trunk", Quantity::Acceleration(both), accelerations, 3.0, Bound::Near);
     }
 
-    /// Forces on the ground and in joints. Those of people belong to their gait alone.
+    /// Forces on the ground and in joints. Normative forces are used for normative gaits only.
     fn forces(&mut self, problem: &Problem, walk: &Walk, costs: &WalkCosts) {
         let weight = problem.weight_n();
         for side in Side::BOTH {

@@ -53,7 +53,7 @@ pub struct WalkEntry {
     pub phase: f64,
     /// Changes of pace after those of the gait.
     pub changes: Vec<PaceChange>,
-    /// Height by which soles are lifted further than people lift theirs [m].
+    /// Height by which soles are lifted further than usual [m].
     pub lift: f64,
     /// Duration of the scene [s].
     pub duration_s: f64,

@@ -126,7 +126,7 @@ fn walking(
     if let Some(control) = &built.control {
         let planner = Planner { entry, build: &built.build, gait: &gait };
         let controller = planner.controller(control, sources)?;
-        // Who stands at the start has the figure of the slowest plan.
+        // A figure that stands at the start has the slowest plan.
         let stands = controller.controller.is_standing();
         let speed = if stands { Some(controller.controller.speed()) } else { entry.speed };
         let plan = planner.plan(speed, sources)?;

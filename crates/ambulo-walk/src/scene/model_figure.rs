@@ -285,7 +285,7 @@ impl FigureAssembly<'_> {
         Ok(FreeJoint { kind, values })
     }
 
-    /// An axis with a coordinate of its own, in the world; `None` for a fixed axis.
+    /// An axis with its own coordinate, in the world; `None` for a fixed axis.
     fn moving(&self, body: &Body, axis: &JointAxis, frame: &Mat3) -> Result<Option<Axis>, SceneError> {
         let Displacement::Follows(id, function) = &axis.displacement else { return Ok(None) };
         if function.as_constant().is_some() {

@@ -50,7 +50,7 @@ impl Recorder {
         recorder.is_controlled().then(|| recorder.fall().map_or(f64::INFINITY, |fall| fall.time_s))
     }
 
-    /// What is said about the fall of a figure that walks by its own torques.
+    /// Message about the fall of a figure that walks by its own torques.
     pub(super) fn fall(&self) -> Option<String> {
         let Recorder::Walk(recorder) = self else { return None };
         recorder.fall().map(|fall| recorder.told(&fall))

@@ -42,7 +42,7 @@ pub enum ResumeError {
     /// The state of another scene.
     #[error("the saved state belongs to another scene: {what} {found}; expected {expected}")]
     Other {
-        /// What differs.
+        /// Difference.
         what: &'static str,
         /// What was saved.
         found: String,

@@ -1,7 +1,7 @@
 //! Synthetic walks: from a gait and a body size to motion and ground forces, for an analysis like that of a recording.
 //!
 //! There are five modes. [`SyntheticMode::Optimal`] finds the walk of a figure in three dimensions by optimal motion ([`crate::optimal`]);
-//! [`SyntheticMode::Predicted`] does so without curves of people as targets, also on slopes, with loads, weak joints and devices.
+//! [`SyntheticMode::Predicted`] does so without normative curves as targets, also on slopes, with loads, weak joints and devices.
 //! [`SyntheticMode::Corrected`] makes the gait dynamically consistent ([`crate::consistent_walk`]) and simulates it
 //! on soft shoes. [`SyntheticMode::Paper`] makes the joints follow the gait exactly, holds the trunk upright and has rigid soles
 //! (Faure, Debunne, Cani, Multon 1997). [`SyntheticMode::Physical`] lets a figure in three dimensions walk by its own torques

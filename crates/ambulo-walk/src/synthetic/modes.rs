@@ -147,7 +147,7 @@ struct Planned<'a> {
     kept: &'a KeptPart,
 }
 
-/// Simulates a walk; tells of changes of states while machines that read the simulation run.
+/// Simulates a walk; reports changes of states while machines that read the simulation run.
 fn paper_run(
     settings: &SyntheticWalkSettings<'_>,
     &Planned { human, walk, kept }: &Planned<'_>,

@@ -54,7 +54,7 @@ fn apart(plan: &OptimalWalk, schedule: &SpeedSchedule) -> f64 {
     (plan.solution.speed() - schedule.at(0.0)).abs()
 }
 
-/// Speeds of a walk of people whose sides do the same.
+/// Speeds of a symmetric normative walk.
 fn schedule(settings: &SyntheticWalkSettings<'_>, human: &Human, walk: &Walk) -> Result<SpeedSchedule, SyntheticError> {
     let gait = || settings.gait.name.clone();
     let changes = &settings.gait.pace_changes;

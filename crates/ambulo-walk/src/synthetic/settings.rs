@@ -18,7 +18,7 @@ use std::ops::RangeInclusive;
 pub enum SyntheticMode {
     /// In three dimensions, found by optimal motion on soft shoes: no force but those of its own joints and of the ground.
     Optimal,
-    /// In three dimensions, predicted: as optimal, but muscles work as little as they can instead of following curves of people.
+    /// In three dimensions, predicted: minimises muscle effort instead of following normative curves.
     Predicted,
     /// In the sagittal plane, dynamically consistent, on soft shoes.
     Corrected,
@@ -29,8 +29,8 @@ pub enum SyntheticMode {
 }
 
 impl SyntheticMode {
-    /// The mode of a gait if none is asked for: optimal for the steady gait of people on a figure with toe joints, in the range of walking
-    /// speeds and with steps near those that people prefer; the paper's for a gait whose machines move joints otherwise from cycle to cycle;
+    /// The default mode of a gait: optimal for a steady normative gait on a figure with toe joints, in the range of walking
+    /// speeds and with steps near the preferred length; the paper's for a gait whose machines move joints otherwise from cycle to cycle;
     /// else corrected.
     #[must_use]
     pub fn of(gait: &Gait, build: &Build, leg_length: f64) -> SyntheticMode {
@@ -150,7 +150,7 @@ pub enum SyntheticError {
         /// Name of the gait.
         gait: String,
     },
-    /// Optimal walks follow the forces of people, which belong to their joint curves.
+    /// Optimal walks follow normative forces, which belong to the normative joint curves.
     #[error(
         "the gait `{gait}`: found curves, joints or steps that are changed; expected the curves of people (style knots), because an optimal walk also follows their forces. hint: use the mode `corrected`"
     )]

@@ -183,7 +183,7 @@ impl KeptPart {
         self.states_told(settings, walk, &mut |_| {})
     }
 
-    /// The same; tells of each change while the machines run.
+    /// The same; reports each change while the machines run.
     pub(super) fn states_told(
         &self,
         settings: &SyntheticWalkSettings<'_>,

@@ -1,4 +1,4 @@
-//! What became of trials, and what it costs.
+//! Outcome and cost of trials.
 
 use serde::{Deserialize, Serialize};
 

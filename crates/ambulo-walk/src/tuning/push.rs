@@ -48,7 +48,7 @@ pub struct PushSettings {
     pub all_around: bool,
 }
 
-/// What pushes are for: each use has random numbers of its own.
+/// Purpose of pushes: each has its own random numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PushUse {
     /// Compares the candidates of a generation.

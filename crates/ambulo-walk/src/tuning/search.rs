@@ -30,7 +30,7 @@ pub struct Tuning {
 pub struct Validated {
     /// The point of the search ([`TuningProblem::settings_at`]).
     pub point: Vec<f64>,
-    /// What became of the pushes of the choice.
+    /// Outcome of the pushes that choose the result.
     pub outcome: TrialOutcome,
 }
 

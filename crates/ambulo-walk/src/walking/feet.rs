@@ -21,7 +21,7 @@ pub struct FootRecord {
     /// Whether a loaded point of the sole is at the friction limit of the ground. Not meaningful for Hunt and Crossley's law,
     /// which has its own friction.
     pub at_limit: Vec<bool>,
-    /// The part of the reaction that acts on the toes, if they are a body of their own.
+    /// The part of the reaction that acts on the toes, if they are a separate body.
     pub toes: Option<ToeRecord>,
     /// Largest load of a point in the row that is being filled, and the sum of all [N].
     heaviest: f64,

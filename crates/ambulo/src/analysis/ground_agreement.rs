@@ -43,7 +43,7 @@ const MEASURED_SHARE: f64 = 0.5;
 /// Stances, time and events that force plates measured completely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateCoverage {
-    /// Whole stances of feet that were entirely on a plate of their own [s].
+    /// Whole stances of feet that were entirely on a separate plate [s].
     pub stances: Vec<(Side, [f64; 2])>,
     /// The longest instrumented window [s].
     pub window: Option<[f64; 2]>,
@@ -59,7 +59,7 @@ pub struct GroundAgreement {
     pub mass_kg: f64,
     /// The instrumented window [s].
     pub window_s: Option<[f64; 2]>,
-    /// Each foot with a whole stance on a plate of its own.
+    /// Each foot with a whole stance on a separate plate.
     pub feet: Vec<FootAgreement>,
     /// Sagittal moments of the legs.
     pub moments: Vec<MomentAgreement>,
@@ -211,7 +211,7 @@ fn without([from, to]: [f64; 2], removed: [f64; 2]) -> Vec<[f64; 2]> {
     }
 }
 
-/// A whole stance of a foot on a plate of its own, predicted and measured.
+/// A whole stance of a foot on a separate plate, predicted and measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparedStance {
     /// Which foot.
@@ -345,7 +345,7 @@ pub fn ground_agreement(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverag
     }
 }
 
-/// Every whole stance of a foot on a plate of its own, predicted and measured, right foot first.
+/// Every whole stance of a foot on a separate plate, predicted and measured, right foot first.
 #[must_use]
 pub fn compared_stances(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverage) -> Vec<ComparedStance> {
     let ComparedAnalyses { model, predicted, prediction, measured } = *compared;

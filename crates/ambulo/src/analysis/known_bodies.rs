@@ -22,7 +22,7 @@ struct KnownBody {
     findings: Findings,
 }
 
-/// What a body was made from, next to the standing trial.
+/// Sources of a body besides the standing trial.
 #[derive(Debug)]
 enum MadeFrom {
     BuiltIn { person: PersonMeasurements, set: Option<MarkerSet> },

@@ -116,7 +116,7 @@ pub struct ModelProtocol {
 }
 
 impl<'a> BodySource<'a> {
-    /// A recording in world axes: those of the ground of the model if a protocol says how its markers are used, otherwise those that are detected.
+    /// A recording in world axes: those of the ground of the model if a protocol states how its markers are used, otherwise those that are detected.
     fn turned(&self, recording: &LaboratoryRecording, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
         match self {
             BodySource::Model { protocol: Some(_), .. } => recording.in_ground(findings),

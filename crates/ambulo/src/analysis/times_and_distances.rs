@@ -32,7 +32,7 @@ const MISSED: f64 = 1.5;
 
 /// The pelvis moves at least this far in a stride that has a direction [m].
 pub(super) const LEAST_STRIDE_M: f64 = 0.2;
-/// A path that is this many times as long as the straight line between its ends has a speed of its own.
+/// A path that is this many times as long as the straight line between its ends has its own speed.
 const LONGER: f64 = 1.05;
 /// The path is measured in pieces of about this time: half a stride, so that sway does not lengthen it [s].
 const PIECE_S: f64 = 0.5;

@@ -2,7 +2,7 @@
 //!
 //! As for force plates of a C3D ([`super::plates`]), each time during which a load carries more than 20 N belongs to the foot that is
 //! nearest to the centre of pressure, averaged over the load, within 0.2 m. Height counts, as on stairs; only where no foot is near does a foot
-//! above or below the centre of pressure carry the load, because forces act on somebody. The feet are the soles of the model.
+//! above or below the centre of pressure carry the load, because forces act on the person. The feet are the soles of the model.
 //! Pinned by: ambulo-cli/tests/plates.rs
 
 use super::measured::{Surface, center_of_pressure};

@@ -68,7 +68,7 @@ impl Source {
     }
 }
 
-/// Reports a stated mass that is not that of the model. The forces are computed with the model; the plates tell which is right.
+/// Reports a stated mass that is not that of the model. The forces are computed with the model; the plates show which is right.
 fn report_stated_mass(trial: &B3dTrial<'_>, model: &Model, findings: &mut Findings) {
     let Some(stated_kg) = trial.person(findings).mass_kg else { return };
     let model_kg = model.mass();

@@ -10,7 +10,7 @@ use crate::model::{ModelError, ScaleError};
 use crate::motion::MotionError;
 use crate::optimal::TrackError;
 
-/// Why a study gives no forces. [`StudyError::input`] tells which part of the source it is about.
+/// Why a study gives no forces. [`StudyError::input`] names the part of the source that caused it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {

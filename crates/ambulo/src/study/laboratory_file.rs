@@ -53,7 +53,7 @@ pub enum LaboratoryFileError {
     },
 }
 
-/// Markers of a person who stands still stay this close to their mean position, root mean square [m]: sway is 1 to 2 cm.
+/// Markers of a person standing still stay this close to their mean position, root mean square [m]: sway is 1 to 2 cm.
 const STILL_M: f64 = 0.05;
 /// The share of the markers that do; others may be lost, or mistaken for each other.
 const STILL_SHARE: f64 = 0.75;

@@ -40,7 +40,7 @@ pub struct BodyMass {
     pub source: MassWitness,
     /// Where the mass comes from that results are normalised by; it can differ from `kg` by up to 5 %.
     pub normalised_by: MassSource,
-    /// Mass by the force plates [kg]; `null` if nobody was weighed.
+    /// Mass by the force plates [kg]; `null` if no person was weighed.
     pub plates_kg: Option<f64>,
     /// Standard error of `plates_kg` [kg].
     pub plates_error_kg: Option<f64>,
@@ -325,13 +325,13 @@ fn on_plates(known: &KnownMass, moving: Option<MassEstimate>, used: &MassEstimat
     }
 }
 
-/// The mass of a person who stands still on force plates [kg]; `None` if no plate is loaded steadily.
+/// The mass of a person standing still on force plates [kg]; `None` if no plate is loaded steadily.
 #[must_use]
 pub fn standing_mass_kg(file: &LaboratoryFile) -> Option<f64> {
     standing_estimate(&file.recording.plates).map(|estimate| estimate.kg)
 }
 
-/// The mass of a person who stands still, with the scatter of the force as its error: sway moves the mass centre up and down.
+/// The mass of a person standing still, with the scatter of the force as its error: sway moves the mass centre up and down.
 fn standing_estimate(plates: &[PlateRecording]) -> Option<MassEstimate> {
     let kg = standing_weight_n(plates)? / STANDARD_GRAVITY;
     let samples = plates.iter().map(|plate| plate.times.len()).min()?;

@@ -1,4 +1,4 @@
-//! What set-ups of OpenSim's tools say about scaling and about the fit of markers, in our terms.
+//! Scaling and marker fit of OpenSim's set-ups, in our terms.
 
 use crate::findings::{Code, Findings};
 use crate::kinematics::marker_fit::{CoordinateTask, TaskTarget};

@@ -21,7 +21,7 @@ pub enum CalibrationError {
         /// Which one.
         trial: usize,
     },
-    /// No foot on a plate of its own.
+    /// No foot on a separate plate.
     #[error(
         "no foot was wholly on a plate of its own from strike to off; expected at least one such stance in each trial"
     )]
@@ -39,7 +39,7 @@ pub enum CalibrationError {
         /// What was recognised.
         found: &'static str,
     },
-    /// Trials of different people.
+    /// Trials of different persons.
     #[error("{error}")]
     OtherPerson {
         /// The trial that differs from the first one.
@@ -67,7 +67,7 @@ impl CalibrationError {
 /// [`GroundSettings::Predicted`](super::GroundSettings::Predicted), the default parameters, and without a calibration.
 ///
 /// # Errors
-/// Trials without walking, plates or whole stances, or of different people.
+/// Trials without walking, plates or whole stances, or of different persons.
 pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, CalibrationError> {
     let mut samples: BySide<[Vec<ErrorSample>; 5]> = BySide { right: Default::default(), left: Default::default() };
     let mut stances = BySide { right: 0, left: 0 };

@@ -1,4 +1,4 @@
-//! The refit of a motion whose loaded feet slide, and what it gained.
+//! The refit of a motion whose loaded feet slide, and its improvement.
 
 use super::observation::{Observation, ObservedMotion};
 use super::settings::Settings;
@@ -12,7 +12,7 @@ use crate::motion::filter::LowPass;
 use crate::motion::{Motion, Smoother};
 use crate::spatial::Vec3;
 
-/// The motion with loaded feet held still. A motion that cannot be smoothed stays as it is, for whoever smooths it next to say why.
+/// The motion with loaded feet at rest. A motion that cannot be smoothed is returned unchanged; the next smoothing reports the error.
 pub(super) fn refitted(
     observation: &Observation,
     motion: ObservedMotion,

@@ -64,7 +64,7 @@ impl Judged {
         lists.filter(|stances| !stances.is_empty()).collect()
     }
 
-    /// Factors and floors from the subjects for which `only` says so.
+    /// Factors and floors from the subjects for which `only` states so.
     pub(super) fn calibration(&self, only: impl Fn(&str) -> bool) -> DeviationCalibration {
         let whole = |component: usize| fitted(&self.of_component(component, 0..5, &only));
         let of_fifth =

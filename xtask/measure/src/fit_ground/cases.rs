@@ -57,7 +57,7 @@ const OF_TRIAL_ALONE: DeviationCalibration = {
         of_sideways: OF_SIDEWAYS,
     }
 };
-/// Shares of a trial's misfit and of its sideways force in the deviation ([`DeviationCalibration`] says how they were chosen).
+/// Shares of a trial's misfit and of its sideways force in the deviation ([`DeviationCalibration`] states how they were chosen).
 pub(super) const OF_MISFIT: f64 = 0.5;
 pub(super) const OF_CENTER_MISFIT: f64 = 0.4;
 pub(super) const OF_SIDEWAYS: f64 = 0.1;

@@ -14,7 +14,7 @@ pub(super) struct Errors {
     pub(super) name: &'static str,
     /// Standard deviation of white noise along each axis [m].
     pub(super) white_m: f64,
-    /// Root mean square of a sine along each axis, with a phase of its own [m].
+    /// Root mean square of a sine along each axis, with its own phase [m].
     pub(super) slow_m: f64,
     /// Share of the points that are far away.
     pub(super) outliers: f64,

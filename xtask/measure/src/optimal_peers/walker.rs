@@ -2,7 +2,7 @@
 //!
 //!   mean over time of   Σ_angles ((q - q*) / 3°)² + ((q̇ - q̇*) / 0.3 rad/s)²  +  Σ_joints (τ / 40 N.m)²     without forces at the root
 //!
-//! The targets q*, q̇* are the angles of the first guess, the mean curves of people at that speed. Duration and distance are given. Each foot
+//! The targets q*, q̇* are the angles of the first guess, the mean normative curves at that speed. Duration and distance are given. Each foot
 //! has two spheres, as in Moco's `2D_gait.osim`. One instant per knot interval: the splines are then as free as the motion itself.
 
 use ambulo::contact::{HuntCrossley, Onset};
@@ -153,7 +153,7 @@ impl Walker {
     }
 }
 
-/// Adds the tilt of the pelvis to the lumbar angle: in the mean curves of people the trunk's angle is relative to the pelvis, while the gait of a
+/// Adds the tilt of the pelvis to the lumbar angle: in the mean normative curves the trunk's angle is relative to the pelvis, while the gait of a
 /// planar figure takes it as relative to the world. Both are sums of the same splines.
 fn lean_with_pelvis(problem: &Problem, guess: &mut [f64]) {
     let of = |movement| problem.model.anatomy().coordinate(movement, None).map(|(id, _)| id.index());

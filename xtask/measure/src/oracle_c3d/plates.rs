@@ -1,6 +1,6 @@
 //! Force plates compared with those of ezc3d: force and centre of pressure.
 //!
-//! ezc3d leaves offsets where they are, so ours are read without removing them. Where the file holds the force of the
+//! ezc3d leaves offsets where they are, so ours are read without removing them. Where the file contains the force of the
 //! foot on the plate, ezc3d passes it on as it stands and we turn it.
 
 use ambulo::findings::{Code, Findings};
@@ -29,7 +29,7 @@ impl PlateComparison {
     }
 }
 
-/// Our plates compared with ezc3d's; `None` if neither has any. An error says how they differ in number.
+/// Our plates compared with ezc3d's; `None` if neither has any. An error states how they differ in number.
 pub(super) fn compare(
     record: &C3d,
     blocks: &BTreeMap<String, (usize, Vec<f64>)>,

@@ -1,6 +1,6 @@
 //! A figure as a model of MuJoCo (MJCF).
 //!
-//! Bodies, masses, mass centres, inertias and joints are those of the [`Model`]. Every coordinate is a slide or a hinge of its own, with the name
+//! Bodies, masses, mass centres, inertias and joints are those of the [`Model`]. Every coordinate is a slide or a separate hinge, with the name
 //! and the sense of the coordinate. Slides come before hinges, because a slide of MuJoCo turns with the joints in front of it; the text
 //! `coordinates` lists the names in the order of the model. Every joint that is not of the root has a motor with the name of its coordinate.
 //! Spheres under the soles touch only the ground.

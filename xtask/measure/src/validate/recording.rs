@@ -304,7 +304,7 @@ impl Recording {
         predicted(source, PredictSettings { person, ..PredictSettings::default() })
     }
 
-    /// Whether the files are trials of a person on the built-in body, each a recording of its own.
+    /// Whether the files are trials of a person on the built-in body, each a separate recording.
     pub(crate) fn is_of_a_person(&self) -> bool {
         matches!(self.kind, Kind::Markers { .. })
     }

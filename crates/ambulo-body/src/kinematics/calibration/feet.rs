@@ -27,7 +27,7 @@ const TORSIONS_DEG: [f64; 2] = [-10.0, 40.0];
 /// Plausible scale factors of feet.
 const FACTORS: [f64; 2] = [0.6, 1.6];
 
-/// Standard deviation of the length of a foot that its stature tells, as a share (unverified).
+/// Standard deviation of foot length at a given stature, as a share (unverified).
 const LENGTH_ERROR: f64 = 0.05;
 /// The same for the length between keypoints: each is 20 mm off on a foot of 0.25 m.
 const KEYPOINT_LENGTH_ERROR: f64 = 0.12;

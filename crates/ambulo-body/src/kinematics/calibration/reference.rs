@@ -7,7 +7,7 @@ use crate::numerics::median;
 /// Kind of recording for a calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Trial {
-    /// The person stands still.
+    /// Standing still.
     Standing,
     /// The person walks or runs.
     Moving,

@@ -92,7 +92,7 @@ pub(super) fn fit(
     }
 }
 
-/// What determines a coordinate.
+/// Source of the value of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Leader {
     /// Nothing: it moves no marker.

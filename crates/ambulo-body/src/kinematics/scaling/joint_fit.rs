@@ -91,7 +91,7 @@ pub fn fit_size(
     let start = fit_markers(model, &standing, &fit_settings, findings)?;
     let mut problem = Problem::new(model, &standing, &start.motion.columns)?;
     let mut z = problem.start.clone();
-    // Quadratic first, so that a body with few markers is not given a size of its own before the others have theirs; then from the
+    // Quadratic first, so that a body with few markers is not given a separate size before the others have theirs; then from the
     // posture of a model of about the right size, because that of a wrong size may have folded an arm.
     minimise(&mut problem, &mut z, STEPS);
     let about = model.scaled(&problem.factors(&z), None)?;

@@ -2,7 +2,7 @@
 //!
 //! [`fit_size`] fits sizes and posture together, without a list; it keeps the mass distribution of the model
 //! ([`Model::scaled`](crate::model::Model::scaled)), scales it to the body mass and moves its markers to their positions on the person.
-//! [`scale_by_protocol`] does what the protocol of a laboratory says, as OpenSim's scale tool: distances between markers, recorded and on the
+//! [`scale_by_protocol`] does what the protocol of a laboratory states, as OpenSim's scale tool: distances between markers, recorded and on the
 //! model ([`measured_factors`]), stated factors, masses, and the fit in which markers are placed.
 //!
 //! Pinned by: tests/scaling.rs

@@ -13,7 +13,7 @@ const ENDING: &str = "_imu";
 const KNEE_BENDS: f64 = 0.262;
 /// Largest angle of an axis forward from the horizontal [rad]: 60 degrees.
 const LEVEL: f64 = 1.047;
-/// Fastest turn of a person who stands still [rad/s].
+/// Fastest turn of a person standing still [rad/s].
 const STILL: f64 = 0.5;
 /// Time at the beginning in which the person stands, if there is no standing trial [s].
 const FIRST_S: f64 = 0.1;

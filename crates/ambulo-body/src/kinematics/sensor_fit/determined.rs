@@ -7,10 +7,10 @@ use super::PlacedSensor;
 use crate::model::{BodyId, CoordinateId, Drive, Model, ModelPosture};
 use crate::spatial::Vec3;
 
-/// Smallest sine between two axes, or volume between three, of angles that are told apart: 6 degrees.
+/// Smallest sine between two axes, or volume between three, of angles that are distinguished: 6 degrees.
 const INDEPENDENT: f64 = 0.1;
 
-/// Names of the coordinates that turn sensors and cannot be told apart.
+/// Names of the coordinates that turn sensors and cannot be distinguished.
 pub(super) fn undetermined(model: &Model, placed: &[PlacedSensor]) -> Vec<String> {
     let default = model.coordinates().iter().map(|coordinate| coordinate.default_value).collect();
     let posture = ModelPosture::new(model, default);

@@ -54,7 +54,7 @@ pub enum SensorError {
         "the direction forward is not known: {found}; expected knees that bend by {expected_deg:.0} degrees or more, or a sensor whose axis points forward in the standing posture"
     )]
     Heading {
-        /// What the knees do.
+        /// Flexion of the knees.
         found: String,
         /// How much they must bend [deg].
         expected_deg: f64,

@@ -17,7 +17,7 @@ const SIDES: [(&str, Side); 6] = [
     ("r", Side::Right),
     ("l", Side::Left),
 ];
-/// An ending that says nothing about the place: OpenCap adds it to the names of markers that it derives from video.
+/// An ending that gives no information about the place: OpenCap adds it to the names of markers that it derives from video.
 const ENDING: &str = "study";
 /// Fewest names with a common prefix that is taken for that of a subject.
 const FEWEST_WITH_PREFIX: usize = 4;

@@ -159,7 +159,7 @@ fn channels<'a>(file: &'a C3d, platform: &Platform) -> Result<Vec<&'a Channel>, 
     indices.map(find).collect()
 }
 
-/// The ZERO frames as samples, counted from the first frame of the file (unverified: the guide of the format says
+/// The ZERO frames as samples, counted from the first frame of the file (unverified: the guide of the format states
 /// `frames`, and trimmed files do not agree); a range with a loaded plate is not used in any case.
 fn zero_samples(file: &C3d, [first, last]: [i64; 2]) -> Range<usize> {
     let frame = |n: i64| usize::try_from(n).unwrap_or(0) * file.samples_per_frame();

@@ -33,7 +33,7 @@ use crate::spatial::{Mat3, Pose, Vec3};
 use ambulo_formats::c3d::{C3d, Rotation};
 use std::ops::RangeInclusive;
 
-/// A segment with a pose of its own.
+/// A segment with its own pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PosedSegment {
     /// Pelvis.
@@ -120,7 +120,7 @@ pub fn segment_poses_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<Segm
     axes::aligned(poses)
 }
 
-/// Metres per unit of the positions: as stated, else as the distances between the origins of the segments tell.
+/// Metres per unit of the positions: as stated, else inferred from the distances between the origins of the segments.
 fn unit_m(c3d: &C3d, findings: &mut Findings) -> f64 {
     let place = |rotation: &Rotation, sample: usize| {
         let matrix = rotation.matrices.get(sample).filter(|_| labels::segment_of(&rotation.name).is_some())?;

@@ -12,7 +12,7 @@ use crate::numerics::elementary::ln;
 
 /// Thigh and shank as a share of stature.
 const LEG_SHARE: f64 = 0.491;
-/// Largest relative error of the leg length in a usual unit: three times the standard deviation between people, about 4 %.
+/// Largest relative error of the leg length in a usual unit: three times the standard deviation between subjects, about 4 %.
 const NEAR: f64 = 0.12;
 /// Plausible statures if none is given [m].
 const STATURES: [f64; 2] = [1.2, 2.1];

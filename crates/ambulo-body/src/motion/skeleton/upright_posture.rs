@@ -3,7 +3,7 @@
 //! In the resting pose of a file (all channels zero) all axes are those of the file. If this pose is upright, it
 //! shows the orientation of pelvis, thigh, shank and foot in standing. Otherwise (skeletons whose bones all lie along one axis) a
 //! calibration pose is looked for among the frames: straight legs, and straight arms to both sides, level (T) or half lowered (A), which
-//! nobody does by chance while walking. Without one the directions are averaged over the recording, in the axes of each joint.
+//! does not happen by chance in walking. Without one the directions are averaged over the recording, in the axes of each joint.
 
 use super::axes::Axes;
 use super::body_joints::{BodyJoint, BodyJoints};
@@ -30,7 +30,7 @@ const LEVEL_ARMS: f64 = 0.4;
 pub(super) struct UprightPosture {
     /// The joint of the pelvis: the last common ancestor of both hips.
     pub(super) pelvis: usize,
-    /// What shows it, in words.
+    /// Evidence, in words.
     pub(super) shown_by: &'static str,
     directions: Vec<[Vec3; 2]>,
 }

@@ -202,7 +202,7 @@ impl Ledger {
         }
     }
 
-    /// Whether the other tables of a closed part are there and complete; somebody may have removed one, or copied a part of it.
+    /// Whether the other tables of a closed part exist and are complete; one may have been removed or copied in part.
     fn has_results(&self, part: usize, trials: &ParquetTable) -> bool {
         const MARK: &[u8] = b"PAR1";
         let is_complete = |table: &str| {

@@ -33,7 +33,7 @@ pub(super) struct Work {
     pub(super) keep: Vec<String>,
     /// Who may stop the computation.
     pub(super) caller: Caller,
-    /// What trials share.
+    /// Data that trials share.
     pub(super) shared: Shared,
     /// SHA-256 of files that several trials may have.
     pub(super) hashes: Mutex<BTreeMap<PathBuf, String>>,

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Values that are kept. Trials of a person follow each other, and several threads may be at several persons.
 const MOST: usize = 8;
 
-/// What was read, by what it was read from.
+/// Content of a file, by kind.
 #[derive(Debug)]
 pub(crate) struct ReadOnce<K, V>(Arc<Mutex<Vec<Known<K, V>>>>);
 

@@ -17,7 +17,7 @@ use ambulo_formats::table::OrientationTable;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
-/// Whether a storage file holds quaternions. A file that cannot be read is none.
+/// Whether a storage file contains quaternions. A file that cannot be read is none.
 pub(super) fn is_recording(path: &Path, caller: &Caller) -> bool {
     files::read_input(caller, path).is_ok_and(|bytes| OrientationTable::is_stated(&bytes))
 }

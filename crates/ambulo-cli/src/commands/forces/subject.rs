@@ -98,7 +98,7 @@ fn check_options(args: &ForcesArgs) -> Result<()> {
     }
 }
 
-/// Computes every trial into a folder of its own.
+/// Computes every trial into a separate folder.
 pub(super) fn run_all(args: &ForcesArgs) -> Result<Completion> {
     check_range(args)?;
     let header = read_header(&Caller::default(), args.recording())?;

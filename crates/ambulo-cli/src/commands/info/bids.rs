@@ -9,7 +9,7 @@ use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Reads the motion and the files beside it.
+/// Reads the motion and the files next to it.
 pub(super) fn describe(path: &Path) -> Result<Sheet> {
     let BidsFiles { motion, rate_hz, .. } = bids::read(&Caller::default(), path)?;
     let mut sheet = Sheet::of("motion of a BIDS data set");

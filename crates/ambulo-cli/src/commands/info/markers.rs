@@ -44,7 +44,7 @@ pub(super) fn describe_trc(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     Ok(sheet)
 }
 
-/// Describes markers that are all that a file holds.
+/// Describes markers that are all that a file contains.
 pub(super) fn describe_recording(
     sheet: &mut Sheet,
     path: &Path,

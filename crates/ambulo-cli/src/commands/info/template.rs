@@ -10,7 +10,7 @@ use ambulo::study::LaboratoryFile;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
-/// Writes the template; returns what it holds, in one line.
+/// Writes the template; returns its content in one line.
 pub(super) fn write(args: &InfoArgs, target: &Path, bytes: &[u8]) -> Result<String> {
     files::check_target(target, std::slice::from_ref(&args.file), args.replace.existing())?;
     let shown = args.file.display().to_string();

@@ -13,7 +13,7 @@ use std::path::Path;
 /// A shorter name, such as `1`, is only replaced together with its file ending, because it may also be part of a number.
 const SHORTEST: usize = 3;
 
-/// What stands for what.
+/// Replacements of names.
 pub(super) struct Anonymous {
     /// Names and their replacements, the longest first.
     replaced: Vec<(String, String)>,

@@ -1,6 +1,6 @@
 //! Computes the trials of a person with one body.
 //!
-//! 1. Every trial is computed as `ambulo forces` does, with a body of its own.
+//! 1. Every trial is computed as `ambulo forces` does, with its own body.
 //! 2. Where the bodies are the same, because a model or a standing trial with a known mass gives them, this is all.
 //! 3. Otherwise the mass is the median of the trials whose data are not bad. The body is calibrated once with this mass, from the standing trial or,
 //!    without one, from the trial whose markers lie nearest to their body; the other trials are computed again with it.

@@ -87,7 +87,7 @@ pub(super) fn read(folder: &Path) -> Result<Session> {
     session_from_files(&summary, &cycles).map_err(Error::msg).with_context(shown)
 }
 
-/// The reference group of a file, or that of the people in a folder.
+/// The reference group of a file, or of the subjects in a folder.
 pub(super) fn group(path: &Path, computing: &Computing<'_>) -> Result<ReferenceGroup> {
     let shown = || path.display().to_string();
     if !path.is_dir() {
@@ -110,7 +110,7 @@ fn sessions_in(folder: &Path) -> Result<Vec<Session>> {
     folders.iter().filter(is_session).map(|folder| read(folder)).collect()
 }
 
-/// The sessions of the people whose recordings lie in the folders of a folder.
+/// The sessions of the subjects whose recordings are in the subfolders of a folder.
 fn recorded_people(folder: &Path, computing: &Computing<'_>) -> Result<Vec<Session>> {
     let plan: Plan = visit::planned(folder, computing.threads)?;
     let names: BTreeSet<&str> = plan.trials.iter().map(|trial| trial.person.as_str()).collect();

@@ -58,7 +58,7 @@ pub(super) fn leave_out_copies(plan: &mut Plan) {
     let mut known: BTreeMap<String, String> = BTreeMap::new();
     let Plan { trials, others, .. } = plan;
     trials.retain(|trial| {
-        // The trials of one file, and files that cannot be read, which get an error of their own.
+        // The trials of one file, and files that cannot be read, which get their own error.
         if trial.files.trial.is_some() {
             return true;
         }

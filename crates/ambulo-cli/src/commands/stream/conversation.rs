@@ -25,7 +25,7 @@ enum FrameKind {
     Markers(Box<MarkerFrames>),
 }
 
-/// Whether the sender said what its frames have.
+/// Whether the sender described its frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Naming {
     /// Not yet: frames have everything of the model, in its units.
@@ -276,7 +276,7 @@ impl<'a> Conversation<'a> {
         Ok(())
     }
 
-    /// The end of the frames: answers those of the delay, and says what came.
+    /// The end of the frames: answers the frames within the delay, and reports the counts.
     pub(super) fn end(&mut self) -> Result<()> {
         let ended = std::mem::replace(&mut self.stream, self.setup.stream()?);
         let finished = self.finish(ended);

@@ -39,12 +39,12 @@ pub(super) enum Markers {
 }
 
 impl Message {
-    /// Whether the message says which coordinates frames have, or in which unit.
+    /// Whether the message describes the coordinates of frames or their unit.
     pub(super) fn names_coordinates(&self) -> bool {
         self.coordinates.is_some() || self.angles.is_some()
     }
 
-    /// Whether the message says which markers frames have, or their unit and axes.
+    /// Whether the message describes the markers of frames, or their unit and axes.
     pub(super) fn names_markers(&self) -> bool {
         self.marker_names().is_some() || self.unit.is_some() || self.axes.is_some()
     }

@@ -91,7 +91,7 @@ pub(super) fn serve_tcp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     }
 }
 
-/// Answers every datagram to its sender. Each sender has a conversation of its own; an empty datagram ends it.
+/// Answers every datagram to its sender. Each sender has its own conversation; an empty datagram ends it.
 ///
 /// # Errors
 /// A port that cannot be used, a model that cannot be streamed.

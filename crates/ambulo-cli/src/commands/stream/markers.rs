@@ -12,7 +12,7 @@ use anyhow::{Context, Result, bail};
 /// Markers of a body that is followed are 1 to 4 cm from it. A fit is lost if a quarter of them is farther away [m].
 const LOST_M: f64 = 0.1;
 
-/// What became of a frame.
+/// Outcome of a frame.
 pub(super) enum Fitted {
     /// A value per coordinate.
     Posture(Vec<f64>),

@@ -1,27 +1,27 @@
-//! What the number of a frame says: whether frames before it were lost, or it came twice, late or anew.
+//! Order of frames by their numbers: missing, repeated and late frames, and new sequences.
 
-/// How many of the last numbers are remembered, to tell a doubled frame from a late one.
+/// How many of the last numbers are remembered, to distinguish a repeated frame from a late one.
 const REMEMBERED: u64 = 64;
 
 /// Place of a frame in its sequence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
-    /// The one that was expected.
+    /// The expected frame.
     Next,
     /// So many frames before it are missing.
     After(u64),
-    /// It came before.
+    /// It was received before.
     Doubled,
-    /// Its turn is over: a later frame was already used.
+    /// A later frame was already used.
     Late,
-    /// The sender began again with other numbers.
+    /// The sender started a new sequence.
     Anew,
 }
 
-/// The numbers that came.
+/// The received numbers.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Numbering {
-    /// The greatest number that came; `None` before the first frame.
+    /// The greatest received number; `None` before the first frame.
     last: Option<u64>,
     /// Which of the [`REMEMBERED`] numbers up to the last one came, the last one in the lowest bit.
     came: u64,

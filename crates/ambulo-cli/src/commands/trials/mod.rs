@@ -19,7 +19,7 @@ pub(crate) enum Wanted {
     Motion,
 }
 
-/// The words of a command line with each value in a word of its own: `--from=0.5` becomes `--from 0.5`. Both mean the same trial.
+/// The words of a command line with each value in a separate word: `--from=0.5` becomes `--from 0.5`. Both mean the same trial.
 pub(crate) fn apart(words: &[OsString]) -> Vec<OsString> {
     let split = |word: &OsString| -> Vec<OsString> {
         let option = word.to_str().filter(|word| word.starts_with("--")).and_then(|word| word.split_once('='));

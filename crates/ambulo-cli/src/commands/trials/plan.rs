@@ -4,14 +4,14 @@
 //! |---|---|
 //! | `.c3d` with force plates | a trial |
 //! | any recording of motion, where force plates are not asked for ([`Wanted`]) | a trial |
-//! | `.c3d` without plates, `.trc`, `.mot`, `.sto` with a table of ground forces beside it | a trial |
+//! | `.c3d` without plates, `.trc`, `.mot`, `.sto` with a table of ground forces next to it | a trial |
 //! | `_motion.tsv` of a BIDS data set, of the person `sub-...` | a trial, where force plates are not asked for |
 //! | `.c3d`, `.trc`, `_motion.tsv` in which the person stands still | the standing trial of the trials in its folder |
 //! | `.mot`, `.sto` with a word of [`FORCES`] in its name | a table of ground forces |
 //! | `.b3d` | a person with trials |
 //! | the only `.osim` of a folder | the model of the `.trc`, `.mot` and `.sto` in it |
 //!
-//! A table of ground forces lies beside a recording if both have the same words in their names, apart from [`FORCES`] and [`RECORDINGS`]. A
+//! A table of ground forces lies next to a recording if both have the same words in their names, apart from [`FORCES`] and [`RECORDINGS`]. A
 //! recording with the words of another one of its folder is the same trial in another form, and only the first form is judged.
 
 use super::Wanted;
@@ -71,7 +71,7 @@ pub(crate) struct Plan {
 enum Content {
     /// With force plates.
     Plates,
-    /// The person stands still.
+    /// Standing still.
     Still,
     /// Without forces.
     Motion,
@@ -299,7 +299,7 @@ fn content(file: &FoundFile, stated: &StatedTrial) -> Content {
     }
 }
 
-/// What lies beside each other.
+/// Files that belong together.
 struct Folders<'a> {
     /// Name of the folder of all trials.
     root: String,
@@ -402,7 +402,7 @@ impl<'a> Folders<'a> {
         }
     }
 
-    /// The only model beside a recording that is not a C3D.
+    /// The only model next to a recording that is not a C3D.
     fn model_of(&self, file: &FoundFile) -> Option<PathBuf> {
         match self.models.get(file.folder.as_str()).map(Vec::as_slice) {
             Some([only]) if file.ending() != "c3d" => Some(only.path.clone()),

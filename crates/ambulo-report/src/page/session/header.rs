@@ -66,7 +66,7 @@ pub(super) fn recording(results: &Results) -> Fact {
     fact("Recording", file_name(&input.motion), standing)
 }
 
-/// What a predicted walk was asked to bear, and what it costs.
+/// Conditions and cost of a predicted walk.
 fn conditions(results: &Results) -> Option<Fact> {
     let made = results.summary.walk.as_ref()?.prediction.as_ref()?;
     let conditions = match made.conditions() {

@@ -39,7 +39,7 @@ const ROWS: [Row; 15] = [
     row(StrideQuantity::WalkRatio, "Walk ratio", "m/(steps/min)", 4),
 ];
 
-/// The table; without strides its text says why.
+/// The table; without strides its text gives the reason.
 pub(super) fn table(results: &Results, size: &BodySize) -> Table {
     let walking = &results.summary.times_and_distances;
     let normal = size

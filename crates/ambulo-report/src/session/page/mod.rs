@@ -58,7 +58,7 @@ const METHOD: &str = "Angles are clinical: flexion, dorsiflexion, adduction, int
 are internal, per body mass. The scales are the same in every session; where a curve leaves its scale, the figure says so. Forces are measured where force \
 plates measured the whole stance of a cycle, otherwise predicted from the motion; a mean never has both. Definitions: docs/SESSION.md.";
 
-/// Longer facts take a line of their own, in letters.
+/// Longer facts take a separate line, in letters.
 const WIDE: usize = 60;
 
 /// What is known about person, body and data.

@@ -97,7 +97,7 @@ impl Comparison {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("found {found}; expected {expected}")]
 pub struct ConditionError {
-    /// What stands there.
+    /// Token at this place.
     found: String,
     /// What is allowed there.
     expected: &'static str,

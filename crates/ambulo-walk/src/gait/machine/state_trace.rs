@@ -95,9 +95,9 @@ impl StateTrace {
 
 /// Tells of the states and changes of a trace while it grows: the same as [`StateTrace::changes`], each in the step in which it happens.
 pub struct StateWatch<'a> {
-    /// First and last instant [s]; times that are told count from the first one.
+    /// First and last instant [s]; reported times count from the first one.
     ends_s: [f64; 2],
-    /// Number of changes of the trace that were told or left out, once the first instant is reached.
+    /// Number of changes of the trace that were reported or left out, once the first instant is reached.
     seen: Option<usize>,
     tell: &'a mut dyn FnMut(&StateChange),
 }

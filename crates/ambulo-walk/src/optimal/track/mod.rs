@@ -4,7 +4,7 @@
 //! [`Problem`]: the unknowns are splines of all coordinates over the recording, spheres under the feet of the model touch the floor, and the
 //! residual forces are zero at all instants. So ground forces and joint forces follow from the motion without force plates.
 //!
-//! In double support, motion alone says little about how the feet share the load: forces of a prediction ([`FootGuide::force`]) can be
+//! In double support, motion alone gives little information about how the feet share the load: forces of a prediction ([`FootGuide::force`]) can be
 //! targets, too.
 //!
 //! The floor is level, or a belt of constant velocity: in axes that move with the belt it is at rest, and forces are the same.
@@ -162,7 +162,7 @@ pub enum TrackError {
         "the {what} of the floor differs by {found:.3} {unit} between stances; expected one level floor or belt (at most {most} {unit})"
     )]
     UnevenFloor {
-        /// What differs.
+        /// Difference.
         what: &'static str,
         /// By how much.
         found: f64,

@@ -112,7 +112,7 @@ impl WalkProblem {
         Ok(made)
     }
 
-    /// Holds the state of a motion at a time [s] at a knot. At the last one the forward motion has a place of its own.
+    /// Holds the state of a motion at a time [s] at a knot. At the last one the forward motion has its own place.
     fn hold(&mut self, end: &PassageEnd<'_>, time_s: f64, knot: usize) {
         let (width, last) = (self.problem.model.coordinates().len(), self.problem.knots);
         let along = forward(&self.problem.model).map(|id| id.index());

@@ -1,4 +1,4 @@
-//! Targets of a walk: what people do, and what the machines of its gait ask for, at some instants.
+//! Targets of a walk at some instants: normative curves, and targets of the machines of its gait.
 //!
 //! Where the pace changes, targets follow the clock of the walk ([`Clock`]). With w the share of walking between standing (0) and walking (1), a
 //! foot carries w f + (1 - w) s body weights. Here f is the force of people who walk, and s is the share of the foot in the load of both: that of

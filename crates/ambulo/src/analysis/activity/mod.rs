@@ -1,4 +1,4 @@
-//! Recognises what a person does in a recording: walks, runs, stands, squats, jumps, rises from a seat, climbs stairs, turns.
+//! Recognises the activity of a person in a recording: walks, runs, stands, squats, jumps, rises from a seat, climbs stairs, turns.
 //!
 //! Only the motion, its stances and the laws of mechanics are used, no names and nothing fitted to recordings. Lengths are relative to the
 //! length L of the leg, times to √(L/g). In this order:

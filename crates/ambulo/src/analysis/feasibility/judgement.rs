@@ -104,7 +104,7 @@ fn nearest(model: &Model, grid: TimeGrid, frame: usize, m: &CheckedValue) -> Clo
     }
 }
 
-/// An excess that is shorter cannot be told from noise [s]. A low-pass makes an impulse 0.603/fc wide at half of its height: that is the width
+/// An excess that is shorter cannot be distinguished from noise [s]. A low-pass makes an impulse 0.603/fc wide at half of its height: that is the width
 /// of sin(x)/x with x = 2π fc t.
 fn shortest_s(thresholds: &Thresholds, cutoff_hz: Option<f64>) -> f64 {
     const WIDTH: f64 = 0.603;

@@ -5,7 +5,7 @@
 //!
 //! The estimate assumes independent evidence and exact models; k and the floor correct its deviation, component by component, by the
 //! errors relative to force plates. For forces they depend on the elapsed share of the stance, because the strike is known worst: one pair for
-//! each fifth, linear between their middles. Fitted to people whose laboratory was left out, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
+//! each fifth, linear between their middles. Fitted to subjects whose laboratory was left out, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
 //!
 //! The last terms come from the trial itself. m_F and m_P are what the estimate leaves of the force and of the moment that the motion requires
 //! ([`super::misfit`]): motion that contradicts itself, for want of markers or because it is fast, gives larger errors. F_side is the sideways force, for the

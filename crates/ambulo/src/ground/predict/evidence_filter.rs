@@ -8,7 +8,7 @@
 //!   k(t) ∝ ∫ 2^(-(ν / f)²) / (1 + (ν / f_c)^(2 order)) cos(2π ν t) dν
 //!
 //! * Of all other estimated forces and moments: the Gaussian alone. They have little between 4 and 6 Hz but the strike, which markers do not show; with
-//!   H as well their noise is amplified: in walking the errors of people left out were 3 % larger, in running the fore-aft error rose from 4.6 to 6.1 % of
+//!   H as well their noise is amplified: in walking the errors of subjects left out were 3 % larger, in running the fore-aft error rose from 4.6 to 6.1 % of
 //!   body weight (measured during development).
 
 use super::stances::{GaitType, Stance};
@@ -34,7 +34,7 @@ const HIGHEST: f64 = 3.0;
 pub(super) struct EvidenceFilters {
     /// Of the force that the motion requires, and of most estimated forces.
     pub(super) gaussian: EvidenceFilter,
-    /// Of the vertical force in running; `None` where nobody runs or the motion was not filtered.
+    /// Of the vertical force in running; `None` without running, or if the motion was not filtered.
     running: Option<EvidenceFilter>,
 }
 

@@ -14,7 +14,7 @@ pub struct FittedParameters {
     pub force_noise: [f64; 3],
     /// Noise of the moment about the mass centre: about forward, up, sideways [body weights × m].
     pub moment_noise: [f64; 3],
-    /// Standard deviations of the prior, as a multiple of those between people: forward, up.
+    /// Standard deviations of the prior, as a multiple of those between subjects: forward, up.
     pub spread: [f64; 2],
     /// Standard deviation of the lateral force [body weights].
     pub sideways_spread: f64,
@@ -41,7 +41,7 @@ pub struct FittedParameters {
 }
 
 impl FittedParameters {
-    /// A number that tells these parameters from others: FNV-1a of their digits.
+    /// A checksum of these parameters: FNV-1a of their digits.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
@@ -72,7 +72,7 @@ impl Default for FittedParameters {
     }
 }
 
-/// The mean errors that people and laboratories left out have, too.
+/// Mean errors that also occur in subjects and laboratories left out.
 const ERRORS: ErrorsByDescent = ErrorsByDescent {
     usual: StanceErrors {
         force: [
@@ -109,7 +109,7 @@ const ERRORS: ErrorsByDescent = ErrorsByDescent {
     ],
 };
 
-/// From the errors of people whose laboratory was left out.
+/// From the errors of subjects whose laboratory was left out.
 const CALIBRATION: DeviationCalibration = DeviationCalibration {
     force: [
         [

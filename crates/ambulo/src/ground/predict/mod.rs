@@ -178,7 +178,7 @@ pub enum PredictError {
         /// Its gravity [m/s²].
         gravity: f64,
     },
-    /// A calibration of somebody else.
+    /// A calibration of another person.
     #[error(transparent)]
     OtherPerson(#[from] OtherPerson),
     /// A calibration whose errors are those of another estimate.
@@ -296,7 +296,7 @@ pub(super) fn both_soles(model: &Model, soles: &BySide<Option<Sole>>) -> Result<
     Ok(BySide { right: sole(Side::Right)?, left: sole(Side::Left)? })
 }
 
-/// What a prediction needs to know of a motion, one entry per frame.
+/// Quantities of a motion that a prediction uses, one entry per frame.
 pub(super) struct KnownMotion {
     pub(super) grid: TimeGrid,
     pub(super) geometry: Geometry,

@@ -23,7 +23,7 @@ const HELD: f64 = 1e9;
 /// λ as a share of the mean diagonal.
 const RIDGE: f64 = 0.1;
 /// The same for the curve of a usual strike and for its change with the descent. The curve itself hardly carries over to other laboratories and is
-/// held down; of the ridges 0.03, 0.1 and 0.3 of the change the least gave the smallest errors of people and laboratories left out.
+/// held down; of the ridges 0.03, 0.1 and 0.3 of the change the least gave the smallest errors of subjects and laboratories left out.
 const RIDGES_BY_DESCENT: [f64; 2] = [1.0, 0.03];
 /// ρ: share of the variance of the error of a stance that repeats in other trials of the same person and kind. Of the weights 0.5, 0.7 and 1 of one
 /// stance, 0.7 gave the smallest errors of the other stances of two people with five trials or stances of a foot.
@@ -43,7 +43,7 @@ pub struct StanceCurve(pub [f64; KNOTS.len()]);
 /// The values of a curve at foot strike and foot off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
-    /// Whatever the samples tell.
+    /// Determined by the samples.
     Free,
     /// Zero: a force begins and ends there.
     Zero,

@@ -146,7 +146,7 @@ impl Measure {
         }
     }
 
-    /// What is measured, in words.
+    /// Measured quantity, in words.
     #[must_use]
     pub fn meaning(self) -> &'static str {
         match self {

@@ -22,12 +22,12 @@ const MISSED: f64 = 1.5;
 /// fast walking the share changes by 0.12 (Schwartz, Rozumalski, Trost 2008), and the duration by the factor 2.2.
 const SHIFTED: (f64, f64) = (1.2, 0.1);
 
-/// What is known about a trial.
+/// Data of a trial.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrialFacts {
     /// Why its data are bad; `None` if they are not.
     pub bad_data: Option<String>,
-    /// What the person does.
+    /// Activity of the person.
     pub activity: ActivityKind,
     /// How far its path turns [rad], if known.
     pub turn: Option<f64>,

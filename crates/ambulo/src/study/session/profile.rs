@@ -7,7 +7,7 @@
 //! | symbol | unit | meaning |
 //! |---|---|---|
 //! | x_q(t) | deg | angle q of a cycle at t per cent of the cycle |
-//! | n_q(t), σ_q(t) | deg | mean of the reference group, and standard deviation between its people |
+//! | n_q(t), σ_q(t) | deg | mean of the reference group, and standard deviation between its subjects |
 //! | GVS | deg | gait variable score; all of them together are the movement analysis profile |
 //! | GPS | deg | gait profile score |
 //!
@@ -37,9 +37,9 @@ pub const PROFILE: [&str; 9] = [
 ];
 /// Those of the pelvis.
 const OF_PELVIS: usize = 3;
-/// More standard deviations from the mean are outside of the range of healthy people: 95 % of a normal distribution are inside.
+/// More standard deviations from the mean are outside the normal range: 95 % of a normal distribution are inside.
 const RANGE_SD: f64 = 2.0;
-/// A smaller standard deviation between people, as a share of the largest, is no measure [1].
+/// A smaller standard deviation between subjects, as a share of the largest, is no measure [1].
 const LEAST_SD: f64 = 0.05;
 
 /// Mean and standard deviation of a reference group over the cycle, at equal distances from 0 to 100 %.
@@ -47,7 +47,7 @@ const LEAST_SD: f64 = 0.05;
 pub struct NormalCurve {
     /// Mean.
     pub mean: Vec<f64>,
-    /// Standard deviation between people.
+    /// Standard deviation between subjects.
     pub sd: Vec<f64>,
 }
 

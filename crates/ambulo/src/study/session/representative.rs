@@ -25,7 +25,7 @@ use std::collections::BTreeSet;
 
 /// A cycle that is so many times as far from the median as usual is far from the others.
 const FAR: f64 = 2.0;
-/// With fewer cycles a median says nothing about the others.
+/// With fewer cycles a median gives no information about the others.
 const FEWEST: usize = 3;
 /// Smaller distances are rounding [deg].
 const LEAST_DEG: f64 = 1e-6;
@@ -91,7 +91,7 @@ fn of_side(cycles: &[SessionCycle], own: &[usize]) -> Vec<Option<f64>> {
         let curves: Vec<&[f64]> = own.iter().map(|k| cycles[*k].curves[quantity].as_slice()).collect();
         let middle = median_curve(&curves);
         let away: Vec<f64> = curves.iter().map(|curve| rms_difference(curve, &middle)).collect();
-        // A locked joint, whose curves are all the same, tells nothing.
+        // A locked joint has the same curve in all cycles.
         let Some(usual) = median(away.iter().copied()).filter(|usual| *usual > LEAST_DEG) else { continue };
         sums.iter_mut().zip(&away).for_each(|(sum, distance)| *sum += distance / usual);
         counted += 1.0;

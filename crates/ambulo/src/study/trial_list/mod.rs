@@ -26,7 +26,7 @@ struct Entry {
     stated: StatedTrial,
 }
 
-/// What the list states about a file. What it does not state is found by the rules of docs/VALIDATE.md.
+/// Statements of the list about a file. The rest is found by the rules of docs/VALIDATE.md.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StatedTrial {
     /// Whose trial it is.

@@ -2,7 +2,7 @@
 //!
 //! | figure | unit | definition |
 //! |---|---|---|
-//! | RMSE | % of body weight | root-mean-square difference over the whole stances of a foot on plates of its own, where the plate carries more than 20 N |
+//! | RMSE | % of body weight | root-mean-square difference over the whole stances of a foot on separate plates, where the plate carries more than 20 N |
 //! | rRMSE | % | RMSE over the mean of the two ranges |
 //! | r | - | Pearson's correlation of the same samples |
 //! | in band | % | share of the samples within 1.645 predicted standard deviations; 90 % for a normal distribution |
@@ -17,7 +17,7 @@
 //! **Means:** feet, then trials, then persons; a person with several trials of a kind counts once. What is not a number is left out.
 //!
 //! **Kinds:** the recognised activity ([`crate::analysis::activity`]); walking is fast above a dimensionless speed of [`FAST_WALKING`]; trials
-//! without markers on the trunk are a kind of their own.
+//! without markers on the trunk are a separate kind.
 //! Pinned by: tests/validation.rs
 
 mod figures;

@@ -28,7 +28,7 @@ impl Section {
     }
 }
 
-/// What the figures of the tables are.
+/// Definitions of the figures in the tables.
 pub const DEFINITIONS: &str = "\
 Per foot over its whole stances on plates of its own (plate above 20 N): RMSE in % of body weight, rRMSE over the mean of the two ranges, \
 Pearson's r, share of the samples inside the predicted 90 % band, and half-width of that band over the RMSE. Vertical is against gravity; \

@@ -59,7 +59,7 @@ pub enum NotJudged {
     /// No measured forces.
     #[error("no force was measured during the motion; expected force plates under the feet")]
     NoPlates,
-    /// No foot on a plate of its own.
+    /// No foot on a separate plate.
     #[error("no foot was wholly on a plate of its own from strike to off; expected at least one such stance")]
     NoStance,
 }

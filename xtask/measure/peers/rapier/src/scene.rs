@@ -95,7 +95,7 @@ impl Scene {
         body
     }
 
-    /// Adds a joint that keeps the two points together, and whatever else `joint` says.
+    /// Adds a joint that keeps the two points together, and whatever else `joint` states.
     pub fn join(&mut self, bodies: [RigidBodyHandle; 2], points: [[f64; 3]; 2], mut joint: GenericJoint) {
         let points = points.map(vector);
         joint.set_local_anchor1(points[0]).set_local_anchor2(points[1]).set_contacts_enabled(false);
