@@ -124,12 +124,6 @@ impl Human {
         [single, batch]
     }
 
-    /// Number of frames, and a pass over all of them side by side.
-    pub(crate) fn batch(self) -> (usize, impl FnMut()) {
-        let (mut workspace, mut columns) = (Workspace::new(&self.model), self.columns());
-        (self.frames, move || self.side_by_side(&mut workspace, &mut columns))
-    }
-
     /// Room for the torques of all frames, a column a coordinate.
     fn columns(&self) -> Vec<Vec<f64>> {
         vec![vec![0.0; self.frames]; self.model.coordinates().len()]

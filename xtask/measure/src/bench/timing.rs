@@ -9,7 +9,7 @@ const BATCHES: usize = 41;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Timing {
     pub(crate) median: f64,
-    /// Tenth and ninetieth percentile, smallest; `None` if it was measured once or by another program.
+    /// Tenth and ninetieth percentile; `None` if it was measured once or by another program.
     pub(crate) spread: Option<[f64; 3]>,
 }
 
@@ -17,11 +17,6 @@ impl Timing {
     /// A value without spread.
     pub(crate) fn single(value: f64) -> Timing {
         Timing { median: value, spread: None }
-    }
-
-    /// Smallest of the measurements.
-    pub(crate) fn fastest(&self) -> f64 {
-        self.spread.map_or(self.median, |[_, _, least]| least)
     }
 
     /// Median and spread by rank, as the peers' programs take them.
