@@ -13,7 +13,8 @@
 //!
 //! | you have | start with |
 //! |---|---|
-//! | a recording: markers, coordinates of a model, a skeleton, with or without force plates | [`study::run`] |
+//! | files of a recording: markers, coordinates of a model, a skeleton, with or without force plates | [`job::Job`] |
+//! | the same, decoded | [`study::run`] |
 //! | coordinates as arrays | [`dynamics::inverse`] |
 //! | an OpenSim model | [`Model::from_osim`](model::Model::from_osim) |
 //! | a motion without force plates | [`ground::predict`] |
@@ -107,6 +108,8 @@ pub mod ground;
 pub mod analysis;
 
 pub mod study;
+
+pub mod job;
 
 pub mod reproduction;
 
