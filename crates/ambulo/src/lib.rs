@@ -13,7 +13,8 @@
 //!
 //! | you have | start with |
 //! |---|---|
-//! | a recording: markers, coordinates of a model, a skeleton, with or without force plates | [`study::run`] |
+//! | files of a recording: markers, coordinates of a model, a skeleton, with or without force plates | [`job::Job`] |
+//! | the same, decoded | [`study::run`] |
 //! | coordinates as arrays | [`dynamics::inverse`] |
 //! | an OpenSim model | [`Model::from_osim`](model::Model::from_osim) |
 //! | a motion without force plates | [`ground::predict`] |
@@ -93,6 +94,8 @@ pub mod analysis;
 pub mod simulation;
 
 pub mod study;
+
+pub mod job;
 
 /// The code in README.md is compiled as a test.
 #[cfg(doctest)]

@@ -1,0 +1,150 @@
+//! Reads markers (`.c3d`, `.trc`) or poses of segments (`.c3d`, `.mvnx`), with a standing trial or a model.
+
+use super::error::{At, Field, JobError};
+use super::files::{Files, ending, note_remarks, read as read_file, table};
+use super::model_file::read_model;
+use super::reading::Reading;
+use super::values::PlateFoot;
+use super::{Job, bids, ground_table, size};
+use crate::findings::Findings;
+use crate::model::marker_set::MarkerSet;
+use crate::motion::markers_from_bids;
+use crate::study::{
+    LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, StandingTrial, standing_trial,
+};
+use std::path::Path;
+use std::sync::Arc;
+
+pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobError> {
+    check(job)?;
+    let trial = read_laboratory_file(job.recording(), reading.files, reading.findings)?;
+    let standing = job.standing.as_deref().map(|path| shared_standing_trial(path, reading)).transpose()?;
+    (reading.progress)("read_markers");
+    let body = body(job, reading)?;
+    let plates = job.plates.iter().map(|PlateFoot { plate, side }| PlateAssignment {
+        plate: plate - 1,
+        used: side.map_or(PlateUse::Off, PlateUse::Foot),
+    });
+    let markers = MarkerSource { trial, standing, body, plates: plates.collect() };
+    let forces = ground_table::read(job, reading)?;
+    let source = Source::markers(markers);
+    Ok(Source { forces, added_mass: job.added_mass.clone(), stated: job.size, ..source })
+}
+
+/// The given model, or the size and mass of the person for the built-in body.
+pub(super) fn body(job: &Job, reading: &mut Reading<'_>) -> Result<MarkerBody, JobError> {
+    if let Some(path) = job.model_file() {
+        let model = read_model(path, job.marker_set.as_deref(), reading)?;
+        let setups = reading.setups.clone();
+        reading.tracked = setups.tasks(&model, reading)?;
+        let protocol = setups.protocol(&model, reading)?;
+        return Ok(MarkerBody::Model { model, mass_kg: job.size.mass_kg, protocol });
+    }
+    Ok(MarkerBody::BuiltIn {
+        table: job.segments,
+        mass_kg: job.size.mass_kg,
+        height_m: job.size.height_m,
+        set: job.markers.as_deref().map(|set| read_set(set, reading)).transpose()?,
+    })
+}
+
+/// Reads a `.c3d`, a `.trc`, a `.mvnx`, a `.csv` or a BIDS motion.
+pub(super) fn read_laboratory_file(
+    path: &Path,
+    files: &mut dyn Files,
+    findings: &mut Findings,
+) -> Result<LaboratoryFile, JobError> {
+    if ending(path) == "tsv" {
+        return read_bids(path, files, findings);
+    }
+    laboratory_file(read_file(files, path)?, path, findings)
+}
+
+/// Reads the tracked points of a BIDS motion.
+fn read_bids(path: &Path, files: &mut dyn Files, findings: &mut Findings) -> Result<LaboratoryFile, JobError> {
+    let shown = path.display().to_string();
+    let bids = bids::read_bids(files, path)?;
+    let markers = markers_from_bids(&bids.motion, bids.rate_hz, &shown, findings).at(shown)?;
+    Ok(LaboratoryFile::of_markers(markers))
+}
+
+/// The recording in the content of a `.c3d`, a `.trc`, a `.mvnx` or a `.csv` of this name.
+///
+/// # Errors
+/// A file that is no such recording.
+pub fn laboratory_file(bytes: Vec<u8>, path: &Path, findings: &mut Findings) -> Result<LaboratoryFile, JobError> {
+    let shown = path.display().to_string();
+    if ending(path) == "csv" {
+        let (table, remarks) = table(path, &bytes)?;
+        note_remarks(&shown, &remarks, findings);
+        return LaboratoryFile::from_table(&table, &shown, findings).at(shown);
+    }
+    let read = match ending(path).as_str() {
+        "c3d" => LaboratoryFile::from_c3d(bytes, &shown, findings),
+        "trc" => LaboratoryFile::from_trc(bytes, &shown, findings),
+        "mvnx" => LaboratoryFile::from_mvnx(bytes, &shown, findings),
+        _ => {
+            let what = "expected markers (.c3d, .trc or .csv) or segments (.c3d, .mvnx)";
+            return Err(JobError::new(&[], what).within(shown));
+        }
+    };
+    read.at(shown)
+}
+
+/// Rejects fields that contradict each other or have no effect with a model.
+pub(super) fn check(job: &Job) -> Result<(), JobError> {
+    for (i, given) in job.plates.iter().enumerate() {
+        if job.plates[..i].iter().any(|before| before.plate == given.plate) {
+            let what = format!("plate {} is assigned twice; expected one foot per plate", given.plate);
+            return Err(JobError::new(&[Field::Plates], what));
+        }
+    }
+    if job.model_file().is_none() {
+        if job.marker_set.is_some() {
+            let what = "a marker set (.xml) places markers on the bodies of a model; expected an .osim as the model. hint: for the built-in body, a set of docs/MARKERS.md can be named";
+            return Err(JobError::new(&[Field::MarkerSet, Field::Model], what));
+        }
+        return Ok(());
+    }
+    size::check(job.size)?;
+    if job.size.height_m.is_some() && job.standing.is_some() {
+        let what = "the height has no effect with a model and a standing trial, which gives the model its lengths";
+        return Err(JobError::new(&[Field::Height], what));
+    }
+    let of_the_built_in_body = [(Field::Markers, job.markers.is_some()), (Field::Segments, job.has_other_segments())];
+    match of_the_built_in_body.into_iter().find(|(_, given)| *given) {
+        Some((field, _)) => {
+            let what = format!(
+                "the {} has no effect with a model, which has its own segments and markers; it is for the built-in body. hint: a standing trial scales the model to the person, body mass and height set its size",
+                field.name()
+            );
+            Err(JobError::new(&[field, Field::Standing, Field::Mass, Field::Height], what))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The standing trial of the person, which other jobs may share.
+fn shared_standing_trial(path: &Path, reading: &mut Reading<'_>) -> Result<Arc<StandingTrial>, JobError> {
+    reading.read.push(path.to_owned());
+    let Reading { files, findings, standing_trials, .. } = reading;
+    standing_trial(findings, |findings| standing_trials.read(path, *files, findings))
+}
+
+pub(super) fn read_standing_trial(path: &Path, reading: &mut Reading<'_>) -> Result<LaboratoryFile, JobError> {
+    reading.read.push(path.to_owned());
+    let Reading { files, findings, .. } = reading;
+    standing_trial(findings, |findings| read_laboratory_file(path, *files, findings))
+}
+
+/// A marker set by its name, or from a file.
+fn read_set(name_or_file: &str, reading: &mut Reading<'_>) -> Result<MarkerSet, JobError> {
+    let path = Path::new(name_or_file);
+    if ending(path) != "toml" {
+        return MarkerSet::named(name_or_file)
+            .map_err(|error| JobError::new(&[Field::Markers], error).within(Field::Markers.name()));
+    }
+    let text = String::from_utf8(read_file(reading.files, path)?).at(name_or_file)?;
+    reading.read.push(path.to_owned());
+    MarkerSet::from_toml(&text).at(name_or_file)
+}

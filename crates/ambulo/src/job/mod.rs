@@ -1,0 +1,211 @@
+//! A request for forces as typed values: which files, which person, which settings.
+//!
+//! ```text
+//! Job       names of files, statements about the person, settings; a set-up of OpenSim fills what is left open
+//!    |
+//!   read    the caller reads the files; kinds of recording are recognised, contradictions are rejected
+//!    v
+//! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files that were read
+//! ```
+//!
+//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] decides which body and mass the trials of a visit have.
+//!
+//! The joint moments of a recording in a laboratory:
+//!
+//! ```no_run
+//! use ambulo::findings::Findings;
+//! use ambulo::job::{FileError, Job};
+//! use std::path::Path;
+//!
+//! let mut job = Job::of("walk.c3d");
+//! job.standing = Some("standing.c3d".into());
+//! let mut findings = Findings::default();
+//! let read = job.read(&mut |path: &Path| std::fs::read(path).map_err(FileError::from), &mut findings)?;
+//! let outcome = read.run(&mut findings)?;
+//! println!("body mass {:.1} kg", outcome.analysis.mass.kg);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Errors and findings name fields of the job; a shell adds how its user states them.
+
+mod bids;
+mod coordinates;
+mod error;
+mod files;
+mod ground_table;
+mod kind;
+mod markers;
+mod model_file;
+mod read_once;
+mod reading;
+mod sensors;
+mod settings;
+mod setup;
+mod setup_values;
+mod size;
+mod skeleton;
+mod study_error;
+mod subject;
+pub mod trials;
+mod values;
+pub mod visit;
+
+pub use bids::{BidsFiles, bids_files_beside, read_bids};
+pub use error::{Field, FileError, JobError};
+pub use files::{Files, ending, table};
+pub use markers::laboratory_file;
+pub use model_file::model;
+pub use reading::{ReadJob, Reader};
+pub use settings::Processing;
+pub use subject::read_header;
+pub use values::{
+    Cutoff, EarthTurn, Filter, FootColumns, ForceCutoff, HeadingAxis, MarkerFitting, ModelChoice, PlateFoot,
+};
+
+use crate::analysis::Subject;
+use crate::model::anthropometry::SegmentTable;
+use crate::study::{AddedMass, StatedSize};
+use read_once::{Models, StandingTrials};
+use std::path::{Path, PathBuf};
+
+/// A request for the forces of a recording. Files are named; [`Job::read`] reads them.
+///
+/// Fields that are left open are filled by the set-ups, if there are any, and then have the defaults of their documentation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Job {
+    /// The recording: markers, poses of segments, coordinates, orientations of sensors, a skeleton, a motion of the SMPL family or a subject
+    /// of AddBiomechanics. Only a set-up makes it unnecessary.
+    pub recording: Option<PathBuf>,
+    /// The trial of a `.b3d`: its name, or its number counted from 1. Needed if there are several.
+    pub trial: Option<String>,
+    /// The same person standing still.
+    pub standing: Option<PathBuf>,
+    /// The body. Coordinates need a model; by default a `.b3d` has its own, and everything else the built-in body.
+    pub model: Option<ModelChoice>,
+    /// Markers for the model in a file of their own.
+    pub marker_set: Option<PathBuf>,
+    /// The set of the recorded markers: a name, or a `.toml`. By default it is recognised.
+    pub markers: Option<String>,
+    /// Segment masses of the built-in body.
+    pub segments: SegmentTable,
+    /// Body mass and stature.
+    pub size: StatedSize,
+    /// The SMPL model that gives a motion its lengths.
+    pub smpl: Option<PathBuf>,
+    /// How orientations of sensors are read.
+    pub sensors: SensorStatements,
+    /// Files of measured ground forces.
+    pub forces: ForceFiles,
+    /// Force plates of which the laboratory knows the foot.
+    pub plates: Vec<PlateFoot>,
+    /// Calibration of this person, by which predicted ground forces are corrected.
+    pub person: Option<PathBuf>,
+    /// Joint moments of a worn device.
+    pub device: Option<PathBuf>,
+    /// Masses that the person carried.
+    pub added_mass: Vec<AddedMass>,
+    /// Limits of a person, for the verdict.
+    pub thresholds: Option<PathBuf>,
+    /// Set-ups of OpenSim's tools, at most one of each.
+    pub setups: Vec<PathBuf>,
+    /// How the recording is processed.
+    pub settings: Processing,
+}
+
+/// How orientations of sensors are read.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SensorStatements {
+    /// The axis of a sensor that points forward in the standing posture. By default the bending of the knees shows the direction.
+    pub heading: Option<HeadingAxis>,
+    /// From the earth of the sensors to the axes of the model. By default z is up.
+    pub earth: Option<EarthTurn>,
+}
+
+/// Files of measured ground forces. By default the forces are those in the recording.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ForceFiles {
+    /// The table; by default the one that the external loads name.
+    pub table: Option<PathBuf>,
+    /// External loads of OpenSim: which columns act on which body.
+    pub loads: Option<PathBuf>,
+    /// Body and columns of the right foot.
+    pub right: Option<FootColumns>,
+    /// Body and columns of the left foot.
+    pub left: Option<FootColumns>,
+}
+
+/// What is read or computed once for several jobs of a person. Clones share it.
+#[derive(Debug, Clone, Default)]
+pub struct Shared {
+    standing_trials: StandingTrials,
+    models: Models,
+    /// A body that was calibrated before, for markers with the built-in body.
+    pub body: Option<Subject>,
+}
+
+impl Default for Job {
+    fn default() -> Job {
+        Job {
+            recording: None,
+            trial: None,
+            standing: None,
+            model: None,
+            marker_set: None,
+            markers: None,
+            segments: Job::SEGMENTS,
+            size: StatedSize::default(),
+            smpl: None,
+            sensors: SensorStatements::default(),
+            forces: ForceFiles::default(),
+            plates: Vec::new(),
+            person: None,
+            device: None,
+            added_mass: Vec::new(),
+            thresholds: None,
+            setups: Vec::new(),
+            settings: Processing::default(),
+        }
+    }
+}
+
+impl Job {
+    /// Segment masses of the built-in body, if none are chosen.
+    pub const SEGMENTS: SegmentTable = SegmentTable::DeLevaMale;
+
+    /// The job of a recording, with every default.
+    #[must_use]
+    pub fn of(recording: impl Into<PathBuf>) -> Job {
+        Job { recording: Some(recording.into()), ..Job::default() }
+    }
+
+    /// The job that set-ups of OpenSim's tools describe.
+    #[must_use]
+    pub fn of_setups(setups: impl IntoIterator<Item = PathBuf>) -> Job {
+        Job { setups: setups.into_iter().collect(), ..Job::default() }
+    }
+
+    /// The recording; without one the name is empty.
+    #[must_use]
+    pub fn recording(&self) -> &Path {
+        self.recording.as_deref().unwrap_or(Path::new(""))
+    }
+
+    /// The model file, if there is one.
+    #[must_use]
+    pub fn model_file(&self) -> Option<&Path> {
+        match &self.model {
+            Some(ModelChoice::File(path)) => Some(path),
+            Some(ModelChoice::BuiltIn) | None => None,
+        }
+    }
+
+    /// The recording, for messages.
+    fn shown(&self) -> String {
+        self.recording().display().to_string()
+    }
+
+    /// Whether segment masses of the built-in body were chosen.
+    fn has_other_segments(&self) -> bool {
+        self.segments != Job::SEGMENTS
+    }
+}
