@@ -87,7 +87,8 @@ pub struct Summary {
     pub tracking: Option<TrackingSummary>,
     /// How a synthetic walk was made; `null` for recordings.
     pub walk: Option<WalkSummary>,
-    /// Computing time of each stage [ms].
+    /// Empty: durations are in `timings.json`. Folders of earlier versions have them here [ms].
+    #[serde(default)]
     pub timing_ms: BTreeMap<String, f64>,
 }
 
@@ -288,7 +289,7 @@ impl ForceUnit {
     }
 }
 
-/// The summary of an analysis; the caller adds the last timings.
+/// The summary of an analysis.
 #[must_use]
 pub fn summary(
     model: &Model,
