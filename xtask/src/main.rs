@@ -14,6 +14,7 @@ mod house;
 mod measured;
 mod mutants;
 mod python;
+mod same_bytes;
 mod stream_cost;
 mod sweep;
 mod web;
@@ -42,6 +43,8 @@ usage: cargo xtask <command>
   dist              build the archives of a release into target/archives, with checksums and the list of components, and try them
                     [--target TARGET].. [--runner PROGRAM: starts programs of another machine] [--tag TAG: must be the version]
   sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
+  same-bytes        compare every byte that two versions of the `ambulo` command write, on every verb and kind of file  OLD NEW
+                    [--only CASE].. [--jobs N] [--keep: keep the folders]
   command-cost      processor time of `ambulo forces` against an earlier revision, and the time until the command starts  [--baseline REV]
   batch-cost        measure processor time, memory and bytes per trial of `ambulo batch`, and print what 70 h and 288 h of motion cost
                     [--kills: and compute 10,000 trials with ten kills]
@@ -81,7 +84,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 12] = [
+const OWN: [&str; 13] = [
     "check",
     "house",
     "build-time",
@@ -91,6 +94,7 @@ const OWN: [&str; 12] = [
     "web",
     "dist",
     "sweep",
+    "same-bytes",
     "command-cost",
     "batch-cost",
     "stream-cost",
@@ -137,6 +141,7 @@ fn main() -> ExitCode {
         ("web", _) => web::run(rest),
         ("dist", _) => dist::run(rest),
         ("sweep", []) => sweep::run(),
+        ("same-bytes", _) => same_bytes::run(rest),
         ("command-cost", _) => command_cost::run(rest),
         ("batch-cost", _) => batch_cost::run(rest),
         ("stream-cost", _) => stream_cost::run(rest),

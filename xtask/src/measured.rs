@@ -1,13 +1,16 @@
 //! Generated pages: `cargo xtask measured [PAGE...]`, `cargo xtask measured --check`.
 //!
 //! The pages of `docs/measured/` are written by commands of `xtask-measure`, and one by `cargo xtask mutants` from outcomes that it has
-//! recorded. This command runs them and puts a first line on each page: version, commit and a hash of the page's inputs. A test
-//! computes the hash again, so a page whose inputs have changed is found.
+//! recorded. This command runs them and puts a first line on each page: the version and the commit that were measured.
 //!
-//! Hash: 64-bit FNV-1a over path and content of every input file. Of Rust source, only the tokens count: comments, formatting,
-//! items for tests and texts with a blank in them (messages) do not, so that a change of wording does not age a page.
+//! A page is out of date when its numbers are, not when source changes. How that is found depends on the page:
+//!
+//! | numbers | found by |
+//! |---|---|
+//! | results | a test recomputes a sample of them and compares it with the digits that the page prints |
+//! | recorded outcomes | a test writes the page again from the record |
+//! | times | the version in the first line: they belong to one machine and are measured for each version |
 
-use crate::house::tokens::{Kind, Token, tokens, without_tests};
 use crate::workspace;
 use std::fs;
 use std::path::Path;
@@ -15,9 +18,6 @@ use std::process::Command;
 
 /// Folder of the generated pages, relative to the workspace root.
 const FOLDER: &str = "docs/measured";
-/// Offset basis and prime of the hash (Fowler, Noll, Vo; unverified).
-const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-const PRIME: u64 = 0x0100_0000_01b3;
 
 /// A generated page.
 struct Page {
@@ -25,130 +25,46 @@ struct Page {
     name: &'static str,
     /// The command that writes it: `mutants`, or one of `xtask-measure` with `--write`.
     command: &'static str,
-    /// Files and folders whose content the page depends on, relative to the workspace root.
-    inputs: &'static [&'static str],
+    numbers: Numbers,
 }
 
-/// The code on the way from a recording to predicted forces.
-const FORCES: &[&str] = &[
-    "crates/ambulo-body/src/dynamics",
-    "crates/ambulo-body/src/kinematics",
-    "crates/ambulo-body/src/model",
-    "crates/ambulo-body/src/motion",
-    "crates/ambulo-body/src/numerics",
-    "crates/ambulo-body/src/spatial",
-    "crates/ambulo-formats/src",
-    "crates/ambulo/data/ground",
-    "crates/ambulo/src/analysis",
-    "crates/ambulo/src/ground",
-    "crates/ambulo/src/study",
-    "xtask/measure/src/validate/recording.rs",
-];
+/// What the numbers of a page are, which decides how long they are valid.
+enum Numbers {
+    /// Results of the library.
+    Results,
+    /// Outcomes that are recorded in this file or folder, because a run takes hours or needs other programs.
+    Recorded(&'static str),
+    /// Times on one machine.
+    Times,
+}
 
 const PAGES: [Page; 11] = [
-    Page { name: "VALIDATION", command: "validate", inputs: FORCES },
-    Page { name: "GROUND_FIT", command: "fit-ground", inputs: FORCES },
-    Page {
-        name: "WALK_BANDS",
-        command: "walk-bands",
-        inputs: &[
-            "crates/ambulo-body/src/contact",
-            "crates/ambulo-body/src/dynamics",
-            "crates/ambulo-body/src/kinematics",
-            "crates/ambulo-body/src/model",
-            "crates/ambulo-body/src/numerics",
-            "crates/ambulo-body/src/spatial",
-            "crates/ambulo-walk/data/gait",
-            "crates/ambulo-walk/src/consistent_walk",
-            "crates/ambulo-walk/src/engine",
-            "crates/ambulo-walk/src/gait",
-            "crates/ambulo-walk/src/synthetic",
-            "crates/ambulo-walk/src/walking",
-        ],
-    },
-    Page {
-        name: "OPTIMAL_WALK",
-        command: "optimal-walk",
-        inputs: &[
-            "crates/ambulo-body/src/contact",
-            "crates/ambulo-body/src/dynamics",
-            "crates/ambulo-body/src/model",
-            "crates/ambulo-body/src/numerics",
-            "crates/ambulo-body/src/spatial",
-            "crates/ambulo-walk/data/gait",
-            "crates/ambulo-walk/src/gait",
-            "crates/ambulo-walk/src/optimal",
-        ],
-    },
-    Page {
-        name: "REPRODUCTION",
-        command: "reproduction",
-        inputs: &[
-            "crates/ambulo-body/src/contact",
-            "crates/ambulo-body/src/dynamics",
-            "crates/ambulo-body/src/kinematics",
-            "crates/ambulo-body/src/model",
-            "crates/ambulo-body/src/numerics",
-            "crates/ambulo-body/src/spatial",
-            "crates/ambulo-paper/data",
-            "crates/ambulo-paper/src",
-            "crates/ambulo-walk/data/gait",
-            "crates/ambulo-walk/src/consistent_walk",
-            "crates/ambulo-walk/src/engine",
-            "crates/ambulo-walk/src/gait",
-            "crates/ambulo-walk/src/scene",
-            "crates/ambulo-walk/src/walking",
-        ],
-    },
-    Page {
-        name: "PHYSICAL_WALK",
-        command: "physical-walk",
-        inputs: &[
-            "crates/ambulo-body/src/contact",
-            "crates/ambulo-body/src/dynamics",
-            "crates/ambulo-body/src/kinematics",
-            "crates/ambulo-body/src/model",
-            "crates/ambulo-body/src/numerics",
-            "crates/ambulo-body/src/spatial",
-            "crates/ambulo-walk/data/gait",
-            "crates/ambulo-walk/src/consistent_walk",
-            "crates/ambulo-walk/src/control",
-            "crates/ambulo-walk/src/engine",
-            "crates/ambulo-walk/src/gait",
-            "crates/ambulo-walk/src/optimal",
-            "crates/ambulo-walk/src/walking",
-        ],
-    },
-    Page {
-        name: "BENCHMARKS",
-        command: "bench-simulation",
-        inputs: &["crates/ambulo-body/src/contact", "crates/ambulo-body/src/dynamics", "crates/ambulo-walk/src/engine"],
-    },
-    Page {
-        name: "BENCHMARKS_MARKERS",
-        command: "bench-markers",
-        inputs: &["crates/ambulo-body/src/kinematics/marker_fit"],
-    },
-    // Recorded outcomes: a run takes up to an hour and needs other solvers.
+    Page { name: "VALIDATION", command: "validate", numbers: Numbers::Results },
+    Page { name: "GROUND_FIT", command: "fit-ground", numbers: Numbers::Results },
+    Page { name: "WALK_BANDS", command: "walk-bands", numbers: Numbers::Results },
+    Page { name: "OPTIMAL_WALK", command: "optimal-walk", numbers: Numbers::Results },
+    Page { name: "REPRODUCTION", command: "reproduction", numbers: Numbers::Results },
+    Page { name: "PHYSICAL_WALK", command: "physical-walk", numbers: Numbers::Results },
+    Page { name: "BENCHMARKS", command: "bench-simulation", numbers: Numbers::Times },
+    Page { name: "BENCHMARKS_MARKERS", command: "bench-markers", numbers: Numbers::Times },
     Page {
         name: "OPTIMAL_PEERS",
         command: "optimal-peers",
-        inputs: &["xtask/measure/peers/optimal_outcomes.json", "xtask/measure/src/optimal_peers/page.rs"],
+        numbers: Numbers::Recorded("xtask/measure/peers/optimal_outcomes.json"),
     },
-    // Recorded outcomes: MuJoCo is not installed everywhere.
     Page {
         name: "PHYSICAL_PEERS",
         command: "physical-peers",
-        inputs: &["xtask/measure/peers/physical_outcomes.json", "xtask/measure/src/physical_peers/page.rs"],
+        numbers: Numbers::Recorded("xtask/measure/peers/physical_outcomes.json"),
     },
-    // Recorded outcomes instead of source: a run takes hours, and mutants are found by line and column, which any edit moves.
-    Page { name: "MUTANTS", command: "mutants", inputs: &["xtask/mutants"] },
+    Page { name: "MUTANTS", command: "mutants", numbers: Numbers::Recorded("xtask/mutants") },
 ];
 
 /// Runs the command.
 #[expect(clippy::print_stdout, reason = "the list of pages is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     if words.iter().any(|word| word == "--check") {
+        PAGES.iter().for_each(|page| println!("{FOLDER}/{}.md: {}", page.name, page.numbers.validity()));
         let old = out_of_date(&workspace::root());
         return if old.is_empty() { Ok(()) } else { Err(old.join("\n")) };
     }
@@ -176,7 +92,7 @@ pub(crate) fn stamp(command: &str) -> Result<(), String> {
     if is_stamped(&text) {
         return Ok(());
     }
-    let text = format!("{}\n\n{text}", page.first_line(&commit(page), page.hash(&root)?));
+    let text = format!("{}\n\n{text}", page.first_line(&commit()));
     fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))
 }
 
@@ -185,70 +101,8 @@ fn is_stamped(text: &str) -> bool {
     text.starts_with("Generated by `cargo xtask measured")
 }
 
-impl Page {
-    fn path(&self, root: &Path) -> std::path::PathBuf {
-        root.join(FOLDER).join(self.name).with_extension("md")
-    }
-
-    fn first_line(&self, commit: &str, hash: u64) -> String {
-        format!(
-            "Generated by `cargo xtask measured {}`, Ambulo {commit}, inputs fnv1a64 {hash:016x}; do not edit.",
-            self.name
-        )
-    }
-
-    /// Hash of the inputs.
-    fn hash(&self, root: &Path) -> Result<u64, String> {
-        let mut files = Vec::new();
-        for input in self.inputs {
-            collect(root, input, &mut files)?;
-        }
-        files.sort();
-        let mut state = BASIS;
-        let mut feed = |bytes: &[u8]| {
-            state = bytes.iter().chain(&[0]).fold(state, |state, &byte| (state ^ u64::from(byte)).wrapping_mul(PRIME));
-        };
-        for file in &files {
-            let bytes = fs::read(root.join(file)).map_err(|e| format!("{file}: cannot read: {e}"))?;
-            feed(file.as_bytes());
-            match std::str::from_utf8(&bytes) {
-                Ok(source) if file.ends_with(".rs") => {
-                    significant(source).into_iter().for_each(|text| feed(text.as_bytes()))
-                }
-                _ => feed(&bytes),
-            }
-        }
-        Ok(state)
-    }
-}
-
-/// The tokens of Rust source that count.
-fn significant(source: &str) -> Vec<&str> {
-    let tokens = without_tests(&tokens(source));
-    let is_message = |token: &Token<'_>| token.kind == Kind::Literal && token.text.trim().contains(' ');
-    // rustfmt adds and removes commas before closing brackets.
-    let closes = |token: &Token<'_>| [")", "]", "}", ">"].iter().any(|sign| token.is(sign));
-    let is_trailing = |i: usize| tokens[i].is(",") && tokens.get(i + 1).is_none_or(closes);
-    (0..tokens.len()).filter(|&i| !is_message(&tokens[i]) && !is_trailing(i)).map(|i| tokens[i].text).collect()
-}
-
-/// The files of an input, as paths from the workspace root with `/`.
-fn collect(root: &Path, input: &str, files: &mut Vec<String>) -> Result<(), String> {
-    let path = root.join(input);
-    if path.is_file() {
-        files.push(input.to_owned());
-        return Ok(());
-    }
-    let missing =
-        |e: std::io::Error| format!("{input}: {e}\nhint: PAGES in xtask/src/measured.rs lists the inputs of each page");
-    for entry in fs::read_dir(&path).map_err(missing)?.flatten() {
-        collect(root, &format!("{input}/{}", entry.file_name().to_string_lossy()), files)?;
-    }
-    Ok(())
-}
-
-/// Version and commit that a page measures.
-fn commit(page: &Page) -> String {
+/// Version and commit that are measured.
+fn commit() -> String {
     let version = env!("CARGO_PKG_VERSION");
     let git = |arguments: &[&str]| {
         let output = Command::new("git").current_dir(workspace::root()).args(arguments).output().ok()?;
@@ -257,28 +111,62 @@ fn commit(page: &Page) -> String {
     let Some(commit) = git(&["rev-parse", "--short=12", "HEAD"]) else {
         return format!("{version} at an unknown commit");
     };
-    let arguments: Vec<&str> = ["status", "--porcelain", "--"].iter().chain(page.inputs).copied().collect();
-    let changed = git(&arguments).is_none_or(|changes| !changes.is_empty());
+    // The page itself and its pictures have just been written.
+    let changed =
+        git(&["status", "--porcelain", "--", ".", ":(exclude)docs"]).is_none_or(|changes| !changes.is_empty());
     format!("{version} at commit {commit}{}", if changed { " with changes" } else { "" })
 }
 
-/// One message per page that was measured with other inputs than those of the tree.
+impl Numbers {
+    /// How long they are valid, in words.
+    fn validity(&self) -> String {
+        match self {
+            Numbers::Results => {
+                "results; `cargo test -p ambulo-cli measured_pages` recomputes a sample of them".to_owned()
+            }
+            Numbers::Recorded(path) => format!("recorded outcomes; a test writes the page again from {path}"),
+            Numbers::Times => "times on one machine, valid for the version that was measured".to_owned(),
+        }
+    }
+}
+
+/// One message per page whose first line is not that of a valid page.
 fn out_of_date(root: &Path) -> Vec<String> {
     PAGES.iter().filter_map(|page| page.judge(root).err()).collect()
 }
 
 impl Page {
+    fn path(&self, root: &Path) -> std::path::PathBuf {
+        root.join(FOLDER).join(self.name).with_extension("md")
+    }
+
+    /// The first line up to the version.
+    fn beginning(&self) -> String {
+        format!("Generated by `cargo xtask measured {}`, Ambulo ", self.name)
+    }
+
+    fn first_line(&self, commit: &str) -> String {
+        format!("{}{commit}; do not edit.", self.beginning())
+    }
+
+    /// Checks the first line, and of times the version in it.
     fn judge(&self, root: &Path) -> Result<(), String> {
         let path = self.path(root);
         let text = fs::read_to_string(&path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
         let first = text.lines().next().unwrap_or_default();
-        let expected = format!("inputs fnv1a64 {:016x}; do not edit.", self.hash(root)?);
-        if is_stamped(first) && first.ends_with(&expected) {
+        let measured = first.strip_prefix(&self.beginning()).filter(|rest| rest.ends_with("; do not edit."));
+        let version = env!("CARGO_PKG_VERSION");
+        let is_valid = |measured: &str| match self.numbers {
+            Numbers::Times => measured.starts_with(&format!("{version} at ")),
+            Numbers::Results | Numbers::Recorded(_) => true,
+        };
+        if measured.is_some_and(is_valid) {
             return Ok(());
         }
         let name = self.name;
         Err(format!(
-            "{FOLDER}/{name}.md is out of date\n  found:    {first}\n  expected: ... {expected}\n  hint: run `cargo xtask measured {name}`, then read and commit the page"
+            "{FOLDER}/{name}.md is out of date\n  found:    {first}\n  expected: {}{version} at commit ...; do not edit.\n  hint: run `cargo xtask measured {name}`, then read and commit the page",
+            self.beginning()
         ))
     }
 }
@@ -295,38 +183,37 @@ mod tests {
 
     #[test]
     fn every_page_of_the_folder_is_generated() {
-        let mut found: Vec<String> = Vec::new();
-        collect(&workspace::root(), FOLDER, &mut found).unwrap();
+        let pages = fs::read_dir(workspace::root().join(FOLDER)).unwrap();
+        let mut found: Vec<String> =
+            pages.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
         found.sort();
-        let mut listed: Vec<String> = PAGES.iter().map(|page| format!("{FOLDER}/{}.md", page.name)).collect();
+        let mut listed: Vec<String> = PAGES.iter().map(|page| format!("{}.md", page.name)).collect();
         listed.sort();
         assert_eq!(found, listed);
     }
 
     #[test]
-    fn wording_and_formatting_do_not_count_and_code_does() {
-        let source = "/// Length.\nfn f(a: f64) -> f64 { g(a, 1.0, \"calcn_r\").expect(\"a foot\") }";
-        let reworded = "/// Leg length.\nfn f(\n    a: f64,\n) -> f64 {\n    g(a, 1.0, \"calcn_r\",).expect(\"no foot was found\")\n}\n#[cfg(test)]\nmod tests {}";
-        assert_eq!(significant(source), significant(reworded));
-        for changed in [source.replace("1.0", "2.0"), source.replace("calcn_r", "calcn_l")] {
-            assert_ne!(significant(source), significant(&changed));
-        }
+    fn the_page_of_mutants_is_that_of_the_recorded_outcomes() {
+        let root = workspace::root();
+        let page = fs::read_to_string(root.join(FOLDER).join("MUTANTS.md")).unwrap();
+        let (_, written) = page.split_once("\n\n").unwrap();
+        assert!(written == crate::mutants::rendered_page().unwrap(), "hint: run `cargo xtask measured MUTANTS`");
     }
 
     #[test]
-    fn a_changed_input_ages_the_page() {
+    fn times_are_valid_for_one_version_and_results_until_they_change() {
         let root = std::env::temp_dir().join(format!("ambulo-measured-{}", std::process::id()));
         fs::create_dir_all(root.join(FOLDER)).unwrap();
-        fs::create_dir_all(root.join("data")).unwrap();
-        fs::write(root.join("data/knee.toml"), "1").unwrap();
-        let page = Page { name: "KNEE", command: "knee", inputs: &["data"] };
-        let write = |first: &str| fs::write(page.path(&root), format!("{first}\n\n# Knee\n")).unwrap();
-        write(&page.first_line("0.1.0 at commit abc", page.hash(&root).unwrap()));
-        assert_eq!(page.judge(&root), Ok(()));
-        fs::write(root.join("data/knee.toml"), "2").unwrap();
-        assert!(page.judge(&root).is_err_and(|message| message.starts_with("docs/measured/KNEE.md is out of date")));
-        write("# Knee");
-        assert!(page.judge(&root).is_err());
+        for (numbers, of_another_version) in [(Numbers::Times, false), (Numbers::Results, true)] {
+            let page = Page { name: "KNEE", command: "knee", numbers };
+            let judged = |first: &str| {
+                fs::write(page.path(&root), format!("{first}\n\n# Knee\n")).unwrap();
+                page.judge(&root)
+            };
+            assert_eq!(judged(&page.first_line(&commit())), Ok(()));
+            assert_eq!(judged(&page.first_line("0.0.9 at commit abc")).is_ok(), of_another_version);
+            assert!(judged("# Knee").is_err_and(|message| message.starts_with("docs/measured/KNEE.md is out of date")));
+        }
         fs::remove_dir_all(root).unwrap();
     }
 

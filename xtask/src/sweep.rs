@@ -28,8 +28,8 @@ const LOCK: &str = ".ambulo-lock";
 const RECORDINGS: [&str; 3] = ["c3d", "trc", "bvh"];
 /// Endings of files that `ambulo info` describes.
 const DESCRIBED: [&str; 8] = ["c3d", "trc", "bvh", "mot", "sto", "csv", "osim", "xml"];
-/// A file with measured times, which differ between runs. `ambulo view` compares it with all other files.
-const TIMED: &str = "summary.json";
+/// A file with measured times, which differ between runs.
+const TIMED: &str = "timings.json";
 
 /// Runs all parts; the error lists every run that failed.
 #[expect(clippy::print_stdout, reason = "counts and failures are the command's result")]

@@ -1,9 +1,10 @@
-//! The record of a run in its `summary.json`: the id of the run and the SHA-256 of every other file, as `sha256sum` prints it.
+//! The record of a run in its `summary.json`: the id of the run and the SHA-256 of every other file but `timings.json`,
+//! as `sha256sum` prints it.
 //!
 //! The id is made from version, command, options and the content of all inputs, so the same run has the same id everywhere and always.
 
 use crate::caller::Caller;
-use ambulo_results::SUMMARY;
+use ambulo_results::{SUMMARY, TIMINGS, Timings};
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
@@ -30,6 +31,12 @@ impl Record {
     /// The record of a folder; `None` if its summary is missing or has none.
     pub(crate) fn of_folder(folder: &Path) -> Option<Record> {
         Record::from_summary(&fs::read(folder.join(SUMMARY)).ok()?)
+    }
+
+    /// The durations of this run; `None` if the folder has none, or those of another run.
+    pub(crate) fn timings(&self, folder: &Path) -> Option<BTreeMap<String, f64>> {
+        let timings: Timings = serde_json::from_slice(&fs::read(folder.join(TIMINGS)).ok()?).ok()?;
+        (timings.run_id == self.run_id).then_some(timings.timing_ms)
     }
 
     /// Checks the content of a file of the folder, which must be recorded.

@@ -9,7 +9,8 @@
 //! | 5 | the manifest is removed, then `.ambulo-new` | finishes |
 //!
 //! Steps 3 to 5 can be repeated: what is already removed or moved is left out. A lock ([`FolderLock`]) keeps other commands out. Only files that the
-//! old `summary.json` records with their present content are replaced; any other file needs `--force`, and an input is never replaced.
+//! old `summary.json` records with their present content are replaced, and the `timings.json` of the same run, which is not recorded because durations
+//! differ between equal runs; any other file needs `--force`, and an input is never replaced.
 //! The folder itself is never replaced, so it may be a mount point or `.`.
 //!
 //! Tests: every step interrupted, also while an interrupted run is finished (below); kills, a full disk and two runs at once (tests/folders.rs).
@@ -17,7 +18,7 @@
 use crate::args::Existing;
 use crate::folder_lock::FolderLock;
 use crate::record::{Hashed, Record, hash_of_file, is_inside};
-use ambulo_results::{OutputFile, SUMMARY, WriteError};
+use ambulo_results::{OutputFile, SUMMARY, TIMINGS, WriteError};
 use anyhow::{Context, Error, Result, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -79,17 +80,18 @@ impl ResultTarget {
         summary: &mut MakeSummary<'_>,
     ) -> Result<()> {
         let record = self.record()?;
-        let old = record.as_ref().map(|record| &record.files);
+        let has_timings = record.as_ref().is_some_and(|record| record.timings(&self.folder).is_some());
+        let timings = has_timings.then(|| TIMINGS.to_owned());
+        let old = || record.iter().flat_map(|record| record.files.keys()).chain(&timings);
         let own = SUMMARY.to_owned();
         let new = || written.iter().map(|file| &file.name).chain([&own]);
-        let names = || old.into_iter().flat_map(BTreeMap::keys).chain(new());
+        let names = || old().chain(new());
         if let Some(name) = names().find(|name| is_input(&self.folder.join(name), inputs)) {
             let path = self.folder.join(name);
             bail!("{}: this input file would be overwritten. hint: choose another folder with -o", path.display());
         }
         self.refuse_foreign(record.as_ref(), names())?;
-        let stale =
-            old.into_iter().flat_map(BTreeMap::keys).filter(|name| written.iter().all(|file| file.name != **name));
+        let stale = old().filter(|name| written.iter().all(|file| file.name != **name));
         let removed = stale.filter_map(|name| Some((name.clone(), hash_of_file(&self.folder.join(name)).ok()?)));
         replace(&Disk, &self.folder, written, summary, removed.collect())
     }
@@ -137,6 +139,7 @@ impl ResultTarget {
                 Ok(_) if self.existing == Existing::Replaced => {}
                 // With a record it is the summary of a run.
                 Ok(_) if name == SUMMARY && record.is_some() => {}
+                Ok(_) if name == TIMINGS && record.is_some_and(|record| record.timings(&self.folder).is_some()) => {}
                 Ok(_) => match record.and_then(|record| record.files.get(name)) {
                     None => {
                         bail!("{shown}: no run of Ambulo recorded this file as its own, so it is not replaced. {hint}")
@@ -236,7 +239,9 @@ fn stage(
         disk.write(&path, &mut content).with_context(failed)?;
         Ok::<String, Error>(hash)
     };
-    let hashes = written.iter().map(|file| Ok((file.name.clone(), write(file)?))).collect::<Result<_>>()?;
+    let mut hashes: BTreeMap<_, _> =
+        written.iter().map(|file| Ok((file.name.clone(), write(file)?))).collect::<Result<_>>()?;
+    hashes.remove(TIMINGS);
     write(&OutputFile::new(SUMMARY, summary(hashes)?))?;
     let [part, complete] = ["manifest.part", MANIFEST].map(|name| new.join(name));
     let failed = || format!("{}: cannot be written", complete.display());
@@ -559,6 +564,32 @@ mod tests {
         refusal(Existing::Kept, &[]).unwrap();
         assert_eq!(fs::read(folder.join("claims.json")).unwrap(), b"newer");
         assert!(!folder.join("cycles.csv").exists() && folder.join("notes.txt").exists());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn durations_are_replaced_with_their_run_and_are_not_recorded() {
+        let folder = fresh("durations");
+        let path = folder.join(TIMINGS);
+        let of_run = |id: &str| serde_json::json!({ "run_id": id, "timing_ms": {} }).to_string();
+        let replaced = |files: &[OutputFile<'_>]| {
+            ResultTarget::for_run(&folder, Existing::Kept)?.replace(files, &[], &mut summary)?;
+            Ok::<Record, Error>(Record::of_folder(&folder).unwrap())
+        };
+        // A file of this name that belongs to no run is the user's.
+        fs::write(&path, of_run("another")).unwrap();
+        let with_timings = run(&[&NEWER[..], &[(TIMINGS, "new")]].concat());
+        assert!(replaced(&with_timings).unwrap_err().to_string().contains("timings.json: no run of Ambulo recorded"));
+        let record = replaced(&run(&NEWER)).unwrap();
+        assert!(path.exists());
+        // That of the run is replaced, and removed by a run without one.
+        fs::write(&path, of_run(&record.run_id)).unwrap();
+        let record = replaced(&with_timings).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert!(!record.files.contains_key(TIMINGS), "{:?}", record.files);
+        fs::write(&path, of_run(&record.run_id)).unwrap();
+        replaced(&run(&OLD)).unwrap();
+        assert!(!path.exists());
         fs::remove_dir_all(folder).unwrap();
     }
 

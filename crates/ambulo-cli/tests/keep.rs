@@ -67,7 +67,7 @@ fn the_outputs_are_documented() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/OUTPUTS.md");
     let documented = std::fs::read_to_string(path).unwrap();
     let (_, section) = documented.split_once("## Which outputs are written").unwrap();
-    for name in ["report", "figures", "tables", "model", "recording", "summary"] {
+    for name in ["report", "figures", "tables", "model", "recording", "summary", "timings"] {
         assert!(section.contains(&format!("`{name}`")), "{name}");
     }
     let lists = [&Keep::OF_RUNS[..], &Keep::OF_SCENES, &Keep::OF_SWEEPS, &Keep::OF_THE_PAPER].concat();

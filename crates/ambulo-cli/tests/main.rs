@@ -20,6 +20,7 @@ mod figures;
 mod folders;
 mod keep;
 mod marker_input;
+mod measured_pages;
 mod motion_sets;
 mod one_road;
 mod opensim_setup;

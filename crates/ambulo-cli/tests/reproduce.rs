@@ -17,6 +17,7 @@ fn the_paper_is_recomputed_into_the_documented_files() {
     let claims = bench.json("paper/claims.json");
     let rows = claims.as_array().unwrap();
     assert_eq!(rows.len(), 35);
+    crate::measured_pages::claims_are_those_of_the_page(rows);
     for row in rows {
         let keys: Vec<&String> = row.as_object().unwrap().keys().collect();
         for key in ["id", "paper", "paper_mode", "corrected", "pass", "note", "headline", "kind"] {

@@ -89,7 +89,6 @@ fn the_summary_has_its_stable_keys() {
         "findings",
         "verdict",
         "comparison",
-        "timing_ms",
     ] {
         assert!(summary.get(key).is_some(), "no key `{key}`");
     }
@@ -120,25 +119,41 @@ fn quiet_prints_nothing_and_json_is_the_summary() {
 }
 
 #[test]
-fn two_runs_give_identical_bytes_but_for_their_timing() {
+fn two_runs_give_identical_bytes_but_for_their_durations() {
     let bench = Workbench::new("determinism");
     let files = |folder: &str| {
         bench.forces(&["-o", folder]).done();
-        let mut names: Vec<String> = std::fs::read_dir(bench.folder.join(folder))
-            .unwrap()
-            .map(|f| f.unwrap().file_name().into_string().unwrap())
-            .filter(|name| name != "figures" && name != "summary.json")
-            .collect();
-        names.push("figures/moments.svg".into());
-        names.sort();
-        let mut summary = bench.json(&format!("{folder}/summary.json"));
-        assert!(summary.as_object_mut().unwrap().remove("timing_ms").is_some());
-        let bytes: Vec<_> = names.iter().map(|name| bench.read(&format!("{folder}/{name}"))).collect();
-        (names, bytes, summary)
+        let names = bench.names(folder).into_iter().filter(|name| name != "timings.json");
+        names.map(|name| (name.clone(), bench.read(&format!("{folder}/{name}")))).collect::<Vec<_>>()
     };
     let (first, second) = (files("first"), files("second"));
-    assert!(first.0.len() >= 9, "{:?}", first.0);
-    assert_eq!(first, second);
+    assert!(first.len() >= 10, "{}", first.len());
+    assert!(first == second);
+    let timings = |folder: &str| bench.json(&format!("{folder}/timings.json"));
+    let (summary, first) = (bench.json("first/summary.json"), timings("first"));
+    assert_eq!((&first["run_id"], &timings("second")["run_id"]), (&summary["run_id"], &summary["run_id"]));
+    for stage in ["read_model", "inverse_dynamics", "tables", "report"] {
+        assert!(first["timing_ms"][stage].as_f64().unwrap() >= 0.0, "{stage}");
+    }
+}
+
+#[test]
+fn a_quiet_run_writes_no_durations_and_removes_those_of_an_earlier_one() {
+    let bench = Workbench::new("quiet_durations");
+    bench.forces(&[]).done();
+    assert!(bench.exists("out/timings.json"));
+    bench.forces(&["--quiet"]).done();
+    assert!(!bench.exists("out/timings.json"));
+    let before = bench.read("out/summary.json");
+    bench.forces(&["--keep", "timings"]).done();
+    assert_eq!(bench.names("out"), ["summary.json", "timings.json"]);
+    // Earlier versions wrote durations to the summary, which still reads.
+    let mut earlier: Value = serde_json::from_slice(&before).unwrap();
+    earlier["timing_ms"] = serde_json::json!({ "read_model": 1.5 });
+    bench.forces(&["--quiet"]).done();
+    bench.write("out/summary.json", serde_json::to_vec(&earlier).unwrap());
+    bench.run(&["report", "out"]).done();
+    bench.run(&["compare", "out", "out"]).done();
 }
 
 #[test]

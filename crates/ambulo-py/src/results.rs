@@ -4,6 +4,7 @@ use crate::arrays::{Parts, parts};
 use crate::failure::exception;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Results of a run or of a result folder, by the names of the files that the command writes.
@@ -38,6 +39,11 @@ impl Results {
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let json = py.detach(|| self.0.summary()).map_err(|failure| exception(py, failure))?;
         Ok(PyBytes::new(py, &json))
+    }
+
+    /// Computing time of each stage [ms].
+    fn timings(&self) -> BTreeMap<String, f64> {
+        self.0.timings()
     }
 
     /// The report page, in HTML.

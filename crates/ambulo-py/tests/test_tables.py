@@ -88,8 +88,8 @@ def test_centres_of_pressure_are_columns_of_the_ground_forces(result):
 def test_the_summary_is_the_one_of_the_command(result, folder):
     written = json.loads((folder / "summary.json").read_text())
     found = result.summary
-    # Names of files differ by their folders; hashes and times exist only after a run was written.
-    for key in ("run_id", "files", "timing_ms", "input", "findings"):
+    # Names of files differ by their folders; hashes exist only after a run was written.
+    for key in ("run_id", "files", "input", "findings"):
         written.pop(key)
     assert {key: found[key] for key in written} == written
     assert result.verdict == written["verdict"]
@@ -99,13 +99,21 @@ def test_the_summary_is_the_one_of_the_command(result, folder):
     ]
 
 
+def test_durations_are_those_of_the_stages(result, folder):
+    written = json.loads((folder / "timings.json").read_text())
+    assert written["run_id"] == json.loads((folder / "summary.json").read_text())["run_id"]
+    assert ambulo.open(folder).timings == written["timing_ms"]
+    # Writing the files is a stage of the command.
+    assert set(written["timing_ms"]) - set(result.timings) == {"tables", "report"}
+
+
 def test_a_saved_result_is_the_folder_of_the_command(result, folder, tmp_path):
     result.save(tmp_path / "out")
     names = sorted(path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
     assert sorted(path.relative_to(tmp_path / "out") for path in (tmp_path / "out").rglob("*") if path.is_file()) == names
     for name in names:
-        # The summary and the page have the path of the recording and the times of the stages.
-        if name.name not in ("summary.json", "report.html"):
+        # The summary and the page have the path of the recording.
+        if name.name not in ("summary.json", "report.html", "timings.json"):
             assert (tmp_path / "out" / name).read_bytes() == (folder / name).read_bytes(), name
 
 

@@ -1,6 +1,6 @@
 //! Which outputs of a run are written.
 
-use crate::{CLINICAL, CYCLES, EVENTS, SUMMARY, TIMES_AND_DISTANCES};
+use crate::{CLINICAL, CYCLES, EVENTS, SUMMARY, TIMES_AND_DISTANCES, TIMINGS};
 
 /// Name of the report page in a result folder.
 pub const PAGE: &str = "report.html";
@@ -15,18 +15,20 @@ pub const PAGE: &str = "report.html";
 /// | `model` | the body as an OpenSim model |
 /// | `recording` | `input/*` |
 /// | `summary` | `summary.json` |
+/// | `timings` | `timings.json` |
 /// | any other | the table with this name |
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Keep(Option<Vec<String>>);
 
 impl Keep {
     /// The names for the run of a recording or a synthetic walk; only `ambulo demo` has the last.
-    pub const OF_RUNS: [&'static str; 19] = [
+    pub const OF_RUNS: [&'static str; 20] = [
         "report",
         "figures",
         "tables",
         "model",
         "summary",
+        "timings",
         "kinematics",
         "moments",
         "moments_biological",
@@ -43,11 +45,12 @@ impl Keep {
         "recording",
     ];
     /// The names for a simulated scene.
-    pub const OF_SCENES: [&'static str; 11] = [
+    pub const OF_SCENES: [&'static str; 12] = [
         "report",
         "figures",
         "tables",
         "summary",
+        "timings",
         "poses",
         "joints",
         "reactions",
@@ -92,13 +95,14 @@ impl Keep {
 }
 
 /// Outputs that are not tables.
-const GROUPS: [&str; 5] = ["report", "figures", "model", "recording", "summary"];
+const GROUPS: [&str; 6] = ["report", "figures", "model", "recording", "summary", "timings"];
 
 /// The output that a file belongs to.
 fn output(file: &str) -> &str {
     match file {
         PAGE => "report",
         SUMMARY => "summary",
+        TIMINGS => "timings",
         EVENTS => "events",
         CYCLES => "cycles",
         CLINICAL => "clinical",
@@ -133,6 +137,7 @@ mod tests {
             "subject.osim",
             "input/walk.c3d",
             "summary.json",
+            "timings.json",
         ];
         let of = |names: &[&str]| files.into_iter().filter(|file| keep(names).includes(file)).collect::<Vec<_>>();
         assert_eq!(of(&["moments", "grf"]), ["moments.sto", "grf.mot", "external_loads.xml", "summary.json"]);
@@ -140,6 +145,7 @@ mod tests {
         assert_eq!(of(&["figures", "report"]), ["report.html", "figures/moments.svg", "summary.json"]);
         assert_eq!(of(&["model", "recording"]), ["subject.osim", "input/walk.c3d", "summary.json"]);
         assert_eq!(of(&["summary"]), ["summary.json"]);
+        assert_eq!(of(&["timings"]), ["summary.json", "timings.json"]);
         assert_eq!(of(&[]), files);
     }
 

@@ -17,6 +17,7 @@ mod stream_columns;
 mod subject_summary;
 mod summary;
 mod tables;
+mod timings;
 mod tracking_summary;
 mod units;
 mod walk_summary;
@@ -49,6 +50,7 @@ pub use summary::{
     ResidualSummary, Summary, outcome_summary,
 };
 pub use tables::ground_columns;
+pub use timings::Timings;
 pub use tracking_summary::TrackingSummary;
 pub use units::{is_storage, unit_of};
 pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkPredictionSummary, WalkSummary};
@@ -60,6 +62,8 @@ pub const EVENTS: &str = "events.csv";
 pub const CYCLES: &str = "cycles.csv";
 /// Name of the summary in a result folder.
 pub const SUMMARY: &str = "summary.json";
+/// Name of the durations of a run in a result folder.
+pub const TIMINGS: &str = "timings.json";
 /// Name of the table of clinical curves in a result folder.
 pub const CLINICAL: &str = "clinical.csv";
 /// Name of the table of the states of a gait's machines in a result folder.

@@ -50,7 +50,8 @@ pub struct SceneSummary {
     pub findings: Vec<Finding>,
     /// Whether a person could do the motion of the walking figures; `null` without walking figures.
     pub verdict: Option<SceneVerdict>,
-    /// Computing time of each stage [ms].
+    /// Empty: durations are in `timings.json`. Folders of earlier versions have them here [ms].
+    #[serde(default)]
     pub timing_ms: BTreeMap<String, f64>,
 }
 
@@ -225,7 +226,7 @@ impl SceneExtremes {
         }
     }
 
-    /// The summary of a finished run; the caller adds the timings.
+    /// The summary of a finished run.
     #[must_use]
     pub fn summary(
         self,

@@ -87,7 +87,8 @@ pub struct Summary {
     pub tracking: Option<TrackingSummary>,
     /// How a synthetic walk was made; `null` for recordings.
     pub walk: Option<WalkSummary>,
-    /// Computing time of each stage [ms].
+    /// Empty: durations are in `timings.json`. Folders of earlier versions have them here [ms].
+    #[serde(default)]
     pub timing_ms: BTreeMap<String, f64>,
 }
 
@@ -289,7 +290,7 @@ impl ForceUnit {
 }
 
 /// The summary of a run. `input` names the input files; the source of the ground forces is taken from the outcome. The caller adds
-/// timings, the synthetic walk and the convention of the angles.
+/// the synthetic walk and the convention of the angles.
 #[must_use]
 pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> Summary {
     let Outcome { body: model, analysis, verdict, prediction, processing, .. } = outcome;

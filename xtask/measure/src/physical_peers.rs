@@ -287,6 +287,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_page_is_that_of_the_recorded_outcomes() {
+        let page = std::fs::read_to_string(workspace::root().join("docs/measured/PHYSICAL_PEERS.md")).unwrap();
+        let (_, written) = page.split_once("\n\n").unwrap();
+        let rendered = page::text(&workspace::recorded(OUTCOMES).unwrap()).unwrap();
+        assert!(written == rendered, "hint: run `cargo xtask measured PHYSICAL_PEERS`");
+    }
+
+    #[test]
     fn options_are_read_and_a_missing_environment_is_an_error() {
         let parse = |words: &[&str]| Settings::parse(&words.iter().map(|&w| w.to_owned()).collect::<Vec<_>>());
         let settings = parse(&["--env", "there", "--write"]).unwrap();

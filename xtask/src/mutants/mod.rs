@@ -62,11 +62,15 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
 #[expect(clippy::print_stdout, reason = "the file that was written is the command's result")]
 pub(crate) fn write_page() -> Result<(), String> {
     let path = workspace::root().join("docs/measured/MUTANTS.md");
-    let text = page::render(&folder())?;
-    fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
+    fs::write(&path, rendered_page()?).map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
     crate::measured::stamp("mutants")?;
     println!("written: {}", path.display());
     Ok(())
+}
+
+/// The page without its first line.
+pub(crate) fn rendered_page() -> Result<String, String> {
+    page::render(&folder())
 }
 
 /// Folder of recorded outcomes and reasons.

@@ -71,8 +71,8 @@ exactly equal; it is listed as a survivor with that reason. *At first* is the sh
 Wilson's 95 % interval: an estimate for the whole module where it is a sample. *Now* includes tests written for the survivors, and so is
 no estimate for mutants that were not drawn. A test that hangs (timeout) has noticed. Required: {:.0} %.
 
-The first line has a hash of the recorded outcomes and reasons, not of the source: a run takes hours, and mutants are found by
-line and column, so any edit would make the page old. The commits below were measured.
+The page is written from recorded outcomes and reasons: a run takes hours, and mutants are found by line and column, so any edit
+moves them. The commits below were measured.
 
 | module | mutants | run | equivalent | viable | caught | timeouts | caught since | survivors | at first | Wilson 95 % | now |
 |:---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|

@@ -63,7 +63,8 @@ pub(crate) struct BatchArgs {
 
 /// Tables of a run that have a row per frame, cycles and events.
 fn tables() -> PossibleValuesParser {
-    let others = ["report", "figures", "tables", "model", "summary", "recording", "states", "times_and_distances"];
+    let others =
+        ["report", "figures", "tables", "model", "summary", "timings", "recording", "states", "times_and_distances"];
     PossibleValuesParser::new(Keep::OF_RUNS.into_iter().filter(move |name| !others.contains(name)))
 }
 

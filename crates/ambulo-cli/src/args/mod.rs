@@ -116,7 +116,7 @@ pub(crate) struct PrintArgs {
     /// Print JSON on standard output instead of text.
     #[arg(long)]
     pub(crate) json: bool,
-    /// Print nothing but errors.
+    /// Print nothing but errors; a run writes no timings.json.
     #[arg(long, conflicts_with = "json")]
     pub(crate) quiet: bool,
     /// Print all warnings, notes and numbers, not only the most important ones; results in files are the same.

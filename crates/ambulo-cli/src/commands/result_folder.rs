@@ -4,8 +4,10 @@ use crate::files;
 use crate::record::Record;
 use crate::replacement::recover;
 use ambulo_report::SESSION_PAGE;
-use ambulo_results::{PAGE, SUMMARY};
+use ambulo_results::{PAGE, SUMMARY, TIMINGS, Timings};
 use anyhow::{Error, Result, bail};
+use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -111,6 +113,17 @@ impl ResultFolder {
     /// The names of all files of the run but the summary.
     pub(super) fn names(&self) -> impl Iterator<Item = &String> {
         self.record.files.keys()
+    }
+
+    /// Computing time of each stage [ms]; in folders of earlier versions it is in the summary.
+    pub(super) fn timings(&self) -> BTreeMap<String, f64> {
+        let of_summary = || Some(serde_json::from_slice::<Timings>(&self.summary).ok()?.timing_ms);
+        self.record.timings(&self.path).or_else(of_summary).unwrap_or_default()
+    }
+
+    /// The content of the run's `timings.json`.
+    pub(super) fn timings_file(&self) -> Option<Vec<u8>> {
+        self.record.timings(&self.path).and_then(|_| fs::read(self.path.join(TIMINGS)).ok())
     }
 
     fn first_failure(&self) -> MutexGuard<'_, Option<Error>> {

@@ -6,13 +6,13 @@ use super::run_files::MotionRun;
 use super::simulate::SceneRun;
 use super::sweep::SweepRun;
 use super::validate::ValidationRun;
-use crate::args::Existing;
+use crate::args::{Existing, PrintArgs};
 use crate::failure::Failure;
 use crate::replacement::ResultTarget;
 use ambulo_formats::table::Table;
 use ambulo_report::page::report_page;
 use ambulo_results::{
-    CLINICAL, Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, is_storage, summary_json, unit_of,
+    CLINICAL, Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, TIMINGS, is_storage, summary_json, unit_of,
 };
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
@@ -128,7 +128,18 @@ impl Results {
         Ok(columns.iter().map(|column| unit_of(table, column, model.as_ref()).to_owned()).collect())
     }
 
-    /// The content of `summary.json`. What is written with a folder (`run_id`, `files`, `timing_ms`) is empty before that.
+    /// Computing time of each stage [ms]; empty for runs that do not measure it.
+    #[must_use]
+    pub fn timings(&self) -> BTreeMap<String, f64> {
+        match &self.0 {
+            Content::Motion(run) => run.clock.laps(),
+            Content::Scene(run) => run.clock.laps(),
+            Content::Sweep(_) | Content::Validation(_) => BTreeMap::new(),
+            Content::Folder(folder) => folder.timings(),
+        }
+    }
+
+    /// The content of `summary.json`. What is written with a folder (`run_id`, `files`) is empty before that.
     ///
     /// # Errors
     /// Results that JSON cannot store.
@@ -188,13 +199,14 @@ impl Results {
         let existing = if force { Existing::Replaced } else { Existing::Kept };
         let target = ResultTarget::for_run(folder, existing)?;
         match &self.0 {
-            Content::Motion(run) => run.save(&target).map(drop)?,
-            Content::Scene(run) => run.save(&target).map(drop)?,
+            Content::Motion(run) => run.save(&target, PrintArgs::default()).map(drop)?,
+            Content::Scene(run) => run.save(&target, PrintArgs::default()).map(drop)?,
             Content::Sweep(run) => run.save(&target)?,
             Content::Validation(run) => run.save(&target).map(drop)?,
             Content::Folder(folder) => {
                 let files = folder.names().map(|name| Ok(OutputFile::new(name, folder.checked(name)?)));
-                let files = files.collect::<Result<Vec<_>>>()?;
+                let mut files = files.collect::<Result<Vec<_>>>()?;
+                files.extend(folder.timings_file().map(|bytes| OutputFile::new(TIMINGS, bytes)));
                 target.replace(&files, &[], &mut |_| folder.read(SUMMARY).context(SUMMARY))?;
             }
         }

@@ -12,8 +12,8 @@ use ambulo::findings::Findings;
 use ambulo::study::{Outcome, QualityState};
 use ambulo_report::{clinical_file, outcome_figures};
 use ambulo_results::{
-    Convention, Input, Keep, OutputFile, PAGE, RunSummary, Summary, WalkSummary, outcome_summary, outcome_tables,
-    summary_json,
+    Convention, Input, Keep, OutputFile, PAGE, RunSummary, Summary, TIMINGS, WalkSummary, outcome_summary,
+    outcome_tables, summary_json,
 };
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
@@ -52,15 +52,15 @@ impl MotionRun {
 
     /// Writes all files and prints the outcome.
     pub(super) fn write(&self, target: &ResultTarget, print: PrintArgs, check: CheckArgs) -> Result<Completion> {
-        let summary = self.save(target)?;
+        let summary = self.save(target, print)?;
         printer::forces(&summary, target.folder(), print)?;
         let Outcome { quality, verdict, .. } = &self.outcome;
         let is_refused = quality.state == QualityState::Bad || verdict.state == VerdictState::Infeasible;
         Ok(completion(is_refused, check))
     }
 
-    /// Writes all files.
-    pub(super) fn save(&self, target: &ResultTarget) -> Result<Summary> {
+    /// Writes all files; the durations only if they are not to be left out.
+    pub(super) fn save(&self, target: &ResultTarget, print: PrintArgs) -> Result<Summary> {
         let mut clock = self.clock.clone();
         let (mut written, mut summary) = self.tables_for(&self.keep)?;
         clock.lap("tables");
@@ -76,7 +76,9 @@ impl MotionRun {
         }
         written.retain(|file| self.keep.includes(&file.name));
         summary.run_id = run_id(&self.options, &self.read, &self.caller)?;
-        summary.timing_ms = clock.into_laps();
+        if self.keep.includes(TIMINGS) && !print.quiet {
+            written.push(clock.file(&summary.run_id)?);
+        }
         target.replace(&written, &self.read, &mut |files| {
             summary.files = files;
             Ok(summary_json(&summary)?)

@@ -3,7 +3,7 @@
 use super::report::{page_not_written, page_of_run};
 use super::run_files::completion;
 use super::stopwatch::Stopwatch;
-use crate::args::SimulateArgs;
+use crate::args::{PrintArgs, SimulateArgs};
 use crate::caller::Caller;
 use crate::record::run_id;
 use crate::replacement::ResultTarget;
@@ -14,7 +14,7 @@ use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
 use ambulo::simulation::{SceneVerdict, scene_verdict};
 use ambulo_report::{SceneCurves, scene_shapes};
 use ambulo_results::{
-    Keep, OutputFile, PAGE, RunSummary, SceneExtremes, SceneInput, SceneSummary, SceneTables, summary_json,
+    Keep, OutputFile, PAGE, RunSummary, SceneExtremes, SceneInput, SceneSummary, SceneTables, TIMINGS, summary_json,
 };
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
@@ -22,11 +22,11 @@ use std::path::{Path, PathBuf};
 pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
     let run = compute(args, &Caller::default())?;
-    let summary = run.save(&target)?;
+    let summary = run.save(&target, args.print)?;
     if let Some(path) = &args.save {
         files::write(path, &summary_json(&run.state)?)?;
     }
-    printer::simulate(&summary, target.folder(), args.print)?;
+    printer::simulate(&summary, &run.clock.laps(), target.folder(), args.print)?;
     let state = summary.verdict.as_ref().map_or(VerdictState::Feasible, |verdict| verdict.state);
     Ok(completion(state == VerdictState::Infeasible, args.check))
 }
@@ -43,12 +43,12 @@ pub(crate) struct SceneRun {
     inputs: Vec<PathBuf>,
     caller: Caller,
     options: String,
-    clock: Stopwatch,
+    pub(super) clock: Stopwatch,
 }
 
 impl SceneRun {
-    /// Writes all files.
-    pub(super) fn save(&self, target: &ResultTarget) -> Result<SceneSummary> {
+    /// Writes all files; the durations only if they are not to be left out.
+    pub(super) fn save(&self, target: &ResultTarget, print: PrintArgs) -> Result<SceneSummary> {
         let mut written: Vec<OutputFile<'_>> = self.written.iter().map(OutputFile::borrowed).collect();
         let mut summary = self.summary.clone();
         if self.keep.includes(PAGE) {
@@ -59,7 +59,9 @@ impl SceneRun {
         }
         written.retain(|file| self.keep.includes(&file.name));
         summary.run_id = run_id(&self.options, &self.inputs, &self.caller)?;
-        summary.timing_ms = self.clock.clone().into_laps();
+        if self.keep.includes(TIMINGS) && !print.quiet {
+            written.push(self.clock.file(&summary.run_id)?);
+        }
         target.replace(&written, &self.inputs, &mut |files| {
             summary.files = files;
             Ok(summary_json(&summary)?)

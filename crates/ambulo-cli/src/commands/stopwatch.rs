@@ -1,5 +1,7 @@
 //! Measures how long each stage of a run takes.
 
+use ambulo_results::{OutputFile, TIMINGS, Timings, summary_json};
+use anyhow::Result;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -15,8 +17,14 @@ impl Stopwatch {
     }
 
     /// Duration of each stage [ms].
-    pub(super) fn into_laps(self) -> BTreeMap<String, f64> {
-        self.laps.into_iter().collect()
+    pub(super) fn laps(&self) -> BTreeMap<String, f64> {
+        self.laps.iter().cloned().collect()
+    }
+
+    /// The durations as a file of the run with this id.
+    pub(super) fn file(&self, run_id: &str) -> Result<OutputFile<'static>> {
+        let timings = Timings { run_id: run_id.to_owned(), timing_ms: self.laps() };
+        Ok(OutputFile::new(TIMINGS, summary_json(&timings)?))
     }
 
     pub(super) fn lap(&mut self, stage: &str) {

@@ -4,9 +4,15 @@ use super::{print_findings, print_line, print_verdict};
 use crate::args::PrintArgs;
 use ambulo_results::{ContactSummary, SceneSummary, WorldSummary};
 use anyhow::Result;
+use std::collections::BTreeMap;
 use std::path::Path;
 
-pub(crate) fn simulate(summary: &SceneSummary, output: &Path, print: PrintArgs) -> Result<()> {
+pub(crate) fn simulate(
+    summary: &SceneSummary,
+    timing_ms: &BTreeMap<String, f64>,
+    output: &Path,
+    print: PrintArgs,
+) -> Result<()> {
     if print.quiet {
         return Ok(());
     }
@@ -18,7 +24,7 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, print: PrintArgs) 
     print_line(&format!("{}, {}", summary.title.as_deref().unwrap_or("scene"), summary.input.scene))?;
     print_world(world)?;
     let [from, to] = summary.window_s;
-    let each_us = 1e3 * summary.timing_ms.get("simulate").copied().unwrap_or(0.0) / summary.steps.max(1) as f64;
+    let each_us = 1e3 * timing_ms.get("simulate").copied().unwrap_or(0.0) / summary.steps.max(1) as f64;
     print_line(&format!(
         "  time        {from} to {to} s, {} steps of {} s ({}), {each_us:.1} us each",
         summary.steps,

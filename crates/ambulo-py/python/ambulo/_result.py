@@ -133,12 +133,17 @@ class Result:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """The content of ``summary.json`` (docs/OUTPUTS.md); ``run_id``, ``files`` and ``timing_ms`` are filled by `save`."""
+        """The content of ``summary.json`` (docs/OUTPUTS.md); ``run_id`` and ``files`` are filled by `save`."""
         if self._summary is None:
             import json
 
             self._summary = json.loads(self._results.summary())
         return self._summary
+
+    @property
+    def timings(self) -> dict[str, float]:
+        """Computing time of each stage [ms], as in ``timings.json``; they differ between equal runs and are no results."""
+        return self._results.timings()
 
     @property
     def quality(self) -> dict[str, Any] | None:

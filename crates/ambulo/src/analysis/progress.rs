@@ -36,7 +36,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// The name in `timing_ms` of `summary.json`.
+    /// The name in `timings.json`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {

@@ -415,7 +415,7 @@ mod tests {
             let mut findings = Findings::default();
             let decided = known.decided(motion).unwrap();
             report_decided(known, &decided, &mut findings);
-            BodyMass::of(decided.kg, known, motion.to_vec()).report(&mut findings);
+            BodyMass::of(decided.kg, known, motion.to_vec(), MassSource::Model).report(&mut findings);
             findings.as_slice().iter().map(|finding| finding.code).collect::<Vec<Code>>()
         };
         assert_eq!(codes(&known(Some(60.0), Some(41.0)), &[]), [Code::MassContradicted]);
@@ -429,7 +429,7 @@ mod tests {
         assert!(child.needs_motion());
         let decided = child.decided(&moving(25.7)).unwrap();
         assert_eq!((decided.by, decided.kg), (MassWitness::Stated, 25.0));
-        let mass = BodyMass::of(decided.kg, &child, moving(25.7));
+        let mass = BodyMass::of(decided.kg, &child, moving(25.7), MassSource::Model);
         assert_eq!((mass.state, mass.plates_kg), (MassState::Weighed, Some(25.7)));
         let mut findings = Findings::default();
         mass.report(&mut findings);
@@ -440,23 +440,23 @@ mod tests {
 
     #[test]
     fn a_light_model_is_contradicted_and_weight_next_to_the_plates_is_not_a_lighter_person() {
-        let light = BodyMass::of(0.85 * 70.0, &KnownMass::default(), moving(70.0));
+        let light = BodyMass::of(0.85 * 70.0, &KnownMass::default(), moving(70.0), MassSource::Model);
         assert_eq!(
             (light.state, light.source, light.plates_kg),
             (MassState::Contradicted, MassWitness::Model, Some(70.0))
         );
-        let beside = BodyMass::of(70.0, &known(Some(70.0), Some(70.3)), moving(42.0));
+        let beside = BodyMass::of(70.0, &known(Some(70.0), Some(70.3)), moving(42.0), MassSource::Model);
         assert_eq!((beside.state, beside.plates_kg), (MassState::Contradicted, Some(42.0)), "not by these plates");
         let mut findings = Findings::default();
         beside.report(&mut findings);
         let said = &findings.as_slice()[0].message;
         assert!(said.contains("42.0 kg") && said.contains("next to the plates"), "{said}");
         // The source is the model where the body has another mass than the plates, even if it could be this person's.
-        let own = BodyMass::of(68.0, &KnownMass::default(), moving(70.0));
+        let own = BodyMass::of(68.0, &KnownMass::default(), moving(70.0), MassSource::Model);
         assert_eq!((own.state, own.source), (MassState::Weighed, MassWitness::Model));
-        let unknown = BodyMass::of(70.0, &KnownMass::default(), Vec::new());
+        let unknown = BodyMass::of(70.0, &KnownMass::default(), Vec::new(), MassSource::Model);
         assert_eq!(unknown.state, MassState::Unknown);
-        assert_eq!(BodyMass::of(70.0, &known(Some(70.0), None), Vec::new()).state, MassState::Stated);
+        assert_eq!(BodyMass::of(70.0, &known(Some(70.0), None), Vec::new(), MassSource::Model).state, MassState::Stated);
     }
 
     #[test]

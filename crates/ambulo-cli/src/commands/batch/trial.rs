@@ -160,8 +160,7 @@ impl Work {
                 add_columns(&mut frames, &table, &file.name, prefix, &|column| unit_of(&file.name, column, Some(body)));
             }
         }
-        // Neither the time of a computation nor the place of its folder is a result: the same batch has the same bytes.
-        summary.timing_ms.clear();
+        // The place of a folder is no result: the same batch has the same bytes.
         summary.findings.iter_mut().for_each(|finding| finding.message = relative(&finding.message, &self.root));
         Ok(Computed {
             summary: serde_json::to_value(&summary)?,
