@@ -1,6 +1,6 @@
 //! How often claims hold over values that the paper does not give, sampled jointly, and the setting that meets most of them.
 //!
-//! The samples take minutes, so `cargo xtask claim-shares` stores the results in `data/reproduction/shares.csv`.
+//! The samples take minutes, so `cargo xtask claim-shares` stores the results in `data/shares.csv`.
 
 use super::claim::{Claim, ClaimKind, Judgement};
 use super::error::ReproductionError;
