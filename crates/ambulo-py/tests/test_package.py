@@ -138,8 +138,8 @@ def test_other_threads_run_during_a_computation(files):
 
 
 LONG = {
-    "sweep": "ambulo.sweep(speed='0.8:1.7:0.01', predict=True)",
-    "stream": "ambulo.Stream(MODEL, 100).push(numpy.zeros((10**6, len(MODEL.coordinates))))",
+    "sweep": "ambulo.sweep(speed='0.8:1.7:0.0019', predict=True)",
+    "stream": "ambulo.Stream(MODEL, 100).push(numpy.zeros((10**7, len(MODEL.coordinates))))",
 }
 
 
@@ -163,8 +163,8 @@ import os; os._exit(0)
         program.send_signal(signal.SIGINT)
         word, seconds = program.stdout.read().split()
     assert word == "stopped"
-    # Both take minutes; the interrupt comes after half a second and is seen within 50 ms, later on a busy machine.
-    assert float(seconds) < 10
+    # Both would take ten minutes or more. The interrupt is seen within 50 ms; what else the machine does may make that longer.
+    assert float(seconds) < 300
 
 
 def test_the_page_is_shown_in_a_notebook(result):

@@ -2,9 +2,9 @@
 //! standing on two feet and on one; a jump.
 
 use crate::common;
+use crate::walks;
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::{Code, Findings};
-use ambulo::gait::Gait;
 use ambulo::ground::footfalls::{Footfall, Footfalls, footfalls};
 use ambulo::ground::phases::contacts_from_force;
 use ambulo::kinematics::{Trajectory, each_body_motion};
@@ -12,9 +12,8 @@ use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::{Build, ContactSphere, SegmentTable};
 use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::{Event, EventKind, TimeGrid};
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::simulation::synthetic::SyntheticWalk;
 use ambulo::spatial::{Mat3, Pose, Vec3};
-use std::sync::OnceLock;
 
 const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
 
@@ -87,16 +86,9 @@ impl Moving {
     }
 }
 
-/// A walk in the sagittal plane that touches the ground at known times, made once.
+/// A walk in the sagittal plane that touches the ground at known times.
 fn synthetic() -> &'static SyntheticWalk {
-    static WALK: OnceLock<SyntheticWalk> = OnceLock::new();
-    WALK.get_or_init(|| synthesised(SyntheticMode::Corrected))
-}
-
-fn synthesised(mode: SyntheticMode) -> SyntheticWalk {
-    let gait = Gait::named("free").unwrap();
-    let order = SyntheticWalkSettings { gait: &gait, build: MAN, mode, cycles: 6, rate_hz: 100.0 };
-    synthesise(&order, &mut Findings::default()).unwrap()
+    walks::corrected(MAN, 6)
 }
 
 fn walk() -> Moving {
@@ -164,7 +156,7 @@ fn assert_same(a: &[Event], b: &[Event], within_s: f64) {
 
 #[test]
 fn the_contacts_of_synthetic_walks_are_found() {
-    contacts_are_found(&synthesised(SyntheticMode::Optimal));
+    contacts_are_found(walks::optimal(MAN, 6));
     contacts_are_found(synthetic());
 }
 

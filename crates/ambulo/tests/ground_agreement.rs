@@ -6,29 +6,23 @@
 //! | a tenth more force is a relative error of a tenth  | rounding                                    |
 //! | time of a stance off the plates is left out        | a frame                                     |
 
+use crate::walks;
 use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{
     Analysis, ComparedAnalyses, GroundAgreement, PlateCoverage, PredictedAnalysis, PredictionInput,
     analyse_predicted_trajectory, ground_agreement,
 };
 use ambulo::findings::Findings;
-use ambulo::gait::Gait;
 use ambulo::ground::predict::PredictSettings;
 use ambulo::ground::{BodyForces, GroundForces, feet};
 use ambulo::model::Side;
-use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::ForceRecording;
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::simulation::synthetic::SyntheticWalk;
 use ambulo::spatial::Vec3;
 use std::sync::Arc;
 use std::sync::LazyLock;
 
-pub(crate) static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
-    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-    let gait = Gait::named("free").unwrap();
-    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
-    synthesise(&order, &mut Findings::default()).unwrap()
-});
+pub(crate) static WALK: LazyLock<&SyntheticWalk> = LazyLock::new(|| walks::corrected(walks::WITHOUT_TOES, 2));
 
 pub(crate) fn predicted(plates: &[ForceRecording]) -> PredictedAnalysis {
     let soles = Person::of_human(&WALK.human).soles;

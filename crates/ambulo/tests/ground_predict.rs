@@ -7,24 +7,20 @@
 //! | what no foot explains widens the deviations it concerns   | by 15 %, others by at most 6 %: half and twice what was found   |
 //! | with everything prescribed the forces are the simulator's | 25 N: the total's 2 N, and 20 N below which no foot is loaded |
 
+use crate::walks;
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
-use ambulo::gait::Gait;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
 use ambulo::ground::phases::contacts_from_force;
 use ambulo::ground::predict::{PredictError, PredictSettings, Prediction, Prescribed, predict, total_wrench};
 use ambulo::ground::{GroundForces, feet, measured};
-use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{BySide, Model, Side};
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::simulation::synthetic::SyntheticWalk;
 use ambulo::spatial::{Vec3, Wrench};
 use std::f64::consts::TAU;
 
-fn walk() -> SyntheticWalk {
-    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-    let gait = Gait::named("free").unwrap();
-    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
-    synthesise(&order, &mut Findings::default()).unwrap()
+fn walk() -> &'static SyntheticWalk {
+    walks::corrected(walks::WITHOUT_TOES, 2)
 }
 
 /// Ground forces that the simulator applied, one entry per foot.
@@ -68,7 +64,7 @@ fn largest_difference(a: &[Vec3], b: &[Vec3]) -> f64 {
 fn the_total_force_is_what_the_simulator_applied() {
     let walk = walk();
     let total: Vec<Vec3> = total_wrench(&walk.human.model, &walk.trajectory).iter().map(|w| w.force).collect();
-    let [right, left] = &applied(&walk).bodies[..] else { panic!("two feet") };
+    let [right, left] = &applied(walk).bodies[..] else { panic!("two feet") };
     let sum: Vec<Vec3> = right.force.iter().zip(&left.force).map(|(a, b)| a + b).collect();
     let worst = largest_difference(&total, &sum);
     println!("the total force differs by {worst:.3} N at most");
@@ -80,7 +76,7 @@ fn the_total_force_is_what_the_simulator_applied() {
 #[test]
 fn both_feet_together_give_the_total() {
     let walk = walk();
-    let prediction = predicted(&walk, Prescribed::default());
+    let prediction = predicted(walk, Prescribed::default());
     let [right, left] = &prediction.ground.bodies[..] else { panic!("two feet") };
     let weight = walk.human.model.mass() * walk.human.model.gravity().norm();
     let missing: Vec<Vec3> =
@@ -110,17 +106,17 @@ fn both_feet_together_give_the_total() {
 #[test]
 fn with_everything_prescribed_the_forces_are_those_that_were_applied() {
     let walk = walk();
-    let applied = applied(&walk);
+    let applied = applied(walk);
     let [right, left] = &applied.bodies[..] else { panic!("two feet") };
     let share = right.force.iter().zip(&left.force).map(|(r, l)| r.y / (r.y + l.y)).collect();
     let prescribed = Prescribed {
-        footfalls: Some(true_footfalls(&walk, &applied)),
+        footfalls: Some(true_footfalls(walk, &applied)),
         total: Some(total_wrench(&walk.human.model, &walk.trajectory)),
         right_share: Some(share),
         centers: Some(BySide { right: right.center_of_pressure.clone(), left: left.center_of_pressure.clone() }),
     };
     let vertical = |prescribed: Prescribed| {
-        let prediction = predicted(&walk, prescribed);
+        let prediction = predicted(walk, prescribed);
         let feet = prediction.ground.bodies.iter().zip(applied.bodies.iter());
         feet.flat_map(|(found, truth)| found.force.iter().zip(&truth.force).map(|(a, b)| (a.y - b.y).abs()))
             .fold(0.0, f64::max)
@@ -153,16 +149,16 @@ fn widened(walk: &SyntheticWalk, added: impl Fn(f64) -> Wrench) -> [f64; 4] {
 fn a_motion_that_contradicts_itself_has_wider_deviations() {
     let walk = walk();
     let wave = |time: f64| (TAU * 5.0 * time).sin();
-    let nothing = widened(&walk, |_| Wrench::ZERO);
+    let nothing = widened(walk, |_| Wrench::ZERO);
     assert!(nothing.iter().all(|ratio| (ratio - 1.0).abs() < 1e-12), "{nothing:?}");
-    let [forward, up, ..] = widened(&walk, |time| Wrench { force: Vec3::x() * (100.0 * wave(time)), ..Wrench::ZERO });
+    let [forward, up, ..] = widened(walk, |time| Wrench { force: Vec3::x() * (100.0 * wave(time)), ..Wrench::ZERO });
     println!("a force forward that no foot explains: deviations forward x {forward:.2}, up x {up:.2}");
     assert!(forward > 1.15 && up < 1.05, "{forward}, {up}");
     let tilting = |axis: Vec3| move |time| Wrench { moment: axis * (60.0 * wave(time)), ..Wrench::ZERO };
-    let [_, up, along, across] = widened(&walk, tilting(Vec3::z()));
+    let [_, up, along, across] = widened(walk, tilting(Vec3::z()));
     println!("a moment about the axis to the right: centre along x {along:.2}, across x {across:.2}, up x {up:.2}");
     assert!(along > 1.15 && across < 1.05 && up < 1.05, "{along}, {across}, {up}");
-    let [.., along, across] = widened(&walk, tilting(Vec3::x()));
+    let [.., along, across] = widened(walk, tilting(Vec3::x()));
     println!("a moment about forward: centre along x {along:.2}, across x {across:.2}");
     assert!(across > 1.15 && along < 1.06, "{along}, {across}");
 }
@@ -194,7 +190,7 @@ fn a_model_without_feet_and_prescribed_series_of_another_length_are_rejected() {
 #[test]
 fn fore_aft_and_vertical_forces_follow_those_of_the_simulator() {
     let walk = walk();
-    let (prediction, applied) = (predicted(&walk, Prescribed::default()), applied(&walk));
+    let (prediction, applied) = (predicted(walk, Prescribed::default()), applied(walk));
     let weight = walk.human.model.mass() * walk.human.model.gravity().norm();
     for (found, truth) in prediction.ground.bodies.iter().zip(applied.bodies.iter()) {
         for (axis, most) in [(0, 0.05), (1, 0.15)] {
@@ -221,7 +217,7 @@ fn twice_the_mass_needs_twice_the_force() {
     let soles = Person::of_human(&walk.human).soles;
     let model = &walk.human.model;
     let heavier = model.scaled(&vec![Vec3::repeat(1.0); model.bodies().len()], Some(2.0 * model.mass())).unwrap();
-    let one = predicted(&walk, Prescribed::default());
+    let one = predicted(walk, Prescribed::default());
     let two =
         predict(&heavier, &walk.trajectory, &soles, &PredictSettings::default(), &mut Findings::default()).unwrap();
     for (a, b) in one.ground.bodies.iter().zip(two.ground.bodies.iter()) {
@@ -234,18 +230,18 @@ fn twice_the_mass_needs_twice_the_force() {
 #[test]
 fn a_prescribed_stance_before_the_recording_changes_nothing_and_a_reversed_one_is_rejected() {
     let walk = walk();
-    let footfalls = true_footfalls(&walk, &applied(&walk));
+    let footfalls = true_footfalls(walk, &applied(walk));
     let fall = |strike_s, off_s| Footfall { strike_s: Some(strike_s), off_s: Some(off_s), ..footfalls.falls[0] };
     let with = |fall: Footfall| {
         let mut more = footfalls.clone();
         more.falls.insert(0, fall);
         Prescribed { footfalls: Some(more), ..Prescribed::default() }
     };
-    let plain = predicted(&walk, Prescribed { footfalls: Some(footfalls.clone()), ..Prescribed::default() });
+    let plain = predicted(walk, Prescribed { footfalls: Some(footfalls.clone()), ..Prescribed::default() });
     // As long as the others, so that the usual duration does not change.
     let mut usual: Vec<f64> = footfalls.falls.iter().filter_map(|fall| Some(fall.off_s? - fall.strike_s?)).collect();
     usual.sort_by(f64::total_cmp);
-    let earlier = predicted(&walk, with(fall(-60.0, -60.0 + usual[usual.len() / 2])));
+    let earlier = predicted(walk, with(fall(-60.0, -60.0 + usual[usual.len() / 2])));
     for (a, b) in plain.ground.bodies.iter().zip(earlier.ground.bodies.iter()) {
         let worst = largest_difference(&a.force, &b.force);
         assert!(worst < 0.1, "{worst} N");

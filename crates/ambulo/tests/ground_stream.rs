@@ -12,21 +12,19 @@
 //! where `AMBULO_DELAYS=1` is set.
 
 use crate::footfall_trials::{Recorded, everything};
+use crate::walks;
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
-use ambulo::gait::Gait;
 use ambulo::ground::predict::{PredictError, PredictSettings, Prediction, predict};
 use ambulo::ground::stream::{Stream, StreamError, StreamFrame, StreamSettings};
 use ambulo::ground::{BodyForces, feet, measured};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::anatomy::Sole;
-use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{EventKind, Smoother};
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::simulation::synthetic::SyntheticWalk;
 use ambulo::spatial::Vec3;
-use std::sync::OnceLock;
 
 /// The first steps are left out [s].
 const SETTLED_S: f64 = 0.8;
@@ -36,14 +34,7 @@ const LOADED_N: f64 = 20.0;
 const OF_PLATES: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
 
 fn walk() -> &'static SyntheticWalk {
-    static WALK: OnceLock<SyntheticWalk> = OnceLock::new();
-    WALK.get_or_init(|| {
-        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-        let gait = Gait::named("free").unwrap();
-        let order =
-            SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 3, rate_hz: 100.0 };
-        synthesise(&order, &mut Findings::default()).unwrap()
-    })
+    walks::corrected(walks::WITHOUT_TOES, 3)
 }
 
 /// The coordinates of every frame.

@@ -16,6 +16,7 @@ mod marker_walk;
 mod plate_files;
 mod shared_data;
 mod walking_puppet;
+mod walks;
 
 mod activity;
 mod analysis;

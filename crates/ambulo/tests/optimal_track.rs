@@ -1,19 +1,18 @@
 //! Tracking of recorded motions by feet on soft ground: a synthetic walk with known forces, and a person on force plates.
 
 use crate::shared_data;
+use crate::walks;
 use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{Analysis, PredictionInput, analyse_predicted_trajectory, track};
 use ambulo::findings::Findings;
-use ambulo::gait::Gait;
 use ambulo::ground::feet;
 use ambulo::ground::predict::{PredictSettings, Prediction};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::anatomy::Sole;
-use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{Bushing, BushingEnd, BySide, CoordinateKind, Drive, Model, Movement, Resistance, Side, from_osim};
 use ambulo::motion::{Window, coordinates_from_table};
 use ambulo::optimal::{NO_ROOT_FORCE, TrackError, TrackSettings, TrackedMotion};
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::simulation::synthetic::SyntheticWalk;
 use ambulo::spatial::{Pose, Vec3};
 use ambulo::study::{self, ForceTable, GroundSettings, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
@@ -21,15 +20,8 @@ use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use std::sync::LazyLock;
 
-const BUILD: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
-
 /// A walk that needs no forces but those of its feet: one of the built-in plans.
-static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
-    let gait = Gait::named("free").unwrap();
-    let mode = SyntheticMode::Optimal;
-    let settings = SyntheticWalkSettings { gait: &gait, build: BUILD, mode, cycles: 1, rate_hz: 100.0 };
-    synthesise(&settings, &mut Findings::default()).unwrap()
-});
+static WALK: LazyLock<&SyntheticWalk> = LazyLock::new(|| walks::optimal(walks::MAN, 1));
 
 /// The walk with errors as those of a recording: waves of 0.4 degrees and 2 mm, other ones for each coordinate, on a floor of velocity `belt`.
 fn recorded(belt: Vec3) -> Trajectory {

@@ -214,7 +214,7 @@ fn one_controller_of_several_plans_changes_its_speed_on_the_way() {
     steps(&mut walk, 20);
     assert!(walk.fall().is_none(), "{:?}", walk.fall());
     let other = Build { mass: 60.0, ..MAN }.human().unwrap();
-    let other = controller(&other, &at(1.25), &ControlSettings { balance: Balance::Nothing, ..settings });
+    let other = controller(&other, &case.walk, &ControlSettings { balance: Balance::Nothing, ..settings });
     let error = WalkController::joined(&[case.controller.clone(), other]).unwrap_err();
     assert!(error.to_string().contains("different impedances"), "{error}");
     assert!(WalkController::joined(&[]).is_err());

@@ -4,13 +4,13 @@
 
 use crate::footfall_trials::everything;
 use crate::walking_puppet::{Hand, NO_HAND, Puppet, moved, walk};
+use crate::walks;
 use ambulo::analysis::feasibility::{Check, Person, Thresholds};
 use ambulo::analysis::{
     CheckSettings, CheckedPrediction, MassSource, PlateCoverage, PlateMass, PredictedAnalysis, PredictionChecks,
     PredictionInput, analyse_predicted_trajectory, cycles, prediction_checks,
 };
 use ambulo::findings::{Code, Findings};
-use ambulo::gait::Gait;
 use ambulo::ground::predict::{PredictSettings, Prediction, predict};
 use ambulo::ground::{BodyForces, GroundForces};
 use ambulo::kinematics::Trajectory;
@@ -19,7 +19,7 @@ use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{BySide, Model};
 use ambulo::motion::TimeGrid;
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::simulation::synthetic::SyntheticWalk;
 use ambulo::spatial::{Inertia, Vec3};
 use std::sync::LazyLock;
 
@@ -280,12 +280,7 @@ fn forces_of_the_feet_that_do_not_balance_the_motion_are_detected() {
 
 // ---- mass ----
 
-static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
-    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-    let gait = Gait::named("free").unwrap();
-    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
-    synthesise(&order, &mut Findings::default()).unwrap()
-});
+static WALK: LazyLock<&SyntheticWalk> = LazyLock::new(|| walks::corrected(walks::WITHOUT_TOES, 2));
 
 /// The walk's figure with a share of its masses.
 fn lighter(share: f64) -> Model {

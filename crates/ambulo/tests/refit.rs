@@ -7,18 +7,16 @@
 //! | a treadmill's belt carries the feet along                   | 2 mrad: the belt's velocity is estimated; 0.2 mrad was found       |
 //! | the change makes no forces                                  | 1.4 rad/s² and 0.4 m/s² rms: the errors times ω² of the law        |
 
+use crate::walks;
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
-use ambulo::gait::Gait;
 use ambulo::ground::footfalls::{Footfalls, footfalls};
 use ambulo::ground::refit::{Refit, hold_loaded_feet};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::anatomy::Sole;
-use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{BySide, Model};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Motion, SmoothSettings, Smoother, Window, smooth};
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
 use std::f64::consts::TAU;
 
 struct Walk {
@@ -28,14 +26,11 @@ struct Walk {
 }
 
 fn walk() -> Walk {
-    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-    let gait = Gait::named("free").unwrap();
-    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
-    let made = synthesise(&order, &mut Findings::default()).unwrap();
+    let made = walks::corrected(walks::WITHOUT_TOES, 2);
     let columns = made.human.model.coordinate_ids().map(|id| Some(made.trajectory.values(id).to_vec())).collect();
     let motion = Motion { origin: "walk".to_owned(), times: made.trajectory.grid().times(), columns };
     let soles = Person::of_human(&made.human).soles;
-    Walk { model: made.human.model, soles, motion }
+    Walk { model: made.human.model.clone(), soles, motion }
 }
 
 impl Walk {

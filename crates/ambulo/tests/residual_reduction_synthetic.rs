@@ -1,5 +1,6 @@
 //! Motions made consistent where the truth is known: a walk in three dimensions whose ground forces are exactly those it needs.
 
+use crate::walks;
 use ambulo::dynamics::residual_reduction::{
     MOST_CENTER_M, ReducedMotion, ResidualReductionError, ResidualReductionSettings, reduce_residuals,
 };
@@ -12,7 +13,6 @@ use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{Body, CoordinateKind, Drive, Model};
 use ambulo::motion::{TimeGrid, Window};
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Inertia, Vec3, Wrench};
 use std::f64::consts::TAU;
 
@@ -404,11 +404,8 @@ fn a_recording_that_would_not_fit_into_memory_is_refused_at_once() {
 
 #[test]
 fn a_simulated_walk_in_a_plane_hardly_changes() {
-    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-    let gait = Gait::named("free").unwrap();
-    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
     let mut findings = Findings::default();
-    let walk = synthesise(&order, &mut findings).unwrap();
+    let walk = walks::corrected(walks::WITHOUT_TOES, 2);
     let model = &walk.human.model;
     let loads = measured(model, &walk.trajectory, &walk.loads, None, &mut findings).unwrap().loads();
     let (done, _) = run(model, &walk.trajectory, &loads, ResidualReductionSettings::default());

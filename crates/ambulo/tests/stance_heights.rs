@@ -1,26 +1,17 @@
 //! Feet that sink into a level floor in one stance: a synthetic walk whose stances have one height, and copies of it.
 
+use crate::walks;
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
-use ambulo::gait::Gait;
 use ambulo::ground::footfalls::footfalls;
 use ambulo::model::Side;
-use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::Motion;
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::simulation::synthetic::SyntheticWalk;
 use ambulo::study::{self, Measure, QualityReason, Settings, Source};
 use std::f64::consts::TAU;
-use std::sync::OnceLock;
 
 fn walk() -> &'static SyntheticWalk {
-    static WALK: OnceLock<SyntheticWalk> = OnceLock::new();
-    WALK.get_or_init(|| {
-        let gait = Gait::named("free").unwrap();
-        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
-        let settings =
-            SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 6, rate_hz: 100.0 };
-        synthesise(&settings, &mut Findings::default()).unwrap()
-    })
+    walks::corrected(walks::MAN, 6)
 }
 
 /// Start and end of the third whole stance of the right foot [s].

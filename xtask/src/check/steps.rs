@@ -173,7 +173,7 @@ const PAGES: [Step; 4] = [
 ];
 
 /// Steps of `--full`, after the others and one after the other: they need a quiet machine or take long.
-pub(super) const LONG: [Step; 5] = [
+pub(super) const LONG: [Step; 6] = [
     Step {
         name: "fuzz corpus",
         arguments: &[
@@ -210,6 +210,22 @@ pub(super) const LONG: [Step; 5] = [
         ],
         variable: Some(("AMBULO_SWEEP", "all")),
         hint: "the failing test names the command and its options; the range of a number belongs in the library",
+        ..PLAIN
+    },
+    Step {
+        name: "all random scenes",
+        arguments: &[
+            "test",
+            "--workspace",
+            "--locked",
+            "--profile",
+            PROFILE,
+            "quarter_of_random_scenes",
+            "--",
+            "--show-output",
+        ],
+        variable: Some(("AMBULO_SCENES", "all")),
+        hint: "the failing test names the seeds of its scenes",
         ..PLAIN
     },
     Step {

@@ -18,7 +18,7 @@ pub(super) struct Module {
 
 /// Tests that take more than five seconds, left out everywhere: a mutant that only they would notice counts as a survivor.
 pub(super) const SLOW: [&str; 17] = [
-    "250_random_scenes",
+    "quarter_of_random_scenes",
     "a_simulated_walk_in_a_plane_hardly_changes",
     "a_wrong_mass_is_only_detected_with_plates",
     "contact_convergence_of",
