@@ -137,7 +137,7 @@ impl Report<'_> {
         errors.chain(self.others.iter().map(|(name, why)| (name.as_str(), why.as_str()))).collect()
     }
 
-    /// What to do about errors; empty without any.
+    /// Remedies for errors; empty without any.
     fn remedy(&self) -> &'static str {
         if self.listed.iter().all(|trial| trial.error.is_none()) {
             return "";

@@ -19,7 +19,7 @@ pub(crate) struct BidsFiles {
     pub(crate) beside: Vec<PathBuf>,
 }
 
-/// Paths of the `_channels.tsv` and `_motion.json` that describe the motion at a path; `None` if its name is not that of a motion.
+/// Paths of the `_channels.tsv` and `_motion.json` that describe the motion at a path; `None` if it is not named like a motion.
 pub(crate) fn beside(path: &Path) -> Option<[PathBuf; 2]> {
     let name = files::last(path);
     let stem = name.strip_suffix(MOTION)?;

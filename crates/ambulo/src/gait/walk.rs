@@ -189,7 +189,7 @@ impl Walk {
     }
 
     /// The constant paces before, between and after the changes as gaits without changes, and for each change its start and duration [s].
-    /// Where the figure stands, the gait is that of the change from or to standing.
+    /// While the figure stands, the gait of the change from or to standing.
     #[must_use]
     pub fn pace_ramps(&self) -> Vec<PaceRamp> {
         let ramps = self.plan.ramps();

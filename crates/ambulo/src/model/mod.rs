@@ -202,7 +202,7 @@ pub enum ModelError {
     Axis {
         /// The joint.
         joint: String,
-        /// What was found.
+        /// Found value.
         found: String,
     },
     /// A coupler whose leader follows another coordinate.

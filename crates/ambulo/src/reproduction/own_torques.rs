@@ -1,4 +1,4 @@
-//! What the paper proposes at its end: torque curves of few parameters that drive a physically simulated walk, which adapts to its surroundings.
+//! The proposal at the end of the paper: torque curves of few parameters that drive a physically simulated walk, which adapts to its surroundings.
 //!
 //! The paper's figure walks by its own torques ([`crate::simulation::control`]) along its corrected walk. Its torque curves are a mean and five
 //! harmonics; feedback of its state is added.

@@ -36,7 +36,7 @@ pub enum CalibrationError {
     NotWalking {
         /// Which one.
         trial: usize,
-        /// What was recognised.
+        /// Recognised activity.
         found: &'static str,
     },
     /// Trials of different persons.

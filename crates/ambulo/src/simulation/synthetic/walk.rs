@@ -60,7 +60,7 @@ pub struct WalkReport {
     pub changes: Vec<PaceReached>,
     /// The correction of the gait; of its first pace if the pace changes; `None` in the paper's mode.
     pub correction: Option<CorrectionReport>,
-    /// What a prediction was made for and what it costs; `None` in the other modes.
+    /// Conditions and cost of a prediction; `None` in the other modes.
     pub prediction: Option<PredictionReport>,
     /// Torque that holds the trunk from outside [N.m].
     pub trunk_torque: Magnitude,

@@ -10,7 +10,7 @@ use crate::model::Side;
 /// A table with its title and, below it, a note; the note may be empty.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Section {
-    /// What the table shows.
+    /// Content of the table.
     pub title: &'static str,
     /// The table.
     pub table: TextTable,
