@@ -253,7 +253,7 @@ fn data_section(judged: &[&JudgedTrial]) -> Section {
             trial.quality.word().to_owned(),
         ]);
     }
-    let note = "`ambulo forces` with the files of the trial says why data are doubtful or bad.".to_owned();
+    let note = "`ambulo forces` with the files of the trial gives the reasons for doubtful and bad data.".to_owned();
     Section { title: "Data of each trial", table, note }
 }
 

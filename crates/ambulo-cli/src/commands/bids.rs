@@ -33,8 +33,8 @@ pub(crate) fn read(caller: &Caller, path: &Path) -> Result<BidsFiles> {
         bail!("{shown}: a .tsv is read as motion of a BIDS data set; expected a name that ends with {MOTION}");
     };
     let motion = files::read_input(caller, path)?;
-    let of_channels =
-        files::read_input(caller, &channels).context("the columns of a BIDS motion are described beside it")?;
+    let of_channels = files::read_input(caller, &channels)
+        .context("the columns of a BIDS motion are described in a file next to it")?;
     let motion =
         BidsMotion::read(&motion, &of_channels).with_context(|| format!("{shown} with {}", channels.display()))?;
     let mut beside = vec![channels];

@@ -132,7 +132,7 @@ fn ball_kind(joint: &Joint) -> Result<Option<OsimJointKind>, ExportError> {
                 part: "joint",
                 name: joint.name.clone(),
                 found: "an arc with other axes",
-                expected: "rotations about x, z, y, each by a coordinate of its own",
+                expected: "rotations about x, z, y, each by a separate coordinate",
             })?;
             Ok(Some(OsimJointKind::ConstantCurvature { neutral_angle_rad, length_m }))
         }

@@ -83,7 +83,7 @@ impl Content {
     fn without_forces(&self) -> String {
         match self {
             Content::Broken(reason) => reason.clone(),
-            _ => "no measured ground forces: no force plates, and no table of forces beside it".to_owned(),
+            _ => "no measured ground forces: no force plates, and no table of forces next to it".to_owned(),
         }
     }
 }

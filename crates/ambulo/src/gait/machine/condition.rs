@@ -397,7 +397,7 @@ impl Reader<'_> {
 
     fn name(&mut self) -> Result<String, ConditionError> {
         let name = self.peek().map(str::to_owned).filter(|name| !name.trim().is_empty());
-        let name = name.ok_or_else(|| self.wrong("a name; one with spaces stands in single quotes"))?;
+        let name = name.ok_or_else(|| self.wrong("a name; a name with spaces needs single quotes"))?;
         self.next += 1;
         Ok(name)
     }

@@ -60,7 +60,7 @@ pub enum NotJudged {
     #[error("no force was measured during the motion; expected force plates under the feet")]
     NoPlates,
     /// No foot on a separate plate.
-    #[error("no foot was wholly on a plate of its own from strike to off; expected at least one such stance")]
+    #[error("no foot was wholly on a separate plate from strike to off; expected at least one such stance")]
     NoStance,
 }
 
