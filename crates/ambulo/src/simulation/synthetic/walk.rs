@@ -111,7 +111,7 @@ const STANDING_S: f64 = 1.0;
 /// Cycles after the last change that are kept.
 const CYCLES_AFTER_CHANGE: f64 = 2.0;
 
-/// Cycles before the corrected walk is steady; it starts with the planned motion. An optimal walk begins with the same phase.
+/// Cycles before the dynamically consistent walk is steady; it starts with the planned motion. An optimal walk begins with the same phase.
 pub(super) const CORRECTED_SKIPPED: usize = 1;
 /// Longest walk with machines [s].
 const LONGEST_PLAN_S: f64 = 300.0;
