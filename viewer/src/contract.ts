@@ -17,7 +17,7 @@ program: string,
  */
 title: string, 
 /**
- * What is shown: the first is the one of this folder, the others are compared with it.
+ * The runs: the first is the one of this folder, the others are compared with it.
  */
 sessions: Array<Session>, };
 
@@ -43,7 +43,7 @@ export type PageSide = "r" | "l";
 
 export type Session = { 
 /**
- * A short name: that of the recording.
+ * A short name: the name of the recording.
  */
 name: string, 
 /**
@@ -99,13 +99,13 @@ feasibility: Feasibility | null,
  */
 view: View | null, 
 /**
- * What this page cannot show and why, a sentence each.
+ * Data that this page cannot show, with the reason, one sentence each.
  */
 missing: Array<string>, };
 
 export type Fact = { 
 /**
- * What: `Body mass`.
+ * Name: `Body mass`.
  */
 label: string, 
 /**
@@ -235,7 +235,7 @@ title: string,
  */
 unit: string, 
 /**
- * What positive and negative values mean: `flexion`, `extension`; empty if it needs no words.
+ * Directions of positive and negative values: `flexion`, `extension`; may be empty.
  */
 positive: string, 
 /**
@@ -251,7 +251,7 @@ cycles: Array<CycleCurve>,
  */
 means: Array<MeanCurve>, 
 /**
- * Mean and deviation of healthy people at this speed.
+ * Normative mean and deviation at this speed.
  */
 band: Band | null, 
 /**
@@ -323,7 +323,7 @@ citation: string, };
 
 export type Trace = { 
 /**
- * What it is: `right`, `plates, left`, `limit`.
+ * Name: `right`, `plates, left`, `limit`.
  */
 name: string, 
 /**
@@ -421,13 +421,13 @@ tables: Array<Table>,
  */
 findings: Array<PageFinding>, 
 /**
- * What was taken for granted, in sentences.
+ * Assumptions, in sentences.
  */
 assumptions: Array<string>, };
 
 export type Judged = { 
 /**
- * What.
+ * Name.
  */
 label: string, 
 /**
@@ -435,7 +435,7 @@ label: string,
  */
 value: string, 
 /**
- * What is allowed, in words.
+ * Allowed values, in words.
  */
 allowed: string | null, 
 /**
@@ -477,7 +477,7 @@ export type Glance = {
  */
 facts: Array<Fact>, 
 /**
- * The curves that differ most from those of healthy people, a sentence each, the largest difference first.
+ * The curves with the largest differences from the normative curves, one sentence each, the largest first.
  */
 deviations: Array<string>, 
 /**

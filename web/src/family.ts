@@ -3,7 +3,7 @@
 //
 // A figure walks the same if everything is scaled with the length L of its leg (Hof 1996: angles stay, speeds grow with √(gL), times with √(L/g), forces with
 // the weight, moments with weight times L). So stature and mass need no walks of their own; what does not scale, such as the shoes, is part of the
-// error. The walks differ in dimensionless speed V / √(gL), in step length divided by the step that people prefer at that speed, and in the slope of the
+// error. The walks differ in dimensionless speed V / √(gL), in step length divided by the preferred step at that speed, and in the slope of the
 // ground; between them, every number is linear in each of the three.
 //
 // The curves are registered: their samples divide the four parts of a cycle (double support, single support, and both again for the other leg) into
@@ -48,7 +48,7 @@ export interface Walk {
 export interface Axes {
   /** V / √(gL). */
   speed: number[];
-  /** Step length divided by that which people prefer at this speed. */
+  /** Step length divided by the preferred one at this speed. */
   step: number[];
   /** [%] */
   slope: number[];
@@ -76,13 +76,13 @@ export interface Family {
   gravity: number;
   /** Leg length divided by stature. */
   leg: number;
-  /** Step length that people prefer, divided by the leg length, at the speeds of the level walks. */
+  /** Preferred step length, divided by the leg length, at the speeds of the level walks. */
   preferred: number[];
   /** Steps of the stored numbers by quantity. */
   steps: number[];
   /** Largest and smallest numbers by quantity. */
   ranges: [number, number][];
-  /** On level ground, near the curves of people. */
+  /** On level ground, near normative curves. */
   level: Grid;
   /** On slopes, predicted. */
   sloped: Grid;
@@ -251,7 +251,7 @@ export class Walks {
     return speed / Math.sqrt(this.family.gravity * this.leg(height));
   }
 
-  /** The step length that people prefer [m]. */
+  /** The preferred step length [m]. */
   preferredStep(speed: number, height: number): number | undefined {
     const step = linear(this.family.level.axes.speed, this.family.preferred, this.dimensionless(speed, height));
     return step === undefined ? undefined : step * this.leg(height);

@@ -1,7 +1,7 @@
 // Guesses what each dropped file is for and makes the words of the command from that. The command itself reads and checks the files; a
 // wrong guess can be changed on the page.
 
-/** What a file is for. Most are named as the option of the command that takes the file. */
+/** Role of a file. Most are named like the option of the command that takes the file. */
 export const ROLES = {
   recording: "recording",
   static: "standing trial",
@@ -34,7 +34,7 @@ export interface Dropped extends Named {
   role: Role;
 }
 
-/** What the visitor states besides the files, as typed; may be empty. */
+/** The visitor's statements besides the files, as typed; may be empty. */
 export interface Stated {
   /** Body mass [kg]. */
   mass: string;
@@ -96,7 +96,7 @@ function hasForces(text: string): boolean {
   return /ground_force|force_v[xyz]|(^|[\s,])\w*_v[xyz]([\s,]|$)/im.test(text);
 }
 
-/** What a file looks like by itself. */
+/** Kind of a file by its own content. */
 function roleOf(file: Named): Role {
   switch (ending(file)) {
     case "osim":
@@ -114,7 +114,7 @@ function roleOf(file: Named): Role {
   }
 }
 
-/** The files with their likely roles. `walks` tells of a recording of markers whether a foot strikes or leaves the ground in it. */
+/** The files with their likely roles. `walks` returns whether a foot strikes or leaves the ground in a recording of markers. */
 export async function withRoles(files: readonly Named[], walks: (file: Named) => Promise<boolean>): Promise<Dropped[]> {
   const out: Dropped[] = files.map((file) => ({ ...file, role: roleOf(file) }));
   const with_ = (role: Role): Dropped[] => out.filter((file) => file.role === role);

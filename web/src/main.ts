@@ -51,7 +51,7 @@ function byId<T extends HTMLElement = HTMLElement>(id: string): T {
 const field = (id: string): HTMLInputElement => byId<HTMLInputElement>(id);
 const control = (id: string): HTMLButtonElement => byId<HTMLButtonElement>(id);
 
-/** What the visitor sees of the result: the report, a walk in between, or a walker who can be pushed. */
+/** The shown result: the report, a walk in between, or a walker who can be pushed. */
 const VIEWS = ["page", "preview", "stage"] as const;
 type View = (typeof VIEWS)[number];
 
@@ -167,7 +167,7 @@ class Page {
     this.refresh();
   }
 
-  /** Whether a foot strikes or leaves the ground in a recording. What cannot be told is left to the computation. */
+  /** Whether a foot strikes or leaves the ground in a recording. The computation decides the rest. */
   private async walks({ name, bytes }: Named): Promise<boolean> {
     if (!this.engine) {
       return true;

@@ -116,7 +116,7 @@ export class Pushing {
   }
 }
 
-/** What happens in a walk. */
+/** Events of a walk. */
 function outcome(run: Run, balls: number): string {
   const momentum = momentumOf(run);
   const given = `${Math.abs(momentum).toFixed(0)} N.s ${momentum < 0 ? "backwards" : "forwards"}`;

@@ -12,7 +12,7 @@ interface Slider {
   valueIn(summary: Summary): number | undefined;
 }
 
-/** What is read of `summary.json`. */
+/** The part of `summary.json` that is read. */
 interface Summary {
   mass_kg?: number;
   height_m?: number;
@@ -100,7 +100,7 @@ export class Sliders {
   }
 
   private words(): string[] {
-    // Level ground is no condition: the walk is then near the curves of people.
+    // Level ground is no condition: the walk is then near normative curves.
     const isLevel = ({ option }: Slider): boolean => option === "slope" && this.values().slope === 0;
     const moved = SLIDERS.filter((slider) => this.moved.has(slider.option) && !isLevel(slider));
     return wordsOfWalk(moved.map((slider) => [slider.option, this.input(slider).value]));

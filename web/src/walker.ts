@@ -94,7 +94,7 @@ export interface Moving {
 export interface Run {
   times: number[];
   bodies: Moving[];
-  /** What the program says of a fall; none if the walker is up at the end. */
+  /** The program's message about a fall; none if the walker is up at the end. */
   fall: string | undefined;
 }
 
@@ -176,7 +176,7 @@ export function aimed(run: Run, time: number, faster: number): Ball | undefined 
   return { x: touching - fast * time, y: y + across * Math.sin(angle) + up * Math.cos(angle), speed: fast };
 }
 
-/** What the balls gave to the walker, forward [N.s]. */
+/** Impulse of the balls on the walker, forward [N.s]. */
 export function momentumOf(run: Run): number {
   const balls = run.bodies.filter(({ name }) => !name.startsWith(`${WALKER}/`));
   return balls.reduce((sum, { speed }) => sum + BALL_KG * ((speed[0] ?? 0) - (speed.at(-1) ?? 0)), 0);

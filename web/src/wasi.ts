@@ -4,7 +4,7 @@
 /** Content of files by path, such as `out/summary.json`. */
 export type Files = Map<string, Uint8Array>;
 
-/** What a command left. */
+/** Result of a command. */
 export interface Ended {
   /** Exit code: 0 passed, 1 a check failed, 2 an error. */
   code: number;

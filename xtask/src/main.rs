@@ -65,16 +65,16 @@ usage: cargo xtask <command>
                     [--evaluations N] [--seed N] [--pull X]
   keypoints         forces from keypoints of video, and from keypoints made from recordings with markers  [--only NAME] [--seed S]
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
-  twins             judge recordings of people, and twins of them that no person could make  [--only NAME]
+  twins             judge recordings, and altered copies of them that no person could make  [--only NAME]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
   walk-plans        solve the walks of the built-in figures: crates/ambulo-walk/data/walks
   optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes
                     [--env DIR] [--resume: keep results of peers]  [--write: docs/measured/OPTIMAL_PEERS.md from the record]
-  optimal-walk      compare optimal walks in three dimensions with people  [--write: docs/measured/OPTIMAL_WALK.md]
+  optimal-walk      compare optimal walks in three dimensions with healthy people  [--write: docs/measured/OPTIMAL_WALK.md]
   physical-peers    let the controller of a walk drive the figure in MuJoCo, and record the outcomes  [--env DIR]
                     [--write: docs/measured/PHYSICAL_PEERS.md from the record]
   physical-walk     figures that walk by their own torques: pushes, uneven ground  [--write: docs/measured/PHYSICAL_WALK.md]
-  walk-bands        compare corrected walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
+  walk-bands        compare dynamically consistent walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
   help              print this text
 
 environment:

@@ -116,7 +116,7 @@ pub fn open(folder: &Path) -> Result<Results, Failure> {
     of_file(folder, || Results::of_folder(folder))
 }
 
-/// The content of a file; the errors are those of the command.
+/// The content of a file; errors are the same as in the command.
 ///
 /// # Errors
 /// A file that does not exist or cannot be read.
@@ -160,7 +160,7 @@ fn parsed(verb: &str, words: &[String]) -> Result<Command, Failure> {
     args.command.ok_or_else(other_verb)
 }
 
-/// What was refused, without the usage of the command line.
+/// The refused text, without the usage of the command line.
 fn message(refused: &clap::Error) -> String {
     let text = refused.to_string();
     let text = text.split("\n\nUsage:").next().unwrap_or_default();

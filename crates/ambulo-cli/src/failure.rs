@@ -9,7 +9,7 @@ use std::io;
 /// An error of a call.
 #[derive(Debug)]
 pub struct Failure {
-    /// What happened, where, and what was expected; the text that the command prints after `error:`, without the hint.
+    /// Event, place and expected value; the text that the command prints after `error:`, without the hint.
     pub message: String,
     /// What to do.
     pub hint: Option<String>,

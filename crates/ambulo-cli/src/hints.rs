@@ -73,7 +73,7 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
 
 fn of_walk(error: &SyntheticError) -> Option<&'static str> {
     matches!(error, SyntheticError::Optimal(OptimalWalkError::NotConverged { .. } | OptimalWalkError::Ripple { .. }))
-        .then_some("with one of `--speed`, `--cadence` and `--step-length` the others are as in people; `--planar` walks in the sagittal plane, without slope, load or weakness")
+        .then_some("with one of `--speed`, `--cadence` and `--step-length` the others have their usual values; `--planar` walks in the sagittal plane, without slope, load or weakness")
 }
 
 fn of_study(error: &StudyError) -> Option<&'static str> {

@@ -324,7 +324,7 @@ fn bids_motions_give_the_forces_of_the_same_markers_and_coordinates() {
     bench.write("alone_motion.tsv", "1\t2\n");
     bench
         .run(&["forces", "alone_motion.tsv"])
-        .refused(&["alone_channels.tsv: there is no such file", "described beside it"]);
+        .refused(&["alone_channels.tsv: there is no such file", "described in a file next to it"]);
     bench.run(&["info", "alone_motion.tsv"]).refused(&["alone_channels.tsv: there is no such file"]);
     bench.run(&["info", "sub-1_motion.tsv", "--markers", "m.toml"]).refused(&["a .tsv lists its markers"]);
     bench.write("table.tsv", "1\t2\n");

@@ -9,7 +9,7 @@ pub enum Error {
     /// The file contains no bytes, or only white space.
     #[error("the file is empty; expected {expected}")]
     Empty {
-        /// What a valid file begins with.
+        /// Beginning of a valid file.
         expected: &'static str,
     },
     /// A line of a text file does not follow the format.
@@ -27,7 +27,7 @@ pub enum Error {
     Truncated {
         /// Last line that was read, counted from 1.
         line: usize,
-        /// What was still to come.
+        /// The expected rest.
         expected: String,
     },
     /// The text is not well-formed XML.
@@ -53,7 +53,7 @@ pub enum Error {
     Byte {
         /// Place in the file, counted from 0.
         offset: usize,
-        /// What was found there.
+        /// Found value.
         found: String,
         /// Values that the format allows.
         expected: String,
@@ -63,7 +63,7 @@ pub enum Error {
     CutOff {
         /// Bytes of the file.
         offset: usize,
-        /// What was still to come.
+        /// The expected rest.
         expected: String,
     },
     /// A parameter of a C3D file has the wrong type, shape or value.
@@ -71,9 +71,9 @@ pub enum Error {
     Parameter {
         /// Group and name: `FORCE_PLATFORM:TYPE`.
         parameter: String,
-        /// What was found there.
+        /// Found value.
         found: String,
-        /// What is needed.
+        /// Required value.
         expected: String,
     },
     /// A table of results has a number that is not finite, so that it is not written.
@@ -93,9 +93,9 @@ pub enum Error {
     /// A record made in memory cannot be written without loss.
     #[error("not a valid record: found {found}; expected {expected}")]
     Record {
-        /// What the record contains.
+        /// Content of the record.
         found: String,
-        /// What the format allows.
+        /// Values that the format allows.
         expected: String,
     },
 }

@@ -1,6 +1,6 @@
-//! What the paper proposes at its end: torque curves of few parameters that drive a physically simulated walk, which adapts to its surroundings.
+//! The proposal at the end of the paper: torque curves of few parameters that drive a physically simulated walk, which adapts to its surroundings.
 //!
-//! The paper's figure walks by its own torques ([`ambulo_walk::control`]) along its corrected walk. Its torque curves are a mean and five
+//! The paper's figure walks by its own torques ([`ambulo_walk::control`]) along its dynamically consistent walk. Its torque curves are a mean and five
 //! harmonics; feedback of its state is added.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};

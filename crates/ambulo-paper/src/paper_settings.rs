@@ -12,7 +12,7 @@ use ambulo_walk::walking::{WalkingError, gait_signals};
 /// Values that the paper does not give. The default is used in the paper's mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaperSettings {
-    /// Stature [m]; `None` for that of the figure.
+    /// Stature [m]; `None` for the value of the figure.
     pub height: Option<f64>,
     /// Factor on the cross-section of the segments.
     pub thickness: f64,
@@ -20,13 +20,13 @@ pub struct PaperSettings {
     pub sole_radii: f64,
     /// Whether there is a sphere under the tip of the toes.
     pub toe_spheres: bool,
-    /// Distance from the ankle to the tip of the toes, share of the stature; `None` for that of the figure.
+    /// Distance from the ankle to the tip of the toes, share of the stature; `None` for the value of the figure.
     pub toe_reach: Option<f64>,
     /// Factor on the swing of shoulders and elbows.
     pub arm_swing: f64,
     /// Angle that is added to the flexion of both hips [rad].
     pub hip_offset: f64,
-    /// Interpolation of the joint curves; `None` for that of the gait. It has no effect on gaits with changes of knots.
+    /// Interpolation of the joint curves; `None` for the value of the gait. It has no effect on gaits with changes of knots.
     pub style: Option<Style>,
     /// Factor on the step length of all gaits.
     pub step_length: f64,

@@ -182,7 +182,7 @@ impl Model {
             return Err(refused(py, format!("out: found the shape {found:?}; expected ({frames}, {count})")));
         }
         let mut writable: PyReadwriteArray2<'_, f64> =
-            out.try_readwrite().map_err(|error| refused(py, format!("out: {error}; expected an array of its own")))?;
+            out.try_readwrite().map_err(|error| refused(py, format!("out: {error}; expected a separate array")))?;
         let forces = writable.as_array_mut();
         py.detach(|| self.inverse_in_blocks(motion, &loads, forces)).map_err(|message| refused(py, message))?;
         drop(writable);

@@ -138,7 +138,7 @@ impl Report<'_> {
         errors.chain(self.others.iter().map(|(name, why)| (name.as_str(), why.as_str()))).collect()
     }
 
-    /// What to do about errors; empty without any.
+    /// Remedies for errors; empty without any.
     fn remedy(&self) -> &'static str {
         if self.listed.iter().all(|trial| trial.error.is_none()) {
             return "";
@@ -254,7 +254,7 @@ fn data_section(judged: &[&JudgedTrial]) -> Section {
             trial.quality.word().to_owned(),
         ]);
     }
-    let note = "`ambulo forces` with the files of the trial says why data are doubtful or bad.".to_owned();
+    let note = "`ambulo forces` with the files of the trial gives the reasons for doubtful and bad data.".to_owned();
     Section { title: "Data of each trial", table, note }
 }
 

@@ -56,7 +56,7 @@ pub enum ResultsError {
         folder: String,
         /// The file.
         file: String,
-        /// What was found, what was expected and what to do.
+        /// Found and expected value, and a hint.
         reason: String,
     },
     /// Data that JSON cannot store.

@@ -323,7 +323,7 @@ fn files_that_describe_no_machine_are_refused_with_line_and_key() {
             "or a coordinate of the model that the gait does not move",
         ),
         (named("m").replace("{ name = \"b\" }", "{ name = \"a\" }"), "a name that no other state of this machine has"),
-        (named("m").replace("\"b\"", "\"rest\""), "another name, because this one has a meaning of its own"),
+        (named("m").replace("\"b\"", "\"rest\""), "another name, because this one has a special meaning"),
         (
             named("m").replace("{ name = \"b\" }", "{ name = \"b\", activity = \"pace\" }"),
             "expected wait, because this machine drives nothing",

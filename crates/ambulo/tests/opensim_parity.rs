@@ -265,7 +265,7 @@ fn coupled_columns_in_degrees_are_reported_and_the_coupler_decides() {
     assert_eq!(mismatches.len(), 2, "{mismatches:?}");
     for (finding, name) in mismatches.iter().zip(["knee_angle_r_beta", "knee_angle_l_beta"]) {
         assert!(finding.message.contains(name), "{finding}");
-        assert!(finding.message.contains("degrees under a header that says radians"), "{finding}");
+        assert!(finding.message.contains("degrees under a header that states radians"), "{finding}");
     }
     assert!(!none.has(Code::MotionCoupledMismatch), "{:?}", none.as_slice());
     // Not near: identical. The recorded follower must leave no trace.

@@ -507,7 +507,7 @@ fn a_controller_that_cannot_be_is_refused_with_its_line() {
     }
     for (from, to, expected) in [
         ("lift = 0.03", "changes = [{ at = 3, step_length = 0.5 }]", "expected changes of `speed`"),
-        ("gait = \"free\"", "mode = \"optimal\", gait = \"standard\"", "curves of people"),
+        ("gait = \"free\"", "mode = \"optimal\", gait = \"standard\"", "normative curves"),
     ] {
         let file = SceneFile::parse(&text.replace(from, to)).unwrap();
         let error = built(&file, SceneSettings::default()).unwrap_err().to_string();

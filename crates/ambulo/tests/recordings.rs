@@ -519,7 +519,7 @@ fn a_follower_recorded_in_degrees_is_detected_and_one_that_agrees_is_not_reporte
     assert_eq!(codes(&all(follower(1.0))), []);
     let findings = all(follower(1.0_f64.to_degrees()));
     assert_eq!(codes(&findings), [(Code::MotionCoupledMismatch, 1)]);
-    assert!(findings.as_slice()[0].message.contains("in degrees under a header that says radians"));
+    assert!(findings.as_slice()[0].message.contains("in degrees under a header that states radians"));
     let findings = all(follower(1.5));
     assert!(!findings.as_slice()[0].message.contains("in degrees"));
 }

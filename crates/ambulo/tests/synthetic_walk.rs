@@ -163,7 +163,7 @@ fn what_an_optimal_walk_cannot_do_is_refused() {
     };
     let limp = Gait::from_toml("base = \"free\"\n[[joint]]\njoint = \"right knee\"\nangle_deg = 3\n").unwrap();
     assert!(refused(&limp, MAN).contains("sides half a cycle apart"));
-    assert!(refused(&Gait::named("goose").unwrap(), MAN).contains("expected the curves of people"));
+    assert!(refused(&Gait::named("goose").unwrap(), MAN).contains("expected the normative curves"));
     let free = Gait::named("free").unwrap();
     assert!(refused(&free, Build { toe_joint: false, ..MAN }).contains("expected toe joints"));
 }

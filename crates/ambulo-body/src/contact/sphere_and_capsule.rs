@@ -117,7 +117,7 @@ fn separation_from_point(solid: &Polytope, point: Vec3) -> Separation {
     nearest_of((0..solid.net.edges.len()).filter_map(to_edge)).unwrap_or(best)
 }
 
-/// What is above a plane by less [m] may as well lie on an edge, so that the way from the edge has no direction: a few roundings of the
+/// A point above a plane by less [m] may be on an edge, where the direction from the edge is undefined: a few roundings of the
 /// coordinates of the solid's corners.
 fn rounding(solid: &Polytope) -> f64 {
     16.0 * f64::EPSILON * solid.size_from(Vec3::zeros())

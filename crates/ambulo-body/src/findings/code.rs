@@ -619,13 +619,13 @@ impl Code {
         self.entry().severity
     }
 
-    /// What the finding means, in one sentence.
+    /// Meaning of the finding, in one sentence.
     #[must_use]
     pub fn meaning(self) -> &'static str {
         self.entry().meaning
     }
 
-    /// What to do about it, in one sentence, without reference to any one shell.
+    /// Remedy, in one sentence, without reference to command, package or page.
     #[must_use]
     pub fn remedy(self) -> &'static str {
         self.entry().remedy

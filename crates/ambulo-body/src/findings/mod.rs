@@ -35,9 +35,9 @@ impl fmt::Display for Severity {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(into = "Record", from = "Record")]
 pub struct Finding {
-    /// What the finding is about.
+    /// Code of the finding.
     pub code: Code,
-    /// What was found, where, and what was done about it.
+    /// Found value, place, and consequence.
     pub message: String,
     /// How many times it occurred.
     pub count: usize,

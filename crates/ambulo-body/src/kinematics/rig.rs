@@ -6,7 +6,7 @@
 //! as long as they converge. So filters, residual reduction and tracking change the skeleton, while what the body does not represent (a bent spine, a knee that bends sideways)
 //! stays as recorded.
 //!
-//! The floor is that of the run: the model stands on it at its default coordinates.
+//! The floor is the floor of the run: the model stands on it at its default coordinates.
 //!
 //! Pinned by: tests/rig.rs
 
@@ -35,7 +35,7 @@ const SAME_TAKE_M: f64 = 0.2;
 /// Largest difference between the times of result and file, as a share of a frame.
 const SAME_TIME: f64 = 0.1;
 
-/// Why a result is not that of a skeleton.
+/// Why a result does not belong to a skeleton.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RigError {
@@ -111,7 +111,7 @@ pub fn on_rig(model: &Model, trajectory: &Trajectory, rig: Rig<'_>) -> Result<Ri
         let times = recorded.times[first..first + count].to_vec();
         let markers = raised(&MarkerRecording { times, markers: rig.paths(&frames), ..recorded.clone() }, -floor);
         check_distance(model, &wanted, &markers)?;
-        // The first fit is that of the run; what it finds has been reported there.
+        // The first fit is the fit of the run, which has reported its findings.
         let fitted = if pass == 0 { model } else { &free };
         let fit = fit_skeleton(fitted, &markers, &mut Findings::default())?.motion;
         let changes = steps.converging(changes(model, &wanted, &fit));

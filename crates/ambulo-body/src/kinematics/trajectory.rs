@@ -241,7 +241,7 @@ fn report_mismatch(
         _ => "follows a coupler of the model",
     };
     let in_degrees = recorded.iter().zip(used).all(|(a, b)| (a.to_radians() - b).abs() <= COUPLER_TOLERANCE);
-    let guess = if in_degrees { "; the recorded column is in degrees under a header that says radians" } else { "" };
+    let guess = if in_degrees { "; the recorded column is in degrees under a header that states radians" } else { "" };
     let message = format!(
         "coordinate `{}` {source}; the recorded values, off by up to {worst:.3} {unit}, were not used{guess}",
         coordinate.name

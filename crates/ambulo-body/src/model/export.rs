@@ -23,9 +23,9 @@ pub enum ExportError {
         part: &'static str,
         /// Its name.
         name: String,
-        /// What was found.
+        /// Found value.
         found: &'static str,
-        /// What can be written.
+        /// Forms that can be written.
         expected: &'static str,
     },
 }
@@ -132,7 +132,7 @@ fn ball_kind(joint: &Joint) -> Result<Option<OsimJointKind>, ExportError> {
                 part: "joint",
                 name: joint.name.clone(),
                 found: "an arc with other axes",
-                expected: "rotations about x, z, y, each by a coordinate of its own",
+                expected: "rotations about x, z, y, each by a separate coordinate",
             })?;
             Ok(Some(OsimJointKind::ConstantCurvature { neutral_angle_rad, length_m }))
         }
@@ -161,7 +161,7 @@ fn arc_angles(joint: &Joint) -> Option<[f64; 3]> {
     (joint.translations.is_empty() && joint.coordinates().is_sorted()).then_some(angles)
 }
 
-/// Pose of the joint frame of the child in that of the parent; `None` if a coordinate moves it.
+/// Pose of the joint frame of the child in the joint frame of the parent; `None` if a coordinate moves it.
 fn standing(joint: &Joint) -> Option<Pose> {
     let mut pose = Pose::IDENTITY;
     for (axis, value) in fixed(&joint.rotations)? {

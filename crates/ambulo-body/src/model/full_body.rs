@@ -161,7 +161,7 @@ impl FullBodyBuilder<'_> {
 /// Size and joint frames of a segment of a person.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SegmentShape {
-    /// Length divided by that of the segment table; mass centre and radii of gyration scale with it, the mass does not.
+    /// Length divided by the length in the segment table; mass centre and radii of gyration scale with it, the mass does not.
     pub factor: f64,
     /// The joint frame on the parent.
     pub parent_from_joint: Pose,

@@ -205,7 +205,7 @@ pub enum ModelError {
     Axis {
         /// The joint.
         joint: String,
-        /// What was found.
+        /// Found value.
         found: String,
     },
     /// A coupler whose leader follows another coordinate.
@@ -236,7 +236,7 @@ pub enum ModelError {
     },
     /// A point mass that is too far away from its body.
     #[error(
-        "a mass {} m from the origin of `{body}`; expected at most {most_m} m, because nobody holds a mass farther away. hint: positions are in metres", Shown(*found_m)
+        "a mass {} m from the origin of `{body}`; expected at most {most_m} m, because a mass farther away is not on the body. hint: positions are in metres", Shown(*found_m)
     )]
     PointMassPlace {
         /// The body that should carry it.

@@ -39,7 +39,7 @@ pub enum MassDistribution {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScaleError {
-    /// The number of factors is not that of bodies.
+    /// The number of factors differs from the number of bodies.
     #[error("found factors for {found} bodies; expected {expected}, one per body of the model")]
     Count {
         /// Number of factors.

@@ -153,7 +153,7 @@ impl<'a> B3dTrial<'a> {
     /// The coordinates of the last pass; `document` and `model` are those of [`B3dTrial::model_text`].
     ///
     /// # Errors
-    /// Coordinates that are not those of the model.
+    /// Coordinates that do not belong to the model.
     pub fn motion(&self, document: &OsimModel, model: &Model, findings: &mut Findings) -> Result<Motion, B3dError> {
         let pass = self.last_pass()?;
         let order = order(document, model, pass.positions.len())?;

@@ -25,7 +25,7 @@ const TIME: &str = "LATENCY";
 pub enum BidsError {
     /// Neither a frame rate nor times.
     #[error(
-        "no frame rate; expected `SamplingFrequency` in the _motion.json beside the file, or a channel of the type LATENCY"
+        "no frame rate; expected `SamplingFrequency` in the _motion.json next to the file, or a channel of the type LATENCY"
     )]
     NoRate,
     /// A unit that is not known for this type of channel.

@@ -100,7 +100,7 @@ impl Laboratory {
 /// Determines the laboratory of a recording from its markers in metres and its plates, both in the laboratory's axes. `unit` is the
 /// unit in the file, for the statement.
 ///
-/// Whatever cannot be determined is reported as a warning.
+/// Undetermined quantities are reported as warnings.
 #[must_use]
 pub fn laboratory(
     markers: &MarkerRecording,

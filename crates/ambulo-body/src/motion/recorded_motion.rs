@@ -1,4 +1,4 @@
-//! What a C3D file recorded of the motion: markers, or poses of segments.
+//! The recorded motion of a C3D file: markers, or poses of segments.
 
 use super::marker_recording::{MarkerError, MarkerRecording, markers_from_c3d};
 use super::segment_poses::{SegmentPoseError, SegmentPoses, segment_poses_from_c3d};

@@ -50,7 +50,7 @@ pub struct SmoothSettings {
     pub smoother: Smoother,
     /// The time range of the result.
     pub window: Window,
-    /// Frame rate of the result [Hz], evaluated from the splines; `None` keeps that of the recording.
+    /// Frame rate of the result [Hz], evaluated from the splines; `None` keeps the value of the recording.
     pub rate_hz: Option<f64>,
 }
 

@@ -125,7 +125,7 @@ pub enum SmplError {
         array: String,
         /// Its shape.
         found: Vec<usize>,
-        /// What is allowed.
+        /// Allowed values.
         expected: &'static str,
     },
     /// Rotations and places of different numbers of frames.

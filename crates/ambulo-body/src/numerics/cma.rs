@@ -135,7 +135,7 @@ impl Cma {
         self.generations
     }
 
-    /// Whether its numbers can be those of an evolution strategy with so many unknowns, for one that was read from a file.
+    /// Whether a state that was read from a file is valid for so many unknowns.
     #[must_use]
     pub fn is_valid(&self, count: usize) -> bool {
         let lengths = [self.mean.len(), self.path_sigma.len(), self.path.len()];

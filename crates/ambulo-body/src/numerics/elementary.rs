@@ -130,7 +130,7 @@ pub fn hypot(x: f64, y: f64) -> f64 {
     if SAFE.contains(&square) { square.sqrt() } else { libm::hypot(x, y) }
 }
 
-/// xⁿ by products, for an exponent that is computed; that of the standard library is not the same when the compiler knows both numbers.
+/// xⁿ by products, for an exponent that is computed; the standard library gives another result when the compiler knows both numbers.
 #[inline]
 #[must_use]
 pub fn powi(x: f64, n: i32) -> f64 {

@@ -17,7 +17,7 @@ pub enum InertiaError {
     /// A mass below zero, or not finite.
     #[error("the mass is {mass} kg; expected a finite number, zero or more")]
     Mass {
-        /// What was given [kg].
+        /// Given mass [kg].
         mass: f64,
     },
     /// An infinite or undefined number.

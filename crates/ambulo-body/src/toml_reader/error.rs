@@ -9,7 +9,7 @@ pub struct TomlError {
     pub line: usize,
     /// Path of the key, entries of lists counted from 1: `body[3].mass`. Empty if the text is not TOML.
     pub key: String,
-    /// What was found, what was expected, and a hint.
+    /// Found and expected value, and a hint.
     pub message: String,
 }
 

@@ -48,7 +48,7 @@ impl TrialFiles {
             ("--loads", path(&self.loads).filter(|_| missing(|given| given.loads.is_some()))),
             ("--trial", self.trial.clone().map(OsString::from).filter(|_| missing(|given| given.trial.is_some()))),
         ];
-        // The size of the trial counts, not that of the words.
+        // The size of the trial has priority over the words.
         let sizes = [("--mass", number(self.mass)), ("--height", number(self.height))];
         let (replaced, mut rest) = (sizes.clone(), words.iter());
         while let Some(word) = rest.next() {

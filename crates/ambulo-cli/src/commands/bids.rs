@@ -19,7 +19,7 @@ pub(crate) struct BidsFiles {
     pub(crate) beside: Vec<PathBuf>,
 }
 
-/// Paths of the `_channels.tsv` and `_motion.json` that describe the motion at a path; `None` if its name is not that of a motion.
+/// Paths of the `_channels.tsv` and `_motion.json` that describe the motion at a path; `None` if it is not named like a motion.
 pub(crate) fn beside(path: &Path) -> Option<[PathBuf; 2]> {
     let name = files::last(path);
     let stem = name.strip_suffix(MOTION)?;
@@ -33,8 +33,8 @@ pub(crate) fn read(caller: &Caller, path: &Path) -> Result<BidsFiles> {
         bail!("{shown}: a .tsv is read as motion of a BIDS data set; expected a name that ends with {MOTION}");
     };
     let motion = files::read_input(caller, path)?;
-    let of_channels =
-        files::read_input(caller, &channels).context("the columns of a BIDS motion are described beside it")?;
+    let of_channels = files::read_input(caller, &channels)
+        .context("the columns of a BIDS motion are described in a file next to it")?;
     let motion =
         BidsMotion::read(&motion, &of_channels).with_context(|| format!("{shown} with {}", channels.display()))?;
     let mut beside = vec![channels];

@@ -56,7 +56,7 @@ fn from_trc(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Ev
     Ok(markers_alone(&in_world(&file.recording, findings).markers, findings))
 }
 
-/// Events of a motion of Xsens MVN, and those of its contact flags.
+/// Events of a motion of Xsens MVN, and of its contact flags.
 fn from_mvnx(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {
     let LaboratoryFile { recording, events, .. } = LaboratoryFile::from_mvnx(bytes, shown, findings)?;
     let motion = foot_motion(&in_world(&recording, findings).markers, findings);

@@ -64,7 +64,7 @@ pub(super) fn page_not_written(reason: &anyhow::Error) -> Finding {
     Finding { code: Code::ReportNotWritten, message, count: 1 }
 }
 
-/// The page of a run that is being written; `name` is that of its folder.
+/// The page of a run that is being written; `name` is the name of its folder.
 pub(super) fn page_of_run(name: &Path, written: &[OutputFile<'_>], summary: RunSummary) -> Result<OutputFile<'static>> {
     let html = report_page(&[Folder::of_run(files::last(name), written, summary)])?;
     Ok(OutputFile::new(PAGE, html.into_bytes()))

@@ -213,7 +213,7 @@ impl Results {
         Ok(())
     }
 
-    /// Whether the results are those of one body in motion, with a clinical table.
+    /// Whether the results are of one body in motion, with a clinical table.
     #[must_use]
     pub fn is_motion(&self) -> bool {
         match &self.0 {

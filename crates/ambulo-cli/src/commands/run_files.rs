@@ -45,7 +45,7 @@ pub(crate) struct MotionRun {
 }
 
 impl MotionRun {
-    /// What was computed.
+    /// The results.
     pub(super) fn into_outcome(self) -> Outcome {
         self.outcome
     }

@@ -137,7 +137,7 @@ fn points(args: &SweepArgs, gait: &Gait, build: &Build) -> Result<Vec<SweptCondi
     Ok(points)
 }
 
-/// What all walks have in common, and their conditions.
+/// Common settings of all walks, and their conditions.
 struct Sweep {
     gait: Gait,
     build: Build,
@@ -225,5 +225,5 @@ impl Sweep {
     }
 }
 
-/// Frame rate of the walks [Hz], that of `ambulo walk`.
+/// Frame rate of the walks [Hz], as in `ambulo walk`.
 const RATE_HZ: f64 = 100.0;

@@ -123,7 +123,7 @@ fn asked_mode(args: &WalkArgs, conditions: &WalkConditions) -> Result<Option<Syn
     match asked {
         None | Some(SyntheticMode::Predicted) => Ok(Some(SyntheticMode::Predicted)),
         Some(mode) => bail!(
-            "--slope, --load, --weak, --device, --step-width, --asymmetric: found the mode {mode}; expected the mode predict, because the others follow people who walk without them"
+            "--slope, --load, --weak, --device, --step-width, --asymmetric: found the mode {mode}; expected the mode predict, because the other modes do not support them"
         ),
     }
 }

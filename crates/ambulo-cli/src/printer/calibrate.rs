@@ -42,7 +42,7 @@ pub(crate) fn calibrate(person: &PersonalErrors, trials: usize, output: &Path, p
         let word = format!("{side} foot");
         if stances == 0 {
             print_line(&format!(
-                "  {word:<11}no stance on a plate of its own: the mirror image of the other foot is used"
+                "  {word:<11}no stance on a separate plate: the mirror image of the other foot is used"
             ))?;
             continue;
         }

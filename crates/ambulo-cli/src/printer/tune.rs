@@ -17,7 +17,7 @@ pub(crate) struct TunedGains<'a> {
     pub(crate) pushes: PushSettings,
     /// The key of the scene.
     pub(crate) control: String,
-    /// Whether gains were found that are better than those of the scene.
+    /// Whether the gains are better than in the scene.
     pub(crate) is_better: bool,
     pub(crate) choice: [TrialOutcome; 2],
     /// Force [N] and outcomes.
@@ -50,7 +50,7 @@ impl TunedGains<'_> {
         lines.map(|line| line + "\n").collect()
     }
 
-    /// Why the gains are those of the scene.
+    /// Why the gains of the scene were kept.
     fn kept(&self) -> String {
         match self.evaluations {
             0 => format!(

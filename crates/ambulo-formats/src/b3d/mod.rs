@@ -92,7 +92,7 @@ pub struct Person {
 /// A pass of the computation and its model.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Pass {
-    /// What the pass does.
+    /// Kind of the pass.
     pub kind: PassKind,
     /// The model as the text of an `.osim`.
     pub model: String,
@@ -153,7 +153,7 @@ pub struct TrialHeader {
 /// The results of one processing pass for a trial.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TrialPass {
-    /// What the pass does.
+    /// Kind of the pass.
     pub kind: PassKind,
     /// Whether each coordinate was observed; empty if not stated.
     pub observed: Vec<bool>,

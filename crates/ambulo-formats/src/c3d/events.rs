@@ -17,7 +17,7 @@ use crate::error::{Error, Remark, quoted};
 /// A named instant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Event {
-    /// What happens: `Foot Strike`, `Foot Off`; four letters in the header.
+    /// Kind of event: `Foot Strike`, `Foot Off`; four letters in the header.
     pub label: String,
     /// Side or object: `Left`, `Right`, `General`; empty in the header.
     pub context: String,

@@ -136,7 +136,7 @@ fn samples_per_frame(layout: &Layout, parameters: &Parameters, remarks: &mut Vec
     1
 }
 
-/// Number of samples: that of the points, else what is stated, at most what the file has room for.
+/// Number of samples: as for the points, else as stated; at most as many as the file has room for.
 fn samples(
     layout: &Layout,
     header: &Header,

@@ -168,7 +168,7 @@ struct FrameOrder {
     first: Option<(u64, f64)>,
     /// Number, and time in milliseconds, of the frame before.
     last: Option<(u64, Option<f64>)>,
-    /// Frames whose stated time is another than that of their number.
+    /// Frames whose stated time differs from the time of their number.
     off: usize,
 }
 

@@ -5,7 +5,7 @@ use crate::error::{Error, quoted};
 use crate::xml;
 use roxmltree::Node;
 
-/// What a fit tracks. Markers and coordinates that are not listed, or are switched off, are not tracked.
+/// Targets of a fit. Markers and coordinates that are not listed, or are switched off, are not tracked.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FitTasks {
     /// Markers with their weights.

@@ -128,7 +128,7 @@ fn special(word: &str) -> Option<f64> {
     (size.starts_with("nan(") && size.ends_with(')')).then_some(f64::NAN)
 }
 
-/// What is expected in place of a word that is not a number.
+/// Expected content in place of a word that is not a number.
 pub(crate) fn expected_number(word: &str) -> String {
     let with_point = word.replacen(',', ".", 1);
     if word.contains(',') && with_point.parse::<f64>().is_ok() {

@@ -296,7 +296,7 @@ def calibrate_person(
     Parameters
     ----------
     trials : Recording, str or path-like, or a sequence of these
-        Trials of one person walking over force plates (``.c3d``), each foot on a plate of its own.
+        Trials of one person walking over force plates (``.c3d``), each foot on a separate plate.
     model : Model, str, path-like or bytes, optional
         The body.
     static : Recording, str or path-like, optional
@@ -328,7 +328,7 @@ def calibrate_person(
     FileNotFoundError, PermissionError
         A file that cannot be read.
     InputError
-        Trials without walking, plates or whole stances, or of different people; the message is the one of the command.
+        Trials without walking, plates or whole stances, or of different persons; the message is the one of the command.
 
     Notes
     -----
@@ -487,7 +487,7 @@ def session(
     compare : str or path-like, optional
         An earlier session of the person (its `output`), to compute what changed.
     norm : str or path-like, optional
-        Own reference group: ``norm.json`` of an earlier run, or a folder with the recordings or the sessions of healthy people.
+        Your own reference group: ``norm.json`` of an earlier run, or a folder with recordings or sessions of healthy subjects.
     anonymous : bool, optional
         Write no name, no path and no date into any file.
     jobs : int, optional

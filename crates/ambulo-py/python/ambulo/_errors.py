@@ -19,7 +19,7 @@ class AmbuloError(Exception):
     line : int or None
         The line of that file, counted from 1.
     hint : str or None
-        What to do.
+        Remedy.
     """
 
     file: str | None = None

@@ -7,7 +7,7 @@ from typing import Any
 
 
 class Person:
-    """What force plates show about the predicted ground forces of one person: the file that ``ambulo calibrate`` writes.
+    """Calibration of a person's predicted ground forces by force plates: the file that ``ambulo calibrate`` writes.
 
     `calibrate_person` makes one; `forces` takes it as `person`.
 

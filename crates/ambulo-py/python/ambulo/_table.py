@@ -27,7 +27,7 @@ class Table:
     Attributes
     ----------
     title : str
-        What the table contains.
+        Content of the table.
     names : tuple of str
         Names of the columns, without the time.
     units : tuple of str

@@ -39,7 +39,7 @@ impl LineLook {
 pub(crate) struct PanelLine {
     pub(crate) values: Vec<f64>,
     pub(crate) look: LineLook,
-    /// What the line is, for readers of the file: `cycle`, `mean`.
+    /// Kind of line, for readers of the file: `cycle`, `mean`.
     pub(crate) role: &'static str,
 }
 

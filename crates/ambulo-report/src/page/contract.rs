@@ -21,7 +21,7 @@ pub struct Page {
     pub program: String,
     /// Title of the page.
     pub title: String,
-    /// What is shown: the first is the one of this folder, the others are compared with it.
+    /// The runs: the first is the one of this folder, the others are compared with it.
     pub sessions: Vec<Session>,
 }
 
@@ -54,7 +54,7 @@ pub enum PageSide {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Session {
-    /// A short name: that of the recording.
+    /// A short name: the name of the recording.
     pub name: String,
     /// Whether the data can be used; nothing for scenes.
     pub data: Option<DataQuality>,
@@ -82,7 +82,7 @@ pub struct Session {
     pub feasibility: Option<Feasibility>,
     /// The 3-D view.
     pub view: Option<View>,
-    /// What this page cannot show and why, a sentence each.
+    /// Data that this page cannot show, with the reason, one sentence each.
     pub missing: Vec<String>,
 }
 
@@ -102,7 +102,7 @@ pub struct DataQuality {
 pub struct Glance {
     /// Recording, person, source of the ground forces, speed, cadence, step length and asymmetry.
     pub facts: Vec<Fact>,
-    /// The curves that differ most from those of healthy people, a sentence each, the largest difference first.
+    /// The curves with the largest differences from the normative curves, one sentence each, the largest first.
     pub deviations: Vec<String>,
     /// The reference group, or why there is no comparison.
     pub norm: String,
@@ -125,7 +125,7 @@ pub enum PageQuality {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Fact {
-    /// What: `Body mass`.
+    /// Name: `Body mass`.
     pub label: String,
     /// Value with its unit: `72.8 kg`.
     pub value: String,
@@ -238,7 +238,7 @@ pub struct Panel {
     pub title: String,
     /// `deg`, `N.m/kg`, `W/kg`, `BW`, ...
     pub unit: String,
-    /// What positive and negative values mean: `flexion`, `extension`; empty if it needs no words.
+    /// Directions of positive and negative values: `flexion`, `extension`; may be empty.
     pub positive: String,
     /// The other direction.
     pub negative: String,
@@ -246,7 +246,7 @@ pub struct Panel {
     pub cycles: Vec<CycleCurve>,
     /// Mean over the cycles of a side.
     pub means: Vec<MeanCurve>,
-    /// Mean and deviation of healthy people at this speed.
+    /// Normative mean and deviation at this speed.
     pub band: Option<Band>,
     /// The same over time.
     pub traces: Vec<Trace>,
@@ -302,7 +302,7 @@ pub struct Band {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Trace {
-    /// What it is: `right`, `plates, left`, `limit`.
+    /// Name: `right`, `plates, left`, `limit`.
     pub name: String,
     /// Whose side.
     pub side: Option<PageSide>,
@@ -316,7 +316,7 @@ pub struct Trace {
     pub origin: Option<Origin>,
 }
 
-/// What part a series plays in its panel.
+/// Role of a series in its panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
@@ -325,7 +325,7 @@ pub enum Role {
     Main,
     /// Measured curve next to a prediction: black or white, thin.
     Measured,
-    /// What may not be passed: grey.
+    /// Limit: grey.
     Limit,
 }
 
@@ -383,7 +383,7 @@ pub struct Quality {
     pub tables: Vec<Table>,
     /// Warnings and notes.
     pub findings: Vec<PageFinding>,
-    /// What was taken for granted, in sentences.
+    /// Assumptions, in sentences.
     pub assumptions: Vec<String>,
 }
 
@@ -391,11 +391,11 @@ pub struct Quality {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Judged {
-    /// What.
+    /// Name.
     pub label: String,
     /// Value with its unit.
     pub value: String,
-    /// What is allowed, in words.
+    /// Allowed values, in words.
     pub allowed: Option<String>,
     /// Whether it is so; nothing if unknown.
     pub good: Option<bool>,
@@ -470,7 +470,7 @@ pub struct RedSpan {
     pub panel: Option<String>,
 }
 
-/// What the 3-D view draws.
+/// Content of the 3-D view.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct View {

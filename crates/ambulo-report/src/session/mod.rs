@@ -53,7 +53,7 @@ pub struct Session {
     pub cycles: Vec<SessionCycle>,
 }
 
-/// What the laboratory states about a session.
+/// Statements of the laboratory about a session.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SessionFacts {
     /// The person; `None` in an anonymous session.
@@ -247,7 +247,7 @@ fn cycles(trials: usize, computed: &[(usize, &ComputedTrial)]) -> Vec<SessionCyc
     cycles
 }
 
-/// What is known before the cycles are pooled.
+/// Data before the cycles are pooled.
 fn head(facts: SessionFacts, trials: &[SessionTrial], computed: &[(usize, &ComputedTrial)]) -> SessionSummary {
     let first = computed.first().map(|(_, trial)| *trial);
     let mut recorded_on: Vec<String> = trials.iter().filter_map(|trial| trial.recorded_on.clone()).collect();
@@ -279,7 +279,7 @@ pub struct ComparedSession {
     earlier: Option<Session>,
 }
 
-/// A mass that differs by more than this share may be that of another person.
+/// A mass that differs by more than this share may belong to another person.
 const OTHER_MASS: f64 = 0.2;
 
 impl ComparedSession {

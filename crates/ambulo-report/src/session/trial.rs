@@ -11,7 +11,7 @@ use ambulo::study::{Outcome, PredictedGround, QualityState};
 use ambulo_results::{Convention, ConventionSummary};
 use std::collections::BTreeMap;
 
-/// A stance that plates measured is that of a cycle if both its ends differ by less than this share of the cycle.
+/// A measured stance belongs to a cycle if both its ends differ by less than this share of the cycle.
 const SAME_STANCE: f64 = 0.1;
 
 /// A trial of a session.
@@ -25,7 +25,7 @@ pub struct SessionTrial {
     pub found: Result<ComputedTrial, String>,
 }
 
-/// What a session takes from a computed trial.
+/// Data that a session takes from a computed trial.
 #[derive(Debug, Clone)]
 pub struct ComputedTrial {
     pub(super) facts: TrialFacts,

@@ -47,11 +47,11 @@ pub(crate) struct FigureRecorder {
     efforts: Vec<Vec<f64>>,
     feet: [FootRecord; 2],
     unsolved: usize,
-    /// What moves the figure from step to step.
+    /// Driver of the figure in each step.
     live: Option<Live>,
 }
 
-/// What moves a figure from step to step.
+/// Driver of a figure in each step.
 #[derive(Debug, Clone)]
 pub(crate) enum Live {
     /// Machines compute targets of drives.

@@ -30,7 +30,7 @@ pub(crate) enum FigurePlace {
 pub struct FigureJointError {
     /// The joint.
     pub joint: String,
-    /// What was found.
+    /// Found value.
     pub found: String,
 }
 

@@ -82,7 +82,7 @@ pub struct TreeJoint {
     pub child_from_joint: Pose,
     /// The motions that the joint leaves free.
     pub kind: JointKind,
-    /// What acts on each coordinate, in the order of the kind.
+    /// Actuation of each coordinate, in the order of the kind.
     pub coordinates: Vec<JointCoordinate>,
     /// A motion that prescribes all six directions. `kind` is then [`JointKind::Weld`] and is not used.
     pub follows: Option<Follows>,

@@ -44,7 +44,7 @@ pub struct Pace {
     pub step_length: Option<f64>,
     /// Step frequency [steps/s].
     pub step_frequency: Option<f64>,
-    /// Exponent b of step frequency ~ V^b; `None` for that of the style.
+    /// Exponent b of step frequency ~ V^b; `None` for the exponent of the style.
     pub cadence_exponent: Option<f64>,
     /// Factor on the resulting step length; also scales the angles and the speed.
     pub length_scale: f64,
@@ -259,7 +259,7 @@ impl Gait {
         Gait { style, pelvis: style.pelvis(), ..self }
     }
 
-    /// The first pace at which the figure walks: that of the first change if it stands before.
+    /// The first pace at which the figure walks: the pace of the first change if it stands before.
     pub(super) fn pace_at_start(&self) -> Result<Pace, GaitError> {
         if self.pace.speed != Some(Speed::MetersPerSecond(0.0)) {
             return Ok(self.pace);

@@ -152,7 +152,7 @@ impl Walk {
         let duration_s = match change.duration_s {
             Some(duration_s) if (SHORTEST_CHANGE_S..=LATEST_CHANGE_S).contains(&duration_s) => duration_s,
             Some(duration_s) => {
-                let expected = "0.1 to 300 s, because nobody changes pace within less than a tenth of a second";
+                let expected = "0.1 to 300 s, because a change of pace takes at least a tenth of a second";
                 return Err(number("duration of a change of pace [s]", duration_s, expected));
             }
             None if before.walks && !to.walks => self.plan.halt_s(change.start_s, foot_off),
@@ -189,7 +189,7 @@ impl Walk {
     }
 
     /// The constant paces before, between and after the changes as gaits without changes, and for each change its start and duration [s].
-    /// Where the figure stands, the gait is that of the change from or to standing.
+    /// While the figure stands, the gait of the change from or to standing.
     #[must_use]
     pub fn pace_ramps(&self) -> Vec<PaceRamp> {
         let ramps = self.plan.ramps();

@@ -1,11 +1,11 @@
-//! What muscles do at a joint, and what it costs them.
+//! Muscle moments at a joint, and their cost.
 
 use super::instant::Instant;
 use crate::model::anatomy::Anatomy;
 use crate::model::{CoordinateId, Movement, Side};
 use crate::numerics::elementary::{exp, hypot};
 
-/// What muscles do at a joint: its generalised force without those of tissue, a spring, a damper, and a device,
+/// Muscle moment at a joint: its generalised force less the forces of tissue, a spring, a damper, and a device,
 ///
 ///   τ - Σ s exp(c + Σ aᵢ qᵢ) + k q + d q̇ - u
 #[derive(Debug, Clone, PartialEq)]

@@ -59,7 +59,7 @@ impl Key {
 /// Costs, surfaces and resolution of a movement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MovementSettings {
-    /// What muscles cost.
+    /// Costs of muscles.
     pub costs: EffortCosts,
     /// Spheres that touch other level surfaces than the ground, such as a chair, each with the height of its surface [m].
     pub surfaces: Vec<(ContactSphere, f64)>,

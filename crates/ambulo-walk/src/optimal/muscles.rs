@@ -154,7 +154,7 @@ impl<'a> MuscleTerms<'a> {
         }
     }
 
-    /// What the muscles of a joint do besides tissue and devices.
+    /// Muscle moment of a joint without tissue and devices.
     fn effort(&self, id: CoordinateId, name: &str, movement: Option<Movement>) -> Effort {
         let model = &self.human.model;
         let size = self.human.build.mass * 9.80665 * self.human.build.height / ADULT;

@@ -15,7 +15,7 @@ pub enum Quantity {
     Acceleration(Vec<(CoordinateId, f64)>),
     /// Generalised force of a coordinate [N.m or N].
     Force(CoordinateId),
-    /// What muscles do at a joint [N.m or N].
+    /// Muscle moment or force at a joint [N.m or N].
     Effort(Effort),
     /// Square root of the power that muscles cost at a joint, √(p₊ P₊ + p₋ P₋) [√W], where P₊ and P₋ are positive and negative mechanical
     /// power. Both are smoothed: P₊ = (P + √(P² + `smooth_w`²)) / 2, P₋ = P₊ - P.

@@ -186,7 +186,7 @@ fn gains(table: &Table<'_>, is_spatial: bool) -> Result<ControlSettings, SceneEr
     Ok(if is_tuned { ControlSettings::tuned_in_the_plane() } else { ControlSettings::default() })
 }
 
-/// The controller of a figure, which needs a corrected walk of one pace and all joints for itself.
+/// The controller of a figure, which needs a dynamically consistent walk of one pace and all joints for itself.
 fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<ControlEntry>, SceneError> {
     let is_spatial = walk.is_some_and(|walk| walk.mode == FigureWalkMode::Optimal);
     let Some(value) = table.get("control") else {

@@ -17,7 +17,7 @@ pub struct EventEntry {
     pub change: EventAction,
 }
 
-/// What an event changes.
+/// Change that an event makes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventAction {
     /// A closure becomes active: index in [`SceneFile::closures`](super::SceneFile::closures).

@@ -337,7 +337,7 @@ impl FigureAssembly<'_> {
             if free && carried[i] <= 0.0 {
                 let place = Place { line: self.entry.line, key: format!("figure[{}]", self.number) };
                 let found = format!("found the body `{}`, free to move and without mass", body.name);
-                return Err(place.error(found + "; expected a mass of its own or of bodies that it carries"));
+                return Err(place.error(found + "; expected a mass of the body or of bodies that it carries"));
             }
         }
         Ok(())

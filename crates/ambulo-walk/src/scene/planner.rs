@@ -53,7 +53,7 @@ impl Planner<'_> {
             if !(walk.is_symmetric() && walk.gait().follows_people() && self.build.toe_joint) {
                 let found = format!("found the gait `{}` in the mode `optimal`", gait.name);
                 return Err(place.error(
-                    found + "; expected curves of people, the same on both sides, and a figure with toe joints",
+                    found + "; expected normative curves, the same on both sides, and a figure with toe joints",
                 ));
             }
             let found = OptimalWalk::find_lifted(self.build, &walk, entry.lift).map_err(|e| wrong(&e))?;
@@ -74,7 +74,7 @@ impl Planner<'_> {
     ) -> Result<ScheduledController, SceneError> {
         let place = &control.place;
         if !(self.gait.pace_changes.is_empty() && self.gait.machines.is_empty()) {
-            let found = format!("found the gait `{}` with machines or changes of pace of its own", self.gait.name);
+            let found = format!("found the gait `{}` with its own machines or changes of pace", self.gait.name);
             return Err(place.error(found + "; expected one pace. hint: changes of speed can be given by the scene"));
         }
         let schedule = self.schedule(sources)?;

@@ -44,9 +44,9 @@ pub enum ResumeError {
     Other {
         /// Difference.
         what: &'static str,
-        /// What was saved.
+        /// Saved value.
         found: String,
-        /// What the scene has.
+        /// Value of the scene.
         expected: String,
     },
     /// Machines or controllers, whose states are not saved.

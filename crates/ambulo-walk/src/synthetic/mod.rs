@@ -1,4 +1,4 @@
-//! Synthetic walks: from a gait and a body size to motion and ground forces, for an analysis like that of a recording.
+//! Synthetic walks: from a gait and a body size to motion and ground forces, which are analysed like a recording.
 //!
 //! There are five modes. [`SyntheticMode::Optimal`] finds the walk of a figure in three dimensions by optimal motion ([`crate::optimal`]);
 //! [`SyntheticMode::Predicted`] does so without normative curves as targets, also on slopes, with loads, weak joints and devices.

@@ -152,7 +152,7 @@ pub enum SyntheticError {
     },
     /// Optimal walks follow normative forces, which belong to the normative joint curves.
     #[error(
-        "the gait `{gait}`: found curves, joints or steps that are changed; expected the curves of people (style knots), because an optimal walk also follows their forces. hint: use the mode `corrected`"
+        "the gait `{gait}`: found curves, joints or steps that are changed; expected the normative curves (style knots), because an optimal walk also follows normative forces. hint: use the mode `corrected`"
     )]
     NotOfPeople {
         /// Name of the gait.

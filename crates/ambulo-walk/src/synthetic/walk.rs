@@ -60,7 +60,7 @@ pub struct WalkReport {
     pub changes: Vec<PaceReached>,
     /// The correction of the gait; of its first pace if the pace changes; `None` in the paper's mode.
     pub correction: Option<CorrectionReport>,
-    /// What a prediction was made for and what it costs; `None` in the other modes.
+    /// Conditions and cost of a prediction; `None` in the other modes.
     pub prediction: Option<PredictionReport>,
     /// Torque that holds the trunk from outside [N.m].
     pub trunk_torque: Magnitude,
@@ -111,7 +111,7 @@ const STANDING_S: f64 = 1.0;
 /// Cycles after the last change that are kept.
 const CYCLES_AFTER_CHANGE: f64 = 2.0;
 
-/// Cycles before the corrected walk is steady; it starts with the planned motion. An optimal walk begins with the same phase.
+/// Cycles before the dynamically consistent walk is steady; it starts with the planned motion. An optimal walk begins with the same phase.
 pub(super) const CORRECTED_SKIPPED: usize = 1;
 /// Longest walk with machines [s].
 const LONGEST_PLAN_S: f64 = 300.0;

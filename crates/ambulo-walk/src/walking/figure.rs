@@ -125,7 +125,7 @@ impl Walker {
 
     /// States that the walk goes on before its start, where it has this posture with rates and accelerations of all coordinates.
     ///
-    /// Velocities of the simulator are those of the middle of a time step, so the walk then starts with those of half a step earlier. Otherwise the
+    /// The simulator stores velocities at the middle of a time step, so the walk starts with velocities of half a step earlier. Otherwise the
     /// first step has half of the change of velocity, and its joint forces lack half of the forces of inertia.
     #[must_use]
     pub fn moving_as(mut self, [q, qd, qdd]: &[Vec<f64>; 3]) -> Walker {
@@ -280,7 +280,7 @@ pub enum WalkingError {
     Joint {
         /// The joint.
         joint: String,
-        /// What was found.
+        /// Found value.
         found: String,
     },
     /// The number of signals differs from the number of coordinates.

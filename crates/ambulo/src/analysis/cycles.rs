@@ -12,7 +12,7 @@ pub const CYCLE_SAMPLES: usize = 101;
 pub struct Cycle {
     /// The foot.
     pub side: Side,
-    /// Number of the cycle among those of this foot, from 1.
+    /// Number of the cycle among the cycles of this foot, from 1.
     pub number: usize,
     /// Foot strike [s].
     pub start_s: f64,

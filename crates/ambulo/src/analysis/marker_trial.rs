@@ -189,7 +189,7 @@ pub enum MarkerTrialError {
     Poses(#[from] JointCentreError),
     /// Poses of segments for a model that has other segments.
     #[error(
-        "the recording has poses of segments, which drive the built-in body; the model `{model}` has segments of its own and needs markers. hint: leave the model out"
+        "the recording has poses of segments, which drive the built-in body; the model `{model}` has its own segments and needs markers. hint: leave the model out"
     )]
     PosesForModel {
         /// Name of the model.

@@ -28,7 +28,7 @@ pub struct AnalysisSettings {
     pub force_filter: Option<LowPass>,
     /// The time range to analyse.
     pub window: Window,
-    /// Frame rate of the results [Hz]; `None` keeps that of the recording.
+    /// Frame rate of the results [Hz]; `None` keeps the value of the recording.
     pub rate_hz: Option<f64>,
     /// The instrumented window, if known: outside it forces may be missing and the residual is not evaluated. `None`: the measured forces are
     /// complete at all times.

@@ -31,7 +31,7 @@ impl Source {
     /// is missing; without such a time they are predicted.
     ///
     /// # Errors
-    /// A model that cannot be computed, coordinates that are not those of the model.
+    /// A model that cannot be computed, coordinates that do not belong to the model.
     pub fn of_b3d(trial: &B3dTrial<'_>, window: Window, findings: &mut Findings) -> Result<Source, B3dSourceError> {
         let document = OsimModel::read(trial.model_text()?.as_bytes())?;
         let model = from_osim(&document, findings)?;

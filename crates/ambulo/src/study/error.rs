@@ -42,7 +42,7 @@ pub enum StudyError {
     #[error(transparent)]
     Device(MotionError),
     /// The built-in body needs a mass.
-    #[error("the body mass is not known: the files state none, and no person stands still on force plates")]
+    #[error("the body mass is not known: the files state none, and there is no standing trial on force plates")]
     MassUnknown,
     /// A size that the model cannot have.
     #[error(transparent)]

@@ -15,14 +15,14 @@ use crate::motion::ForceRecording;
 /// Of the loaded time, loads under no foot may have at most this share in a motion that is judged.
 const MOST_UNASSIGNED: f64 = 0.5;
 
-/// Measured forces that cannot be those of this person and motion.
+/// Measured forces that cannot belong to this person and motion.
 #[derive(Debug, Clone, Default)]
 pub(super) struct IdleForces {
     /// Loaded times without a foot [s].
     unassigned: Vec<[f64; 2]>,
     /// Of the loaded time, the share that these are.
     unassigned_share: f64,
-    /// What shows no load although feet stand on it.
+    /// Plates or tables without a load although feet are on them.
     silent: Vec<String>,
     /// Of the stances on plates, the share without a load.
     silent_share: f64,

@@ -140,7 +140,7 @@ impl MassEstimate {
         MassEstimate { by: MassWitness::Stated, kg, error_kg: STATED_ERROR * kg, times: 1, time_s: None }
     }
 
-    /// Whether another mass can be that of the same person.
+    /// Whether another mass can belong to the same person.
     fn agrees(&self, other: &MassEstimate) -> bool {
         let error_kg = hypot(self.error_kg, other.error_kg);
         (self.kg - other.kg).abs() <= (SAME_PERSON * self.kg.max(other.kg)).max(STANDARD_ERRORS * error_kg)
@@ -163,7 +163,7 @@ impl KnownMass {
         KnownMass { stated: kg.map(MassEstimate::stated), standing: None }
     }
 
-    /// Of a recording of markers: the user's statement goes before that of the files.
+    /// Of a recording of markers: the user's statement has priority over the files.
     pub(super) fn of_markers(markers: &MarkerSource) -> KnownMass {
         let MarkerSource { trial, standing, body, .. } = markers;
         let files = standing.as_ref().and_then(|standing| standing.subject.mass_kg).or(trial.subject.mass_kg);
@@ -246,7 +246,7 @@ impl BodyMass {
         combined(&motion)
     }
 
-    /// What the force plates say.
+    /// Mass by the force plates.
     pub(super) fn on_plates(&self) -> Option<MassEstimate> {
         let (kg, error_kg) = (self.plates_kg?, self.plates_error_kg?);
         Some(MassEstimate { by: self.source, kg, error_kg, times: 1, time_s: None })

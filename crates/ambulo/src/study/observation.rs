@@ -54,7 +54,7 @@ pub(super) enum ObservedMotion {
     Complete(Trajectory),
 }
 
-/// What is known about a recording besides the motion.
+/// Data of a recording besides the motion.
 struct Statements {
     forces: MeasuredForces,
     device: Option<Table>,
@@ -480,7 +480,7 @@ impl MarkerSource {
     }
 }
 
-/// The forces of a table, without those of one that never carries anything: they are then predicted.
+/// The forces of a table; none if the table never carries a load: they are then predicted.
 fn carrying(found: TableForces, findings: &mut Findings) -> (Vec<ForceRecording>, IdleForces) {
     let idle = IdleForces::of_table(&found);
     idle.report(findings);

@@ -29,7 +29,7 @@ pub enum SetupError {
         coordinate: String,
         /// Line of the task.
         line: usize,
-        /// What was found instead.
+        /// Found value.
         found: &'static str,
     },
     /// A file of coordinates that cannot be used.

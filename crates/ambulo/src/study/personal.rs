@@ -23,7 +23,7 @@ pub enum CalibrationError {
     },
     /// No foot on a separate plate.
     #[error(
-        "no foot was wholly on a plate of its own from strike to off; expected at least one such stance in each trial"
+        "no foot was wholly on a separate plate from strike to off; expected at least one such stance in each trial"
     )]
     NoStance {
         /// Which one.
@@ -36,7 +36,7 @@ pub enum CalibrationError {
     NotWalking {
         /// Which one.
         trial: usize,
-        /// What was recognised.
+        /// Recognised activity.
         found: &'static str,
     },
     /// Trials of different persons.

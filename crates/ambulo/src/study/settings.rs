@@ -21,7 +21,7 @@ pub struct Settings {
     /// The time range to analyse. An open range is all of the recording or, where markers are missing for long, the longest time
     /// without a gap.
     pub window: Window,
-    /// Frames per second of the results [Hz]; `None` keeps those of the recording.
+    /// Frames per second of the results [Hz]; `None` keeps the value of the recording.
     pub rate_hz: Option<f64>,
     /// How the ground forces are found.
     pub ground: GroundSettings,

@@ -150,7 +150,7 @@ pub enum MarkerBody {
     Model {
         /// The model.
         model: Model,
-        /// Body mass [kg]; `None` keeps that of the model, or takes that of the protocol.
+        /// Body mass [kg]; `None` keeps the value of the model, or takes the value of the protocol.
         mass_kg: Option<f64>,
         /// The statements of a laboratory that works with OpenSim; `None` detects the axes of the recordings, and sizes from the standing trial.
         protocol: Option<Box<ModelProtocol>>,

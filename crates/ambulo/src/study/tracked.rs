@@ -13,7 +13,7 @@ const SMALL_RESIDUAL: f64 = 0.005;
 /// Root mean square of the changes of rotations that is reported [rad].
 const LARGE_CHANGE_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// Replaces predicted forces, and the motion, by those of tracking.
+/// Replaces predicted forces and the motion by the results of tracking.
 pub(super) fn tracked(
     found: Found,
     observation: &Observation,

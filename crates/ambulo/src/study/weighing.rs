@@ -334,7 +334,7 @@ fn contacts_of(model: &Model, forces: &[ForceRecording], up: Vec3, side: Side) -
     contacts_from_force(&first.times, &total)
 }
 
-/// Events of the forces, and those of the motion that are not among them.
+/// Events of the forces, and events of the motion that are not among them.
 fn with_events(by_force: Vec<Event>, by_motion: &[Event]) -> Vec<Event> {
     let is_new = |event: &&Event| {
         let same = |known: &Event| {

@@ -1,4 +1,4 @@
-//! One simulated cycle of a corrected walk.
+//! One simulated cycle of a dynamically consistent walk.
 
 use super::adjustment::{Adjustment, adjustments};
 use super::curve::Peaks;

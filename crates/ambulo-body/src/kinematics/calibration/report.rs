@@ -24,7 +24,7 @@ pub struct CalibrationReport {
 pub struct SegmentScale {
     /// Name of the body.
     pub body: String,
-    /// Length divided by that of the segment table at this stature.
+    /// Length divided by the length in the segment table at this stature.
     pub factor: f64,
     /// Whether it was measured by markers; otherwise it is from the table.
     pub is_measured: bool,

@@ -42,7 +42,7 @@ pub struct LiveMarkerFit {
     next: u64,
     /// Share of the last frames in which each fitted marker was visible.
     visible: Vec<f64>,
-    /// What determines each coordinate, and the value of those that nothing determines.
+    /// Source of each coordinate, and the value of undetermined ones.
     leaders: Vec<Leader>,
     defaults: Vec<f64>,
     /// Start of the search for the first posture, one value per unknown.

@@ -103,7 +103,7 @@ pub(super) enum Leader {
     Unknown(usize),
 }
 
-/// What determines each coordinate of the model.
+/// Source of the value of each coordinate of the model.
 pub(super) fn leaders(model: &Model, problem: &FitProblem<'_>) -> Vec<Leader> {
     let own = |c: usize| (0..problem.tree.unknowns()).find(|&u| problem.tree.coordinate(u) == c);
     let leader = |(i, drive): (usize, &Drive)| match drive {

@@ -41,7 +41,7 @@ const MEMORY: f64 = 0.25;
 /// In the first frame a swap of labels must reduce both distances from above this [m] to less than half.
 const FIRST_SWAP: f64 = 0.060;
 
-/// What earlier frames have shown.
+/// State from earlier frames.
 #[derive(Debug, Clone)]
 pub(super) struct Tracking {
     /// The last two fitted frames.

@@ -25,7 +25,7 @@ const ALL_ROTATIONS: usize = 3;
 pub struct PosedBody {
     /// The body.
     pub human: Human,
-    /// What was assumed.
+    /// Assumptions.
     pub assumptions: Vec<String>,
 }
 

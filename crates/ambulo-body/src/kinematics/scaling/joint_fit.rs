@@ -55,7 +55,7 @@ const DIFFERENCE: f64 = 1e-5;
 /// Settings of [`fit_size`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SizeSettings {
-    /// Body mass [kg]; `None` keeps that of the model.
+    /// Body mass [kg]; `None` keeps the value of the model.
     pub mass: Option<f64>,
 }
 

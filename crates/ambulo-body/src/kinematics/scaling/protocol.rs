@@ -24,7 +24,7 @@ use std::collections::BTreeMap;
 pub struct ScalingProtocol {
     /// The methods in their order.
     pub steps: Vec<ScalingStep>,
-    /// Body mass [kg]; `None` keeps that of the model.
+    /// Body mass [kg]; `None` keeps the value of the model.
     pub mass_kg: Option<f64>,
     /// How the masses of the bodies follow from their sizes.
     pub masses: MassDistribution,

@@ -99,7 +99,7 @@ impl Tree<'_> {
         children.chain(self.parent(body))
     }
 
-    /// The chain of a leg from the hip on; `bodies` begins with the pelvis. `None` if its joints are not those of a leg.
+    /// The chain of a leg from the hip on; `bodies` begins with the pelvis. `None` if its joints are not the joints of a leg.
     fn chain(&self, mut bodies: Vec<BodyId>) -> Option<LegChain> {
         let joints: Vec<BodyId> = bodies.windows(2).map(|pair| self.joint_between(pair[0], pair[1])).collect();
         let centers: Vec<Vec3> = joints.iter().map(|joint| self.posture.joint_center(*joint)).collect();

@@ -19,7 +19,7 @@ const SIDES: [(&str, Side); 6] = [
 ];
 /// An ending that gives no information about the place: OpenCap adds it to the names of markers that it derives from video.
 const ENDING: &str = "study";
-/// Fewest names with a common prefix that is taken for that of a subject.
+/// Fewest names with a common prefix that counts as the prefix of a subject.
 const FEWEST_WITH_PREFIX: usize = 4;
 
 /// How names are compared.

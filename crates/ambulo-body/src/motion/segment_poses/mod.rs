@@ -86,7 +86,7 @@ const FOOT_LENGTHS_M: RangeInclusive<f64> = 0.01..=0.2;
 /// Reads the poses of the segments of a C3D file, in the axes of the laboratory.
 ///
 /// # Errors
-/// No poses of pelvis, thighs, shanks and feet; axes that are not those of a person: see [`SegmentPoseError`].
+/// No poses of pelvis, thighs, shanks and feet; axes that a person cannot have: see [`SegmentPoseError`].
 pub fn segment_poses_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<SegmentPoses, SegmentPoseError> {
     let unit_m = unit_m(c3d, findings);
     let samples = c3d.frames() * c3d.rotations_per_frame();

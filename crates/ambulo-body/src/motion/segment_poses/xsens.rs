@@ -30,7 +30,7 @@ const ALIKE: f64 = 1e-5;
 /// Reads the poses of the segments, in the axes of MVN: z up.
 ///
 /// # Errors
-/// No poses of pelvis, thighs, shanks and feet; legs that were not measured; axes that are not those of a person: see
+/// No poses of pelvis, thighs, shanks and feet; legs that were not measured; axes that a person cannot have: see
 /// [`SegmentPoseError`].
 pub fn segment_poses_from_mvnx(mvnx: &Mvnx, findings: &mut Findings) -> Result<SegmentPoses, SegmentPoseError> {
     let numbers = frame_numbers(mvnx)?;

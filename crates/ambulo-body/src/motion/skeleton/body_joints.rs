@@ -173,7 +173,7 @@ fn plain(name: &str) -> String {
     last.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// What rigs put in front of the name of a bone: Rigify's kinds of bones, and Mixamo's namespace without its colon.
+/// Prefixes of bone names in rigs: Rigify's kinds of bones, and Mixamo's namespace without its colon.
 const RIG_BEGINNINGS: [&str; 5] = ["DEF-", "ORG-", "MCH-", "mixamorig_", "mixamorig"];
 
 fn sides_of(plain: &str) -> Vec<(Side, String)> {

@@ -60,7 +60,7 @@ pub(super) struct Ledger {
 }
 
 impl Ledger {
-    /// Takes the shard of a folder, new or, to continue, that of the same batch.
+    /// Opens the shard of a folder: a new one, or one of the same batch to continue.
     pub(super) fn open(folder: &Path, shard: Shard, description: &Description, resume: bool) -> Result<Ledger> {
         let shown = folder.display();
         if folder.is_file() {

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 const PAGE: &str = "summary.html";
 
-/// Writes the page. The order of the trials is that of their names, so that shards do not change it.
+/// Writes the page. Trials are sorted by name, so that shards do not change the order.
 pub(super) fn write(args: &BatchArgs, planned: &[PlannedTrial], tables: &[ParquetTable]) -> Result<()> {
     let planned: BTreeMap<&str, &PlannedTrial> = planned.iter().map(|trial| (trial.name.as_str(), trial)).collect();
     let command = |name: &str| {

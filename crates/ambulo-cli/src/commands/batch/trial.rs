@@ -19,7 +19,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// Tables whose columns would have the names of those of another table, and what is put before them.
+/// Tables whose columns have names of another table, and the prefix of these columns.
 const PREFIXES: [(&str, &str); 2] = [("grf_measured.mot", "measured_"), ("clinical.csv", "clinical_")];
 
 /// The work that a batch does on every trial.
@@ -70,7 +70,7 @@ pub(super) struct FrameColumn {
 impl Work {
     /// The options of a trial.
     fn options(&self, trial: &PlannedTrial) -> Result<ForcesArgs> {
-        // The parser prints a usage line as well, which is that of another command.
+        // The parser also prints the usage line of another command.
         trial.files.options(&self.words).map_err(|refused| {
             let text = refused.render().to_string();
             let first = text.lines().next().unwrap_or_default();

@@ -21,7 +21,7 @@ pub(crate) type StandingTrials = ReadOnce<PathBuf, StandingTrial>;
 /// Models by their files.
 pub(crate) type Models = ReadOnce<ModelFiles, Model>;
 
-/// What a model is read from.
+/// Source of a model.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct ModelFiles {
     pub(super) path: PathBuf,

@@ -84,7 +84,7 @@ fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<(SensorBody, Option<
     }
     let SubjectArgs { mass: Some(mass), height: Some(height), .. } = args.subject else {
         bail!(
-            "{}: orientations of sensors show no lengths; expected --mass KG and --height M for the built-in body, or --model FILE.osim",
+            "{}: orientations of sensors contain no lengths; expected --mass KG and --height M for the built-in body, or --model FILE.osim",
             args.recording().display()
         );
     };

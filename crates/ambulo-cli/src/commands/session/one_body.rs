@@ -42,7 +42,7 @@ pub(super) struct ComputedVisit {
 impl Visit<'_> {
     /// The options of a trial. Ground forces are predicted, alongside measured ones.
     fn options(&self, trial: &PlannedTrial) -> Result<ForcesArgs> {
-        // The parser prints a usage line as well, which is that of another command.
+        // The parser also prints the usage line of another command.
         let args = trial.files.options(self.words).map_err(|refused| {
             let text = refused.render().to_string();
             let first = text.lines().next().unwrap_or_default();

@@ -128,7 +128,7 @@ pub(super) fn check_names(folder: &Path, named: &[(&PlannedTrial, String)]) -> R
     Ok(())
 }
 
-/// Refuses masses that differ, which are those of two persons or a mistake.
+/// Refuses masses that differ: they belong to two persons, or one is wrong.
 pub(super) fn check_stated(folder: &Path, trials: &[&PlannedTrial]) -> Result<()> {
     for (what, unit, of) in [
         ("mass", "kg", (|trial| trial.stated.mass_kg) as fn(&PlannedTrial) -> Option<f64>),

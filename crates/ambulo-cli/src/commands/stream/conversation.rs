@@ -19,7 +19,7 @@ const NEW_SEQUENCE_S: f64 = 1.0;
 /// So many notices of a kind are printed; all are counted and, as JSON, answered.
 const PRINTED: u64 = 5;
 
-/// What the frames of a sender have.
+/// Content of a sender's frames.
 enum FrameKind {
     Coordinates(CoordinateFrames),
     Markers(Box<MarkerFrames>),
@@ -207,7 +207,7 @@ impl<'a> Conversation<'a> {
         }
     }
 
-    /// The coordinates of a frame; those of markers are fitted now.
+    /// The coordinates of a frame; with markers they are fitted now.
     fn fitted(&mut self, q: Vec<f64>, number: u64) -> Result<Vec<f64>> {
         let FrameKind::Markers(frames) = &mut self.frames else { return Ok(q) };
         let message = match frames.fit(&self.setup.model)? {

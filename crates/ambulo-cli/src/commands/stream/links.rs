@@ -171,7 +171,10 @@ fn not_bound(error: std::io::Error, kind: &str, address: SocketAddr) -> anyhow::
             address.ip()
         ),
         ErrorKind::AddrNotAvailable => {
-            anyhow!("{} is no address of this computer; expected one of its own, such as 127.0.0.1", address.ip())
+            anyhow!(
+                "{} is not an address of this computer; expected one of its addresses, such as 127.0.0.1",
+                address.ip()
+            )
         }
         _ => anyhow::Error::new(error).context(format!(
             "{kind} port {} of {} cannot be used",

@@ -1,4 +1,4 @@
-//! What the live page gets of a stream: frames with their results, and what happens to the stream.
+//! Data of the live page: frames with their results, and events of the stream.
 //!
 //! The figure is shown as it was recorded, and its forces in the same frame, both after the delay. Nothing is computed while no browser watches.
 
@@ -19,7 +19,7 @@ pub(super) struct LiveView<'a> {
     rate_hz: f64,
     /// The newest frames that have no results yet, and their numbers.
     recent: VecDeque<(u64, Vec<f64>)>,
-    /// Frames that are kept: those of the delay.
+    /// Frames that are kept: frames within the delay.
     most: usize,
     lost: u64,
     is_running: bool,

@@ -40,13 +40,13 @@ impl FoundFile {
         ending(&self.path)
     }
 
-    /// Whether the name is that of a file of a trial, with or without measured forces.
+    /// Whether a file with this name belongs to a trial, with or without measured forces.
     fn may_be_part(&self) -> bool {
         let ending = self.ending();
         ENDINGS.contains(&ending.as_str()) || OF_MOTION.contains(&ending.as_str()) || self.is_bids_motion()
     }
 
-    /// Whether the name is that of the motion of a BIDS data set.
+    /// Whether a file with this name is the motion of a BIDS data set.
     pub(super) fn is_bids_motion(&self) -> bool {
         bids::beside(&self.path).is_some()
     }

@@ -48,7 +48,7 @@ pub(crate) struct PlannedTrial {
     /// The kind that the laboratory states.
     pub(crate) kind: Option<String>,
     pub(crate) files: TrialFiles,
-    /// What the laboratory states about it.
+    /// Statements of the laboratory about it.
     pub(crate) stated: StatedTrial,
     /// Why it cannot be read.
     pub(crate) broken: Option<String>,
@@ -66,7 +66,7 @@ pub(crate) struct Plan {
     pub(crate) standing: Vec<String>,
 }
 
-/// What a recording is by its content.
+/// Kind of a recording, by its content.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Content {
     /// With force plates.
@@ -83,7 +83,7 @@ impl Content {
     fn without_forces(&self) -> String {
         match self {
             Content::Broken(reason) => reason.clone(),
-            _ => "no measured ground forces: no force plates, and no table of forces beside it".to_owned(),
+            _ => "no measured ground forces: no force plates, and no table of forces next to it".to_owned(),
         }
     }
 }
@@ -134,7 +134,7 @@ fn plan_with(root: &Path, wanted: Wanted, found: &[FoundFile], list: &TrialList,
 }
 
 impl Plan {
-    /// Takes a size that is stated on the command line for trials of which nothing else is stated; it is that of one person.
+    /// Uses a size that is stated on the command line for trials without statements; it belongs to one person.
     pub(crate) fn take_size(&mut self, source: &Path, mass: Option<f64>, height: Option<f64>) -> Result<()> {
         let persons: BTreeSet<&str> = self.trials.iter().map(|trial| trial.person.as_str()).collect();
         let given = [("--mass", mass.is_some()), ("--height", height.is_some())];
@@ -152,7 +152,7 @@ impl Plan {
         Ok(())
     }
 
-    /// Gives trials without a stated size that of their person in a data set.
+    /// Gives trials without a stated size the size of their person in a data set.
     fn take_sizes(&mut self, people: Participants) {
         for trial in &mut self.trials {
             let [mass, height] = people.size(&trial.person);
@@ -290,7 +290,7 @@ fn content(file: &FoundFile, stated: &StatedTrial) -> Content {
         return Content::Motion;
     }
     match read_laboratory_file(&file.path, &Caller::default(), &mut Findings::default()) {
-        // A motion of BIDS may have coordinates instead of markers; its error is that of the computation.
+        // A motion of BIDS may have coordinates instead of markers; the computation then reports the error.
         Err(_) if file.is_bids_motion() => Content::Motion,
         Err(error) => Content::Broken(format!("{error:#}")),
         Ok(recording) if recording.is_still() => Content::Still,

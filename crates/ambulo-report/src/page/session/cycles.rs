@@ -49,7 +49,7 @@ fn nearest(pairs: &[[f64; 2]], curves: &[&CycleRow], side: Side, kinematics: &Ta
     for (place, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair[1] > pair[0]) {
         let least = best.map_or(f64::INFINITY, |(_, least)| least);
         let mut distances = curves.iter().filter_map(|curve| distance(curve, *pair, side, kinematics, times));
-        // Stops at the first curve that is farther away than those of the best pair.
+        // Stops at the first curve that is farther away than the best pair.
         let Some(largest) = distances.try_fold(0.0_f64, |largest, x| (x < least).then(|| largest.max(x))) else {
             continue;
         };

@@ -13,7 +13,7 @@ use ambulo_results::{CLINICAL, Convention, CycleRow, Folder, GroundOrigin, Resul
 /// Most instants of time series that a page draws: more take memory and time in the browser, and no screen shows them.
 const MOST_INSTANTS: usize = 4_000;
 
-/// What is found from all rows of the motion.
+/// Values that are computed from all rows of the motion.
 pub(super) struct AllRows {
     /// Rows per drawn instant.
     step: usize,

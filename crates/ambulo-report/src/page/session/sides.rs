@@ -1,4 +1,4 @@
-//! Converts sides to those of the page's contract.
+//! Converts sides to sides of the page's contract.
 
 use crate::page::contract::PageSide;
 use ambulo::model::Side;

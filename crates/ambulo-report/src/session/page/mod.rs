@@ -61,7 +61,7 @@ plates measured the whole stance of a cycle, otherwise predicted from the motion
 /// Longer facts take a separate line, in letters.
 const WIDE: usize = 60;
 
-/// What is known about person, body and data.
+/// Facts about person, body and data.
 fn facts(summary: &SessionSummary) -> String {
     let spread = |spread: Spread, digits: usize| {
         let sd = spread.sd.map_or(String::new(), |sd| format!(" ± {sd:.digits$}"));

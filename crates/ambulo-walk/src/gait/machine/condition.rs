@@ -29,7 +29,7 @@ pub enum Condition {
     Time(Comparison, f64),
     /// Phase of a foot since its strike, 0 to 1 [cycles].
     Phase(Side, Comparison, f64),
-    /// What a foot does.
+    /// Event or state of a foot.
     Foot(Side, FootEvent),
     /// Angle of a joint of the figure [rad]: clinical sign for a part such as `left knee`, the model's sign for a coordinate.
     Angle(String, Comparison, f64),
@@ -62,7 +62,7 @@ pub enum Comparison {
     AtLeast,
 }
 
-/// What a foot does.
+/// Event or state of a foot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FootEvent {
     /// It is loaded now and was not before.
@@ -99,7 +99,7 @@ impl Comparison {
 pub struct ConditionError {
     /// Token at this place.
     found: String,
-    /// What is allowed there.
+    /// Allowed values.
     expected: &'static str,
 }
 
@@ -397,7 +397,7 @@ impl Reader<'_> {
 
     fn name(&mut self) -> Result<String, ConditionError> {
         let name = self.peek().map(str::to_owned).filter(|name| !name.trim().is_empty());
-        let name = name.ok_or_else(|| self.wrong("a name; one with spaces stands in single quotes"))?;
+        let name = name.ok_or_else(|| self.wrong("a name; a name with spaces needs single quotes"))?;
         self.next += 1;
         Ok(name)
     }

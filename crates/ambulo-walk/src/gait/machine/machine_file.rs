@@ -90,7 +90,7 @@ fn read_machine(table: &Table<'_>, load: &mut ReadColumn<'_>) -> Result<MachineS
         let state = read_state(entry, &drives, load)?;
         let value = entry.need("name", "the name of the state")?;
         if state.name == REST || state.name == "done" {
-            return Err(value.wrong("another name, because this one has a meaning of its own"));
+            return Err(value.wrong("another name, because this one has a special meaning"));
         }
         if states.iter().any(|other| other.name == state.name) {
             return Err(value.wrong("a name that no other state of this machine has"));

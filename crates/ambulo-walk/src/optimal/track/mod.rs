@@ -50,7 +50,7 @@ const LONGEST_S: f64 = 120.0;
 /// Shortest recording, in knot intervals.
 const SHORTEST: usize = 8;
 
-/// What is known of a foot besides its motion.
+/// Data of a foot besides its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootGuide {
     /// The sole.
@@ -67,7 +67,7 @@ pub struct FootGuide {
     pub center: Vec<Vec3>,
 }
 
-/// What a deviation from the recorded motion and from expected forces costs, and the resolution. The default values were set by hand on nine
+/// Costs of deviations from the recorded motion and from expected forces, and the resolution. The default values were set by hand on nine
 /// recordings (docs/OPTIMAL.md).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackSettings {

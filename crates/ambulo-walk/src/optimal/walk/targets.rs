@@ -48,7 +48,7 @@ pub(super) struct Target {
     pub(super) clearance: [[Option<[f64; 2]>; 3]; 2],
 }
 
-/// What the targets of a walk are read from.
+/// Source of the targets of a walk.
 pub(super) struct Targets<'a> {
     human: &'a Human,
     walk: &'a Walk,

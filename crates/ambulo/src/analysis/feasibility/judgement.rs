@@ -21,7 +21,7 @@ use std::ops::Range;
 const LEAST_JUDGED_SHARE: f64 = 0.9;
 /// Filters and splines have no neighbours on one side of the first and last frames, so these are not judged [s].
 const EDGE_S: f64 = 0.1;
-/// Measured forces that carry the body in a smaller share of the frames are not those of this motion, and no prediction takes their place.
+/// Measured forces that carry the body in a smaller share of the frames do not belong to this motion, and are not replaced by a prediction.
 const LEAST_MEASURED_SHARE: f64 = 0.1;
 /// Forces that carry less of the weight than this, in all frames in which none seems to be missing, were not measured: the plates were off.
 const LEAST_CARRIED: f64 = 0.1;

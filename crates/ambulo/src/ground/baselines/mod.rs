@@ -27,7 +27,7 @@ pub enum Baseline {
     SmoothTransition,
 }
 
-/// What the rules need.
+/// Input of the rules.
 #[derive(Clone, Copy)]
 pub struct BaselineInput<'a> {
     /// The body.

@@ -42,7 +42,7 @@ pub(in crate::ground) struct Signals {
     pub(super) pressure_line: Vec<[Vec3; 2]>,
 }
 
-/// What one frame adds to the signals.
+/// Contribution of one frame to the signals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::ground) struct SignalFrame {
     /// Places [m] and velocities [m/s] of the points of each sole; `None` for a foot without a sole.

@@ -46,7 +46,7 @@ pub fn scaling_at(fifths: &ByFifth, phase: f64) -> DeviationScaling {
     DeviationScaling { factor: mix(|s| s.factor), floor: mix(|s| s.floor) }
 }
 
-/// What the estimate leaves of the required wrench, root mean square over a stance ([`super::misfit`]).
+/// Difference of the estimate from the required wrench, root mean square over a stance ([`super::misfit`]).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Misfit {
     /// Forward, up and to the right [N].

@@ -153,7 +153,7 @@ impl EstimateInputs<'_> {
     }
 }
 
-/// Whether the mean errors are those of a stance: they were learned in walking on even ground that strikes with the heel.
+/// Whether the mean errors apply to a stance: they were learned in walking on even ground with heel strikes.
 fn repeats(stance: &Stance) -> bool {
     stance.gait == GaitType::Walk && stance.heel_down_s.is_none() && !stance.on_stairs
 }

@@ -181,7 +181,7 @@ pub enum PredictError {
     /// A calibration of another person.
     #[error(transparent)]
     OtherPerson(#[from] OtherPerson),
-    /// A calibration whose errors are those of another estimate.
+    /// A calibration that belongs to another estimate.
     #[error(
         "the calibration of the person has the errors of another estimate ({found:016x}); expected those of this one ({expected:016x})"
     )]

@@ -179,7 +179,7 @@ impl Stream {
         Ok(forces)
     }
 
-    /// Returns the remaining frames, those of the delay. They are less accurate because less motion follows them.
+    /// Returns the remaining frames, which are within the delay. They are less accurate because less motion follows them.
     ///
     /// # Errors
     /// As [`Stream::push`].
@@ -197,7 +197,7 @@ impl Stream {
         self.delay
     }
 
-    /// Number of values of a frame that are read: those of coordinates that nothing else determines.
+    /// Number of values of a frame that are read: values of coordinates that nothing else determines.
     #[must_use]
     pub fn values(&self) -> usize {
         self.buffer.motion().columns.iter().flatten().count()

@@ -9,7 +9,7 @@ use crate::motion::TimeGrid;
 use crate::spatial::Wrench;
 use std::collections::VecDeque;
 
-/// What a prediction needs of one frame.
+/// Quantities of one frame that a prediction uses.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BodyFrame {
     signals: SignalFrame,

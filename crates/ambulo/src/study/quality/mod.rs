@@ -64,7 +64,7 @@ pub struct Quality {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct QualityReason {
-    /// What was measured.
+    /// Measured quantity.
     pub measure: Measure,
     /// Doubtful or bad.
     pub state: QualityState,

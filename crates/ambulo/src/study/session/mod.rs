@@ -58,7 +58,7 @@ pub struct SessionCycle {
     pub trial: usize,
     /// The foot.
     pub side: Side,
-    /// Number of the cycle among those of this foot in the trial, from 1.
+    /// Number of the cycle among the cycles of this foot in the trial, from 1.
     pub number: usize,
     /// Foot strike and next foot strike of the same foot [s].
     pub span_s: [f64; 2],

@@ -1,4 +1,4 @@
-//! What a laboratory states about the files of a folder of trials (`trials.toml`).
+//! Statements of a laboratory about the files of a folder of trials (`trials.toml`).
 //!
 //! Entries `[[trial]]` have a pattern of file names and what is true of these files. Where several entries fit a file, the last one that
 //! states something counts. Paths are relative to the folder of the list, with `/`.
@@ -88,7 +88,7 @@ impl TrialList {
         Ok(TrialList { entries })
     }
 
-    /// What is stated about a file.
+    /// Statements about a file.
     #[must_use]
     pub fn of(&self, path: &str) -> StatedTrial {
         let own = self.entries.iter().filter(|entry| entry.files.matches(path));

@@ -74,7 +74,7 @@ impl Component {
         }
     }
 
-    /// Its agreement in that of a foot.
+    /// Its agreement, from the agreement of a foot.
     #[must_use]
     pub fn of(self, foot: &FootAgreement) -> ForceAgreement {
         match self {
@@ -99,7 +99,7 @@ impl LegJoint {
         }
     }
 
-    /// Whether a moment is that of this joint, by the beginning of the column's name in models of OpenSim and the built-in body.
+    /// Whether a moment belongs to this joint, by the beginning of the column's name in models of OpenSim and the built-in body.
     #[must_use]
     pub fn has(self, moment: &MomentAgreement) -> bool {
         let beginning = match self {

@@ -11,7 +11,7 @@ use crate::numerics::finite_mean;
 /// A table with its title and, below it, a note; the note may be empty.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Section {
-    /// What the table shows.
+    /// Content of the table.
     pub title: &'static str,
     /// The table.
     pub table: TextTable,

@@ -11,7 +11,7 @@ use crate::findings::{Code, Findings};
 /// (0.560) of Schwartz, Rozumalski, Trost 2008 (J Biomech 41:1639), 1.5 m/s for a leg of 0.9 m.
 pub const FAST_WALKING: f64 = 0.495;
 
-/// What distinguishes trials.
+/// Properties that distinguish trials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TrialKind {
     /// The recognised activity.
@@ -60,7 +60,7 @@ pub enum NotJudged {
     #[error("no force was measured during the motion; expected force plates under the feet")]
     NoPlates,
     /// No foot on a separate plate.
-    #[error("no foot was wholly on a plate of its own from strike to off; expected at least one such stance")]
+    #[error("no foot was wholly on a separate plate from strike to off; expected at least one such stance")]
     NoStance,
 }
 
