@@ -133,11 +133,6 @@ impl Environment {
         run_or(&mut pip, "pip has failed")
     }
 
-    /// The folder of its programs.
-    pub(crate) fn programs(&self) -> Option<&Path> {
-        self.python.parent()
-    }
-
     fn python(&self, folder: &Path, words: &[&str]) -> Result<(), String> {
         let mut python = Command::new(&self.python);
         run_or(python.current_dir(folder).args(words), "see above")
