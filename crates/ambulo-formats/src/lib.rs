@@ -19,11 +19,6 @@
 //! | `parquet` (with the feature of this name) | columns of Apache Parquet `.parquet` | yes | yes |
 //! | [`setup`] | OpenSim set-ups of scaling, inverse kinematics and inverse dynamics | yes | no |
 
-#![cfg_attr(
-    test,
-    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
-)]
-
 pub mod b3d;
 pub mod bids_motion;
 pub mod bvh;
@@ -42,3 +37,27 @@ pub mod trc;
 mod xml;
 
 pub use error::{Error, Remark};
+
+/// For the tests of this crate.
+#[doc(hidden)]
+pub mod internals {
+    use crate::c3d::Processor;
+
+    /// A 16-bit word of a C3D file.
+    #[must_use]
+    pub fn word(processor: Processor, bytes: [u8; 2]) -> u16 {
+        processor.u16(bytes)
+    }
+
+    /// A real number of a C3D file.
+    #[must_use]
+    pub fn real(processor: Processor, bytes: [u8; 4]) -> f32 {
+        processor.f32(bytes)
+    }
+
+    /// A real number as a C3D file has it.
+    #[must_use]
+    pub fn real_bytes(processor: Processor, value: f32) -> Option<[u8; 4]> {
+        processor.f32_bytes(value)
+    }
+}

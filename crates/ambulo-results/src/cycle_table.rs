@@ -96,7 +96,8 @@ fn ground_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, grid: TimeGrid
         .collect()
 }
 
-const HEAD: &str = "quantity,side,cycle,percent,value,unit";
+/// First line.
+pub const HEAD: &str = "quantity,side,cycle,percent,value,unit";
 const UNITS: [&str; 7] = ["deg", "m", "rad", "N.m", "N", "W", "BW"];
 
 /// The first line of `cycles.csv`.
@@ -128,7 +129,7 @@ struct Line<'a> {
 }
 
 /// Reads `cycles.csv`; an error reports the line, what was found and what was expected.
-pub(crate) fn read(text: &str) -> Result<Vec<CycleRow>, String> {
+pub fn read(text: &str) -> Result<Vec<CycleRow>, String> {
     let mut lines = text.lines().enumerate();
     let head = lines.next().map_or("", |(_, line)| line);
     if head != HEAD {
@@ -193,37 +194,4 @@ fn continues(row: &CycleRow, line: &Line<'_>) -> bool {
         && line.percent == row.values.len()
         && row.quantity == line.quantity
         && (row.side, row.cycle) == (line.side, line.cycle)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn file(percents: impl Iterator<Item = usize>) -> String {
-        let rows = percents.map(|p| format!("knee_angle_angle,l,2,{p},{},deg\n", 0.5 * p as f64));
-        format!("{HEAD}\n{}", rows.collect::<String>())
-    }
-
-    #[test]
-    fn a_curve_has_all_its_rows() {
-        let found = read(&file(0..101)).unwrap();
-        assert_eq!(found.len(), 1);
-        assert_eq!((found[0].side, found[0].cycle, found[0].values[100]), (Side::Left, 2, 50.0));
-    }
-
-    #[test]
-    fn invalid_curves_are_rejected_with_their_line() {
-        for (text, words) in [
-            (file((0..50).chain(51..101)), "line 52: found 51 % of `knee_angle_angle`"),
-            (file(0..100), "has 100 rows; expected 101"),
-            (file(0..101).replace(",25,deg", ",x,deg"), "line 52: found `knee_angle_angle,l,2,50,x,deg`"),
-            (file(0..101).replace(",25,deg", ",1e300,deg"), "line 52: found `knee_angle_angle,l,2,50,1e300,deg`"),
-            (file(0..101).replace(",25,deg", ",NaN,deg"), "line 52: found"),
-            (file(0..101).replace(",l,", ",m,"), "line 2: found"),
-            ("side,value\n".to_owned(), "line 1: found `side,value`"),
-        ] {
-            let error = read(&text).unwrap_err();
-            assert!(error.contains(words), "{error}");
-        }
-    }
 }

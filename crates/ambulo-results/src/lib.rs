@@ -70,3 +70,11 @@ pub const CLINICAL: &str = "clinical.csv";
 pub const STATES: &str = "states.csv";
 /// Name of the table of times and distances in a result folder.
 pub const TIMES_AND_DISTANCES: &str = "times_and_distances.csv";
+
+/// For the tests of this crate.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::cycle_table::{HEAD as CYCLES_HEAD, read as read_cycles};
+    pub use crate::scene_tables::RowTable;
+    pub use crate::state_table::{HEAD as STATES_HEAD, read as read_states};
+}

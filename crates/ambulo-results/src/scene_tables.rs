@@ -267,7 +267,7 @@ struct Coordinate {
 
 /// The text of a table, written row by row; remembers the first number that is not finite.
 #[derive(Debug, Clone)]
-struct RowTable {
+pub struct RowTable {
     name: &'static str,
     head: &'static str,
     text: String,
@@ -279,12 +279,14 @@ struct RowTable {
 }
 
 impl RowTable {
-    fn new(name: &'static str, head: &'static str) -> RowTable {
+    /// A table without rows.
+    #[must_use]
+    pub fn new(name: &'static str, head: &'static str) -> RowTable {
         RowTable { name, head, text: format!("{head}\n"), rows: 0, cells: 0, broken: None }
     }
 
     /// The instant and the names that a row begins with.
-    fn begin(&mut self, time_s: f64, names: &[&str]) {
+    pub fn begin(&mut self, time_s: f64, names: &[&str]) {
         // 350 steps of 1 ms are 0.35000000000000003 s: the last digits are rounding errors.
         self.text.push_str(NumberText::default().plain((time_s * 1e12).round() / 1e12));
         self.cells = 1;
@@ -297,7 +299,8 @@ impl RowTable {
         self.text.push_str(&csv_cell(word));
     }
 
-    fn append(&mut self, numbers: &[f64]) {
+    /// The next numbers of the row.
+    pub fn append(&mut self, numbers: &[f64]) {
         let mut text = NumberText::default();
         for &found in numbers {
             if !found.is_finite() && self.broken.is_none() {
@@ -310,12 +313,23 @@ impl RowTable {
         }
     }
 
-    fn end(&mut self) {
+    /// Ends the row.
+    pub fn end(&mut self) {
         self.rows += 1;
         self.text.push('\n');
     }
 
-    fn file(self) -> Result<OutputFile<'static>, Error> {
+    /// What is written so far.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The file.
+    ///
+    /// # Errors
+    /// The first number that is not finite.
+    pub fn file(self) -> Result<OutputFile<'static>, Error> {
         self.broken.map_or_else(|| Ok(OutputFile::new(self.name, self.text.into_bytes())), Err)
     }
 }
@@ -326,24 +340,4 @@ fn quaternion(rotation: &Mat3) -> [f64; 4] {
     let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
     let v: Vec3 = q.imag() * sign;
     [q.w * sign, v.x, v.y, v.z]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_number_that_is_not_finite_is_reported_with_its_column_and_row() {
-        let mut table = RowTable::new("joints.csv", "time,joint,value,rate");
-        for rate in [1.0, f64::INFINITY, f64::NAN] {
-            table.begin(0.5, &["knee, \"left\""]);
-            table.append(&[2.0, rate]);
-            table.end();
-        }
-        assert!(table.text.contains("\n0.5,\"knee, \"\"left\"\"\",2,1\n"), "{}", table.text);
-        table.begin(0.6, &["=cmd|' /C calc'!A0"]);
-        assert!(table.text.ends_with("\n0.6,'=cmd|' /C calc'!A0"), "{}", table.text);
-        let error = table.file().err().unwrap().to_string();
-        assert!(error.starts_with("joints.csv: column `rate`, row 2: found inf; expected a finite number"), "{error}");
-    }
 }

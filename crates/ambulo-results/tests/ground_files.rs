@@ -1,10 +1,6 @@
 //! Ground forces in the files of a run.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
-#[path = "../../ambulo/tests/free_bodies/mod.rs"]
-mod free_bodies;
-
+use crate::free_bodies::{DOWN_Y, free_bodies};
 use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::{BodyId, Model};
@@ -12,7 +8,6 @@ use ambulo::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 use ambulo_results::{Keep, output_files};
-use free_bodies::{DOWN_Y, free_bodies};
 
 /// Products and sums of numbers up to 1000 N.m, divided by hundreds of newtons.
 const ROUNDING: f64 = 1e-11;

@@ -29,7 +29,8 @@ impl Program {
 
     /// The program of a line that describes one.
     fn of_line(line: &str) -> Option<Program> {
-        let is_test = line.contains("\"reason\":\"compiler-artifact\"") && line.contains("\"test\":true},");
+        // The profile is followed by the features; that a target can be tested is another field.
+        let is_test = line.contains("\"reason\":\"compiler-artifact\"") && line.contains("\"test\":true},\"features\"");
         let file = PathBuf::from(text(line, "executable").filter(|_| is_test)?);
         let folder = PathBuf::from(text(line, "manifest_path")?).parent()?.to_path_buf();
         Some(Program { name: text(line.split_once("\"target\":")?.1, "name")?, file, folder })
@@ -123,9 +124,9 @@ fn test_time(line: &str) -> Option<(&str, f64)> {
 mod tests {
     use super::*;
 
-    const LIST: &str = r#"{"reason":"compiler-artifact","package_id":"a","manifest_path":"/w/gait/Cargo.toml","target":{"kind":["test"],"name":"library"},"profile":{"opt_level":"1","test":true},"features":[],"filenames":["/t/library-1"],"executable":"/t/lib\"rary-1","fresh":false}
-{"reason":"compiler-artifact","package_id":"a","manifest_path":"/w/gait/Cargo.toml","target":{"kind":["bin"],"name":"walk"},"profile":{"opt_level":"1","test":false},"features":[],"executable":"/t/walk","fresh":false}
-{"reason":"compiler-artifact","package_id":"a","manifest_path":"/w/gait/Cargo.toml","target":{"kind":["lib"],"name":"gait"},"profile":{"opt_level":"1","test":true},"features":[],"executable":null,"fresh":false}
+    const LIST: &str = r#"{"reason":"compiler-artifact","manifest_path":"/w/gait/Cargo.toml","target":{"kind":["test"],"name":"library","doctest":false,"test":true},"profile":{"opt_level":"1","test":true},"features":[],"filenames":["/t/library-1"],"executable":"/t/lib\"rary-1","fresh":false}
+{"reason":"compiler-artifact","manifest_path":"/w/gait/Cargo.toml","target":{"kind":["bin"],"name":"walk","doctest":false,"test":true},"profile":{"opt_level":"1","test":false},"features":[],"executable":"/t/walk","fresh":false}
+{"reason":"compiler-artifact","manifest_path":"/w/gait/Cargo.toml","target":{"kind":["lib"],"name":"gait","doctest":true,"test":true},"profile":{"opt_level":"1","test":true},"features":[],"executable":null,"fresh":false}
 {"reason":"build-finished","success":true}"#;
 
     #[test]

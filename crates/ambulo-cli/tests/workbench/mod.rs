@@ -66,10 +66,26 @@ fn process_folder() -> &'static Path {
     static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
         let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join("program");
         fs::create_dir_all(&all).unwrap();
+        remove_left(&all);
         let numbered = |number: usize| all.join(format!("{}-{number}", std::process::id()));
         (0..).map(numbered).find(|folder| fs::create_dir(folder).is_ok()).unwrap()
     });
     &FOLDER
+}
+
+/// Removes what processes left that have ended: folders of failed tests and those that several tests shared.
+fn remove_left(all: &Path) {
+    if !Path::new("/proc/self").exists() {
+        return;
+    }
+    for folder in fs::read_dir(all).unwrap().flatten() {
+        let name = folder.file_name().into_string().unwrap_or_default();
+        let process = name.split('-').next().unwrap_or_default();
+        if !Path::new("/proc").join(process).exists() {
+            // Another process may remove it at the same time.
+            let _ = fs::remove_dir_all(folder.path());
+        }
+    }
 }
 
 /// The bytes of a file of the built-in input.
