@@ -27,6 +27,9 @@ fn thinned(results: &Results) -> String {
     )
 }
 
+/// Shown if ground forces were left out on request.
+const WITHOUT_GROUND: &str = "No ground forces: the motion was computed without them, as requested, so the joint moments are those of a body in the air.";
+
 /// One sentence for each missing part.
 pub(super) fn missing(
     results: &Results,
@@ -42,11 +45,7 @@ pub(super) fn missing(
     };
     add(results.step > 1, thinned(results));
     let no_ground = results.source == PageSource::None;
-    add(
-        no_ground,
-        "No ground forces: the motion was computed without them, as requested, so the joint moments are those of a body in the air."
-            .to_owned(),
-    );
+    add(no_ground, WITHOUT_GROUND.to_owned());
     add(!no_ground && results.ground.is_none(), "No ground forces over time: the folder has no grf.mot.".to_owned());
     add(results.moments.is_none(), format!("No joint moments over time: the folder has no {MOMENTS}."));
     add(results.powers.is_none(), format!("No joint powers over time: the folder has no {POWERS}."));
