@@ -344,7 +344,7 @@ fn analysed_files(files: [&[u8]; 4]) -> Option<usize> {
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings).ok()?;
     Some(
         output_files(&model, &analysis, None, &Keep::all()).ok()?.len()
-            + figure_files(&model, &analysis, None).ok()?.len(),
+            + figure_files(&model, &analysis, &[], None).ok()?.len(),
     )
 }
 

@@ -11,13 +11,15 @@ use ambulo::model::{Model, Side};
 use ambulo::study::{Outcome, PredictedGround};
 use ambulo_results::{Convention, CycleRow, OutputFile, cycle_rows};
 
-/// `figures/quality.svg` and the figures of gait cycles. Pelvis and hips have the given angles, otherwise the coordinates of the model.
+/// `figures/quality.svg` and the figures of gait cycles, in which the reasons of a verdict are marked. Pelvis and hips have the given
+/// angles, otherwise the coordinates of the model.
 ///
 /// # Errors
 /// A figure that could not be drawn.
 pub fn figure_files(
     model: &Model,
     analysis: &Analysis,
+    reasons: &[Reason],
     angles: Option<&ClinicalAngles>,
 ) -> Result<Vec<OutputFile<'static>>, FigureError> {
     let mut files = Vec::new();
@@ -37,7 +39,7 @@ pub fn figure_files(
             convention: if angles.is_some() { Convention::Clinical } else { Convention::Opensim },
             mass_kg: analysis.mass.kg,
             caption: &caption,
-            marks: &marks(analysis),
+            marks: &marks(analysis, reasons),
             speed_dimensionless: speed_dimensionless(model, analysis),
         };
         files.extend(figures.files()?);
@@ -66,7 +68,7 @@ fn replace_angles(rows: &mut [CycleRow], angles: &ClinicalAngles, names: &Clinic
 /// A figure that could not be drawn.
 pub fn outcome_figures(outcome: &Outcome, chosen: Convention) -> Result<Vec<OutputFile<'static>>, FigureError> {
     let (angles, _) = angles_of(outcome, chosen);
-    let mut files = figure_files(&outcome.body, &outcome.analysis, angles.as_ref())?;
+    let mut files = figure_files(&outcome.body, &outcome.analysis, &outcome.verdict.reasons, angles.as_ref())?;
     if let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction {
         let predicted = PredictedMotion { analysis: &outcome.analysis, prediction, measured: measured.as_ref() };
         let svg = prediction_figure(&outcome.body, predicted, &caption(&outcome.body, &outcome.analysis))?;
@@ -88,9 +90,8 @@ fn caption(model: &Model, analysis: &Analysis) -> String {
 }
 
 /// Reasons of the verdict by gait cycle. Reasons without a side are marked in the cycles of both feet.
-fn marks(analysis: &Analysis) -> Vec<Mark> {
-    let reasons = analysis.verdict.iter().flat_map(|verdict| &verdict.reasons);
-    let pairs = reasons.flat_map(|reason| analysis.cycles.iter().map(move |cycle| (reason, cycle)));
+fn marks(analysis: &Analysis, reasons: &[Reason]) -> Vec<Mark> {
+    let pairs = reasons.iter().flat_map(|reason| analysis.cycles.iter().map(move |cycle| (reason, cycle)));
     let of_side = pairs.filter(|(reason, cycle)| reason.side.is_none_or(|side| side == cycle.side));
     let mark = |(reason, cycle): (&Reason, &Cycle)| {
         let [from, to] = reason.time_s.map(|t| (t - cycle.start_s) / (cycle.end_s - cycle.start_s));

@@ -28,7 +28,7 @@ pub use cycle_table::{CycleRow, cycle_rows};
 pub use files::{BodyFileError, OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use keep::{Keep, PAGE};
-pub use outcome::{outcome_summary, outcome_tables};
+pub use outcome::outcome_tables;
 pub use prediction_files::{deviation_columns, prediction_files};
 #[cfg(feature = "schema")]
 pub use run_summary::summary_schema;
@@ -46,7 +46,7 @@ pub use subject_summary::{
 };
 pub use summary::{
     FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, GroundSource, Input, PeakSummary,
-    ResidualSummary, Summary, summary,
+    ResidualSummary, Summary, outcome_summary,
 };
 pub use tables::ground_columns;
 pub use tracking_summary::TrackingSummary;

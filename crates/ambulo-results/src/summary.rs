@@ -9,12 +9,12 @@ use crate::walk_summary::WalkSummary;
 use crate::walking_summary::WalkingSummary;
 use ambulo::analysis::activity::Activity;
 use ambulo::analysis::feasibility::Verdict;
-use ambulo::analysis::{Analysis, AnalysisSettings, GroundAgreement, PredictionChecks, peak};
+use ambulo::analysis::{Analysis, GroundAgreement, PredictionChecks, peak};
 use ambulo::findings::{Finding, Findings};
 use ambulo::model::Model;
 use ambulo::motion::Smoother;
 use ambulo::motion::filter::LowPass;
-use ambulo::study::{BodyMass, MassWitness, Quality};
+use ambulo::study::{BodyMass, ForceOrigin, Outcome, Processing, Quality, Tracking};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -288,58 +288,72 @@ impl ForceUnit {
     }
 }
 
-/// The summary of an analysis; the caller adds the last timings.
+/// The summary of a run. `input` names the input files; the source of the ground forces is taken from the outcome. The caller adds
+/// timings, the synthetic walk and the convention of the angles.
 #[must_use]
-pub fn summary(
-    model: &Model,
-    analysis: &Analysis,
-    settings: &AnalysisSettings,
-    input: Input,
-    findings: &Findings,
-) -> Summary {
+pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> Summary {
+    let Outcome { body: model, analysis, verdict, prediction, processing, .. } = outcome;
+    let prediction = prediction.as_ref();
     let grid = analysis.trajectory.grid();
-    let (source, rule) = match input.ground_source {
-        GroundSource::Measured => (GroundOrigin::Measured, None),
-        GroundSource::Predicted { rule } => (GroundOrigin::Predicted, Some(rule.to_owned())),
-        GroundSource::Simulated { rule } => (GroundOrigin::Simulated, Some(rule.to_owned())),
-        GroundSource::None => (GroundOrigin::None, None),
-    };
+    let (ground_source, source, rule) = ground(outcome.force_origin);
     Summary {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         run_id: String::new(),
         files: BTreeMap::new(),
-        input,
+        input: Input { ground_source, ..input },
         model: model.name().to_owned(),
         mass_kg: analysis.mass.kg,
         gravity_m_s2: model.gravity().norm(),
-        mass: BodyMass::alone(model.mass(), MassWitness::Model),
-        height_m: None,
+        mass: outcome.mass.clone(),
+        height_m: outcome.height_m(),
         speed_m_s: analysis.speed_m_s,
         window_s: [grid.start_s, grid.end_s()],
-        requested_window_s: [settings.window.from_s, settings.window.to_s],
+        requested_window_s: [processing.window.from_s, processing.window.to_s],
         rate_hz: grid.rate_hz(),
         frames: grid.frames,
-        filter: filters(settings),
+        filter: filters(processing),
         ground: Ground { source, rule, threshold_n: UNLOADED_N },
         convention: None,
-        activity: None,
-        times_and_distances: WalkingSummary::default(),
+        activity: Some(outcome.activity),
+        times_and_distances: WalkingSummary::of(&outcome.times_and_distances),
         residual: residual(model, analysis),
         peaks: peaks(model, analysis),
         findings: findings.as_slice().to_vec(),
-        quality: None,
-        verdict: analysis.verdict.clone(),
-        prediction: None,
-        comparison: None,
-        subject: None,
-        consistency: None,
-        tracking: None,
+        quality: Some(outcome.quality.clone()),
+        verdict: Some(verdict.clone()),
+        prediction: prediction.map(|prediction| prediction.checks.clone()),
+        comparison: prediction.and_then(|prediction| prediction.agreement.clone()),
+        subject: outcome.tracking.as_ref().map(subject),
+        consistency: outcome.residual_reduction.as_ref().map(ConsistencySummary::of),
+        tracking: prediction.and_then(|prediction| prediction.tracked.as_ref()).map(TrackingSummary::of),
         walk: None,
         timing_ms: BTreeMap::new(),
     }
 }
 
-fn filters(settings: &AnalysisSettings) -> Filters {
+fn ground(origin: ForceOrigin) -> (GroundSource, GroundOrigin, Option<String>) {
+    match origin {
+        ForceOrigin::Measured => (GroundSource::Measured, GroundOrigin::Measured, None),
+        ForceOrigin::Predicted { rule } => {
+            (GroundSource::Predicted { rule }, GroundOrigin::Predicted, Some(rule.to_owned()))
+        }
+        ForceOrigin::Simulated { rule } => {
+            (GroundSource::Simulated { rule }, GroundOrigin::Simulated, Some(rule.to_owned()))
+        }
+        ForceOrigin::None => (GroundSource::None, GroundOrigin::None, None),
+    }
+}
+
+fn subject(tracking: &Tracking) -> SubjectSummary {
+    match tracking {
+        Tracking::Markers(markers) => {
+            SubjectSummary::of_markers(&markers.body, &markers.listed_events, &markers.measured_events)
+        }
+        Tracking::Skeleton { statement, fit, .. } => SubjectSummary::of_skeleton(statement, fit),
+    }
+}
+
+fn filters(settings: &Processing) -> Filters {
     let off = FilterSummary { kind: FilterKind::Off, cutoff_hz: None, order: None };
     let low_pass = |f: LowPass| FilterSummary {
         kind: FilterKind::Butterworth,

@@ -198,6 +198,5 @@ fn with_prediction(
         adjusted: false,
         ground,
         forces,
-        verdict: None,
     }
 }

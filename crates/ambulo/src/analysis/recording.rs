@@ -2,7 +2,7 @@
 
 use super::cycles::{Cycle, cycles};
 use super::events::{Contact, Event, EventKind, contacts_from_force, events};
-use super::feasibility::{Verdict, over_ground};
+use super::feasibility::over_ground;
 use super::plausibility;
 use super::progress::{Progress, Stage, Stopped};
 use super::residual::{Residual, residual_within};
@@ -48,7 +48,7 @@ impl AnalysisSettings {
 pub struct Analysis {
     /// The motion that was used.
     pub trajectory: Trajectory,
-    /// Whether residual reduction changed it ([`super::reduce_residual`]).
+    /// Whether it differs from the recorded one, so that motion and forces agree ([`super::reduce_residual`], [`super::track`]).
     pub adjusted: bool,
     /// The ground forces at the times of the trajectory.
     pub ground: GroundForces,
@@ -64,8 +64,6 @@ pub struct Analysis {
     pub speed_m_s: Option<f64>,
     /// Residual force and moment.
     pub residual: Option<Residual>,
-    /// Whether a person could make the motion; `None` before [`super::feasibility::check`].
-    pub verdict: Option<Verdict>,
 }
 
 /// Body mass and where it comes from.
@@ -286,18 +284,7 @@ pub(super) fn with_forces(
     let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|over| over.speed);
     let (first, frames) = grid.inside(within.unwrap_or_default());
     let residual = residual_within(model, &forces, first..first + frames);
-    Ok(Analysis {
-        trajectory,
-        adjusted: false,
-        ground,
-        forces,
-        events,
-        cycles,
-        mass,
-        speed_m_s,
-        residual,
-        verdict: None,
-    })
+    Ok(Analysis { trajectory, adjusted: false, ground, forces, events, cycles, mass, speed_m_s, residual })
 }
 
 /// Puts the requested time range into the error of a range that is too short, with the time that motion and forces both cover.

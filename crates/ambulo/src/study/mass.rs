@@ -206,24 +206,13 @@ impl KnownMass {
 }
 
 impl BodyMass {
-    /// A mass that nothing but a statement or a model gives.
-    #[must_use]
-    pub fn alone(kg: f64, source: MassWitness) -> BodyMass {
-        let state = if source == MassWitness::Model { MassState::Unknown } else { MassState::Stated };
-        let sources = vec![MassEstimate { by: source, kg, error_kg: 0.0, times: 1, time_s: None }];
-        BodyMass {
-            state,
-            kg,
-            source,
-            normalised_by: MassSource::Model,
-            plates_kg: None,
-            plates_error_kg: None,
-            sources,
-        }
-    }
-
     /// From all sources; `model_kg` is the mass that the forces are computed with.
-    pub(super) fn of(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>) -> BodyMass {
+    pub(super) fn of(
+        model_kg: f64,
+        known: &KnownMass,
+        motion: Vec<MassEstimate>,
+        normalised_by: MassSource,
+    ) -> BodyMass {
         let moving = combined(&motion);
         let chosen = known.decided(&motion).filter(|chosen| (chosen.kg / model_kg - 1.0).abs() < SAME_MASS);
         let source = chosen.map_or(MassWitness::Model, |chosen| chosen.by);
@@ -241,13 +230,12 @@ impl BodyMass {
         sources.push(MassEstimate { by: MassWitness::Model, ..used });
         let [plates_kg, plates_error_kg] =
             [plates.as_ref().map(|plates| plates.kg), plates.as_ref().map(|plates| plates.error_kg)];
-        let normalised_by = MassSource::Model;
         BodyMass { state, kg: model_kg, source, normalised_by, plates_kg, plates_error_kg, sources }
     }
 
     /// After residual reduction, which may have changed the mass of the body.
-    pub(super) fn computed_with(self, model_kg: f64, normalised_by: MassSource) -> BodyMass {
-        BodyMass { kg: model_kg, normalised_by, ..self }
+    pub(super) fn after_reduction(self, model_kg: f64) -> BodyMass {
+        BodyMass { kg: model_kg, ..self }
     }
 
     /// The motion on the plates, all ways of weighing together.
@@ -402,6 +390,10 @@ pub(super) fn report_decided(known: &KnownMass, decided: &MassEstimate, findings
 mod tests {
     use super::*;
 
+    fn body_mass(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>) -> BodyMass {
+        BodyMass::of(model_kg, known, motion, MassSource::Model)
+    }
+
     fn by(by: MassWitness, kg: f64, error_kg: f64) -> MassEstimate {
         MassEstimate { by, kg, error_kg, times: 1, time_s: None }
     }
@@ -427,7 +419,7 @@ mod tests {
             let mut findings = Findings::default();
             let decided = known.decided(motion).unwrap();
             report_decided(known, &decided, &mut findings);
-            BodyMass::of(decided.kg, known, motion.to_vec()).report(&mut findings);
+            body_mass(decided.kg, known, motion.to_vec()).report(&mut findings);
             findings.as_slice().iter().map(|finding| finding.code).collect::<Vec<Code>>()
         };
         assert_eq!(codes(&known(Some(60.0), Some(41.0)), &[]), [Code::MassContradicted]);
@@ -441,7 +433,7 @@ mod tests {
         assert!(child.needs_motion());
         let decided = child.decided(&moving(25.7)).unwrap();
         assert_eq!((decided.by, decided.kg), (MassWitness::Stated, 25.0));
-        let mass = BodyMass::of(decided.kg, &child, moving(25.7));
+        let mass = body_mass(decided.kg, &child, moving(25.7));
         assert_eq!((mass.state, mass.plates_kg), (MassState::Weighed, Some(25.7)));
         let mut findings = Findings::default();
         mass.report(&mut findings);
@@ -452,23 +444,23 @@ mod tests {
 
     #[test]
     fn a_light_model_is_contradicted_and_weight_next_to_the_plates_is_not_a_lighter_person() {
-        let light = BodyMass::of(0.85 * 70.0, &KnownMass::default(), moving(70.0));
+        let light = body_mass(0.85 * 70.0, &KnownMass::default(), moving(70.0));
         assert_eq!(
             (light.state, light.source, light.plates_kg),
             (MassState::Contradicted, MassWitness::Model, Some(70.0))
         );
-        let beside = BodyMass::of(70.0, &known(Some(70.0), Some(70.3)), moving(42.0));
+        let beside = body_mass(70.0, &known(Some(70.0), Some(70.3)), moving(42.0));
         assert_eq!((beside.state, beside.plates_kg), (MassState::Contradicted, Some(42.0)), "not by these plates");
         let mut findings = Findings::default();
         beside.report(&mut findings);
         let said = &findings.as_slice()[0].message;
         assert!(said.contains("42.0 kg") && said.contains("next to the plates"), "{said}");
         // The source is the model where the body has another mass than the plates, even if it could be this person's.
-        let own = BodyMass::of(68.0, &KnownMass::default(), moving(70.0));
+        let own = body_mass(68.0, &KnownMass::default(), moving(70.0));
         assert_eq!((own.state, own.source), (MassState::Weighed, MassWitness::Model));
-        let unknown = BodyMass::of(70.0, &KnownMass::default(), Vec::new());
+        let unknown = body_mass(70.0, &KnownMass::default(), Vec::new());
         assert_eq!(unknown.state, MassState::Unknown);
-        assert_eq!(BodyMass::of(70.0, &known(Some(70.0), None), Vec::new()).state, MassState::Stated);
+        assert_eq!(body_mass(70.0, &known(Some(70.0), None), Vec::new()).state, MassState::Stated);
     }
 
     #[test]

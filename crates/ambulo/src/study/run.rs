@@ -166,13 +166,13 @@ impl Computed {
         };
         Outcome {
             quality: evidence.quality(),
-            mass: mass.computed_with(body.mass(), analysis.mass.source),
+            mass: mass.after_reduction(body.mass()),
             tracking,
             activity,
             times_and_distances: times_and_distances(&body, &person.soles, &analysis),
             body,
             person,
-            analysis: Analysis { verdict: Some(verdict.clone()), ..analysis },
+            analysis,
             force_origin,
             prediction,
             residual_reduction: self.reduction,
@@ -194,7 +194,7 @@ fn recorded_faults(model: &Model, motion: &ObservedMotion) -> Option<RecordedFau
 /// The body mass by every source.
 fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Findings) -> BodyMass {
     let weighed = observation.weighed_in_motion(&analysis.trajectory);
-    let mass = BodyMass::of(observation.model.mass(), &observation.known_mass, weighed);
+    let mass = BodyMass::of(observation.model.mass(), &observation.known_mass, weighed, analysis.mass.source);
     mass.report(findings);
     mass
 }

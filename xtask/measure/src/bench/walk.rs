@@ -77,7 +77,7 @@ fn main_job(files: &Files, stage: &mut dyn FnMut(&'static str)) -> Result<(), Bo
     let settings = Settings { force_filter: ForceFilter::Off, ..Settings::default() };
     let outcome = study::run_observed(source, &settings, &mut findings, &mut watch)?;
     let Outcome { body, analysis, .. } = &outcome;
-    black_box((output_files(body, analysis, None, &Keep::all())?, figure_files(body, analysis, None)?));
+    black_box((output_files(body, analysis, None, &Keep::all())?, figure_files(body, analysis, &[], None)?));
     stage("files' content");
     Ok(())
 }
