@@ -38,6 +38,7 @@ pub use constraint::{
 };
 pub(crate) use constraint::{relative_slide, relative_turn};
 pub use elimination::{EliminationWorkspace, Offsets};
+pub(crate) use elimination_order::parents_first;
 pub use elimination_order::{Elimination, Link, LinkError, LinkTerms};
 pub(crate) use inverse::each_root_reaction;
 pub use inverse::{
