@@ -11,9 +11,7 @@ use crate::failure::Failure;
 use crate::replacement::ResultTarget;
 use ambulo_formats::table::Table;
 use ambulo_report::page::report_page;
-use ambulo_results::{
-    CLINICAL, Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, is_storage, summary_json, unit_of,
-};
+use ambulo_results::{Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, is_storage, summary_json, unit_of};
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -199,16 +197,6 @@ impl Results {
             }
         }
         Ok(())
-    }
-
-    /// Whether the results are those of one body in motion, with a clinical table.
-    #[must_use]
-    pub fn is_motion(&self) -> bool {
-        match &self.0 {
-            Content::Motion(_) => true,
-            Content::Scene(_) | Content::Sweep(_) | Content::Validation(_) => false,
-            Content::Folder(folder) => folder.has(CLINICAL) || folder.has("moments.sto"),
-        }
     }
 }
 

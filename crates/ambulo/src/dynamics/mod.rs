@@ -33,9 +33,7 @@ mod within_law;
 pub mod residual_reduction;
 
 pub use block::{BodyTerms, Six};
-pub use constraint::{
-    ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, relative_rows,
-};
+pub use constraint::{ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
 pub(crate) use constraint::{relative_slide, relative_turn};
 pub use elimination::{EliminationWorkspace, Offsets};
 pub(crate) use elimination_order::parents_first;

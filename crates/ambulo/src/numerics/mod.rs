@@ -37,7 +37,7 @@ pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues, quintic_spline
 pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
 pub use random::Random;
 pub(crate) use shown::Shown;
-pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};
+pub use spline_fitter::{Smoothing, SplineFitter};
 pub use statistics::{correlation, extremes, finite_mean, mean, median, range, rms, sample_deviation};
 pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};
 pub use whittaker::Whittaker;

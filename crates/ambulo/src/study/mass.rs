@@ -4,7 +4,6 @@
 //! third one decides. The errors are not symmetric: a load that rests next to the plates makes the person too light on them, while only a
 //! wrong calibration or a carried load makes the person too heavy.
 
-use super::laboratory_file::LaboratoryFile;
 use super::source::{MarkerBody, MarkerSource};
 use crate::analysis::MassSource;
 use crate::findings::{Code, Findings};
@@ -323,12 +322,6 @@ fn on_plates(known: &KnownMass, moving: Option<MassEstimate>, used: &MassEstimat
         }
         (one, None) | (None, one) => one,
     }
-}
-
-/// The mass of a person who stands still on force plates [kg]; `None` if no plate is loaded steadily.
-#[must_use]
-pub fn standing_mass_kg(file: &LaboratoryFile) -> Option<f64> {
-    standing_estimate(&file.recording.plates).map(|estimate| estimate.kg)
 }
 
 /// The mass of a person who stands still, with the scatter of the force as its error: sway moves the mass centre up and down.
