@@ -35,7 +35,6 @@ pub struct Trc {
     frames: Vec<i64>,
     times: Vec<f64>,
     markers: Vec<Marker>,
-    lines: Vec<usize>,
 }
 
 /// The trajectory of one marker.
@@ -116,7 +115,7 @@ impl Trc {
         }
         let (name, unit, orig_start_frame) = (String::new(), LengthUnit::Metre, 1);
         let frames = (1..).take(times.len()).collect();
-        Ok(Trc { name, rate_hz, unit, orig_start_frame, frames, times, markers, lines: vec![] })
+        Ok(Trc { name, rate_hz, unit, orig_start_frame, frames, times, markers })
     }
 
     /// Reads a `.trc` file.
@@ -149,12 +148,6 @@ impl Trc {
     /// The marker with exactly this name.
     pub fn marker(&self, name: &str) -> Option<&Marker> {
         self.markers.iter().find(|marker| marker.name == name)
-    }
-
-    /// Line of the file with this frame (counted from 0), counted from 1; `None` for a recording made in
-    /// memory.
-    pub fn line_of_frame(&self, frame: usize) -> Option<usize> {
-        self.lines.get(frame).copied()
     }
 }
 

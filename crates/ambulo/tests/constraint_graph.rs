@@ -3,13 +3,13 @@
 
 use crate::common::graphs::{
     METHODS, PLANE, SPACE, add_contact, add_free, add_rows, box_inertia, box_on, corners, fresh, ladder,
-    random_contacts, settings, solved, tower,
+    random_contacts, relative_rows, settings, solved, tower,
 };
 use crate::common::largest;
 use crate::common::random::Random;
 use ambulo::dynamics::{
     ActsOn, Constraint, ConstraintGraph, ConstraintGroup, GraphSolution, GraphWorkspace, Law, Method, Six,
-    SolverSettings, relative_rows, solve_graph, undetermined_rows,
+    SolverSettings, solve_graph, undetermined_rows,
 };
 use ambulo::spatial::{Mat3, Vec3};
 use nalgebra::{DMatrix, DVector};

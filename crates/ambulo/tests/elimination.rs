@@ -1,13 +1,13 @@
 //! The block elimination of trees and loops: against a dense solve of the same equations, against inverse dynamics, and
 //! forwards again.
 
-use crate::common::graphs::{add_hinged, add_rows, random_six, six};
+use crate::common::graphs::{add_hinged, add_rows, random_six, relative_rows, six};
 use crate::common::random::{Random, Recipe, model, state};
 use crate::common::{State, distance, largest};
 use ambulo::dynamics::{
     ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Elimination, EliminationWorkspace, GraphSolution,
     GraphWorkspace, JointReaction, Law, Link, LinkError, Offsets, Six, SolverSettings, Workspace, inverse_frame,
-    relative_rows, solve_graph,
+    solve_graph,
 };
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::{BodyId, JointSpeeds, Model};

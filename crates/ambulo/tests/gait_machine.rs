@@ -6,6 +6,7 @@ use ambulo::gait::machine::{
     ChildOutputs, Machine, MachineInputs, RunningMachine, Sensed, State, Transition, WalkMachine, state_table,
 };
 use ambulo::gait::{Clock, Gait, Jet, PaceChange, Speed, Walk};
+use ambulo::model::Side;
 
 const LEG: f64 = 0.92;
 
@@ -147,7 +148,7 @@ fn the_global_cycle_agrees_with_the_legs() {
         let posture = machine.step(0.01 * f64::from(i));
         let running = machine.running();
         let state = running.state_name(running.number("walk").unwrap()).to_owned();
-        let expected = match posture.phases.stance.into_array() {
+        let expected = match Side::BOTH.map(|side| posture.phases.stance[side]) {
             [true, true] if posture.phases.cycle.right < 0.5 => "double support, right foot ahead",
             [true, true] => "double support, left foot ahead",
             [true, false] => "single support on the right, left swing",

@@ -9,11 +9,11 @@
 
 use crate::ground_agreement::{WALK, predicted};
 use ambulo::analysis::feasibility::Person;
-use ambulo::analysis::{ComparedAnalyses, PlateCoverage, ground_agreement, with_baseline};
-use ambulo::ground::baselines::{Baseline, foot_height, smooth_transition};
+use ambulo::analysis::{ComparedAnalyses, PlateCoverage, ground_agreement};
 use ambulo::ground::{GroundForces, feet};
 use ambulo::model::{BySide, Side};
 use ambulo::spatial::Vec3;
+use ambulo::study::validation::baselines::{Baseline, foot_height, smooth_transition};
 
 #[test]
 fn the_curves_of_the_smooth_transition_begin_at_one_and_end_at_zero() {
@@ -55,7 +55,7 @@ fn the_weight_goes_to_the_lower_foot_by_its_height() {
 fn ground(baseline: Baseline) -> GroundForces {
     let whole = predicted(&[]);
     let soles = Person::of_human(&WALK.human).soles;
-    with_baseline(baseline, &WALK.human.model, &whole.analysis, &whole.prediction, &soles).unwrap().ground
+    baseline.analysis(&WALK.human.model, &whole.analysis, &whole.prediction, &soles).unwrap().ground
 }
 
 fn force(ground: &GroundForces, side: Side, frame: usize) -> Vec3 {
@@ -103,7 +103,7 @@ fn the_rules_are_near_the_forces_of_a_walk_and_far_from_those_of_the_other_foot(
     let soles = Person::of_human(&WALK.human).soles;
     let model = &WALK.human.model;
     for baseline in Baseline::ALL {
-        let found = with_baseline(baseline, model, &whole.analysis, &whole.prediction, &soles).unwrap();
+        let found = baseline.analysis(model, &whole.analysis, &whole.prediction, &soles).unwrap();
         let mut swapped = found.clone();
         let [right, left] = &found.ground.bodies[..] else { panic!("two feet") };
         let (mut on_right, mut on_left) = (left.clone(), right.clone());

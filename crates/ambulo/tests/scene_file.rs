@@ -444,7 +444,8 @@ fn figures_materials_and_obstacles_read_as_they_say() {
     assert!(place.line > 1 && place.key.starts_with("obstacle[1].motion.displacement[1]"), "{place:?}");
     assert!(matches!(scene.obstacles[1].shape, ObstacleShape::Solid(Solid::Capsule { .. })));
 
-    assert_eq!(scene.carrier_name(&scene.closures[0].first), "walker/hand_r");
+    let first = &scene.closures[0].first;
+    assert!(matches!(first, Attachment::FigureBody { figure: 0, body } if body == "hand_r"), "{first:?}");
     assert_eq!(scene.closures[0].anchor, Anchor::AsFound { on_first: Vec3::new(0.0, -0.1, 0.0) });
     // In the order of time, not of the file.
     let changes: Vec<EventAction> = scene.events.iter().map(|event| event.change).collect();

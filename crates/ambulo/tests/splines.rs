@@ -3,9 +3,12 @@
 
 use std::time::Instant;
 
-use ambulo::numerics::{
-    NaturalSpline, Smoothing, SplineDegree, SplineError, SplineFitter, smoothing_parameter_for_cutoff,
-};
+use ambulo::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineError, SplineFitter};
+
+/// The p [s^(2m-1)] whose fit halves a sine of `cutoff_hz` on samples at `rate_hz`: (2π cutoff)^(-2m) rate.
+fn smoothing_parameter_for_cutoff(degree: SplineDegree, cutoff_hz: f64, rate_hz: f64) -> f64 {
+    rate_hz * (std::f64::consts::TAU * cutoff_hz).powi(-2 * degree.half_order() as i32)
+}
 
 const DEGREES: [SplineDegree; 4] =
     [SplineDegree::Linear, SplineDegree::Cubic, SplineDegree::Quintic, SplineDegree::Heptic];

@@ -261,22 +261,6 @@ impl ConstraintGraph {
     }
 }
 
-/// The six rows of the motion of one body relative to another at a point: angular velocity along each of `axes`, then velocity
-/// of the point along each of them. Targets are zero.
-///
-/// `to_first` points from the point to the first mass centre, `from_second` from the second mass centre to the point, in world
-/// axes [m].
-///
-/// The point of the first body moves at v + ω × (-to_first), whose component along e is e · v + (-to_first × e) · ω; the point
-/// of the second moves at v + ω × from_second.
-#[inline]
-#[must_use]
-pub fn relative_rows(axes: [Vec3; 3], to_first: Vec3, from_second: Vec3) -> [Constraint; 6] {
-    let linear = |e: Vec3| relative_slide(e, to_first, from_second);
-    let [x, y, z] = axes;
-    [relative_turn(x), relative_turn(y), relative_turn(z), linear(x), linear(y), linear(z)]
-}
-
 /// The row of an angular velocity along `axis`.
 #[inline]
 pub fn relative_turn(axis: Vec3) -> Constraint {

@@ -268,17 +268,13 @@ impl Step {
     }
 }
 
-/// Parents before children.
-pub(super) fn outwards(links: &[Link]) -> Result<Vec<usize>, LinkError> {
-    let bodies = links.len();
-    let mut children = vec![Vec::new(); bodies];
-    let mut order = Vec::with_capacity(bodies);
-    for (body, link) in links.iter().enumerate() {
-        if link.freedom > 6 {
-            return Err(LinkError::Freedom { body, freedom: link.freedom });
-        }
-        match link.parent {
-            Some(parent) if parent >= bodies => return Err(LinkError::NoBody { body, parent, bodies }),
+/// The bodies of trees, each after its parent, level by level; bodies in a circle are missing.
+#[must_use]
+pub fn parents_first(parents: impl ExactSizeIterator<Item = Option<usize>>) -> Vec<usize> {
+    let mut children = vec![Vec::new(); parents.len()];
+    let mut order = Vec::with_capacity(parents.len());
+    for (body, parent) in parents.enumerate() {
+        match parent {
             Some(parent) => children[parent].push(body),
             None => order.push(body),
         }
@@ -288,6 +284,21 @@ pub(super) fn outwards(links: &[Link]) -> Result<Vec<usize>, LinkError> {
         order.extend_from_slice(&children[order[next]]);
         next += 1;
     }
+    order
+}
+
+/// As [`parents_first`]; links that do not form trees are errors.
+pub(super) fn outwards(links: &[Link]) -> Result<Vec<usize>, LinkError> {
+    let bodies = links.len();
+    for (body, link) in links.iter().enumerate() {
+        if link.freedom > 6 {
+            return Err(LinkError::Freedom { body, freedom: link.freedom });
+        }
+        if let Some(parent) = link.parent.filter(|parent| *parent >= bodies) {
+            return Err(LinkError::NoBody { body, parent, bodies });
+        }
+    }
+    let order = parents_first(links.iter().map(|link| link.parent));
     if order.len() == bodies {
         return Ok(order);
     }

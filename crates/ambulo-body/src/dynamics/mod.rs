@@ -33,12 +33,12 @@ mod within_law;
 pub mod residual_reduction;
 
 pub use block::{BodyTerms, Six};
-pub use constraint::{
-    ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, relative_rows,
-};
+pub use constraint::{ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
 #[doc(hidden)]
 pub use constraint::{relative_slide, relative_turn};
 pub use elimination::{EliminationWorkspace, Offsets};
+#[doc(hidden)]
+pub use elimination_order::parents_first;
 pub use elimination_order::{Elimination, Link, LinkError, LinkTerms};
 #[doc(hidden)]
 pub use inverse::each_root_reaction;

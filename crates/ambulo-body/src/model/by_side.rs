@@ -39,11 +39,6 @@ impl<T> BySide<T> {
     pub fn values(&self) -> impl DoubleEndedIterator<Item = &T> {
         [&self.right, &self.left].into_iter()
     }
-
-    /// Both values as an array, the right one first.
-    pub fn into_array(self) -> [T; 2] {
-        [self.right, self.left]
-    }
 }
 
 impl<T> BySide<Option<T>> {

@@ -39,7 +39,7 @@ pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
 pub use random::Random;
 #[doc(hidden)]
 pub use shown::Shown;
-pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};
+pub use spline_fitter::{Smoothing, SplineFitter};
 pub use statistics::{correlation, extremes, finite_mean, mean, median, range, rms, sample_deviation};
 pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};
 pub use whittaker::Whittaker;

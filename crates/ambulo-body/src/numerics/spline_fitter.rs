@@ -61,12 +61,6 @@ pub enum Smoothing {
     ErrorVariance(f64),
 }
 
-/// The p (s^(2m-1)) whose fit halves a sine of `cutoff_hz` on samples at `rate_hz`, which a Butterworth filter run
-/// forwards and backwards with this cut-off does too. p = (2π cutoff)^(-2m) rate.
-pub fn smoothing_parameter_for_cutoff(degree: SplineDegree, cutoff_hz: f64, rate_hz: f64) -> f64 {
-    rate_hz * powi(std::f64::consts::TAU * cutoff_hz, -2 * degree.half_order() as i32)
-}
-
 /// Fits natural splines of one degree on one time grid.
 #[derive(Debug, Clone)]
 pub struct SplineFitter {

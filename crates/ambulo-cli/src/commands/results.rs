@@ -12,7 +12,7 @@ use crate::replacement::ResultTarget;
 use ambulo_formats::table::Table;
 use ambulo_report::page::report_page;
 use ambulo_results::{
-    CLINICAL, Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, TIMINGS, is_storage, summary_json, unit_of,
+    Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, TIMINGS, is_storage, summary_json, unit_of,
 };
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
@@ -211,16 +211,6 @@ impl Results {
             }
         }
         Ok(())
-    }
-
-    /// Whether the results are of one body in motion, with a clinical table.
-    #[must_use]
-    pub fn is_motion(&self) -> bool {
-        match &self.0 {
-            Content::Motion(_) => true,
-            Content::Scene(_) | Content::Sweep(_) | Content::Validation(_) => false,
-            Content::Folder(folder) => folder.has(CLINICAL) || folder.has("moments.sto"),
-        }
     }
 }
 

@@ -21,7 +21,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Trc, Vec<Remark>), Error> {
     let markers = names.into_iter().map(marker).collect();
     let Header { rate_hz, unit, orig_start_frame, .. } = header;
     let (frames, times) = (Vec::with_capacity(room), Vec::with_capacity(room));
-    let mut trc = Trc { name, rate_hz, unit, orig_start_frame, frames, times, markers, lines: vec![] };
+    let mut trc = Trc { name, rate_hz, unit, orig_start_frame, frames, times, markers };
     let oddities = read_frames(&mut lines, &mut trc, &places, header.frames)?;
     remarks.extend(oddities.remarks());
     if let Some(stated) = header.frames.filter(|&stated| stated != trc.times.len()) {
@@ -231,11 +231,10 @@ fn read_frames(
         let cells = cells(&line, width, places);
         let read = cells.and_then(|cells| read_frame(&line, &cells, trc, &mut oddities));
         if let Err(error) = read {
-            let may_miss = stated.is_none_or(|stated| trc.lines.len() < stated);
+            let may_miss = stated.is_none_or(|stated| trc.times.len() < stated);
             let cut = may_miss && lines.is_at_end() && is_cut(&line, width, lines.last_is_ended());
             return Err(if cut { lines.truncated(format!("the rest of a row of {width} cells")) } else { error });
         }
-        trc.lines.push(line.number);
     }
     if trc.times.is_empty() {
         return Err(lines.truncated("rows of frame, time and positions"));

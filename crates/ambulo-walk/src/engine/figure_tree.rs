@@ -5,7 +5,7 @@
 
 use super::joint::JointKind;
 use super::state::rates;
-use super::{JointCoordinate, Owner, RigidBody, Surface, TreeJoint, World, WorldState};
+use super::{Owner, RigidBody, Surface, TreeJoint, World, WorldState};
 use crate::contact::{Shape, ShapeError};
 use crate::kinematics::{BodyMotion, Posture, angles_zxy, body_motion};
 use crate::model::{BodyId, CoordinateId, Displacement, JointAxis, JointSpeeds, Model};
@@ -272,17 +272,8 @@ impl JointOf<'_> {
     }
 
     fn joint(&self, parent: Option<usize>, child: usize, frames: [Pose; 2], kind: JointKind) -> TreeJoint {
-        let [parent_from_joint, child_from_joint] = frames;
-        TreeJoint {
-            name: format!("{}{}", self.prefix, self.model.bodies()[self.body.index()].joint.name),
-            child,
-            parent,
-            parent_from_joint,
-            child_from_joint,
-            kind,
-            coordinates: vec![JointCoordinate::default(); kind.freedom()],
-            follows: None,
-        }
+        let name = format!("{}{}", self.prefix, self.model.bodies()[self.body.index()].joint.name);
+        TreeJoint::free(name, kind, child, parent, frames)
     }
 
     /// Adds a body without mass, between two hinges.

@@ -26,7 +26,8 @@ use super::state::{RowKey, WorldState, rates};
 use super::workspace::Equations;
 use super::world::{Figure, TreeJoint, World};
 use crate::dynamics::{
-    BodyTerms, Constraint, GraphWorkspace, Link, LinkError, Six, SolverSettings, project_displacements, solve_graph,
+    BodyTerms, Constraint, GraphWorkspace, Link, LinkError, Six, SolverSettings, parents_first,
+    project_displacements, solve_graph,
 };
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::spatial::{Pose, Twist, Vec3, rotation, rotation_vector};
@@ -130,7 +131,7 @@ impl Tree {
         let joint_of = world.joint_of_body();
         let mut outwards = Vec::with_capacity(world.bodies.len());
         let mut coordinates = 0;
-        for body in parents_first(world, &joint_of) {
+        for body in parents_first(joint_of.iter().map(|joint| joint.and_then(|j| world.joints[j].parent))) {
             let branch = Branch::new(world, state, body, joint_of[body], coordinates);
             coordinates += branch.kind.freedom();
             outwards.push(branch);
@@ -285,24 +286,6 @@ impl Tree {
         let branch = self.outwards.iter().find(|b| b.body == slot.body);
         branch.map_or(0.0, |b| motion.rates[b.first + slot.coordinate])
     }
-}
-
-/// The bodies, each after its parent.
-fn parents_first(world: &World, joint_of: &[Option<usize>]) -> Vec<usize> {
-    let mut children = vec![Vec::new(); world.bodies.len()];
-    let mut order = Vec::with_capacity(world.bodies.len());
-    for (body, joint) in joint_of.iter().enumerate() {
-        match joint.and_then(|j| world.joints[j].parent) {
-            Some(parent) => children[parent].push(body),
-            None => order.push(body),
-        }
-    }
-    let mut next = 0;
-    while next < order.len() {
-        order.extend_from_slice(&children[order[next]]);
-        next += 1;
-    }
-    order
 }
 
 impl Branch {

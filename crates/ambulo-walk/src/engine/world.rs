@@ -88,6 +88,16 @@ pub struct TreeJoint {
     pub follows: Option<Follows>,
 }
 
+impl TreeJoint {
+    /// A joint on whose coordinates nothing acts. `frames` are P on the parent, or in the world, and C on the child.
+    #[must_use]
+    pub fn free(name: String, kind: JointKind, child: usize, parent: Option<usize>, frames: [Pose; 2]) -> TreeJoint {
+        let [parent_from_joint, child_from_joint] = frames;
+        let coordinates = vec![JointCoordinate::default(); kind.freedom()];
+        TreeJoint { name, child, parent, parent_from_joint, child_from_joint, kind, coordinates, follows: None }
+    }
+}
+
 /// The body of a figure that a joint's child follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Follows {

@@ -8,7 +8,6 @@ use super::coordinate::CoordinateEntry;
 use super::event::EventEntry;
 use super::figure::FigureEntry;
 use super::file::SceneFile;
-use super::joint_axes::MotionKind;
 use super::model_figure::{self, PlacedFigure};
 use super::names::{Attachment, ContactPartner};
 use super::output::Outputs;
@@ -23,7 +22,7 @@ use crate::engine::start::start;
 use crate::engine::state::WorldState;
 use crate::engine::workspace::{Integrator, StepSettings, StepWorkspace};
 use crate::engine::world::{
-    Closure, ContactLaw, JointCoordinate, JointDrive, Motor, Obstacle, ObstaclePath, Owner, RigidBody, Surface,
+    Closure, ContactLaw, JointCoordinate, Obstacle, ObstaclePath, Owner, RigidBody, Surface,
     TreeJoint, World,
 };
 use crate::findings::{Code, Findings};

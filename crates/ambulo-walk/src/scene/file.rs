@@ -7,7 +7,7 @@ use super::event::{self, EventEntry};
 use super::figure::FigureEntry;
 use super::joint::JointEntry;
 use super::material::{self, MaterialEntry};
-use super::names::{Attachment, ContactPartner, Item, Names};
+use super::names::{ContactPartner, Item, Names};
 use super::obstacle::ObstacleEntry;
 use super::output::{self, AllNames, Outputs};
 use super::solver::{read_impact, read_integrator, read_solver};
@@ -140,16 +140,6 @@ impl SceneFile {
             closures,
             figures,
         })
-    }
-
-    /// The name of an attachment, as in the scene file.
-    #[must_use]
-    pub fn carrier_name(&self, carrier: &Attachment) -> String {
-        match carrier {
-            Attachment::World => "world".into(),
-            Attachment::Body(body) => self.bodies[*body].name.clone(),
-            Attachment::FigureBody { figure, body } => format!("{}/{body}", self.figures[*figure].name),
-        }
     }
 }
 

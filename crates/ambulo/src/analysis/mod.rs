@@ -1,7 +1,6 @@
 //! Analysis of a motion and its forces: events, gait cycles, peaks, residuals, feasibility, and agreement of curves.
 
 pub mod activity;
-mod baseline;
 mod comparison;
 mod cycles;
 mod event_agreement;
@@ -26,7 +25,6 @@ mod tracked;
 mod walking_direction;
 mod weighing;
 
-pub use baseline::with_baseline;
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle, over_cycle_of};
 pub use event_agreement::{EventAgreement, event_agreement};
@@ -42,7 +40,7 @@ pub(crate) use marker_trial::fit_body_to_markers;
 pub use marker_trial::{BodyInMotion, MarkerTrial, body_in_motion};
 pub use peaks::{Peak, peak};
 pub(crate) use predicted::predict_and_analyse;
-pub use predicted::{PredictedAnalysis, PredictionInput, analyse_predicted, analyse_predicted_trajectory};
+pub use predicted::{PredictedAnalysis, PredictionInput, analyse_predicted_trajectory};
 pub use prediction_checks::{
     CheckSettings, CheckedPrediction, PlateMass, PredictionCheck, PredictionChecks, Weighing, prediction_checks,
 };
@@ -59,4 +57,5 @@ pub use times_and_distances::{
     Stride, StrideQuantity, StrideStatistics, TimesAndDistances, symmetry_index, times_and_distances,
 };
 pub use tracked::track;
+pub(crate) use walking_direction::WalkingDirection;
 pub(crate) use weighing::{weighed_standing, weighed_within};

@@ -42,22 +42,7 @@ pub struct PredictedAnalysis {
 }
 
 /// Analyses a recording with predicted ground forces, otherwise as [`super::analyse`]. Measured forces in `plates` are only used for
-/// comparison.
-///
-/// # Errors
-/// Unusable recordings, bodies for which no forces can be predicted: see [`AnalysisError`].
-pub fn analyse_predicted(
-    model: &Model,
-    motion: &Motion,
-    plates: &[ForceRecording],
-    settings: AnalysisSettings,
-    input: &PredictionInput<'_>,
-    findings: &mut Findings,
-) -> Result<PredictedAnalysis, AnalysisError> {
-    predict_and_analyse(model, motion, plates, settings, input, findings, &mut Progress::default())
-}
-
-/// A motion that is not borrowed is dropped before the forces are computed: a long recording needs its memory for them.
+/// comparison. A motion that is not borrowed is dropped before the forces are computed: a long recording needs its memory for them.
 pub(crate) fn predict_and_analyse(
     model: &Model,
     motion: impl Borrow<Motion>,
@@ -112,7 +97,7 @@ fn prediction_of_whole_motion(
     Some(found.map(|found| found.within(first..first + grid.frames, grid)).map_err(AnalysisError::from))
 }
 
-/// The same for a complete motion. `within` is the instrumented window, if known.
+/// Analyses a complete motion with predicted ground forces. `within` is the instrumented window, if known.
 ///
 /// # Errors
 /// Bodies for which no forces can be predicted, unusable plates: see [`AnalysisError`].

@@ -15,7 +15,7 @@ const STRAIGHT_RAD: f64 = 0.349;
 const STANDING_M: f64 = 0.1;
 
 /// Path of the pelvis relative to the floor.
-pub(super) struct WalkingDirection {
+pub(crate) struct WalkingDirection {
     up: Vec3,
     floor_velocity: Vec3,
     times: Vec<f64>,
@@ -23,7 +23,7 @@ pub(super) struct WalkingDirection {
 }
 
 impl WalkingDirection {
-    pub(super) fn of(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls) -> WalkingDirection {
+    pub(crate) fn of(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls) -> WalkingDirection {
         let mut pelvis = Vec::with_capacity(trajectory.grid().frames);
         let root = model.body_ids().find(|body| model.bodies()[body.index()].joint.parent.is_none());
         each_body_motion(model, trajectory, |_, bodies| {
@@ -34,7 +34,7 @@ impl WalkingDirection {
     }
 
     /// Unit vectors forwards and to the right during a time span.
-    pub(super) fn during(&self, [from_s, to_s]: [f64; 2]) -> [Vec3; 2] {
+    pub(crate) fn during(&self, [from_s, to_s]: [f64; 2]) -> [Vec3; 2] {
         let straight = [Vec3::x(), Vec3::x().cross(&self.up)];
         let first = self.times.partition_point(|t| *t < from_s);
         let end = self.times.partition_point(|t| *t <= to_s);

@@ -1,6 +1,5 @@
 //! Ground reaction forces: measured, or predicted from the motion; and when each foot is on the ground.
 
-pub mod baselines;
 pub mod foot_motion;
 pub mod footfalls;
 mod load_sides;

@@ -4,7 +4,6 @@
 //! third one decides. The errors are not symmetric: a load that rests next to the plates makes the person too light on them, while only a
 //! wrong calibration or a carried load makes the person too heavy.
 
-use super::laboratory_file::LaboratoryFile;
 use super::source::{MarkerBody, MarkerSource};
 use crate::analysis::MassSource;
 use crate::findings::{Code, Findings};
@@ -325,13 +324,7 @@ fn on_plates(known: &KnownMass, moving: Option<MassEstimate>, used: &MassEstimat
     }
 }
 
-/// The mass of a person standing still on force plates [kg]; `None` if no plate is loaded steadily.
-#[must_use]
-pub fn standing_mass_kg(file: &LaboratoryFile) -> Option<f64> {
-    standing_estimate(&file.recording.plates).map(|estimate| estimate.kg)
-}
-
-/// The mass of a person standing still, with the scatter of the force as its error: sway moves the mass centre up and down.
+/// The mass of a person who stands still, with the scatter of the force as its error: sway moves the mass centre up and down.
 fn standing_estimate(plates: &[PlateRecording]) -> Option<MassEstimate> {
     let kg = standing_weight_n(plates)? / STANDARD_GRAVITY;
     let samples = plates.iter().map(|plate| plate.times.len()).min()?;
@@ -390,6 +383,10 @@ pub(super) fn report_decided(known: &KnownMass, decided: &MassEstimate, findings
 mod tests {
     use super::*;
 
+    fn body_mass(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>) -> BodyMass {
+        BodyMass::of(model_kg, known, motion, MassSource::Model)
+    }
+
     fn by(by: MassWitness, kg: f64, error_kg: f64) -> MassEstimate {
         MassEstimate { by, kg, error_kg, times: 1, time_s: None }
     }
@@ -415,7 +412,7 @@ mod tests {
             let mut findings = Findings::default();
             let decided = known.decided(motion).unwrap();
             report_decided(known, &decided, &mut findings);
-            BodyMass::of(decided.kg, known, motion.to_vec(), MassSource::Model).report(&mut findings);
+            body_mass(decided.kg, known, motion.to_vec()).report(&mut findings);
             findings.as_slice().iter().map(|finding| finding.code).collect::<Vec<Code>>()
         };
         assert_eq!(codes(&known(Some(60.0), Some(41.0)), &[]), [Code::MassContradicted]);
@@ -429,7 +426,7 @@ mod tests {
         assert!(child.needs_motion());
         let decided = child.decided(&moving(25.7)).unwrap();
         assert_eq!((decided.by, decided.kg), (MassWitness::Stated, 25.0));
-        let mass = BodyMass::of(decided.kg, &child, moving(25.7), MassSource::Model);
+        let mass = body_mass(decided.kg, &child, moving(25.7));
         assert_eq!((mass.state, mass.plates_kg), (MassState::Weighed, Some(25.7)));
         let mut findings = Findings::default();
         mass.report(&mut findings);
@@ -440,23 +437,23 @@ mod tests {
 
     #[test]
     fn a_light_model_is_contradicted_and_weight_next_to_the_plates_is_not_a_lighter_person() {
-        let light = BodyMass::of(0.85 * 70.0, &KnownMass::default(), moving(70.0), MassSource::Model);
+        let light = body_mass(0.85 * 70.0, &KnownMass::default(), moving(70.0));
         assert_eq!(
             (light.state, light.source, light.plates_kg),
             (MassState::Contradicted, MassWitness::Model, Some(70.0))
         );
-        let beside = BodyMass::of(70.0, &known(Some(70.0), Some(70.3)), moving(42.0), MassSource::Model);
+        let beside = body_mass(70.0, &known(Some(70.0), Some(70.3)), moving(42.0));
         assert_eq!((beside.state, beside.plates_kg), (MassState::Contradicted, Some(42.0)), "not by these plates");
         let mut findings = Findings::default();
         beside.report(&mut findings);
         let said = &findings.as_slice()[0].message;
         assert!(said.contains("42.0 kg") && said.contains("next to the plates"), "{said}");
         // The source is the model where the body has another mass than the plates, even if it could be this person's.
-        let own = BodyMass::of(68.0, &KnownMass::default(), moving(70.0), MassSource::Model);
+        let own = body_mass(68.0, &KnownMass::default(), moving(70.0));
         assert_eq!((own.state, own.source), (MassState::Weighed, MassWitness::Model));
-        let unknown = BodyMass::of(70.0, &KnownMass::default(), Vec::new(), MassSource::Model);
+        let unknown = body_mass(70.0, &KnownMass::default(), Vec::new());
         assert_eq!(unknown.state, MassState::Unknown);
-        assert_eq!(BodyMass::of(70.0, &known(Some(70.0), None), Vec::new(), MassSource::Model).state, MassState::Stated);
+        assert_eq!(body_mass(70.0, &known(Some(70.0), None), Vec::new()).state, MassState::Stated);
     }
 
     #[test]

@@ -47,7 +47,7 @@ pub use b3d_source::B3dSourceError;
 pub use error::{Input, StudyError};
 pub use force_filter::ForceFilter;
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
-pub use mass::{BodyMass, MassEstimate, MassState, MassWitness, standing_mass_kg};
+pub use mass::{BodyMass, MassEstimate, MassState, MassWitness};
 pub use opensim_setup::{
     SetupError, TrackedTasks, exclude_bushings, report_forces_of_model, scaling_of_setup, standing_sensors_of,
 };

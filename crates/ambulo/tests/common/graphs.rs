@@ -3,7 +3,7 @@
 use super::random::Random;
 use ambulo::dynamics::{
     ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, GraphSolution, GraphWorkspace, Law, Link, Method,
-    Six, SolverSettings, relative_rows, solve_graph,
+    Six, SolverSettings, solve_graph,
 };
 use ambulo::spatial::{Mat3, Vec3};
 
@@ -12,6 +12,16 @@ const GRAVITY: f64 = 9.81;
 
 pub(crate) fn six(angular: Vec3, linear: Vec3) -> Six {
     Six::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
+}
+
+/// The rows of the motion of one body relative to another at a point: angular velocity along each of `axes`, then velocity of the point
+/// along each of them. `to_first` points from the point to the first mass centre, `from_second` from the second one to the point [m].
+pub(crate) fn relative_rows(axes: [Vec3; 3], to_first: Vec3, from_second: Vec3) -> [Constraint; 6] {
+    let row = |on_first: Six, on_second: Six| Constraint { on_first, on_second, target: 0.0, compliance: 0.0 };
+    let turn = |axis: Vec3| row(six(axis, Vec3::zeros()), six(-axis, Vec3::zeros()));
+    let slide = |axis: Vec3| row(six(-to_first.cross(&axis), axis), six(-from_second.cross(&axis), -axis));
+    let [x, y, z] = axes;
+    [turn(x), turn(y), turn(z), slide(x), slide(y), slide(z)]
 }
 
 pub(crate) fn random_six(r: &mut Random) -> Six {

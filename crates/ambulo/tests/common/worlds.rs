@@ -5,8 +5,8 @@ use ambulo::contact::Shape;
 use ambulo::dynamics::Convergence;
 use ambulo::findings::Findings;
 use ambulo::simulation::{
-    Closure, JointCoordinate, JointDrive, JointKind, Material, Obstacle, ObstaclePath, Owner, RigidBody, Signal,
-    StepForces, StepSettings, StepWorkspace, Surface, TreeJoint, World, WorldState, step,
+    Closure, JointDrive, JointKind, Material, Obstacle, ObstaclePath, Owner, RigidBody, Signal, StepForces,
+    StepSettings, StepWorkspace, Surface, TreeJoint, World, WorldState, step,
 };
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
@@ -56,18 +56,9 @@ pub(crate) fn add_joint(
     kind: JointKind,
     child: usize,
     parent: Option<usize>,
-    [parent_from_joint, child_from_joint]: [Pose; 2],
+    frames: [Pose; 2],
 ) -> usize {
-    world.joints.push(TreeJoint {
-        name: format!("joint {}", world.joints.len()),
-        child,
-        parent,
-        parent_from_joint,
-        child_from_joint,
-        kind,
-        coordinates: vec![JointCoordinate::default(); kind.freedom()],
-        follows: None,
-    });
+    world.joints.push(TreeJoint::free(format!("joint {}", world.joints.len()), kind, child, parent, frames));
     world.joints.len() - 1
 }
 

@@ -37,16 +37,7 @@ fn along(axis: Vec3) -> Mat3 {
 
 fn hinge(child: usize, parent: Option<usize>, in_parent: Vec3, in_child: Vec3, axis: Vec3) -> TreeJoint {
     let at = |translation| Pose { rotation: along(axis), translation };
-    TreeJoint {
-        name: format!("hinge {child}"),
-        child,
-        parent,
-        parent_from_joint: at(in_parent),
-        child_from_joint: at(in_child),
-        kind: JointKind::Revolute,
-        coordinates: vec![JointCoordinate::default()],
-        follows: None,
-    }
+    TreeJoint::free(format!("hinge {child}"), JointKind::Revolute, child, parent, [at(in_parent), at(in_child)])
 }
 
 /// `count` links of 1 kg, level, hinged to the world and to each other about y and z in turn.

@@ -1,8 +1,8 @@
 //! Other methods, judged by the same plates as the prediction.
 
 use super::super::outcome::{Outcome, PredictedGround};
-use crate::analysis::{Analysis, ComparedAnalyses, GroundAgreement, ground_agreement, track, with_baseline};
-use crate::ground::baselines::Baseline;
+use super::baselines::Baseline;
+use crate::analysis::{Analysis, ComparedAnalyses, GroundAgreement, ground_agreement, track};
 use crate::optimal::TrackSettings;
 
 /// A way to find ground forces from motion.
@@ -42,7 +42,7 @@ pub(super) fn baselines(outcome: &Outcome) -> Vec<(Method, GroundAgreement)> {
     let of = |baseline: Baseline| {
         let predicted = outcome.prediction.as_ref()?;
         let analysis =
-            with_baseline(baseline, &outcome.body, &outcome.analysis, &predicted.prediction, &outcome.person.soles)?;
+            baseline.analysis(&outcome.body, &outcome.analysis, &predicted.prediction, &outcome.person.soles)?;
         Some((Method::Baseline(baseline), judged(outcome, &analysis)?))
     };
     Baseline::ALL.into_iter().filter_map(of).collect()

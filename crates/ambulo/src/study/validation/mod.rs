@@ -20,6 +20,7 @@
 //! without markers on the trunk are a separate kind.
 //! Pinned by: tests/validation.rs
 
+pub mod baselines;
 mod figures;
 mod methods;
 mod phase_errors;

@@ -1,9 +1,9 @@
-//! Simple published rules for ground forces from motion alone, against which [`super::predict`] is judged.
+//! Simple published rules for ground forces from motion alone, against which [`crate::ground::predict`] is judged.
 //!
 //! | rule | total force | divided between the feet | centre of pressure |
 //! |---|---|---|---|
 //! | [`Baseline::FootHeight`] | the weight, upwards | by exp(-height of the foot) ([`foot_height`]) | the middle of the foot |
-//! | [`Baseline::SmoothTransition`] | Newton's law for all segments ([`total_wrench`](super::predict::total_wrench)) | by time in double support ([`smooth_transition`]) | from heel to ball |
+//! | [`Baseline::SmoothTransition`] | Newton's law for all segments ([`total_wrench`](crate::ground::predict::total_wrench)) | by time in double support ([`smooth_transition`]) | from heel to ball |
 //!
 //! None of them has standard deviations or a free moment.
 //! Pinned by: tests/ground_baselines.rs
@@ -11,8 +11,11 @@
 pub mod foot_height;
 pub mod smooth_transition;
 
-use super::footfalls::Footfalls;
-use super::{BodyForces, GroundForces};
+use crate::analysis::{Analysis, WalkingDirection, residual};
+use crate::dynamics::{Workspace, inverse_with_residual};
+use crate::ground::footfalls::Footfalls;
+use crate::ground::predict::Prediction;
+use crate::ground::{BodyForces, GroundForces};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::{Sole, SolePoint};
 use crate::model::{BySide, Model, Side};
@@ -56,6 +59,32 @@ pub(super) struct AppliedForce {
 impl Baseline {
     /// All rules, in the order of tables.
     pub const ALL: [Baseline; 2] = [Baseline::FootHeight, Baseline::SmoothTransition];
+
+    /// The analysis of the same motion with the ground forces of this rule in place of those of `prediction`, which gives the stances
+    /// and the total force. `None` without the soles of both feet.
+    #[must_use]
+    pub fn analysis(
+        self,
+        model: &Model,
+        analysis: &Analysis,
+        prediction: &Prediction,
+        soles: &BySide<Option<Sole>>,
+    ) -> Option<Analysis> {
+        let trajectory = &analysis.trajectory;
+        let direction = WalkingDirection::of(model, trajectory, &prediction.footfalls);
+        let input = BaselineInput {
+            model,
+            trajectory,
+            soles: &soles.both()?,
+            footfalls: &prediction.footfalls,
+            total: &prediction.total,
+            forward: &|span_s| direction.during(span_s)[0],
+        };
+        let ground = self.ground(&input);
+        let forces = inverse_with_residual(&mut Workspace::new(model), trajectory, &ground.loads());
+        let residual = residual(model, &forces);
+        Some(Analysis { ground, forces, residual, ..analysis.clone() })
+    }
 
     /// Ground forces on both feet by this rule.
     #[must_use]
