@@ -13,6 +13,7 @@
 //! Not handled, and rejected: storage of vectors (`DataType=Vec3`), decimal commas, storage without a time column.
 //! Pinned by: tests/tables.rs, tests/malformed.rs, tests/real_files.rs
 
+mod content;
 mod csv;
 pub(crate) mod lines;
 mod orientations;

@@ -1,8 +1,8 @@
 //! Comma-separated values: a header row, then numbers.
 
 use super::Table;
+use super::content::Content;
 use super::lines::{Lines, counted, duplicate, expected_number, number};
-use super::rows::Content;
 use crate::error::{Error, Remark, quoted};
 use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder, Trim, WriterBuilder};
 use std::borrow::Cow;

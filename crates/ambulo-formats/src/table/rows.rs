@@ -1,8 +1,8 @@
 //! Tables whose cells are computed while they are written or read, so that a long table needs no memory.
 
+use super::content::Content;
 use super::{Table, csv, invalid, lines, storage};
 use crate::error::{Error, quoted};
-use crate::number::NumberText;
 use std::io::{self, Write};
 use std::rc::Rc;
 
@@ -114,34 +114,5 @@ impl Table {
             rows: self.rows(),
             cell: Box::new(|row, column| self.data[column][row]),
         }
-    }
-}
-
-/// The parts of a table that the writers of its formats need.
-pub(super) struct Content<'a> {
-    pub(super) name: &'a str,
-    pub(super) in_degrees: Option<bool>,
-    pub(super) names: Vec<&'a str>,
-    pub(super) rows: usize,
-    /// The number in a row and column.
-    pub(super) cell: Box<dyn Fn(usize, usize) -> f64 + 'a>,
-}
-
-impl Content<'_> {
-    /// Writes a line for each row: its numbers with `between` between them.
-    pub(super) fn write_numbers(&self, between: char, out: &mut dyn Write) -> io::Result<()> {
-        let (mut text, mut line) = (NumberText::default(), String::new());
-        for row in 0..self.rows {
-            line.clear();
-            for column in 0..self.names.len() {
-                if column > 0 {
-                    line.push(between);
-                }
-                line.push_str(text.of((self.cell)(row, column)));
-            }
-            line.push('\n');
-            out.write_all(line.as_bytes())?;
-        }
-        Ok(())
     }
 }

@@ -1,8 +1,8 @@
 //! OpenSim storage: a header that ends with `endheader`, a line of names, then rows of numbers.
 
 use super::Table;
+use super::content::Content;
 use super::lines::{Line, Lines, counted, duplicate, expected_number, number};
-use super::rows::Content;
 use crate::error::{Error, Remark, quoted};
 use std::io::{self, Write};
 

@@ -1,8 +1,10 @@
 //! Builds a world from a scene file.
 
+use super::acting::acting;
 use super::built_figure;
 use super::closing::Closing;
 use super::closure::ClosureEntry;
+use super::coordinate::CoordinateEntry;
 use super::event::EventEntry;
 use super::figure::FigureEntry;
 use super::file::SceneFile;
@@ -14,15 +16,13 @@ use super::recorder::Recorder;
 use super::sources::{InputFiles, ReadFile};
 use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
-use super::{CoordinateEntry, coordinate::MotionKind};
 use super::{Place, SceneError};
 use crate::engine::energy::EnergyWatch;
 use crate::engine::start::start;
 use crate::engine::state::WorldState;
 use crate::engine::workspace::{Integrator, StepSettings, StepWorkspace};
 use crate::engine::world::{
-    Closure, ContactLaw, JointCoordinate, JointDrive, Motor, Obstacle, ObstaclePath, Owner, RigidBody, Surface,
-    TreeJoint, World,
+    Closure, ContactLaw, JointCoordinate, Obstacle, ObstaclePath, Owner, RigidBody, Surface, TreeJoint, World,
 };
 use crate::findings::{Code, Findings};
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
@@ -308,34 +308,6 @@ fn make_joints(bodies: &Bodies<'_>, sources: &mut InputFiles<'_, '_>) -> Result<
         rates.push((0..placed.kind.freedom()).map(|k| speeds[order[k]]).collect());
     }
     Ok((joints, starts, rates))
-}
-
-/// Drive, spring, motor, limits and friction of a coordinate.
-pub(super) fn acting(
-    entry: &CoordinateEntry,
-    place: &Place,
-    sources: &mut InputFiles<'_, '_>,
-) -> Result<JointCoordinate, SceneError> {
-    let turns = entry.kind == MotionKind::Rotation;
-    let drive = entry.drive.as_ref().map(|drive| -> Result<JointDrive, SceneError> {
-        let signal = sources.signal(place, &drive.function, turns)?;
-        Ok(JointDrive { signal, max: drive.max.is_finite().then_some(drive.max) })
-    });
-    let drive = drive.transpose()?;
-    let motor = entry.motor.as_ref().map(|motor| -> Result<Motor, SceneError> {
-        let target = sources.signal(place, &motor.target, turns)?;
-        Ok(Motor { target, kp: motor.stiffness, kd: motor.damping, max: motor.max })
-    });
-    let limit = |value: f64| value.is_finite().then_some(value);
-    Ok(JointCoordinate {
-        drive,
-        spring: entry.spring,
-        motor: motor.transpose()?,
-        limits: entry.limits.map_or((None, None), |limits| (limit(limits.lower), limit(limits.upper))),
-        friction: entry.friction,
-        rotor: 0.0,
-        effort: 0.0,
-    })
 }
 
 fn add_closures(world: &mut World, file: &SceneFile, walkers: &[PlacedFigure]) -> Result<Vec<Closing>, SceneError> {

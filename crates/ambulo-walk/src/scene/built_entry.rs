@@ -1,7 +1,8 @@
 //! Built-in figures in a scene file: size, walk, arms, and drives of their joints.
 
 use super::SceneError;
-use super::coordinate::{CoordinateEntry, MotionKind};
+use super::coordinate::CoordinateEntry;
+use super::joint_axes::MotionKind;
 use super::material::MaterialEntry;
 use super::tracking_costs;
 use crate::control::ControlSettings;
@@ -165,7 +166,7 @@ fn build(value: &Value<'_>) -> Result<(Build, Human), SceneError> {
         height: table.need("height", "the stature [m]")?.above_zero()?,
         toe_joint: table.truth_or("toe_joint", true)?,
     };
-    let human = build.human().map_err(|e| value.place().error(super::sources::chain(&e)))?;
+    let human = build.human().map_err(|e| value.place().error(super::error_chain::chain(&e)))?;
     Ok((build, human))
 }
 

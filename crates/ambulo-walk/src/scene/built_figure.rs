@@ -3,13 +3,14 @@
 //! The root moves in the vertical plane through the figure's position: its translations forwards and up are free; its rotation is driven and
 //! holds the trunk upright, as in section 4.1 of Faure, Debunne, Cani, Multon 1997. The reaction of this joint keeps the figure in its plane.
 
-use super::build::acting;
+use super::acting::acting;
 use super::built_entry::{BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
+use super::error_chain::chain;
 use super::figure::FigureEntry;
 use super::model_figure::{PlacedFigure, add_spheres};
 use super::planner::Planner;
 use super::recorder::Recorder;
-use super::sources::{InputFiles, PlannedWalk, chain};
+use super::sources::{InputFiles, PlannedWalk};
 use super::{Place, SceneError};
 use crate::consistent_walk::{ConsistentWalkSettings, make_changing_walk};
 use crate::contact::HuntCrossley;

@@ -1,7 +1,7 @@
 //! Frames of a closure at the time at which it becomes active.
 
 use super::closure::{Anchor, ClosureEntry};
-use super::joint::JointAxes;
+use super::joint_axes::JointAxes;
 use super::placement::axes;
 use crate::spatial::{Pose, Vec3};
 

@@ -2,7 +2,7 @@
 
 use super::SceneError;
 use super::body::BodyEntry;
-use super::joint::JointAxes;
+use super::joint_axes::JointAxes;
 use super::names::{Attachment, Names};
 use crate::spatial::Vec3;
 use crate::toml_reader::{Table, Value};

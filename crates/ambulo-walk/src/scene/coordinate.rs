@@ -3,7 +3,7 @@
 use super::SceneError;
 use super::body::BodyEntry;
 use super::function::{self, Purpose, TimeFunction};
-use super::joint::JointAxes;
+use super::joint_axes::{JointAxes, MotionKind};
 use crate::engine::world::Spring;
 use crate::toml_reader::{Table, Value};
 
@@ -28,15 +28,6 @@ pub struct CoordinateEntry {
     pub drive: Option<DriveEntry>,
     /// Largest moment or force of dry friction [N.m or N].
     pub friction: f64,
-}
-
-/// Whether a coordinate is a rotation or a translation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MotionKind {
-    /// An angle [rad].
-    Rotation,
-    /// A length [m].
-    Translation,
 }
 
 /// Range of a coordinate: the lower limit is below the upper one, and the start is between them.

@@ -4,6 +4,7 @@
 //! [`SceneError`] states line and key. Files that a scene names (models, motions) are not opened here: the caller reads them for
 //! [`Scene::build`], which builds a world from the records. [`Scene::run`] simulates it to its end.
 
+mod acting;
 mod body;
 mod build;
 mod built_entry;
@@ -12,11 +13,13 @@ mod closing;
 mod closure;
 mod controlled;
 mod coordinate;
+mod error_chain;
 mod event;
 mod figure;
 mod file;
 mod function;
 mod joint;
+mod joint_axes;
 mod material;
 mod model_figure;
 mod motion_recorder;
@@ -46,12 +49,13 @@ pub use built_entry::{
 };
 pub use closure::{Anchor, ClosureEntry};
 pub use controlled::ControlledFigure;
-pub use coordinate::{CoordinateEntry, DriveEntry, Limits, MotionKind, MotorEntry};
+pub use coordinate::{CoordinateEntry, DriveEntry, Limits, MotorEntry};
 pub use event::{EventAction, EventEntry};
 pub use figure::{DrivenCoordinates, FigureEntry, RootMotion, SphereEntry};
 pub use file::{IgnoredPair, SceneFile};
 pub use function::TimeFunction;
-pub use joint::{JointAxes, JointEntry};
+pub use joint::JointEntry;
+pub use joint_axes::{JointAxes, MotionKind};
 pub use material::{MaterialEntry, MaterialLaw};
 pub use motion_recorder::{FigureMotion, ObstacleForces};
 pub use names::{Attachment, ContactPartner};

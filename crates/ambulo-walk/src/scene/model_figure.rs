@@ -5,7 +5,7 @@
 //! one axis, planar, or free.
 
 use super::figure::{DrivenCoordinates, FigureEntry, RootMotion};
-use super::joint::JointAxes;
+use super::joint_axes::JointAxes;
 use super::motion_recorder::MotionRecorder;
 use super::placement::place;
 use super::recorder::Recorder;
@@ -133,7 +133,7 @@ fn signals(entry: &FigureEntry, model: &Model, sources: &mut InputFiles<'_, '_>)
         let table = sources.table(place, file)?;
         let curves = table
             .coordinates(model, free, sources.findings)
-            .map_err(|e| place.error(format!("{file}: {}", super::sources::chain(&e))))?;
+            .map_err(|e| place.error(format!("{file}: {}", super::error_chain::chain(&e))))?;
         start = sources.start(place, file, curves.span_s, entry.from_s)?;
         columns = curves.columns;
         report_missing(model, &columns, file, sources);

@@ -6,7 +6,7 @@
 //! | planar    | z along the normal, x along `along`                                          |
 //! | others    | the world's axes                                                             |
 
-use super::joint::JointAxes;
+use super::joint_axes::JointAxes;
 use crate::engine::joint::{Coordinates, JointKind, MOST, orthonormal};
 use crate::spatial::{Mat3, Pose, Vec3, rotation};
 

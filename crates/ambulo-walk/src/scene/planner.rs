@@ -2,7 +2,8 @@
 
 use super::SceneError;
 use super::built_entry::{ControlEntry, FigureWalkMode, WalkEntry};
-use super::sources::{InputFiles, PlannedWalk, chain};
+use super::error_chain::chain;
+use super::sources::{InputFiles, PlannedWalk};
 use crate::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 use crate::control::{ControlSettings, ScheduledController, SpeedSchedule, TorqueCurves, WalkController};
 use crate::gait::{Gait, PaceChange, Speed, Walk};

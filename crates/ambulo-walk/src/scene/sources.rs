@@ -1,6 +1,7 @@
 //! Files that a scene names, which the caller reads, and functions of time from them.
 
 use super::built_entry::WalkEntry;
+use super::error_chain::chain;
 use super::function::TimeFunction;
 use super::{Place, SceneError};
 use crate::control::{ControlSettings, WalkController};
@@ -156,15 +157,4 @@ fn four_or_more(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
         }
         _ => points.to_vec(),
     }
-}
-
-/// The message of an error followed by those of its sources.
-pub(super) fn chain(error: &dyn std::error::Error) -> String {
-    let mut text = error.to_string();
-    let mut source = error.source();
-    while let Some(inner) = source {
-        text += &format!(": {inner}");
-        source = inner.source();
-    }
-    text
 }

@@ -1,6 +1,6 @@
 //! Bodies that were calibrated or scaled from one standing trial, for all trials of the person.
 
-use super::marker_trial::{BodySource, MarkerTrialError, Subject};
+use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::Findings;
 use crate::kinematics::calibration::PersonMeasurements;
 use crate::model::Model;

@@ -3,135 +3,25 @@
 //! Steps: detect the laboratory's axes ([`crate::motion::laboratory`]); calibrate or scale the body from a standing trial, or take it
 //! unchanged; fit its coordinates to the markers; assign the measured forces to the feet on the plates.
 
-use super::feasibility::Person;
 use super::ground_agreement::PlateCoverage;
 use super::known_bodies::KnownBodies;
-use super::progress::{Progress, Stage, Stopped};
+use super::laboratory_recording::LaboratoryRecording;
+use super::progress::{Progress, Stage};
+use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
 use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates};
-use crate::kinematics::calibration::{
-    self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
-};
+use crate::kinematics::calibration::assume_upright_trunk;
 use crate::kinematics::keypoints::{KeypointReport, Keypoints};
 use crate::kinematics::marker_fit::{
-    FitError, FitSettings, FollowedKeypoints, JointLimits, MarkerFit, fit_keypoints, fit_own_markers,
+    FitSettings, FollowedKeypoints, JointLimits, MarkerFit, fit_keypoints, fit_own_markers,
 };
-use crate::kinematics::pose_fit::{PoseRecording, PosedBody, body_of_poses, fit_poses};
-use crate::kinematics::retarget::JointCentreError;
-use crate::kinematics::scaling::{
-    ProtocolTrials, ScalingError, ScalingProtocol, SizeSettings, SizedModel, fit_size, scale_by_protocol,
-};
-use crate::model::marker_set::{MarkerSet, RecognisedMarkers, RecognitionError};
+use crate::kinematics::pose_fit::{PoseRecording, fit_poses};
+use crate::model::marker_set::MarkerSet;
 use crate::model::{Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Event, ForceRecording, MarkerRecording, Motion, SegmentPoses};
-use crate::motion::{Laboratory, Landmarks, laboratory_of_landmarks};
-use crate::spatial::Vec3;
-use std::collections::BTreeMap;
-
-/// The markers and force plates of one laboratory file, in the laboratory's axes.
-#[derive(Debug, Clone)]
-pub struct LaboratoryRecording {
-    /// Markers, or the points of `poses` [m].
-    pub markers: MarkerRecording,
-    /// Poses of segments, if the file has them instead of markers.
-    pub poses: Option<SegmentPoses>,
-    /// Force plates.
-    pub plates: Vec<PlateRecording>,
-    /// The unit of length as the file states it.
-    pub unit: String,
-}
-
-impl LaboratoryRecording {
-    /// Detects the laboratory's axes; returns them with the recording in world axes.
-    #[must_use]
-    pub fn in_world(&self, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
-        self.in_world_by(None, findings)
-    }
-
-    /// As [`LaboratoryRecording::in_world`], with the landmarks of a marker set.
-    fn in_world_by(&self, set: Option<&MarkerSet>, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
-        let landmarks = Landmarks::named(&self.markers, set);
-        let axes = laboratory_of_landmarks(&self.markers, &landmarks, &self.plates, &self.unit, findings);
-        self.turned(axes)
-    }
-
-    /// As [`LaboratoryRecording::in_world`] for a recording in the axes of the ground of a model. If the person is upright along another axis
-    /// than y, the axes are those that were detected, with a warning.
-    fn in_ground(&self, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
-        let mut of_detection = Findings::default();
-        let landmarks = Landmarks::named(&self.markers, None);
-        let axes = laboratory_of_landmarks(&self.markers, &landmarks, &self.plates, &self.unit, &mut of_detection);
-        let is_upright = of_detection.has(Code::LaboratoryUpUnclear) || axes.has_up(Vec3::y());
-        if !is_upright {
-            let message = format!(
-                "{}: the person is not upright along y, as in the ground of the model; the axes were detected: {}",
-                self.markers.name, axes.statement
-            );
-            findings.report(Code::LaboratoryUpContradicted, message);
-            return self.turned(axes);
-        }
-        self.turned(axes.as_ground(&self.unit))
-    }
-
-    fn turned(&self, axes: Laboratory) -> (Laboratory, LaboratoryRecording) {
-        let plates = self.plates.iter().map(|plate| axes.plate(plate)).collect();
-        let (markers, poses) = (axes.markers(&self.markers), self.poses.as_ref().map(|poses| axes.poses(poses)));
-        let turned = LaboratoryRecording { markers, poses, plates, unit: self.unit.clone() };
-        (axes, turned)
-    }
-}
-
-/// The body that is fitted to the markers.
-#[derive(Debug, Clone)]
-pub enum BodySource<'a> {
-    /// The built-in body, calibrated for the person.
-    BuiltIn {
-        /// Known data of the person.
-        person: &'a calibration::PersonMeasurements,
-        /// The marker set; `None`: recognised from the marker names.
-        set: Option<&'a MarkerSet>,
-    },
-    /// A model, scaled to the person if there is a standing trial.
-    Model {
-        /// The model.
-        model: &'a Model,
-        /// Body mass [kg]; `None` keeps the model's.
-        mass: Option<f64>,
-        /// The statements of a laboratory that works with OpenSim; `None` detects the axes of the recording, and sizes from the standing trial.
-        protocol: Option<&'a ModelProtocol>,
-    },
-    /// A body from an earlier calibration or scaling.
-    Calibrated(&'a Subject),
-}
-
-/// How a laboratory that works with OpenSim uses a model: its recordings are in the axes of the model's ground, y upwards.
-#[derive(Debug, Clone, Default)]
-pub struct ModelProtocol {
-    /// How the model is scaled; `None` uses it as it is.
-    pub scaling: Option<ScalingProtocol>,
-    /// The trial in which the distances of the scaling are measured.
-    pub measured: Option<LaboratoryRecording>,
-}
-
-impl<'a> BodySource<'a> {
-    /// A recording in world axes: those of the ground of the model if a protocol says how its markers are used, otherwise those that are detected.
-    fn turned(&self, recording: &LaboratoryRecording, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
-        match self {
-            BodySource::Model { protocol: Some(_), .. } => recording.in_ground(findings),
-            _ => recording.in_world_by(self.marker_set(), findings),
-        }
-    }
-
-    /// The marker set that the caller names.
-    fn marker_set(&self) -> Option<&'a MarkerSet> {
-        match self {
-            BodySource::BuiltIn { set, .. } => *set,
-            BodySource::Model { .. } | BodySource::Calibrated(_) => None,
-        }
-    }
-}
+use crate::motion::{Laboratory, Landmarks};
 
 /// A body with the motion that was fitted to markers.
 #[derive(Debug, Clone)]
@@ -150,57 +40,6 @@ pub struct BodyInMotion {
     pub on_plates: FeetOnPlates,
     /// Noise and faults of keypoints of video; `None` for markers.
     pub keypoints: Option<KeypointReport>,
-}
-
-/// A body with the markers of the recorded person.
-#[derive(Debug, Clone)]
-pub struct Subject {
-    /// The body.
-    pub model: Model,
-    /// The person, for the verdict.
-    pub person: Person,
-    /// Weight of each marker in the fit; 1 if not listed.
-    pub weights: BTreeMap<String, f64>,
-    /// How the built-in body was calibrated.
-    pub calibration: Option<CalibrationReport>,
-    /// How a given model was scaled: factors of each body along its axes.
-    pub scaled: Vec<(String, Vec3)>,
-    /// Root mean square distance of the markers of the standing trial from those of the scaled model [m].
-    pub scaling_rms_m: Option<f64>,
-    /// The recognised marker sets.
-    pub sets: Vec<String>,
-}
-
-/// Why no body could be fitted to markers.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MarkerTrialError {
-    /// The marker names were not recognised.
-    #[error(transparent)]
-    Names(#[from] RecognitionError),
-    /// The built-in body could not be calibrated.
-    #[error(transparent)]
-    Calibration(#[from] CalibrationError),
-    /// A given model could not be scaled.
-    #[error(transparent)]
-    Scaling(#[from] ScalingError),
-    /// The poses of the segments give no body.
-    #[error(transparent)]
-    Poses(#[from] JointCentreError),
-    /// Poses of segments for a model that has other segments.
-    #[error(
-        "the recording has poses of segments, which drive the built-in body; the model `{model}` has segments of its own and needs markers. hint: leave the model out"
-    )]
-    PosesForModel {
-        /// Name of the model.
-        model: String,
-    },
-    /// The coordinates could not be fitted.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    /// The observer stopped the computation.
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
 }
 
 /// A recording of markers, and the body that is fitted to it.
@@ -431,132 +270,6 @@ impl BodyInMotion {
     }
 }
 
-impl Subject {
-    /// The body of a source, from the standing trial or, without one, from the moving trial.
-    fn of_source(
-        body: &BodySource<'_>,
-        moving: &MarkerRecording,
-        standing: Option<&MarkerRecording>,
-        findings: &mut Findings,
-    ) -> Result<Subject, MarkerTrialError> {
-        match body {
-            BodySource::Model { model, mass, protocol: None } => Subject::of_model(model, *mass, standing, findings),
-            BodySource::Model { model, mass, protocol: Some(protocol) } => {
-                Subject::by_protocol(model, *mass, protocol, standing, findings)
-            }
-            BodySource::Calibrated(subject) => Ok((*subject).clone()),
-            BodySource::BuiltIn { person, set } => Subject::built_in(moving, standing, person, *set, findings),
-        }
-    }
-
-    fn of_model(
-        model: &Model,
-        mass: Option<f64>,
-        standing: Option<&MarkerRecording>,
-        findings: &mut Findings,
-    ) -> Result<Subject, MarkerTrialError> {
-        match standing {
-            Some(standing) => {
-                let sized = fit_size(model, standing, SizeSettings { mass }, findings)?;
-                findings.report(Code::ScalingFitted, scaling_message(&sized));
-                Ok(Subject::of_sized(sized))
-            }
-            None => Subject::unscaled(model, mass),
-        }
-    }
-
-    /// A model with another mass.
-    fn unscaled(model: &Model, mass: Option<f64>) -> Result<Subject, MarkerTrialError> {
-        let ones = vec![Vec3::repeat(1.0); model.bodies().len()];
-        let model = model.scaled(&ones, mass).map_err(ScalingError::from)?;
-        Ok(Subject {
-            person: Person::of_model(&model),
-            model,
-            weights: BTreeMap::new(),
-            calibration: None,
-            scaled: Vec::new(),
-            scaling_rms_m: None,
-            sets: Vec::new(),
-        })
-    }
-
-    fn of_sized(sized: SizedModel) -> Subject {
-        let names = sized.model.bodies().iter().map(|body| body.name.clone());
-        Subject {
-            person: Person::of_model(&sized.model),
-            weights: BTreeMap::new(),
-            calibration: None,
-            scaled: names.zip(sized.factors).collect(),
-            scaling_rms_m: sized.rms_m,
-            sets: Vec::new(),
-            model: sized.model,
-        }
-    }
-
-    /// A model that a protocol scales, or leaves as it is; a stated mass [kg] replaces that of the protocol.
-    fn by_protocol(
-        model: &Model,
-        mass: Option<f64>,
-        protocol: &ModelProtocol,
-        standing: Option<&MarkerRecording>,
-        findings: &mut Findings,
-    ) -> Result<Subject, MarkerTrialError> {
-        let Some(scaling) = &protocol.scaling else { return Subject::unscaled(model, mass) };
-        let scaling = ScalingProtocol { mass_kg: mass.or(scaling.mass_kg), ..scaling.clone() };
-        let measured = protocol.measured.as_ref().map(|measured| measured.in_ground(findings).1.markers);
-        let trials = ProtocolTrials { measured: measured.as_ref(), standing };
-        let sized = scale_by_protocol(model, &scaling, trials, findings)?;
-        findings.report(Code::ScalingFitted, scaling_message(&sized));
-        Ok(Subject::of_sized(sized))
-    }
-
-    /// The built-in body of a person whose segments have measured poses.
-    fn of_poses(
-        poses: &SegmentPoses,
-        points: &MarkerRecording,
-        person: &calibration::PersonMeasurements,
-        findings: &mut Findings,
-    ) -> Result<Subject, MarkerTrialError> {
-        let PosedBody { human, .. } = body_of_poses(poses, points, person, findings)?;
-        Ok(Subject {
-            person: Person::of_human(&human),
-            weights: BTreeMap::new(),
-            calibration: None,
-            scaled: Vec::new(),
-            scaling_rms_m: None,
-            sets: vec!["segment poses".to_owned()],
-            model: human.model,
-        })
-    }
-
-    /// The built-in body, calibrated from the standing trial or, without one, from the moving trial.
-    fn built_in(
-        moving: &MarkerRecording,
-        standing: Option<&MarkerRecording>,
-        person: &calibration::PersonMeasurements,
-        set: Option<&MarkerSet>,
-        findings: &mut Findings,
-    ) -> Result<Subject, MarkerTrialError> {
-        let (recording, trial) = standing.map_or((moving, Trial::Moving), |standing| (standing, Trial::Standing));
-        let names = recording.markers.iter().map(|marker| marker.name.as_str());
-        let recognised = match set {
-            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
-            None => MarkerSet::recognise(names)?,
-        };
-        let calibrated = calibrate(recording, trial, &recognised, person, findings)?;
-        let human = calibrated.human;
-        Ok(Subject {
-            person: Person::of_human(&human),
-            weights: calibrated.weights,
-            calibration: Some(calibrated.report),
-            scaled: Vec::new(),
-            scaling_rms_m: None,
-            sets: recognised.sets,
-            model: human.model,
-        })
-    }
-}
-
 /// The recording without beginning and end where less than half of the markers are visible.
 fn trimmed_to_visible(markers: MarkerRecording, findings: &mut Findings) -> MarkerRecording {
     let visible = markers.trimmed_to_visible();
@@ -569,19 +282,4 @@ fn trimmed_to_visible(markers: MarkerRecording, findings: &mut Findings) -> Mark
         findings.report(Code::MarkersEnds, message);
     }
     visible
-}
-
-fn scaling_message(sized: &SizedModel) -> String {
-    let size = |factor: &Vec3| factor.sum() / 3.0;
-    let least = sized.factors.iter().map(size).fold(f64::INFINITY, f64::min);
-    let most = sized.factors.iter().map(size).fold(0.0, f64::max);
-    let fitted = match (sized.rms_before_m, sized.rms_m) {
-        (Some(before_m), Some(after_m)) => format!(
-            " to the standing trial: factors {least:.3} to {most:.3}, marker error {:.1} mm before and {:.1} mm after; then the markers were moved to their measured positions",
-            1e3 * before_m,
-            1e3 * after_m
-        ),
-        _ => format!(": factors {least:.3} to {most:.3}; its markers were not moved"),
-    };
-    format!("the model was scaled{fitted}")
 }

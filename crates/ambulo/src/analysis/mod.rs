@@ -10,6 +10,7 @@ pub mod feasibility;
 mod foot_progression;
 mod ground_agreement;
 mod known_bodies;
+mod laboratory_recording;
 mod marker_trial;
 mod peaks;
 mod plausibility;
@@ -19,6 +20,7 @@ mod progress;
 mod recording;
 mod residual;
 mod residual_reduction;
+mod subject;
 mod times_and_distances;
 mod tracked;
 mod walking_direction;
@@ -35,11 +37,9 @@ pub use ground_agreement::{
     GroundAgreement, MomentAgreement, PlateCoverage, compared_stances, ground_agreement,
 };
 pub use known_bodies::KnownBodies;
+pub use laboratory_recording::LaboratoryRecording;
 pub(crate) use marker_trial::fit_body_to_markers;
-pub use marker_trial::{
-    BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, MarkerTrialError, ModelProtocol, Subject,
-    body_in_motion,
-};
+pub use marker_trial::{BodyInMotion, MarkerTrial, body_in_motion};
 pub use peaks::{Peak, peak};
 pub(crate) use predicted::predict_and_analyse;
 pub use predicted::{PredictedAnalysis, PredictionInput, analyse_predicted, analyse_predicted_trajectory};
@@ -54,6 +54,7 @@ pub use recording::{
 pub(crate) use recording::{analyse_measured, analyse_with_progress, recorded_trajectory};
 pub use residual::{Residual, residual, residual_sizes, residual_within};
 pub use residual_reduction::{Adjustable, reduce_residual};
+pub use subject::{BodySource, MarkerTrialError, ModelProtocol, Subject};
 pub use times_and_distances::{
     Stride, StrideQuantity, StrideStatistics, TimesAndDistances, symmetry_index, times_and_distances,
 };

@@ -1,7 +1,7 @@
 //! Detects inputs that do not belong together: model, motion and forces that give finite but wrong results.
 
 use super::feasibility::LARGE_RESIDUAL_BW;
-use super::recording::Analysis;
+use super::residual::Residual;
 use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces};
 use crate::kinematics::{Trajectory, each_body_motion};
@@ -13,9 +13,8 @@ use crate::spatial::Vec3;
 const RANGE_SLACK_RAD: f64 = 0.35;
 
 /// Reports a residual force that is too large for reliable results.
-pub(super) fn report_residual(model: &Model, analysis: &Analysis, findings: &mut Findings) {
-    let weight_n = analysis.mass.kg * model.gravity().norm();
-    let Some(residual) = analysis.residual.filter(|_| weight_n > 0.0) else { return };
+pub(super) fn report_residual(weight_n: f64, residual: Option<Residual>, findings: &mut Findings) {
+    let Some(residual) = residual.filter(|_| weight_n > 0.0) else { return };
     let share = residual.force_rms_n / weight_n;
     if share > LARGE_RESIDUAL_BW {
         let message = format!(
@@ -27,9 +26,9 @@ pub(super) fn report_residual(model: &Model, analysis: &Analysis, findings: &mut
 }
 
 /// Reports ground forces with the wrong sign or under the wrong foot.
-pub(super) fn report_loads(model: &Model, analysis: &Analysis, findings: &mut Findings) {
-    report_downward(model, &analysis.ground, model.up(), findings);
-    report_far_feet(model, &analysis.trajectory, &analysis.ground, findings);
+pub(super) fn report_loads(model: &Model, trajectory: &Trajectory, ground: &GroundForces, findings: &mut Findings) {
+    report_downward(model, ground, model.up(), findings);
+    report_far_feet(model, trajectory, ground, findings);
 }
 
 /// Reports forces that pull a foot down: forces on the plate instead of on the foot.

@@ -164,9 +164,9 @@ fn with_plates(
 /// outside the plates and is not reported. The range of the motion is checked with the prediction.
 fn report_plates(model: &Model, measured: &Analysis, window_is_known: bool, findings: &mut Findings) {
     if window_is_known {
-        plausibility::report_residual(model, measured, findings);
+        plausibility::report_residual(measured.mass.kg * model.gravity().norm(), measured.residual, findings);
     }
-    plausibility::report_loads(model, measured, findings);
+    plausibility::report_loads(model, &measured.trajectory, &measured.ground, findings);
 }
 
 /// Whether the sampling rate of a plate is high enough for a filter.

@@ -241,9 +241,9 @@ pub(crate) fn analyse_measured(
 ) -> Result<Analysis, AnalysisError> {
     let analysis = with_forces(model, trajectory, plates, source, findings, progress)?;
     if !plates.is_empty() {
-        plausibility::report_residual(model, &analysis, findings);
+        plausibility::report_residual(analysis.mass.kg * model.gravity().norm(), analysis.residual, findings);
     }
-    plausibility::report_loads(model, &analysis, findings);
+    plausibility::report_loads(model, &analysis.trajectory, &analysis.ground, findings);
     plausibility::report_ranges(model, &analysis.trajectory, findings);
     progress.end(Stage::Analysis)?;
     Ok(analysis)

@@ -4,8 +4,8 @@
 //! linearly between two samples. Contacts and breaks shorter than [`SHORTEST_CONTACT_S`] are noise: breaks are
 //! closed first, then contacts that remain too short are dropped.
 
-use super::CENTER_OF_PRESSURE_LOAD_N;
 use crate::model::Side;
+use crate::motion::force_plate::CENTER_OF_PRESSURE_LOAD_N;
 use crate::motion::{Event, EventKind};
 
 /// A contact or a break shorter than this is noise [s]. Contacts of sprinters last about 0.08 s (unverified).

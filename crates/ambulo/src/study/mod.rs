@@ -25,6 +25,7 @@ mod laboratory_file;
 mod mass;
 mod observation;
 mod opensim_setup;
+mod origin;
 mod outcome;
 mod personal;
 mod prediction;
@@ -50,7 +51,8 @@ pub use mass::{BodyMass, MassEstimate, MassState, MassWitness, standing_mass_kg}
 pub use opensim_setup::{
     SetupError, TrackedTasks, exclude_bushings, report_forces_of_model, scaling_of_setup, standing_sensors_of,
 };
-pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedGround, TrackedMarkers, Tracking};
+pub use origin::{ForceOrigin, TrackedMarkers, Tracking};
+pub use outcome::{Outcome, PredictedGround, Processing, TrackedGround};
 pub use personal::{CalibrationError, personal_errors};
 pub use quality::{Measure, Quality, QualityLimits, QualityReason, QualityState};
 pub use run::{run, run_observed};

@@ -5,7 +5,7 @@ use super::force_table::{TableForces, Walker};
 use super::idle_forces::{IdleForces, is_loaded};
 use super::laboratory_file::LaboratoryFile;
 use super::mass::{KnownMass, MassEstimate, report_decided};
-use super::outcome::Tracking;
+use super::origin::Tracking;
 use super::settings::{GroundSettings, Settings};
 use super::size::StatedSize;
 use super::source::{

@@ -1,18 +1,16 @@
 //! The results of a study.
 
 use super::mass::BodyMass;
+use super::origin::{ForceOrigin, Tracking};
 use super::quality::Quality;
 use crate::analysis::activity::Activity;
 use crate::analysis::feasibility::{Person, Verdict};
 use crate::analysis::{
-    Analysis, AnalysisSettings, BodyInMotion, ComparedAnalyses, Event, GroundAgreement, PlateCoverage,
-    PredictionChecks, TimesAndDistances,
+    Analysis, AnalysisSettings, ComparedAnalyses, GroundAgreement, PlateCoverage, PredictionChecks, TimesAndDistances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::predict::Prediction;
-use crate::kinematics::FlightGravity;
-use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
@@ -49,25 +47,6 @@ pub struct Outcome {
     pub verdict: Verdict,
     /// Filters and time range that were used.
     pub processing: Processing,
-}
-
-/// Where ground forces come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ForceOrigin {
-    /// Force plates or other sensors.
-    Measured,
-    /// The motion itself.
-    Predicted {
-        /// How double support was resolved.
-        rule: &'static str,
-    },
-    /// A simulation of the motion.
-    Simulated {
-        /// How double support was resolved.
-        rule: &'static str,
-    },
-    /// There are none.
-    None,
 }
 
 /// Filters and time range that were used.
@@ -123,33 +102,6 @@ impl PredictedGround {
     pub(super) fn stances(&self, analysis: &Analysis, settings: AnalysisSettings) -> Option<&Footfalls> {
         (!analysis.adjusted && settings.filters_as_the_prediction()).then_some(&self.prediction.footfalls)
     }
-}
-
-/// How a body follows what was recorded.
-#[derive(Debug, Clone)]
-pub enum Tracking {
-    /// Markers.
-    Markers(Box<TrackedMarkers>),
-    /// A skeleton.
-    Skeleton {
-        /// The assumed unit and axes, in one line.
-        statement: String,
-        /// How well the body follows.
-        fit: Box<MarkerFit>,
-        /// How the person falls in flight, at the stated frame rate; `None` without a flight.
-        flights: Option<FlightGravity>,
-    },
-}
-
-/// A body that follows markers.
-#[derive(Debug, Clone)]
-pub struct TrackedMarkers {
-    /// The body, its motion, and which foot was on which plate.
-    pub body: BodyInMotion,
-    /// Foot strikes and foot offs that the file lists.
-    pub listed_events: Vec<Event>,
-    /// Those that plates measured.
-    pub measured_events: Vec<Event>,
 }
 
 impl Outcome {

@@ -14,7 +14,7 @@ mod stance_heights;
 
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
-use super::outcome::{ForceOrigin, Tracking};
+use super::origin::{ForceOrigin, Tracking};
 use crate::analysis::feasibility::{Check, Reason, Verdict};
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
 use crate::kinematics::marker_fit::MarkerFit;

@@ -1,0 +1,51 @@
+//! Where the forces of a study come from, and how its body follows what was recorded.
+
+use crate::analysis::{BodyInMotion, Event};
+use crate::kinematics::FlightGravity;
+use crate::kinematics::marker_fit::MarkerFit;
+
+/// Where ground forces come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ForceOrigin {
+    /// Force plates or other sensors.
+    Measured,
+    /// The motion itself.
+    Predicted {
+        /// How double support was resolved.
+        rule: &'static str,
+    },
+    /// A simulation of the motion.
+    Simulated {
+        /// How double support was resolved.
+        rule: &'static str,
+    },
+    /// There are none.
+    None,
+}
+
+/// How a body follows what was recorded.
+#[derive(Debug, Clone)]
+pub enum Tracking {
+    /// Markers.
+    Markers(Box<TrackedMarkers>),
+    /// A skeleton.
+    Skeleton {
+        /// The assumed unit and axes, in one line.
+        statement: String,
+        /// How well the body follows.
+        fit: Box<MarkerFit>,
+        /// How the person falls in flight, at the stated frame rate; `None` without a flight.
+        flights: Option<FlightGravity>,
+    },
+}
+
+/// A body that follows markers.
+#[derive(Debug, Clone)]
+pub struct TrackedMarkers {
+    /// The body, its motion, and which foot was on which plate.
+    pub body: BodyInMotion,
+    /// Foot strikes and foot offs that the file lists.
+    pub listed_events: Vec<Event>,
+    /// Those that plates measured.
+    pub measured_events: Vec<Event>,
+}
