@@ -22,8 +22,7 @@ use crate::engine::start::start;
 use crate::engine::state::WorldState;
 use crate::engine::workspace::{Integrator, StepSettings, StepWorkspace};
 use crate::engine::world::{
-    Closure, ContactLaw, JointCoordinate, Obstacle, ObstaclePath, Owner, RigidBody, Surface,
-    TreeJoint, World,
+    Closure, ContactLaw, JointCoordinate, Obstacle, ObstaclePath, Owner, RigidBody, Surface, TreeJoint, World,
 };
 use crate::findings::{Code, Findings};
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
