@@ -11,7 +11,9 @@ use crate::failure::Failure;
 use crate::replacement::ResultTarget;
 use ambulo_formats::table::Table;
 use ambulo_report::page::report_page;
-use ambulo_results::{Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, is_storage, summary_json, unit_of};
+use ambulo_results::{
+    Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, VALIDATION_PAGE, is_storage, summary_json, unit_of,
+};
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -50,9 +52,6 @@ impl From<ValidationRun> for Results {
         Results(Content::Validation(Box::new(run)))
     }
 }
-
-/// Name of the page that only `ambulo validate` writes.
-const VALIDATION_PAGE: &str = "validation.html";
 
 impl Results {
     pub(crate) fn of_folder(path: &Path) -> Result<Results> {
