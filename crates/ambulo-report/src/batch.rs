@@ -6,7 +6,7 @@ use ambulo::study::validation::{Section, TextTable, number};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-const STYLE: &str = include_str!("../data/report/reproduction.css");
+const STYLE: &str = include_str!("../data/report/page.css");
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 /// Width of the figure [mm], and height of its axes [pt].
 const SIZE: (f64, f64) = (260.0, 90.0);

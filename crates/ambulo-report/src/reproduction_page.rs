@@ -5,10 +5,10 @@
 use super::figures::moving_picture;
 use super::html::{Document, escaped};
 use ambulo_paper::{Claim, Evidence, Numbers, Sensitivity, assumptions, moving_figure, number, stored_shares, tally};
-use ambulo_results::OutputFile;
+use ambulo_results::{OutputFile, PAGE};
 use std::fmt::Write;
 
-const STYLE: &str = include_str!("../data/report/reproduction.css");
+const STYLE: &str = include_str!("../data/report/page.css");
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
 /// A figure of the paper.
@@ -123,7 +123,7 @@ move at its speed.</p>
         style: STYLE,
         body: &body,
     };
-    OutputFile::new("report.html", page.html().into_bytes())
+    OutputFile::new(PAGE, page.html().into_bytes())
 }
 
 /// The four gaits in each mode.

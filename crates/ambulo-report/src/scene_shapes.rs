@@ -10,13 +10,11 @@ use ambulo::contact::Outline;
 use ambulo::simulation::scene::Scene;
 use ambulo::simulation::{Owner, Surface, World};
 use ambulo::spatial::{Pose, Vec3};
-use ambulo_results::OutputFile;
+use ambulo_results::{OutputFile, SHAPES};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// Name of the file.
-pub(super) const FILE: &str = "shapes.json";
 /// Version of its layout.
 pub(super) const FORMAT: u32 = 1;
 /// Maximum number of drawn rows or columns of a height field.
@@ -84,7 +82,7 @@ pub fn scene_shapes(scene: &Scene) -> Result<OutputFile<'static>, serde_json::Er
         bodies: bodies(scene),
         obstacles: (0..world.obstacles.len()).map(|number| obstacle(world, number)).collect(),
     };
-    Ok(OutputFile::new(FILE, serde_json::to_vec(&shapes)?))
+    Ok(OutputFile::new(SHAPES, serde_json::to_vec(&shapes)?))
 }
 
 fn bodies(scene: &Scene) -> Vec<BodyShapes> {

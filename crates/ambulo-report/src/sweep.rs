@@ -10,11 +10,11 @@ use ambulo::analysis::{CYCLE_SAMPLES, over_cycle_of};
 use ambulo::model::Side;
 use ambulo::study::Outcome;
 use ambulo_formats::table::guarded;
-use ambulo_results::{CycleRow, OutputFile, cycle_rows};
+use ambulo_results::{CycleRow, OutputFile, PAGE, WALKS, cycle_rows};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-const STYLE: &str = include_str!("../data/report/reproduction.css");
+const STYLE: &str = include_str!("../data/report/page.css");
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
 /// The conditions that a sweep varies.
@@ -199,7 +199,7 @@ pub fn sweep_files(title: &str, walks: &[SweptWalk]) -> Result<Vec<OutputFile<'s
     let sweep = Sweep::new(walks);
     let mut files = vec![
         OutputFile::new("sweep.csv", sweep.curves_csv().into_bytes()),
-        OutputFile::new("walks.csv", sweep.walks_csv().into_bytes()),
+        OutputFile::new(WALKS, sweep.walks_csv().into_bytes()),
     ];
     let mut pictures = Vec::new();
     for (name, heading, rows) in FIGURES {
@@ -408,7 +408,7 @@ Moments are internal; powers are positive where they are generated. Masses and w
         // On a narrow screen, figures scroll: their letters would be too small.
         let style = format!("{STYLE}\n.picture svg {{ min-width: 46rem; }}");
         let page = Document { title: "Forces of a sweep of walks", policy: POLICY, style: &style, body: &body };
-        OutputFile::new("report.html", page.html().into_bytes())
+        OutputFile::new(PAGE, page.html().into_bytes())
     }
 
     fn table(&self) -> String {

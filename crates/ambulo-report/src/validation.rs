@@ -12,11 +12,11 @@ use ambulo::study::validation::{
     persons, phase_errors, stance_rows,
 };
 use ambulo_formats::table::guarded;
-use ambulo_results::OutputFile;
+use ambulo_results::{OutputFile, VALIDATION_PAGE};
 use serde::Serialize;
 use std::fmt::Write;
 
-const STYLE: &str = include_str!("../data/report/reproduction.css");
+const STYLE: &str = include_str!("../data/report/page.css");
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 /// Width of a figure [mm], and height of its axes [pt].
 const SIZE: (f64, f64) = (260.0, 90.0);
@@ -78,7 +78,7 @@ pub fn validation_files(
     let judged: Vec<&JudgedTrial> = judged.iter().collect();
     let report = Report { title, listed, others, judged: &judged };
     Ok(vec![
-        OutputFile::new("validation.html", report.page()?.into_bytes()),
+        OutputFile::new(VALIDATION_PAGE, report.page()?.into_bytes()),
         OutputFile::new("validation.md", report.markdown().into_bytes()),
         OutputFile::new("stances.csv", stances_csv(&judged).into_bytes()),
         OutputFile::new("means.csv", means_csv(&judged).into_bytes()),

@@ -1,5 +1,6 @@
 //! Conventions for the angles of pelvis and hips in `clinical.csv` and on the report page.
 
+use ambulo::findings::word;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -20,10 +21,7 @@ impl Convention {
     /// The name in files.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            Convention::Clinical => "clinical",
-            Convention::Opensim => "opensim",
-        }
+        word(&self)
     }
 }
 

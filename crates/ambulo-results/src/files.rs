@@ -1,7 +1,9 @@
 //! Makes the files of a run: names and contents.
 
 use crate::cycle_table::{self, CycleRow};
-use crate::{CYCLES, EVENTS, Keep, tables};
+use crate::{
+    CYCLES, EVENTS, EXTERNAL_LOADS, GROUND, KINEMATICS, Keep, MOMENTS, MOMENTS_BIOLOGICAL, POWERS, REACTIONS, tables,
+};
 use ambulo::analysis::{Analysis, Event};
 use ambulo::model::{ExportError, Model, to_osim};
 use ambulo_formats::Error;
@@ -292,17 +294,17 @@ pub fn output_files<'a>(
     keep: &Keep,
 ) -> Result<Vec<OutputFile<'a>>, Error> {
     let mut files = vec![
-        OutputFile::storage_by("kinematics.mot", || tables::kinematics(model, analysis)),
-        OutputFile::storage_by("moments.sto", || tables::moments(model, analysis, None)),
-        OutputFile::storage_by("powers.sto", || tables::powers(model, analysis)),
-        OutputFile::storage_by("reactions.sto", || tables::reactions(model, analysis)),
+        OutputFile::storage_by(KINEMATICS, || tables::kinematics(model, analysis)),
+        OutputFile::storage_by(MOMENTS, || tables::moments(model, analysis, None)),
+        OutputFile::storage_by(POWERS, || tables::powers(model, analysis)),
+        OutputFile::storage_by(REACTIONS, || tables::reactions(model, analysis)),
     ];
     if device.is_some() {
-        files.push(OutputFile::storage_by("moments_biological.sto", move || tables::moments(model, analysis, device)));
+        files.push(OutputFile::storage_by(MOMENTS_BIOLOGICAL, move || tables::moments(model, analysis, device)));
     }
     if !analysis.ground.bodies.is_empty() {
-        files.push(OutputFile::storage_by("grf.mot", || tables::ground(model, analysis)));
-        files.push(OutputFile::new("external_loads.xml", tables::external_loads(model, analysis).write()));
+        files.push(OutputFile::storage_by(GROUND, || tables::ground(model, analysis)));
+        files.push(OutputFile::new(EXTERNAL_LOADS, tables::external_loads(model, analysis).write()));
         files.push(OutputFile::events(&analysis.events)?);
     }
     if !analysis.cycles.is_empty() {

@@ -4,7 +4,7 @@ use crate::cycle_table::{self, CycleRow};
 use crate::files::OutputFile;
 use crate::run_summary::RunSummary;
 use crate::sound::{EXPECTED, is_sound};
-use crate::{CYCLES, EVENTS, STATES, state_table, tables};
+use crate::{CYCLES, EVENTS, FIGURE, STATES, SUBJECT, state_table, tables};
 use ambulo::analysis::Event;
 use ambulo::findings::Findings;
 use ambulo::gait::machine::StatePeriod;
@@ -35,7 +35,7 @@ enum Content<'a> {
 }
 
 /// File names of the model of a run: of a recording, of a synthetic walk.
-pub const BODIES: [&str; 2] = ["subject.osim", "figure.osim"];
+pub const BODIES: [&str; 2] = [SUBJECT, FIGURE];
 
 /// Why results cannot be read or shown.
 #[derive(Debug, thiserror::Error)]

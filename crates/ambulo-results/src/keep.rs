@@ -1,9 +1,6 @@
 //! Which outputs of a run are written.
 
-use crate::{CLINICAL, CYCLES, EVENTS, SUMMARY, TIMES_AND_DISTANCES, TIMINGS};
-
-/// Name of the report page in a result folder.
-pub const PAGE: &str = "report.html";
+use crate::{CLINICAL, CYCLES, EVENTS, EXTERNAL_LOADS, PAGE, SHAPES, SUMMARY, TIMES_AND_DISTANCES, TIMINGS};
 
 /// The outputs that a run writes, chosen by name: all of them, or those listed. The summary is always written.
 ///
@@ -108,8 +105,8 @@ fn output(file: &str) -> &str {
         CLINICAL => "clinical",
         TIMES_AND_DISTANCES => "times_and_distances",
         // It describes the table.
-        "external_loads.xml" => "grf",
-        "shapes.json" => "poses",
+        EXTERNAL_LOADS => "grf",
+        SHAPES => "poses",
         _ if file.starts_with("figures/") => "figures",
         _ if file.starts_with("input/") => "recording",
         _ if file.ends_with(".osim") => "model",

@@ -3,6 +3,7 @@
 mod consistency_summary;
 mod convention;
 mod cycle_table;
+mod file_names;
 mod files;
 mod folder;
 mod keep;
@@ -26,9 +27,14 @@ mod walking_summary;
 pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, cycle_rows};
+pub use file_names::{
+    CLAIMS, CLINICAL, CLOSURES, CONTACTS, CYCLES, ENERGY, EVENTS, EXTERNAL_LOADS, FIGURE, GROUND, GROUND_MEASURED,
+    GROUND_SD, JOINTS, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL, PAGE, POSES, POWERS, REACTIONS, SCENE_REACTIONS,
+    SHAPES, STATES, SUBJECT, SUMMARY, TIMES_AND_DISTANCES, TIMINGS, VALIDATION_PAGE, WALKS,
+};
 pub use files::{BodyFileError, OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
-pub use keep::{Keep, PAGE};
+pub use keep::Keep;
 pub use outcome::outcome_tables;
 pub use prediction_files::{deviation_columns, prediction_files};
 #[cfg(feature = "schema")]
@@ -55,21 +61,6 @@ pub use tracking_summary::TrackingSummary;
 pub use units::{is_storage, unit_of};
 pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkPredictionSummary, WalkSummary};
 pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
-
-/// Name of the table of foot strikes and foot offs in a result folder.
-pub const EVENTS: &str = "events.csv";
-/// Name of the table of curves over gait cycles in a result folder.
-pub const CYCLES: &str = "cycles.csv";
-/// Name of the summary in a result folder.
-pub const SUMMARY: &str = "summary.json";
-/// Name of the durations of a run in a result folder.
-pub const TIMINGS: &str = "timings.json";
-/// Name of the table of clinical curves in a result folder.
-pub const CLINICAL: &str = "clinical.csv";
-/// Name of the table of the states of a gait's machines in a result folder.
-pub const STATES: &str = "states.csv";
-/// Name of the table of times and distances in a result folder.
-pub const TIMES_AND_DISTANCES: &str = "times_and_distances.csv";
 
 /// For the tests of this crate.
 #[doc(hidden)]

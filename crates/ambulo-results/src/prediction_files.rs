@@ -1,8 +1,8 @@
 //! Files of a run with predicted ground forces: standard deviations and measured forces.
 
-use crate::Keep;
 use crate::files::OutputFile;
 use crate::tables;
+use crate::{GROUND_MEASURED, GROUND_SD, Keep};
 use ambulo::analysis::Analysis;
 use ambulo::ground::predict::{FootDeviation, Prediction};
 use ambulo::model::{Model, Side};
@@ -22,9 +22,9 @@ pub fn prediction_files<'a>(
         let columns = deviation_columns(&prediction.deviations, analysis.trajectory.grid().frames);
         tables::table("Standard Deviations of Ground Reactions", analysis, columns)
     };
-    let mut files = vec![OutputFile::storage_by("grf_sd.mot", deviations)];
+    let mut files = vec![OutputFile::storage_by(GROUND_SD, deviations)];
     if let Some(measured) = measured {
-        files.push(OutputFile::storage_by("grf_measured.mot", move || tables::ground(model, measured)));
+        files.push(OutputFile::storage_by(GROUND_MEASURED, move || tables::ground(model, measured)));
     }
     files.retain(|file| keep.includes(&file.name));
     files

@@ -2,6 +2,7 @@
 
 use crate::files::OutputFile;
 use crate::state_table::csv_cell;
+use crate::{CLOSURES, CONTACTS, ENERGY, JOINTS, MOMENTS, POSES, SCENE_REACTIONS};
 use ambulo::simulation::scene::{Outputs, Scene, SceneFrame};
 use ambulo::simulation::{ContactForce, Owner, StepForces, TreeJoint, World, WorldState};
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3};
@@ -37,16 +38,16 @@ impl SceneTables {
         });
         SceneTables {
             kept: scene.outputs().clone(),
-            poses: RowTable::new("poses.csv", "time,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz"),
-            joints: RowTable::new("joints.csv", "time,joint,coordinate,value,rate,effort,unit"),
-            reactions: RowTable::new("reactions.csv", "time,joint,body,fx,fy,fz,mx,my,mz,px,py,pz"),
+            poses: RowTable::new(POSES, "time,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz"),
+            joints: RowTable::new(JOINTS, "time,joint,coordinate,value,rate,effort,unit"),
+            reactions: RowTable::new(SCENE_REACTIONS, "time,joint,body,fx,fy,fz,mx,my,mz,px,py,pz"),
             contacts: RowTable::new(
-                "contacts.csv",
+                CONTACTS,
                 "time,kind,first,second,px,py,pz,nx,ny,nz,fx,fy,fz,normal_force,friction_force,slip_m_s,gap_m",
             ),
-            closures: RowTable::new("closures.csv", "time,closure,fx,fy,fz,mx,my,mz,px,py,pz,gap_m"),
+            closures: RowTable::new(CLOSURES, "time,closure,fx,fy,fz,mx,my,mz,px,py,pz,gap_m"),
             energy: RowTable::new(
-                "energy.csv",
+                ENERGY,
                 "time,kinetic,gravity,springs,total,iterations,factorizations,residual,converged",
             ),
             times: Vec::new(),
@@ -104,7 +105,7 @@ impl SceneTables {
             let columns = std::iter::once(("time".to_owned(), self.times)).chain(self.moments).collect();
             let mut table = Table::new("Generalized Forces", columns)?;
             table.in_degrees = Some(false);
-            files.push(OutputFile::storage("moments.sto", table)?);
+            files.push(OutputFile::storage(MOMENTS, table)?);
         }
         Ok(files)
     }

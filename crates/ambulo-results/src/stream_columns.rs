@@ -3,6 +3,7 @@
 use crate::prediction_files::deviation_columns;
 use crate::tables::ground_columns;
 use crate::units::unit_of;
+use crate::{GROUND, GROUND_SD, MOMENTS};
 use ambulo::ground::BodyForces;
 use ambulo::ground::stream::{FootLoad, StreamFrame};
 use ambulo::model::{Model, Side};
@@ -11,9 +12,9 @@ use ambulo::model::{Model, Side};
 #[must_use]
 pub fn stream_columns(model: &Model) -> Vec<(String, &'static str)> {
     let no_foot: [(Side, BodyForces); 0] = [];
-    let ground = ground_columns(&no_foot, 0).into_iter().map(|(name, _)| ("grf.mot", name));
-    let deviations = deviation_columns(&[], 0).into_iter().map(|(name, _)| ("grf_sd.mot", name));
-    let moments = model.force_names().into_iter().map(|name| ("moments.sto", name));
+    let ground = ground_columns(&no_foot, 0).into_iter().map(|(name, _)| (GROUND, name));
+    let deviations = deviation_columns(&[], 0).into_iter().map(|(name, _)| (GROUND_SD, name));
+    let moments = model.force_names().into_iter().map(|name| (MOMENTS, name));
     let with_unit = |(file, name): (&str, String)| {
         let unit = unit_of(file, &name, Some(model));
         (name, unit)

@@ -1,6 +1,7 @@
 //! `subject` of `summary.json`: marker fit, segments, plates and events (docs/OUTPUTS.md).
 
 use ambulo::analysis::{BodyInMotion, Event, EventAgreement, event_agreement};
+use ambulo::findings::word;
 use ambulo::ground::plates::{ContactQuality, PlateContact};
 use ambulo::kinematics::calibration::SegmentScale;
 use ambulo::kinematics::marker_fit::MarkerFit;
@@ -123,11 +124,7 @@ impl EventOrigin {
     /// The name in files.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            EventOrigin::Plates => "plates",
-            EventOrigin::Motion => "motion",
-            EventOrigin::File => "file",
-        }
+        word(&self)
     }
 }
 

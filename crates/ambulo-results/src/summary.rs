@@ -10,7 +10,7 @@ use crate::walking_summary::WalkingSummary;
 use ambulo::analysis::activity::Activity;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::analysis::{Analysis, GroundAgreement, PredictionChecks, peak};
-use ambulo::findings::{Finding, Findings};
+use ambulo::findings::{Finding, Findings, word};
 use ambulo::model::Model;
 use ambulo::motion::Smoother;
 use ambulo::motion::filter::LowPass;
@@ -179,11 +179,7 @@ impl FilterKind {
     /// The name in files.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            FilterKind::Butterworth => "butterworth",
-            FilterKind::Spline => "spline",
-            FilterKind::Off => "off",
-        }
+        word(&self)
     }
 }
 
@@ -206,12 +202,7 @@ impl GroundOrigin {
     /// The name in files.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            GroundOrigin::Measured => "measured",
-            GroundOrigin::Predicted => "predicted",
-            GroundOrigin::Simulated => "simulated",
-            GroundOrigin::None => "none",
-        }
+        word(&self)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Makes tables of time series with the column names of OpenSim.
 
+use crate::GROUND;
 use crate::sound::is_sound;
 use ambulo::analysis::{Analysis, Event, EventKind};
 use ambulo::dynamics::JointReaction;
@@ -138,7 +139,7 @@ pub(crate) fn external_loads(model: &Model, analysis: &Analysis) -> ExternalLoad
     };
     ExternalLoads {
         name: "ground_reactions".into(),
-        datafile: Some("grf.mot".into()),
+        datafile: Some(GROUND.into()),
         forces: feet(model, &analysis.ground).into_iter().map(force).collect(),
     }
 }

@@ -1,5 +1,6 @@
 //! Units of the columns of tables (docs/OUTPUTS.md).
 
+use crate::{CLINICAL, GROUND, GROUND_MEASURED, GROUND_SD, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL, POWERS, REACTIONS};
 use ambulo::model::{CoordinateKind, Model};
 
 /// Whether a file is an OpenSim storage file; other tables are comma-separated values.
@@ -15,12 +16,12 @@ pub fn unit_of(file: &str, column: &str, model: Option<&Model>) -> &'static str 
         return "s";
     }
     match file {
-        "kinematics.mot" => model.map_or("", |model| unit_of_coordinate(column, model)),
-        "moments.sto" | "moments_biological.sto" if column.ends_with("_force") => "N",
-        "moments.sto" | "moments_biological.sto" => "N.m",
-        "powers.sto" => "W",
-        "reactions.sto" | "grf.mot" | "grf_sd.mot" | "grf_measured.mot" => unit_of_load(column),
-        "clinical.csv" => unit_of_clinical(column),
+        KINEMATICS => model.map_or("", |model| unit_of_coordinate(column, model)),
+        MOMENTS | MOMENTS_BIOLOGICAL if column.ends_with("_force") => "N",
+        MOMENTS | MOMENTS_BIOLOGICAL => "N.m",
+        POWERS => "W",
+        REACTIONS | GROUND | GROUND_SD | GROUND_MEASURED => unit_of_load(column),
+        CLINICAL => unit_of_clinical(column),
         _ => "",
     }
 }

@@ -143,3 +143,19 @@ fn the_library_names_no_option_of_the_command() {
         }
     }
 }
+
+#[test]
+fn the_word_of_a_variant_is_the_one_that_serde_writes() {
+    use ambulo::analysis::MassSource;
+    use ambulo::findings::{Severity, word};
+    use ambulo::ground::plates::ContactQuality;
+    use ambulo::simulation::Integrator;
+    use ambulo::study::Measure;
+
+    assert_eq!((MassSource::Plates.word(), Integrator::RungeKutta.word()), ("plates", "runge-kutta"));
+    assert_eq!((ContactQuality::TwoFeet.word(), Severity::Warning.to_string()), ("two feet", "warning".to_owned()));
+    for measure in Measure::ALL {
+        assert_eq!(serde_json::to_string(&measure).unwrap(), format!("\"{}\"", measure.name()));
+    }
+    assert_eq!((word(&1.5), word(&"text"), word(&Some(Severity::Note))), ("", "", ""));
+}

@@ -4,8 +4,10 @@
 //! has a [`Code`] with a severity, a meaning and a remedy. Findings inform the user; no computation depends on them.
 
 mod code;
+mod word;
 
 pub use code::Code;
+pub use word::word;
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -23,10 +25,7 @@ pub enum Severity {
 
 impl fmt::Display for Severity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Severity::Note => "note",
-            Severity::Warning => "warning",
-        })
+        f.write_str(word(self))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Foot strikes and foot offs, and reading them from C3D files.
 
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Findings, word};
 use crate::model::Side;
 use ambulo_formats::c3d::C3d;
 use std::fmt;
@@ -34,10 +34,7 @@ impl EventKind {
     /// `strike` or `off`, as in `events.csv`.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            EventKind::Strike => "strike",
-            EventKind::Off => "off",
-        }
+        word(&self)
     }
 }
 

@@ -13,7 +13,7 @@ use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
-use ambulo_results::{Convention, Keep, OutputFile};
+use ambulo_results::{Convention, EXTERNAL_LOADS, FIGURE, GROUND, KINEMATICS, Keep, OutputFile};
 use anyhow::{Context, Error, Result};
 
 pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
@@ -53,12 +53,12 @@ fn coordinate_files(written: &[OutputFile<'_>]) -> Result<Vec<OutputFile<'static
         let found = written.iter().find(|file| file.name == name);
         Ok::<_, Error>(found.with_context(|| format!("the walk has no {name}"))?.bytes()?)
     };
-    let (mut loads, _) = ExternalLoads::read(&result("external_loads.xml")?)?;
+    let (mut loads, _) = ExternalLoads::read(&result(EXTERNAL_LOADS)?)?;
     loads.datafile = Some("walk_grf.mot".to_owned());
     Ok(vec![
-        OutputFile::new("input/figure.osim", result("figure.osim")?),
-        OutputFile::new("input/walk.mot", result("kinematics.mot")?),
-        OutputFile::new("input/walk_grf.mot", result("grf.mot")?),
+        OutputFile::new("input/figure.osim", result(FIGURE)?),
+        OutputFile::new("input/walk.mot", result(KINEMATICS)?),
+        OutputFile::new("input/walk_grf.mot", result(GROUND)?),
         OutputFile::new("input/walk_grf.xml", loads.write()),
     ])
 }

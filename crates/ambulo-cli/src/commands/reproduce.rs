@@ -9,7 +9,7 @@ use ambulo_paper::{
     Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities, stored_shares,
 };
 use ambulo_report::{reproduction_files, reproduction_page};
-use ambulo_results::{Keep, OutputFile, summary_json};
+use ambulo_results::{CLAIMS, Keep, OutputFile, summary_json};
 use anyhow::Result;
 use serde_json::json;
 use std::time::Instant;
@@ -40,7 +40,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     written.push(reproduction_page(&claims, &modes, &others, &written));
     let mut json = serde_json::to_vec_pretty(&claims)?;
     json.push(b'\n');
-    written.push(OutputFile::new("claims.json", json));
+    written.push(OutputFile::new(CLAIMS, json));
     let keep = Keep::of_names(&args.keep);
     let options = format!("reproduce brief={} keep={:?}", args.brief, args.keep);
     written.retain(|file| keep.includes(&file.name));

@@ -4,17 +4,13 @@ use crate::files;
 use crate::record::Record;
 use crate::replacement::recover;
 use ambulo_report::SESSION_PAGE;
-use ambulo_results::{PAGE, SUMMARY, TIMINGS, Timings};
+use ambulo_results::{CLAIMS, PAGE, SUMMARY, TIMINGS, Timings, WALKS};
 use anyhow::{Error, Result, bail};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Name of the file that only `ambulo reproduce` writes.
-const CLAIMS: &str = "claims.json";
-/// Name of the file that only `ambulo sweep` writes.
-const WALKS: &str = "walks.csv";
 const OF_A_SESSION: &str = "`ambulo session` wrote this folder, and its page cannot be written again";
 const OF_A_SWEEP: &str = "`ambulo sweep` wrote this folder, and its report.html cannot be written again";
 const OF_THE_PAPER: &str = "`ambulo reproduce` wrote this folder, and its report.html cannot be written again";

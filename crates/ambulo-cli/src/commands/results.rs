@@ -12,7 +12,7 @@ use crate::replacement::ResultTarget;
 use ambulo_formats::table::Table;
 use ambulo_report::page::report_page;
 use ambulo_results::{
-    Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, TIMINGS, is_storage, summary_json, unit_of,
+    Folder, Keep, OutputFile, PAGE, RunSummary, SUMMARY, TIMINGS, VALIDATION_PAGE, is_storage, summary_json, unit_of,
 };
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
@@ -52,9 +52,6 @@ impl From<ValidationRun> for Results {
         Results(Content::Validation(Box::new(run)))
     }
 }
-
-/// Name of the page that only `ambulo validate` writes.
-const VALIDATION_PAGE: &str = "validation.html";
 
 impl Results {
     pub(crate) fn of_folder(path: &Path) -> Result<Results> {

@@ -20,7 +20,7 @@ use ambulo::simulation::synthetic::{
 use ambulo::simulation::walking::TorqueSeries;
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use ambulo_report::gait_figure;
-use ambulo_results::{Convention, GroundSource, Input, Keep, OutputFile, STATES, WalkSummary, states_csv};
+use ambulo_results::{Convention, FIGURE, GroundSource, Input, Keep, OutputFile, STATES, WalkSummary, states_csv};
 use anyhow::{Context, Result, bail};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -241,7 +241,7 @@ impl SyntheticRun<'_> {
     /// The figure as an OpenSim model, the picture of the gait, and the torques of a controller's plan.
     fn files(&self) -> Result<Vec<OutputFile<'static>>> {
         let mut files = vec![
-            OutputFile::body("figure.osim", &self.walk.human.model)?,
+            OutputFile::body(FIGURE, &self.walk.human.model)?,
             gait_file(&self.walk.walk)?,
             OutputFile::new(STATES, states_csv(&self.walk.states).into_bytes()),
         ];

@@ -4,6 +4,7 @@ use super::print_line;
 use crate::args::PrintArgs;
 use ambulo::study::validation::{JudgedTrial, kind_means, persons};
 use ambulo_report::{ListedTrial, listed_section};
+use ambulo_results::VALIDATION_PAGE;
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -53,5 +54,5 @@ pub(crate) fn validate(
     }
     print_line(&format!("\n{}", kind_means(&judged).table.text()))?;
     print_line(&format!("  written   {}", output.display()))?;
-    print_line(&format!("  next      ambulo view {}", super::quoted(&output.join("validation.html"))))
+    print_line(&format!("  next      ambulo view {}", super::quoted(&output.join(VALIDATION_PAGE))))
 }

@@ -6,18 +6,18 @@
 use crate::stage::folder_motion;
 use ambulo::model::{CoordinateKind, Model};
 use ambulo_formats::table::{Table, guarded};
-use ambulo_results::{Folder, ResultsError};
+use ambulo_results::{Folder, GROUND, GROUND_MEASURED, GROUND_SD, MOMENTS, MOMENTS_BIOLOGICAL, POWERS, ResultsError};
 use std::fmt::Write;
 
 const HEAD: &str = "time,quantity,unit,value\n";
 /// Tables whose column endings imply the unit, and the suffix added to the names.
 const TABLES: [(&str, &str); 6] = [
-    ("moments.sto", ""),
-    ("moments_biological.sto", "_biological"),
-    ("powers.sto", ""),
-    ("grf.mot", ""),
-    ("grf_sd.mot", ""),
-    ("grf_measured.mot", "_measured"),
+    (MOMENTS, ""),
+    (MOMENTS_BIOLOGICAL, "_biological"),
+    (POWERS, ""),
+    (GROUND, ""),
+    (GROUND_SD, ""),
+    (GROUND_MEASURED, "_measured"),
 ];
 /// Endings of columns and units.
 const UNITS: [(&str, &str); 3] = [("_moment", "N.m"), ("_force", "N"), ("_power", "W")];

@@ -39,7 +39,7 @@ use ambulo::study::session::{
     CycleFacts, CycleForces, NormalCurve, PROFILE, Representative, SessionCycle, TrialFacts, exclusions, profile,
     representative,
 };
-use ambulo_results::{OutputFile, WalkingSummary};
+use ambulo_results::{CYCLES, OutputFile, TIMES_AND_DISTANCES, WalkingSummary};
 
 /// Name of the page, which only a session has.
 pub const SESSION_PAGE: &str = "session.html";
@@ -311,8 +311,8 @@ impl ComparedSession {
     pub fn files(&self) -> Result<Vec<OutputFile<'static>>, FigureError> {
         let mut files = vec![
             OutputFile::new(SESSION_PAGE, page::page(self)?.into_bytes()),
-            OutputFile::new("cycles.csv", tables::cycles_csv(&self.session).into_bytes()),
-            OutputFile::new("times_and_distances.csv", tables::times_csv(self).into_bytes()),
+            OutputFile::new(CYCLES, tables::cycles_csv(&self.session).into_bytes()),
+            OutputFile::new(TIMES_AND_DISTANCES, tables::times_csv(self).into_bytes()),
             OutputFile::new("deviations.csv", tables::deviations_csv(self).into_bytes()),
         ];
         if let Some(earlier) = &self.earlier {

@@ -5,10 +5,9 @@ use super::StageForce;
 use super::csv_rows::Row;
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
-use ambulo_results::{Folder, ResultsError};
+use ambulo_results::{CONTACTS, Folder, ResultsError};
 use std::collections::BTreeMap;
 
-pub(super) const FILE: &str = "contacts.csv";
 const HEAD: &str = "time,kind,first,second,px,py,pz,nx,ny,nz,fx,fy,fz,normal_force";
 /// Maximum number of drawn pairs; those with the largest forces are drawn.
 const MOST_PAIRS: usize = 32;
@@ -30,7 +29,7 @@ pub(super) fn read(
 ) -> Result<(Vec<StageForce>, Option<String>), ResultsError> {
     let instants: BTreeMap<&str, usize> = times.iter().enumerate().map(|(i, time)| (time.as_str(), i)).collect();
     let mut pairs: BTreeMap<(String, String), BTreeMap<usize, Sum>> = BTreeMap::new();
-    for row in Row::all(folder, FILE, text, HEAD)? {
+    for row in Row::all(folder, CONTACTS, text, HEAD)? {
         let Some(&instant) = instants.get(row.word(0)?).filter(|_| row.word(1).is_ok_and(|kind| kind == "contact"))
         else {
             continue;

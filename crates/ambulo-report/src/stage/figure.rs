@@ -12,9 +12,9 @@ use ambulo::model::anthropometry::Dimensions;
 use ambulo::model::{BodyId, Model};
 use ambulo::motion::{Motion, SmoothMotion, TimeGrid, coordinates_from_table};
 use ambulo_formats::table::Table;
-use ambulo_results::{BODIES, Folder, ResultsError, RunSummary, Summary, error_chain};
-
-const MOTION: &str = "kinematics.mot";
+use ambulo_results::{
+    BODIES, Folder, GROUND, GROUND_MEASURED, KINEMATICS, MOMENTS, ResultsError, RunSummary, Summary, error_chain,
+};
 
 /// The model and its motion in a folder.
 pub(crate) struct FolderMotion {
@@ -28,13 +28,13 @@ pub(crate) struct FolderMotion {
 
 /// Model and motion of a folder, or why there is none.
 pub(crate) fn folder_motion(folder: &Folder<'_>) -> Result<Result<FolderMotion, String>, ResultsError> {
-    let Some(angles) = folder.table(MOTION)? else {
-        return Ok(Err(format!("There is no {MOTION}, so no figure can be drawn.")));
+    let Some(angles) = folder.table(KINEMATICS)? else {
+        return Ok(Err(format!("There is no {KINEMATICS}, so no figure can be drawn.")));
     };
     let Some((_, model)) = folder.body()? else {
         return Ok(Err(format!("There is no body ({}), so no figure can be drawn.", BODIES.join(" or "))));
     };
-    let trajectory = trajectory(&model, &angles).map_err(|reason| folder.unreadable(MOTION, reason))?;
+    let trajectory = trajectory(&model, &angles).map_err(|reason| folder.unreadable(KINEMATICS, reason))?;
     Ok(Ok(FolderMotion { model, angles, trajectory }))
 }
 
@@ -57,17 +57,17 @@ impl Stage {
         let mut stage = Stage::of_motion(&model, &trajectory, summary.height_m);
         drop(trajectory);
         stage.plates = plates(&summary);
-        for (file, role) in [("grf.mot", ForceRole::Main), ("grf_measured.mot", ForceRole::Measured)] {
+        for (file, role) in [(GROUND, ForceRole::Main), (GROUND_MEASURED, ForceRole::Measured)] {
             if let Some(table) = same_rows(folder, file, rows)? {
                 stage.forces.extend(arrow::forces(&table, role));
             }
         }
-        if let Some(moments) = same_rows(folder, "moments.sto", rows)? {
+        if let Some(moments) = same_rows(folder, MOMENTS, rows)? {
             stage.torques = torque::torques(&model, &moments, summary.mass_kg);
         }
         stage.floor_m = floor::height(&stage.plates, &stage.forces, &stage.bodies, &stage.contacts);
         stage.put_soles_on_the_floor(&model, summary.height_m);
-        stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(MOTION, reason)))
+        stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(KINEMATICS, reason)))
     }
 
     fn put_soles_on_the_floor(&mut self, model: &Model, stature_m: Option<f64>) {
@@ -155,7 +155,8 @@ fn paths(model: &Model, trajectory: &Trajectory) -> Vec<BodyPath> {
 
 /// The coordinates exactly as in the file; missing ones are at their default. Rates are not used.
 fn trajectory(model: &Model, table: &Table) -> Result<Trajectory, String> {
-    let motion = coordinates_from_table(model, table, MOTION, &mut Findings::default()).map_err(|e| error_chain(&e))?;
+    let motion =
+        coordinates_from_table(model, table, KINEMATICS, &mut Findings::default()).map_err(|e| error_chain(&e))?;
     let Motion { times, columns, .. } = motion;
     let grid =
         grid(&times).ok_or("the times are not evenly spaced; expected the even steps that this program writes")?;
@@ -181,7 +182,7 @@ fn same_rows(folder: &Folder<'_>, file: &str, rows: usize) -> Result<Option<Tabl
     if table.rows() == rows {
         return Ok(Some(table));
     }
-    let found = format!("{} rows; expected {rows}, one for each of {MOTION}", table.rows());
+    let found = format!("{} rows; expected {rows}, one for each of {KINEMATICS}", table.rows());
     Err(folder.unreadable(file, found))
 }
 

@@ -29,7 +29,7 @@ use super::page::ViewShape;
 use ambulo::model::Side;
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
-use ambulo_results::{Folder, ResultsError};
+use ambulo_results::{Folder, KINEMATICS, POSES, ResultsError};
 
 /// A motion to be drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +62,7 @@ impl Stage {
     /// # Errors
     /// A file that cannot be read.
     pub(crate) fn of_folder(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
-        let is_scene = !folder.has("kinematics.mot") && folder.has("poses.csv");
+        let is_scene = !folder.has(KINEMATICS) && folder.has(POSES);
         if is_scene { Stage::of_scene(folder) } else { Stage::of_figure(folder) }
     }
 }

@@ -4,15 +4,14 @@ use super::csv_rows::Row;
 use super::path::BodyPath;
 use super::{ForceRole, Stage, StageBody, StageForce, contact_forces, ground_plane};
 use crate::page::ViewShape;
-use crate::scene_shapes::{FILE, FORMAT, ObstacleShapes, SceneShapes};
+use crate::scene_shapes::{FORMAT, ObstacleShapes, SceneShapes};
 use ambulo::model::Side;
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
-use ambulo_results::{Folder, ResultsError};
+use ambulo_results::{CONTACTS, Folder, POSES, ResultsError, SHAPES};
 use nalgebra::{Quaternion, UnitQuaternion};
 use std::collections::BTreeMap;
 
-const POSES: &str = "poses.csv";
 const HEAD: &str = "time,body,px,py,pz,qw,qx,qy,qz";
 /// Longer runs are thinned to this number of instants, to limit the size of the page.
 const MOST_INSTANTS: usize = 2000;
@@ -23,8 +22,8 @@ impl Stage {
     /// # Errors
     /// A file that cannot be read.
     pub(crate) fn of_scene(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
-        let (Some(poses), Some(shapes)) = (folder.text(POSES)?, folder.text(FILE)?) else {
-            return Ok(Err(format!("There is no {POSES} with {FILE}, so the motion cannot be drawn in 3-D.")));
+        let (Some(poses), Some(shapes)) = (folder.text(POSES)?, folder.text(SHAPES)?) else {
+            return Ok(Err(format!("There is no {POSES} with {SHAPES}, so the motion cannot be drawn in 3-D.")));
         };
         let shapes = read_shapes(folder, &shapes)?;
         let Instants { times, paths } = paths(folder, &poses)?;
@@ -46,25 +45,25 @@ impl Stage {
             missing: kept.missing,
         };
         ground_plane::lay(&mut stage, &shapes);
-        if let Some(contacts) = folder.text(contact_forces::FILE)? {
+        if let Some(contacts) = folder.text(CONTACTS)? {
             let (forces, left) = contact_forces::read(folder, &contacts, &kept.times)?;
             stage.forces = forces;
             stage.missing.extend(left);
         }
-        stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(FILE, reason)))
+        stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(SHAPES, reason)))
     }
 }
 
 fn read_shapes(folder: &Folder<'_>, text: &str) -> Result<SceneShapes, ResultsError> {
-    let shapes: SceneShapes = serde_json::from_str(text).map_err(|error| folder.refused(FILE, &error))?;
+    let shapes: SceneShapes = serde_json::from_str(text).map_err(|error| folder.refused(SHAPES, &error))?;
     if shapes.format != FORMAT {
-        return Err(folder.unreadable(FILE, format!("format is {}; expected {FORMAT}", shapes.format)));
+        return Err(folder.unreadable(SHAPES, format!("format is {}; expected {FORMAT}", shapes.format)));
     }
     let named = shapes.bodies.iter().map(|body| (&body.name, &body.shapes));
     let obstacles = shapes.obstacles.iter().map(|obstacle| (&obstacle.name, &obstacle.shapes));
     for (name, shape) in named.chain(obstacles).flat_map(|(name, list)| list.iter().map(move |shape| (name, shape))) {
         if let Some(reason) = defect(shape) {
-            return Err(folder.unreadable(FILE, format!("`{name}`: {reason}")));
+            return Err(folder.unreadable(SHAPES, format!("`{name}`: {reason}")));
         }
     }
     Ok(shapes)
@@ -155,7 +154,7 @@ fn bodies(
         .chain(moving)
         .map(|(name, side, shapes)| {
             let rows = paths.remove(name);
-            let missing = || folder.unreadable(POSES, format!("`{name}` of {FILE} has no rows"));
+            let missing = || folder.unreadable(POSES, format!("`{name}` of {SHAPES} has no rows"));
             let path = path(&rows.ok_or_else(missing)?, kept);
             Ok(StageBody { name: name.clone(), parent: None, side, shapes: shapes.clone(), path })
         })

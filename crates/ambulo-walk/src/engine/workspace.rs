@@ -6,6 +6,7 @@ use super::state::RowKey;
 use super::touch::{ObstaclePoses, Touch, TouchWorkspace};
 use super::world::{JointCoordinate, World};
 use crate::dynamics::{ConstraintGroup, GraphSolution, GraphWorkspace, Six, SolverSettings, undetermined_rows};
+use crate::findings::word;
 use crate::spatial::{Twist, Vec3, Wrench};
 
 /// Settings of a step.
@@ -39,11 +40,7 @@ impl Integrator {
     /// The name in files.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            Integrator::Impulse => "impulse",
-            Integrator::Midpoint => "midpoint",
-            Integrator::RungeKutta => "runge-kutta",
-        }
+        word(&self)
     }
 }
 

@@ -7,7 +7,7 @@ use super::plausibility;
 use super::progress::{Progress, Stage, Stopped};
 use super::residual::{Residual, residual_within};
 use crate::dynamics::{Forces, JointPowers, ReactionReader, Workspace, inverse_with_residual};
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Findings, word};
 use crate::ground::predict::PredictError;
 use crate::ground::{self, BodyForces, GroundForces};
 use crate::kinematics::{Trajectory, TrajectoryError};
@@ -106,11 +106,7 @@ impl MassSource {
     /// The name in files.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            MassSource::Plates => "plates",
-            MassSource::Standing => "standing",
-            MassSource::Model => "model",
-        }
+        word(&self)
     }
 }
 

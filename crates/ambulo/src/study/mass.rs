@@ -6,7 +6,7 @@
 
 use super::source::{MarkerBody, MarkerSource};
 use crate::analysis::MassSource;
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Findings, word};
 use crate::motion::PlateRecording;
 use crate::motion::force_plate::standing_weight_n;
 use crate::numerics::elementary::hypot;
@@ -67,12 +67,7 @@ impl MassState {
     /// The word in files and reports.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            MassState::Weighed => "weighed",
-            MassState::Stated => "stated",
-            MassState::Contradicted => "contradicted",
-            MassState::Unknown => "unknown",
-        }
+        word(&self)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::files;
 use ambulo::findings::{Code, Findings};
 use ambulo_formats::bvh::Bvh;
 use ambulo_report::{bvh_of_folder, csv_of_folder, glb_of_folder, rig_of_folder};
-use ambulo_results::Folder;
+use ambulo_results::{Folder, KINEMATICS, POSES};
 use anyhow::{Context, Result, bail};
 
 /// Formats to which a result folder can be converted.
@@ -15,7 +15,7 @@ pub(super) const TARGETS: &[&str] = &["glb", "bvh", "csv"];
 
 pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
     let opened = ResultFolder::open(&args.input)?;
-    if to == "bvh" && opened.has("poses.csv") && !opened.has("kinematics.mot") {
+    if to == "bvh" && opened.has(POSES) && !opened.has(KINEMATICS) {
         bail!("{}: a scene has no skeleton; expected .glb or .csv for the output", opened.shown());
     }
     let file = |name: &str| opened.read(name);

@@ -1,6 +1,6 @@
 //! Makes the panel of one clinical quantity: its cycles, their mean, and its curve over time.
 
-use super::results::{GROUND, KINEMATICS, MOMENTS, POWERS, Results};
+use super::results::Results;
 use super::sides;
 use super::size::BodySize;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
@@ -14,7 +14,7 @@ use ambulo::motion::interpolate;
 use ambulo::numerics;
 use ambulo::study::session::CurveStatistics;
 use ambulo_formats::table::Table;
-use ambulo_results::{CLINICAL, CYCLES, Convention, CycleRow};
+use ambulo_results::{CLINICAL, CYCLES, Convention, CycleRow, GROUND, KINEMATICS, MOMENTS, POWERS};
 
 /// Names of ground forces in `cycles.csv` and their axes in `grf.mot`.
 pub(super) const GROUND_AXES: [(&str, &str); 3] =

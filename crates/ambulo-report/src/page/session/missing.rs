@@ -1,13 +1,14 @@
 //! Lists what the page cannot show, and why.
 
 use super::curves::over_time;
-use super::results::{DEVIATIONS, MOMENTS, POWERS, Results};
+use super::results::Results;
 use super::size::{BodySize, NO_DOUBLE_SUPPORT, Turn};
 use super::still;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
 use crate::page::contract::PageSource;
 use ambulo::analysis::StrideQuantity;
 use ambulo::model::Side;
+use ambulo_results::{GROUND_SD, MOMENTS, POWERS};
 use std::collections::BTreeMap;
 
 /// Clinical angles that models often lack, with the reason.
@@ -55,7 +56,7 @@ pub(super) fn missing(
     let uncertain = results.source == PageSource::Predicted && results.ground.is_some();
     add(
         uncertain && results.deviations.is_none(),
-        format!("No uncertainty of the predicted forces: the folder has no {DEVIATIONS}."),
+        format!("No uncertainty of the predicted forces: the folder has no {GROUND_SD}."),
     );
     add(
         !no_ground && results.events.is_empty(),

@@ -28,7 +28,7 @@ use super::block::Block;
 use super::contract::{DataQuality, PageMachine, PageQuality, Session};
 use super::view::{Viewed, view};
 use ambulo::study::{Quality, QualityState};
-use ambulo_results::{Folder, ResultsError, RunSummary};
+use ambulo_results::{Folder, KINEMATICS, ResultsError, RunSummary};
 use feasibility::Basis;
 use results::{AllRows, Results};
 use size::BodySize;
@@ -39,7 +39,7 @@ pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session,
         RunSummary::Scene(summary) => scene::session(folder, &summary, block),
         RunSummary::Motion(summary) => {
             // The figure comes first, because its errors report all causes of a broken body.
-            let motion = folder.table(results::KINEMATICS)?;
+            let motion = folder.table(KINEMATICS)?;
             let drawn = folder.every(motion.as_ref().map_or(1, results::step));
             let viewed = view(&drawn, block)?;
             let machines = machines::machines(&folder.states()?);

@@ -8,7 +8,10 @@ use ambulo::analysis::{Event, EventKind};
 use ambulo::model::{Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
-use ambulo_results::{CLINICAL, Convention, CycleRow, Folder, GroundOrigin, ResultsError, Summary};
+use ambulo_results::{
+    CLINICAL, Convention, CycleRow, Folder, GROUND, GROUND_MEASURED, GROUND_SD, GroundOrigin, KINEMATICS, MOMENTS,
+    POWERS, ResultsError, Summary,
+};
 
 /// Most instants of time series that a page draws: more take memory and time in the browser, and no screen shows them.
 const MOST_INSTANTS: usize = 4_000;
@@ -81,8 +84,8 @@ impl Results {
             moments: table(MOMENTS)?,
             powers: table(POWERS)?,
             ground: table(GROUND)?,
-            deviations: table(DEVIATIONS)?,
-            measured: table(MEASURED)?,
+            deviations: table(GROUND_SD)?,
+            measured: table(GROUND_MEASURED)?,
             clinical: on_instants(folder, CLINICAL, folder.csv_table(CLINICAL)?, &grid)?,
             weight_n: mass_kg * summary.gravity_m_s2,
             source: source(&summary),
@@ -139,14 +142,6 @@ impl Results {
         self.cycles.iter().filter(move |cycle| cycle.side == side)
     }
 }
-
-/// Names of the files.
-pub(super) const KINEMATICS: &str = "kinematics.mot";
-pub(super) const MOMENTS: &str = "moments.sto";
-pub(super) const POWERS: &str = "powers.sto";
-pub(super) const GROUND: &str = "grf.mot";
-pub(super) const DEVIATIONS: &str = "grf_sd.mot";
-pub(super) const MEASURED: &str = "grf_measured.mot";
 
 fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Option<Table>, ResultsError> {
     on_instants(folder, file, folder.table(file)?, grid)

@@ -13,7 +13,7 @@ use figures::{Figures, Part, color_of};
 use std::fmt::Write;
 
 const STYLE: &str =
-    concat!(include_str!("../../../data/report/reproduction.css"), include_str!("../../../data/report/session.css"));
+    concat!(include_str!("../../../data/report/page.css"), include_str!("../../../data/report/session.css"));
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
 /// The page.

@@ -1,5 +1,6 @@
 //! The verdict on a motion.
 
+use crate::findings::word;
 use crate::model::Side;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -58,19 +59,7 @@ impl Check {
     /// The name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Check::Strength => "strength",
-            Check::Range => "range",
-            Check::Power => "power",
-            Check::Friction => "friction",
-            Check::CenterOfPressure => "center_of_pressure",
-            Check::Sliding => "sliding",
-            Check::Flight => "flight",
-            Check::Support => "support",
-            Check::Balance => "balance",
-            Check::Pull => "pull",
-            Check::Acceleration => "acceleration",
-        }
+        word(&self)
     }
 
     /// Unit of its values.

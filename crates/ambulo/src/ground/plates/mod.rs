@@ -20,7 +20,7 @@ mod windows;
 pub use feet::FeetInMotion;
 
 use super::foot_motion::FootMotion;
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Findings, word};
 use crate::model::{BodyId, BySide, Side};
 use crate::motion::{ForceRecording, Landmarks, MarkerRecording, PlateRecording};
 use crate::spatial::Vec3;
@@ -52,13 +52,7 @@ impl ContactQuality {
     /// The name in tables.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            ContactQuality::Clean => "clean",
-            ContactQuality::Shared => "shared",
-            ContactQuality::Partial => "partial",
-            ContactQuality::TwoFeet => "two feet",
-            ContactQuality::Unassigned => "unassigned",
-        }
+        word(&self)
     }
 }
 

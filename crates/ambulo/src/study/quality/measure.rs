@@ -2,6 +2,7 @@
 
 use super::{QualityReason, QualityState};
 use crate::analysis::feasibility::LARGE_RESIDUAL_BW;
+use crate::findings::word;
 use crate::kinematics::WRONG_CLOCK;
 use serde::{Deserialize, Serialize};
 
@@ -121,29 +122,7 @@ impl Measure {
     /// The name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Measure::ResidualForce => "residual_force",
-            Measure::ResidualMoment => "residual_moment",
-            Measure::GroundForces => "ground_forces",
-            Measure::MeasuredForces => "measured_forces",
-            Measure::UnassignedForces => "unassigned_forces",
-            Measure::SilentPlates => "silent_plates",
-            Measure::MarkerFit => "marker_fit",
-            Measure::Scaling => "scaling",
-            Measure::ScaleFactors => "scale_factors",
-            Measure::Mass => "mass",
-            Measure::Gaps => "gaps",
-            Measure::Sliding => "sliding",
-            Measure::CenterOfPressure => "center_of_pressure",
-            Measure::StanceHeight => "stance_height",
-            Measure::Jumps => "jumps",
-            Measure::FrozenPoints => "frozen_points",
-            Measure::AxialRotation => "axial_rotation",
-            Measure::DerivedPlace => "derived_place",
-            Measure::FrameRate => "frame_rate",
-            Measure::LowCutoff => "low_cutoff",
-            Measure::HighCutoff => "high_cutoff",
-        }
+        word(&self)
     }
 
     /// Measured quantity, in words.

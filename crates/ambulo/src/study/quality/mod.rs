@@ -16,6 +16,7 @@ use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::origin::{ForceOrigin, Tracking};
 use crate::analysis::feasibility::{Check, Reason, Verdict};
+use crate::findings::word;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
@@ -42,11 +43,7 @@ impl QualityState {
     /// The word in files and reports.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            QualityState::Good => "good",
-            QualityState::Doubtful => "doubtful",
-            QualityState::Bad => "bad",
-        }
+        word(&self)
     }
 }
 

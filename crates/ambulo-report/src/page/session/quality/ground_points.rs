@@ -4,10 +4,11 @@
 use super::{CENTER_FORWARD, group, over_time};
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, PageSource, Role, Trace};
-use crate::page::session::results::{GROUND, MEASURED, Results};
+use crate::page::session::results::Results;
 use crate::page::session::sides;
 use ambulo::model::Side;
 use ambulo_formats::table::Table;
+use ambulo_results::{GROUND, GROUND_MEASURED};
 
 /// A panel: its id, heading, unit, directions, and the name of its column.
 struct Row {
@@ -70,7 +71,7 @@ pub(super) fn ground_points(results: &Results, block: &mut Block) -> Option<Grou
         let mut traces = Vec::new();
         for side in Side::BOTH {
             traces.extend(trace(results, row, side, (ground, GROUND, Role::Main), block));
-            let measured = results.measured.as_ref().map(|table| (table, MEASURED, Role::Measured));
+            let measured = results.measured.as_ref().map(|table| (table, GROUND_MEASURED, Role::Measured));
             traces.extend(measured.and_then(|file| trace(results, row, side, file, block)));
         }
         over_time([row.id, row.title, row.unit.name()], row.directions, traces)

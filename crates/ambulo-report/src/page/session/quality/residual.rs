@@ -3,9 +3,10 @@
 use super::{RESIDUAL_FORCE, RESIDUAL_MOMENT, group, over_time};
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, PageSource, Panel, Role, Trace};
-use crate::page::session::results::{MOMENTS, Results};
+use crate::page::session::results::Results;
 use ambulo::analysis::feasibility::Check;
 use ambulo::model::Movement;
+use ambulo_results::MOMENTS;
 
 /// A coordinate of the root and its panel: id, heading, unit, directions.
 type Component = (Movement, [&'static str; 3], [&'static str; 2]);

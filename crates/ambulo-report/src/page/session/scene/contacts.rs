@@ -7,10 +7,9 @@ use crate::page::session::quality::over_time;
 use crate::page::session::sides;
 use crate::stage::csv_rows::Row;
 use ambulo::model::Side;
-use ambulo_results::{Folder, ResultsError};
+use ambulo_results::{CONTACTS, Folder, ResultsError};
 use std::collections::BTreeMap;
 
-const FILE: &str = "contacts.csv";
 const HEAD: &str = "time,kind,first,second,px,py,pz,nx,ny,nz,fx,fy,fz,normal_force,friction_force";
 /// Maximum number of panels of a kind; those with the largest forces are shown.
 const MOST_PAIRS: usize = 12;
@@ -31,7 +30,7 @@ pub(super) fn group(
     block: &mut Block,
     missing: &mut Vec<String>,
 ) -> Result<Option<Group>, ResultsError> {
-    let Some(text) = folder.text(FILE)? else { return Ok(None) };
+    let Some(text) = folder.text(CONTACTS)? else { return Ok(None) };
     let mut pairs: Vec<(Pair, Sums)> = sums(folder, &text, instants)?.into_iter().collect();
     pairs.sort_by(|a, b| b.1.largest().total_cmp(&a.1.largest()));
     if pairs.len() > MOST_PAIRS {
@@ -54,7 +53,7 @@ pub(super) fn group(
 
 fn sums(folder: &Folder<'_>, text: &str, instants: &Instants) -> Result<BTreeMap<Pair, Sums>, ResultsError> {
     let mut pairs: BTreeMap<Pair, Sums> = BTreeMap::new();
-    for row in Row::all(folder, FILE, text, HEAD)? {
+    for row in Row::all(folder, CONTACTS, text, HEAD)? {
         let place = instants.place(row.numbers::<1>(0)?[0]);
         let Some(place) = place.filter(|_| row.word(1).is_ok_and(|kind| kind == "contact")) else { continue };
         let (first, second) = (row.word(2)?, row.word(3)?);

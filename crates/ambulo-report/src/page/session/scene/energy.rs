@@ -5,9 +5,8 @@ use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, Role, Trace};
 use crate::page::session::quality::over_time;
 use crate::stage::csv_rows::Row;
-use ambulo_results::{Folder, ResultsError};
+use ambulo_results::{ENERGY, Folder, ResultsError};
 
-const FILE: &str = "energy.csv";
 const HEAD: &str = "time,kinetic,gravity,springs,total,iterations,factorizations,residual";
 
 /// Columns: index in the file, name, heading, unit.
@@ -27,9 +26,9 @@ pub(super) fn groups(
     instants: &Instants,
     block: &mut Block,
 ) -> Result<Option<Group>, ResultsError> {
-    let Some(text) = folder.text(FILE)? else { return Ok(None) };
+    let Some(text) = folder.text(ENERGY)? else { return Ok(None) };
     let mut columns: [Vec<(f64, f64)>; 8] = Default::default();
-    for row in Row::all(folder, FILE, &text, HEAD)? {
+    for row in Row::all(folder, ENERGY, &text, HEAD)? {
         let [time] = row.numbers(0)?;
         for (column, values) in columns.iter_mut().enumerate().skip(1) {
             values.push((time, row.number_or_gap(column)?));
@@ -42,7 +41,7 @@ pub(super) fn groups(
             role: Role::Main,
             values: block.add(&instants.nearest(&columns[column])),
             sd: None,
-            origin: Some(Origin { file: FILE.to_owned(), column: name.to_owned(), factor: 1.0 }),
+            origin: Some(Origin { file: ENERGY.to_owned(), column: name.to_owned(), factor: 1.0 }),
         };
         over_time([&format!("energy_{name}"), title, unit], ["", ""], vec![trace])
     });

@@ -3,10 +3,10 @@
 use crate::page::contract::TimeAxis;
 use crate::stage::csv_rows::Row;
 use ambulo::motion::TimeGrid;
-use ambulo_results::{Folder, ResultsError};
+use ambulo_results::{ENERGY, Folder, JOINTS, POSES, ResultsError};
 
 /// Files with rows at every instant, and the start of their header.
-const FILES: [(&str, &str); 3] = [("energy.csv", "time,"), ("joints.csv", "time,"), ("poses.csv", "time,")];
+const FILES: [(&str, &str); 3] = [(ENERGY, "time,"), (JOINTS, "time,"), (POSES, "time,")];
 /// Longer runs are thinned to this number of instants, as in the 3-D view.
 const MOST_INSTANTS: usize = 2000;
 

@@ -7,10 +7,9 @@ use crate::page::session::quality::over_time;
 use crate::page::session::sides;
 use crate::stage::csv_rows::Row;
 use ambulo::model::Side;
-use ambulo_results::{Folder, ResultsError};
+use ambulo_results::{Folder, JOINTS, ResultsError};
 use std::collections::BTreeMap;
 
-const FILE: &str = "joints.csv";
 const HEAD: &str = "time,joint,coordinate,value,rate,effort,unit";
 /// Maximum number of panels in a group.
 const MOST_PANELS: usize = 60;
@@ -32,7 +31,7 @@ pub(super) fn groups(
     block: &mut Block,
     missing: &mut Vec<String>,
 ) -> Result<Vec<Group>, ResultsError> {
-    let Some(text) = folder.text(FILE)? else { return Ok(Vec::new()) };
+    let Some(text) = folder.text(JOINTS)? else { return Ok(Vec::new()) };
     let coordinates = coordinates(folder, &text)?;
     let mut panels: Vec<Vec<&(String, Coordinate)>> = Vec::new();
     for entry in &coordinates {
@@ -43,7 +42,7 @@ pub(super) fn groups(
     }
     if panels.len() > MOST_PANELS {
         let left = panels.len() - MOST_PANELS;
-        missing.push(format!("The curves of {left} more joint coordinates are only in {FILE}."));
+        missing.push(format!("The curves of {left} more joint coordinates are only in {JOINTS}."));
         panels.truncate(MOST_PANELS);
     }
     let mut grid = |id: &str, title: &str, note: &str, what: What| Group {
@@ -68,7 +67,7 @@ enum What {
 
 fn coordinates(folder: &Folder<'_>, text: &str) -> Result<Vec<(String, Coordinate)>, ResultsError> {
     let mut found: BTreeMap<String, Coordinate> = BTreeMap::new();
-    for row in Row::all(folder, FILE, text, HEAD)? {
+    for row in Row::all(folder, JOINTS, text, HEAD)? {
         let [time] = row.numbers(0)?;
         let name = format!("{} {}", row.word(1)?, row.word(2)?);
         let count = found.len();
@@ -135,6 +134,6 @@ fn trace(name: &str, coordinate: &Coordinate, what: What, instants: &Instants, b
         role: Role::Main,
         values: block.add(&shown),
         sd: None,
-        origin: Some(Origin { file: FILE.to_owned(), column: format!("{column} of {name}"), factor }),
+        origin: Some(Origin { file: JOINTS.to_owned(), column: format!("{column} of {name}"), factor }),
     }
 }

@@ -10,9 +10,7 @@ use ambulo::analysis::feasibility::Verdict;
 use ambulo::model::Side;
 use ambulo::simulation::FigureVerdict;
 use ambulo_formats::table::Table;
-use ambulo_results::{Folder, ResultsError, SceneSummary};
-
-const FILE: &str = "moments.sto";
+use ambulo_results::{Folder, MOMENTS, ResultsError, SceneSummary};
 
 /// A figure with a verdict.
 pub(super) struct Figure {
@@ -28,7 +26,7 @@ pub(super) struct Figure {
 /// All figures of a verdict.
 pub(super) fn figures(folder: &Folder<'_>, summary: &SceneSummary) -> Result<Vec<Figure>, ResultsError> {
     let list = summary.verdict.as_ref().map_or(&[][..], |verdict| &verdict.figures);
-    let table = folder.table(FILE)?;
+    let table = folder.table(MOMENTS)?;
     let several = summary.world.figures > 1;
     let figure = |FigureVerdict { figure: name, verdict }: &FigureVerdict| {
         let prefix = if several { format!("{name}/") } else { String::new() };
@@ -86,7 +84,7 @@ impl Figure {
             role: Role::Main,
             values: block.add(&instants.nearest(&rows)),
             sd: None,
-            origin: Some(Origin { file: FILE.to_owned(), column, factor }),
+            origin: Some(Origin { file: MOMENTS.to_owned(), column, factor }),
         })
     }
 }
