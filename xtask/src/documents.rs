@@ -55,6 +55,18 @@ fn lists_of_examples_are_complete() {
     }
 }
 
+/// `docs/METHODS.md` names files by the ends of their paths.
+#[test]
+fn every_file_of_the_methods_exists() {
+    let text = read(&workspace::root().join("docs/METHODS.md"));
+    let crates = entries(&workspace::root().join("crates"));
+    let folders = crates.iter().flat_map(|folder| ["src", "tests"].map(|part| folder.join(part)));
+    let sources: Vec<PathBuf> = folders.filter(|folder| folder.is_dir()).flat_map(|folder| below(&folder)).collect();
+    let names = text.split('`').skip(1).step_by(2).filter(|name| name.ends_with(".rs"));
+    let missing: Vec<&str> = names.filter(|name| !sources.iter().any(|path| path.ends_with(name))).collect();
+    assert!(missing.is_empty(), "files that do not exist: {missing:?}");
+}
+
 /// Scenes in `examples/` and those that the library contains, and programs in `crates/*/examples/`, as paths from the root.
 fn example_files() -> Vec<String> {
     let root = workspace::root();
@@ -75,6 +87,11 @@ fn documents() -> Vec<PathBuf> {
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let listing = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     listing.map(|entry| entry.unwrap().path()).collect()
+}
+
+/// All files of a folder and of those in it.
+fn below(folder: &Path) -> Vec<PathBuf> {
+    entries(folder).into_iter().flat_map(|path| if path.is_dir() { below(&path) } else { vec![path] }).collect()
 }
 
 fn read(path: &Path) -> String {

@@ -114,20 +114,20 @@ fn packaging(name: &str) -> String {
 }
 
 /// A virtual environment.
-pub(crate) struct Environment {
+struct Environment {
     python: PathBuf,
 }
 
 impl Environment {
     /// Makes an empty one; an earlier one in the folder is replaced.
-    pub(crate) fn new(program: &str, folder: &Path) -> Result<Environment, String> {
+    fn new(program: &str, folder: &Path) -> Result<Environment, String> {
         let mut venv = Command::new(program);
         run_or(venv.args(["-m", "venv", "--clear"]).arg(folder), "a virtual environment was not made")?;
         let python = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
         Ok(Environment { python: folder.join(python) })
     }
 
-    pub(crate) fn install(&self, what: &[&str]) -> Result<(), String> {
+    fn install(&self, what: &[&str]) -> Result<(), String> {
         let mut pip = Command::new(&self.python);
         pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(what);
         run_or(&mut pip, "pip has failed")

@@ -1,11 +1,14 @@
-//! Numerical methods: natural splines and their banded solver, periodic and uniform B-splines, band matrices, nonlinear
+//! Numerical methods: natural splines and their banded solver, B-splines on uniform knots, band matrices, nonlinear
 //! least squares, evolution strategies, random numbers, statistics, harmonics. Nothing here knows mechanics.
 //!
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.
+//!
+//! docs/METHODS.md says which spline, filter and linear system is for what.
 
 mod band_cholesky;
 mod banded;
+mod cardinal_spline;
 mod cma;
 mod dense;
 pub mod elementary;
@@ -13,7 +16,6 @@ mod harmonics;
 mod least_squares;
 mod matrix_product;
 mod natural_spline;
-mod periodic_spline;
 mod profile_cholesky;
 mod random;
 mod shown;
@@ -27,6 +29,7 @@ mod whittaker;
 use serde::Deserialize;
 
 pub use band_cholesky::{BandFactor, BandMatrix};
+pub use cardinal_spline::{OVERLAP, quintic_splines};
 pub use cma::Cma;
 pub(crate) use dense::DenseLu;
 pub use harmonics::Harmonics;
@@ -34,7 +37,6 @@ pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
 #[doc(hidden)]
 pub use matrix_product::product;
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
-pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues, quintic_splines};
 pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
 pub use random::Random;
 #[doc(hidden)]

@@ -4,11 +4,11 @@
 //! overlaps the run takes part, so the sum is free there; at a closed end only those inside take part, so the sum and its two
 //! derivatives are zero there.
 //!
-//! Source: as [`super::PeriodicSplines`], of degree three.
+//! Source: as `cardinal_spline`, of degree three.
 //! Cost: constant.
 //! Pinned by: the tests below; tests/residual_reduction.rs
 
-use super::periodic_spline::cardinal;
+use super::cardinal_spline::cardinal;
 
 /// Largest number of splines that are not zero at one sample.
 pub const SPLINES_AT_ONCE: usize = 4;

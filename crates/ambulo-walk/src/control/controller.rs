@@ -6,14 +6,15 @@
 //!
 //! | code | symbol | unit | meaning | file |
 //! |---|---|---|---|---|
-//! | `WalkPlan` | τ*, q*, q̇*, x*, K | N.m; rad, m; rad/s, m/s | plan and gains, at each phase and speed | `walk_plan` |
+//! | `WalkPlan` | τ*, q*, q̇*, x*, K | N.m; rad, m; rad/s, m/s | plan and gains at each phase and speed | `walk_plan` |
 //! | `Phase` | φ | 1 | share of the cycle; waits for late feet, jumps to early ones | `phase` |
-//! | `Feedback` | k, d, K (x - x*) | N.m/rad, N.m.s/rad, N.m | impedance of each joint, feedback of the whole state | `feedback` |
+//! | `Feedback` | k, d, K (x - x*) | N.m/rad, N.m.s/rad, N.m | impedance of joints, feedback of the state | `feedback` |
 //! | `Impedance` | τ_max | N.m | strength of the muscles at an angle and a rate | `linear` |
 //! | `FallWatch` | | | whether the figure has fallen, and which joint reached its strength first | `fall` |
 //!
 //! The state x has all coordinates q but the place forward, and all rates q̇. A figure that has fallen is only damped.
-//! Source: docs/PHYSICAL_WALK.md, with what each term is for. Cost: a product of K and x per time step; gains cost seconds, once.
+//! Source: docs/PHYSICAL_WALK.md, with what each term is for. Cost: a product of K and x per time step; gains cost
+//! seconds, once.
 //! Pinned by: tests/physical_walk.rs, tests/scene_walkers.rs.
 
 use super::fall::{Fall, FallWatch};
@@ -111,8 +112,8 @@ impl WalkController {
         Ok(WalkController { plan, feedback, ..self.clone() })
     }
 
-    /// Mean square, over hips, knees, ankles and the lumbar joint, of the difference of their angles from the plan [rad²] and of their torques over
-    /// the isometric strength of their muscles.
+    /// Mean square, over hips, knees, ankles and the lumbar joint, of the difference of their angles from the plan
+    /// [rad²] and of their torques over the isometric strength of their muscles.
     pub(crate) fn deviation_and_effort(&self, now: &[[f64; 2]], torques: &[f64]) -> [f64; 2] {
         let (planned, carrying) = (self.plan.step(self.phase.at), &self.fall.carrying);
         let count = carrying.len().max(1) as f64;
@@ -122,8 +123,8 @@ impl WalkController {
         [mean(&apart), mean(&used)]
     }
 
-    /// One controller of controllers of the same figure at several speeds: between them, plans and gains are mixed linearly. It starts as the
-    /// first one, at its speed.
+    /// One controller of controllers of the same figure at several speeds: between them, plans and gains are mixed
+    /// linearly. It starts as the first one, at its speed.
     ///
     /// # Errors
     /// Controllers of figures with other joints; none at all.
@@ -144,8 +145,8 @@ impl WalkController {
         Ok(WalkController { plan: WalkPlan { paces, ..first.plan.clone() }, ..first.clone() })
     }
 
-    /// The same controller, which can stop, stand and walk off: speed 0 in [`WalkController::set_speed`]. `walk` and `settings` are those of its
-    /// slowest speed.
+    /// The same controller, which can stop, stand and walk off: speed 0 in [`WalkController::set_speed`]. `walk` and
+    /// `settings` are those of its slowest speed.
     ///
     /// # Errors
     /// Movements that are not found; those of [`WalkController::with_movements`].
@@ -163,7 +164,8 @@ impl WalkController {
     /// As [`WalkController::with_standing`], with movements that were found before.
     ///
     /// # Errors
-    /// A walk that is not the slowest one, movements of another walk, balance without feedback of the whole state, gains that cannot be computed.
+    /// A walk that is not the slowest one, movements of another walk, balance without feedback of the whole state,
+    /// gains that cannot be computed.
     pub fn with_movements(
         mut self,
         human: &Human,
@@ -213,8 +215,9 @@ impl WalkController {
         self.plan.speeds()
     }
 
-    /// Sets the speed [m/s]. It may change in every step. With speed 0, a controller that can stand walks at its slowest speed until the left foot has
-    /// left the ground, and then stops; with another speed it walks off as soon as it stands.
+    /// Sets the speed [m/s]. It may change in every step. With speed 0, a controller that can stand walks at its
+    /// slowest speed until the left foot has left the ground, and then stops; with another speed it walks off as soon
+    /// as it stands.
     ///
     /// # Errors
     /// A speed outside [`WalkController::speeds`] by more than rounding.
@@ -267,21 +270,23 @@ impl WalkController {
         self.phase.at.stage == Stage::Standing
     }
 
-    /// The torques of the joints along the plan of the slowest speed, as harmonics of the cycle, without impedance and feedback.
+    /// The torques of the joints along the plan of the slowest speed, as harmonics of the cycle, without impedance and
+    /// feedback.
     #[must_use]
     pub fn torque_series(&self) -> Vec<TorqueSeries> {
         self.plan.torque_series(&self.feedback.joints, self.phase.step_s)
     }
 
-    /// The largest stiffness by which an angle acts on the torque of its own joint, impedance and feedback together [N.m/rad]: names are those of
-    /// the figure's coordinates.
+    /// The largest stiffness by which an angle acts on the torque of its own joint, impedance and feedback together
+    /// [N.m/rad]: names are those of the figure's coordinates.
     #[must_use]
     pub fn largest_stiffness(&self, coordinate: CoordinateId) -> f64 {
         self.feedback.largest_stiffness(coordinate.index(), &self.plan)
     }
 
-    /// Motors of the coordinates for the next time step; `None` for those of the root, on which nothing acts. `now` has value and rate of each
-    /// coordinate, in the order of the figure, `loads_n` the vertical force on the right and the left foot in the last step.
+    /// Motors of the coordinates for the next time step; `None` for those of the root, on which nothing acts. `now` has
+    /// value and rate of each coordinate, in the order of the figure, `loads_n` the vertical force on the right and the
+    /// left foot in the last step.
     pub fn act(&mut self, now: &[[f64; 2]], loads_n: [f64; 2]) -> Vec<Option<Motor>> {
         // Coordinates that the plan does not have, such as the abduction of arms, follow those of the plan.
         let now = &now[..self.feedback.impedances.len()];

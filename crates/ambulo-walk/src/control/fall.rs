@@ -7,7 +7,8 @@
 //! |---|---|---|---|
 //! | `height_m` | h | m | height of the pelvis over the ground under the figure |
 //! | `first_height_m` | h₀ | m | the same in the first time step |
-//! | `motor.target`, `kp`, `kd` | q̂, k, d | rad, N.m/rad, N.m.s/rad | target of the motor with plan and feedback, its stiffness and damping |
+//! | `motor.target` | q̂ | rad | target of the motor, with plan and feedback |
+//! | `motor.kp`, `motor.kd` | k, d | N.m/rad, N.m.s/rad | its stiffness and damping |
 //! | `motor.max` | τ_max | N.m | strength of the muscles at the angle and rate of the joint |
 //!
 //! A joint that was at its limit more than a second ago is forgotten: it has nothing to do with the fall.
@@ -59,7 +60,8 @@ struct AtLimit {
 /// Detects a fall and its cause.
 #[derive(Debug, Clone)]
 pub(super) struct FallWatch {
-    /// Hips, knees, ankles and lumbar joint: a figure may fall where their strength ends. Toes reach theirs in every step.
+    /// Hips, knees, ankles and lumbar joint: a figure may fall where their strength ends. Toes reach theirs in every
+    /// step.
     pub(super) carrying: Vec<usize>,
     first_height_m: Option<f64>,
     at_limit: Option<AtLimit>,

@@ -31,8 +31,8 @@ use std::collections::VecDeque;
 
 /// Mass times stature of the adult of the settings [kg.m].
 const ADULT: f64 = 75.0 * 1.75;
-/// Largest feedback of the state at ankle and toes, as the load of the foot times a share of its length: more would turn a foot that does not stand
-/// as firmly as planned, and the load on its edge would be lost.
+/// Largest feedback of the state at ankle and toes, as the load of the foot times a share of its length: more would
+/// turn a foot that does not stand as firmly as planned, and the load on its edge would be lost.
 const ANKLE_LEVER: f64 = 0.35;
 const TOE_LEVER: f64 = 0.1;
 
