@@ -7,10 +7,11 @@ use crate::commands::{self, Results};
 use crate::failure::Failure;
 use crate::files;
 use ambulo::findings::Findings;
+use ambulo::job;
 use ambulo::model::Model;
 use ambulo::study::LaboratoryFile;
 use ambulo_formats::table::Table;
-use anyhow::Result as AnyResult;
+use anyhow::{Error, Result as AnyResult};
 use clap::Parser;
 use std::path::{Path, PathBuf};
 
@@ -20,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// Those of the command.
 pub fn forces(words: &[String], caller: &Caller) -> Result<Results, Failure> {
     named(words, || match parsed("forces", words)? {
-        Command::Forces(args) => Ok(commands::forces::compute(&args, caller)?.into()),
+        Command::Forces(args) => Ok(commands::forces::compute(&args.job(), args.outputs(), caller)?.into()),
         _ => Err(other_verb()),
     })
 }
@@ -76,7 +77,7 @@ pub fn validate(words: &[String], caller: &Caller) -> Result<Results, Failure> {
 pub fn batch(words: &[String], caller: &Caller) -> Result<PathBuf, Failure> {
     named(words, || match parsed("batch", words)? {
         Command::Batch(args) => {
-            commands::batch::compute(&args, caller)?;
+            commands::batch::compute(&args, &args.of_trials().map_err(Error::new)?, caller)?;
             Ok(args.output)
         }
         _ => Err(other_verb()),
@@ -90,7 +91,7 @@ pub fn batch(words: &[String], caller: &Caller) -> Result<PathBuf, Failure> {
 pub fn session(words: &[String], caller: &Caller) -> Result<Results, Failure> {
     named(words, || match parsed("session", words)? {
         Command::Session(args) => {
-            commands::session::compute(&args, caller)?;
+            commands::session::compute(&args, &args.of_trials().map_err(Error::new)?, caller)?;
             Ok(Results::of_folder(&args.output)?)
         }
         _ => Err(other_verb()),
@@ -129,7 +130,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 /// # Errors
 /// A file that is not such a model.
 pub fn model(bytes: &[u8], path: &Path, findings: &mut Findings) -> Result<Model, Failure> {
-    of_file(path, || commands::forces::parse_model(bytes, path, findings))
+    of_file(path, || Ok(job::model(bytes, path, findings)?))
 }
 
 /// The markers and force plates in the content of a C3D or TRC file named `path`.
@@ -137,7 +138,7 @@ pub fn model(bytes: &[u8], path: &Path, findings: &mut Findings) -> Result<Model
 /// # Errors
 /// A file that is not such a recording.
 pub fn laboratory(bytes: &[u8], path: &Path, findings: &mut Findings) -> Result<LaboratoryFile, Failure> {
-    of_file(path, || commands::forces::markers::parse_laboratory_file(bytes.to_vec(), path, findings))
+    of_file(path, || Ok(job::laboratory_file(bytes.to_vec(), path, findings)?))
 }
 
 /// The table in the content of an OpenSim storage file, or of a CSV file, named `path`.
@@ -145,7 +146,7 @@ pub fn laboratory(bytes: &[u8], path: &Path, findings: &mut Findings) -> Result<
 /// # Errors
 /// A file that is not such a table.
 pub fn table(bytes: &[u8], path: &Path) -> Result<Table, Failure> {
-    of_file(path, || Ok(files::parse_table(path, bytes)?.0))
+    of_file(path, || Ok(job::table(path, bytes)?.0))
 }
 
 /// Adds the file to an error that begins with its name.

@@ -1,6 +1,7 @@
 //! Why a call failed, in parts: what the command prints, and where.
 
 use crate::files::NoSuchFile;
+use crate::hints::causes;
 use crate::printer;
 use ambulo::analysis::Stopped;
 use ambulo_results::ResultsError;
@@ -50,9 +51,9 @@ fn line(text: &str) -> Option<usize> {
 impl From<anyhow::Error> for Failure {
     fn from(error: anyhow::Error) -> Failure {
         let (message, hint) = printer::error_parts(&error);
-        let missing = error.chain().any(|cause| cause.is::<NoSuchFile>()).then_some(io::ErrorKind::NotFound);
-        let of_system = || error.chain().find_map(|cause| Some(cause.downcast_ref::<io::Error>()?.kind()));
-        let stopped = error.chain().any(|cause| cause.is::<Stopped>());
+        let missing = causes(&error).any(|cause| cause.is::<NoSuchFile>()).then_some(io::ErrorKind::NotFound);
+        let of_system = || causes(&error).find_map(|cause| Some(cause.downcast_ref::<io::Error>()?.kind()));
+        let stopped = causes(&error).any(|cause| cause.is::<Stopped>());
         Failure { hint, system: missing.or_else(of_system), stopped, ..Failure::refused(message) }
     }
 }

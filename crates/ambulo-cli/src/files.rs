@@ -4,10 +4,9 @@ use crate::args::Existing;
 use crate::caller::Caller;
 use crate::replacement::{is_input, recover, write_through};
 use ambulo::findings::{Code, Findings};
+use ambulo::job::{FileError, Files};
 use ambulo_formats::Remark;
-use ambulo_formats::table::Table;
-use anyhow::{Context, Result, bail};
-use std::error::Error;
+use anyhow::{Context, Error, Result, bail};
 use std::fmt;
 use std::fs;
 use std::io::{ErrorKind, Read, Seek, SeekFrom};
@@ -31,7 +30,24 @@ impl fmt::Display for NoSuchFile {
     }
 }
 
-impl Error for NoSuchFile {}
+impl std::error::Error for NoSuchFile {}
+
+/// The input files of a caller, from its memory or the disk.
+pub(crate) struct FilesOf<'a>(pub(crate) &'a Caller);
+
+impl Files for FilesOf<'_> {
+    fn read(&mut self, path: &Path) -> Result<Vec<u8>, FileError> {
+        read_input(self.0, path).map_err(Error::reallocate_into_boxed_dyn_error_without_backtrace)
+    }
+
+    fn read_part(&mut self, path: &Path, part: Range<usize>) -> Result<Vec<u8>, FileError> {
+        read_part(self.0, path, part).map_err(Error::reallocate_into_boxed_dyn_error_without_backtrace)
+    }
+
+    fn has(&mut self, path: &Path) -> bool {
+        self.0.has_file(path)
+    }
+}
 
 /// Reads an input file from the caller's memory or, without one there, from the disk.
 pub(crate) fn read_input(caller: &Caller, path: &Path) -> Result<Vec<u8>> {
@@ -65,13 +81,8 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The beginning of a file, at most this many bytes, from the caller's memory or the disk.
-pub(crate) fn read_start(caller: &Caller, path: &Path, count: usize) -> Result<Vec<u8>> {
-    read_part(caller, path, 0..count)
-}
-
 /// A part of a file, which may be larger than what is read as a whole; shorter where the file ends.
-pub(crate) fn read_part(caller: &Caller, path: &Path, part: Range<usize>) -> Result<Vec<u8>> {
+fn read_part(caller: &Caller, path: &Path, part: Range<usize>) -> Result<Vec<u8>> {
     let shown = path.display();
     if let Some(content) = caller.content(path) {
         let end = part.end.min(content.len());
@@ -100,23 +111,6 @@ pub(crate) fn read_part(caller: &Caller, path: &Path, part: Range<usize>) -> Res
 /// The folders that may be the result folder of a file: its own, and the one around that.
 pub(crate) fn folders_around(path: &Path) -> Vec<PathBuf> {
     path.canonicalize().map_or(Vec::new(), |path| path.ancestors().skip(1).take(2).map(Path::to_owned).collect())
-}
-
-/// The extension of a file name in lower case, without the point; empty if there is none.
-pub(crate) fn ending(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
-}
-
-/// Reads a table as CSV or as OpenSim storage, depending on the extension; from the memory of the caller, if it is there.
-pub(crate) fn read_table(caller: &Caller, path: &Path) -> Result<(Table, Vec<Remark>)> {
-    parse_table(path, &read_input(caller, path)?)
-}
-
-/// The table in the content of a file.
-pub(crate) fn parse_table(path: &Path, bytes: &[u8]) -> Result<(Table, Vec<Remark>)> {
-    let csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
-    let read = if csv { Table::read_csv(bytes) } else { Table::read_storage(bytes) };
-    read.with_context(|| path.display().to_string())
 }
 
 /// Refuses to write over an input, a folder, and with [`Existing::Kept`] over any file.

@@ -5,6 +5,7 @@
 use ambulo::analysis::{AnalysisError, ComparisonError};
 use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
+use ambulo::job::{Field, JobError};
 use ambulo::kinematics::TrajectoryError;
 use ambulo::kinematics::sensor_fit::SensorError;
 use ambulo::motion::skeleton::SkeletonError;
@@ -49,9 +50,53 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
     Some(hint)
 }
 
-/// The hint for an error, by the first of its causes that has one.
-pub(crate) fn of_error(error: &anyhow::Error) -> Option<&'static str> {
-    error.chain().find_map(of_cause)
+/// The hint for an error: that of the first of its causes that has one, and the options of the fields that it is about.
+pub(crate) fn of_error(error: &anyhow::Error) -> Option<String> {
+    let of_cause = causes(error).find_map(of_cause).map(str::to_owned);
+    let fields = error.chain().filter_map(|cause| cause.downcast_ref::<JobError>()).flat_map(JobError::fields);
+    let options: Vec<&str> = fields.map(|field| option(*field)).collect();
+    let options = (!options.is_empty()).then(|| options.join(", "));
+    let hints: Vec<String> = of_cause.into_iter().chain(options).collect();
+    (!hints.is_empty()).then(|| hints.join("; "))
+}
+
+/// The causes of an error, with those inside an error of a job.
+pub(crate) fn causes(error: &anyhow::Error) -> impl Iterator<Item = &(dyn Error + 'static)> {
+    error.chain().flat_map(|cause| {
+        let of_job = cause.downcast_ref::<JobError>();
+        let inner = of_job.map(|error| error.cause() as &(dyn Error + 'static));
+        [Some(cause), inner].into_iter().flatten()
+    })
+}
+
+/// The option that states a field of a job.
+fn option(field: Field) -> &'static str {
+    match field {
+        Field::Recording => "the recording stands before the options",
+        Field::Trial => "`--trial N|NAME|all`",
+        Field::Standing => "`--static FILE`",
+        Field::Model => "`--model FILE.osim`",
+        Field::MarkerSet => "`--marker-set FILE`",
+        Field::Markers => "`--markers NAME|FILE`",
+        Field::Segments => "`--figure NAME`",
+        Field::Mass => "`--mass KG`",
+        Field::Height => "`--height M`",
+        Field::Smpl => "`--smpl FILE`",
+        Field::Heading => "`--heading SENSOR:AXIS`",
+        Field::Earth => "`--earth X,Y,Z`",
+        Field::ForceTable => "`--grf FILE`",
+        Field::Loads => "`--loads FILE`",
+        Field::Plates => "`--plate N=r|l|off`",
+        Field::AddedMass => "`--add-mass BODY:KG[:X,Y,Z]`",
+        Field::From => "`--from T`",
+        Field::To => "`--to T`",
+        Field::Ground => {
+            "`--predict`, `--track` and `--no-ground` choose the ground forces; `--predict` needs no motion that feet can make"
+        }
+        Field::Cutoff => "`--cutoff HZ|off`",
+        Field::Fit => "`--fit frames|trajectory`",
+        Field::ResidualReduction => "`--consistent`",
+    }
 }
 
 fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
@@ -167,12 +212,12 @@ mod tests {
     fn an_error_has_the_hint_of_its_cause() {
         let gap = || MotionError::Gap { column: "a".to_owned(), from_s: 0.0, to_s: 1.0, longest_s: 0.2 };
         let of = |error: anyhow::Error| of_error(&error);
-        assert_eq!(of(gap().into()), Some(RANGE));
-        assert_eq!(of(AnalysisError::Motion(gap()).into()), Some(RANGE));
+        assert_eq!(of(gap().into()).as_deref(), Some(RANGE));
+        assert_eq!(of(AnalysisError::Motion(gap()).into()).as_deref(), Some(RANGE));
         let of_run = StudyError::Analysis(AnalysisError::Motion(gap()));
-        assert_eq!(of(anyhow::Error::new(of_run).context("walk.mot")), Some(RANGE));
+        assert_eq!(of(anyhow::Error::new(of_run).context("walk.mot")).as_deref(), Some(RANGE));
         let named: anyhow::Result<()> = Err(AnalysisError::Ground(gap())).context("walk.mot");
-        assert_eq!(of(named.unwrap_err()), Some(RANGE));
+        assert_eq!(of(named.unwrap_err()).as_deref(), Some(RANGE));
         let unit = SkeletonError::Unit { length: 3.0, units: "m".to_owned() };
         assert!(of(unit.into()).is_some_and(|hint| hint.contains("--height")));
         let no_feet = AnalysisError::Prediction(PredictError::NoFeet { model: "horse".to_owned() });

@@ -38,11 +38,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     bug_report::install();
     let args = match Args::try_parse_from(words) {
         Ok(args) => args,
-        Err(refused) => {
-            // Help goes to standard output, errors to standard error; where neither can be written to, the exit code is all there is.
-            let _ = refused.print();
-            return u8::try_from(refused.exit_code()).unwrap_or(2);
-        }
+        Err(refused) => return refuse(&refused),
     };
     let done = match args.command {
         None => printer::guide().map(|()| Completion::Passed),
@@ -68,11 +64,21 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     match done {
         Ok(Completion::Passed) => 0,
         Ok(Completion::Failed) => 1,
-        Err(error) => {
-            printer::error(&error);
-            2
-        }
+        Err(error) => match error.downcast_ref::<clap::Error>() {
+            Some(refused) => refuse(refused),
+            None => {
+                printer::error(&error);
+                2
+            }
+        },
     }
+}
+
+/// Prints help, or what the parser of the command line refused. Returns the exit code.
+fn refuse(refused: &clap::Error) -> u8 {
+    // Help goes to standard output, errors to standard error; where neither can be written to, the exit code is all there is.
+    let _ = refused.print();
+    u8::try_from(refused.exit_code()).unwrap_or(2)
 }
 
 /// For the tests of this crate.

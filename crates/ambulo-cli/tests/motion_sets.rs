@@ -113,14 +113,13 @@ fn trials_of_a_subject_are_listed_and_computed_one_by_one_or_all() {
         assert!(listed.contains(line), "{listed}");
     }
     let forces = |more: &[&str]| bench.run(&[&["forces", "subject.b3d", "--keep", "tables"], more].concat());
-    forces(&["-o", "none"])
-        .refused(&["subject.b3d: the file has 2 trials; expected --trial with one of 1 (walk/1), 2 (no plates)"]);
-    forces(&["--trial", "3"]).refused(&["--trial 3: the file has no such trial"]);
-    forces(&["--trial", "1", "--grf", "x.mot"]).refused(&["--grf has no effect for a .b3d"]);
-    forces(&["--trial", "1", "--markers", "keypoints"]).refused(&["--markers is for markers", "--model built-in"]);
+    forces(&["-o", "none"]).refused(&["subject.b3d: the file has 2 trials; expected one of 1 (walk/1), 2 (no plates)"]);
+    forces(&["--trial", "3"]).refused(&["the file has no trial `3`", "`--trial"]);
+    forces(&["--trial", "1", "--grf", "x.mot"]).refused(&["has no effect for a .b3d", "`--grf FILE`"]);
+    forces(&["--trial", "1", "--markers", "keypoints"]).refused(&["the marker set is for markers", "`--model"]);
     bench
         .run(&["forces", "demo/input/walk.mot", "--model", "demo/input/figure.osim", "--trial", "1"])
-        .refused(&["--trial chooses a trial of a .b3d"]);
+        .refused(&["a trial is chosen in a .b3d", "`--trial"]);
 
     forces(&["--trial", "all", "-o", "all"]).done();
     let summary = bench.json("all/1-walk_1/summary.json");

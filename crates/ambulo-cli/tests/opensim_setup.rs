@@ -67,9 +67,12 @@ fn markers_of_a_file_of_their_own_give_the_moments_of_the_markers_in_the_model()
 fn a_marker_set_without_a_model_or_markers_is_refused() {
     let bench = laboratory("marker_set_alone");
     let set = ["--marker-set", "markers.xml"];
-    forces(&bench, &[&["walk.trc"][..], &set].concat()).refused(&["--marker-set", "expected --model FILE.osim"]);
-    forces(&bench, &[&["walk.mot", "--model", "figure.osim"][..], &set].concat())
-        .refused(&["walk.mot", "--marker-set is for markers"]);
+    forces(&bench, &[&["walk.trc"][..], &set].concat()).refused(&["`--marker-set FILE`", "`--model FILE.osim`"]);
+    forces(&bench, &[&["walk.mot", "--model", "figure.osim"][..], &set].concat()).refused(&[
+        "walk.mot",
+        "is for markers",
+        "`--marker-set FILE`",
+    ]);
     bench.edit("markers.xml", "> pelvis <", "> hip <");
     forces(&bench, &[&["walk.trc", "--model", "bare.osim"][..], &set].concat()).refused(&[
         "markers.xml",
@@ -139,7 +142,7 @@ fn a_set_up_of_inverse_dynamics_is_the_command_with_its_files_and_settings() {
     forces(&bench, &["--setup", "setups/id.xml", "--cutoff", "10", "--to", "1.2", "-o", "other"]).done();
     assert_ne!(bench.text("options/moments.sto"), bench.text("other/moments.sto"));
     assert_found(&bench, "other", "setup.replaced", "--cutoff 10 replaces 6 of the set-up");
-    assert_found(&bench, "other", "setup.replaced", "--to 1.2 replaces 1.5 of the set-up");
+    assert_found(&bench, "other", "setup.replaced", "end 1.2 replaces 1.5 of the set-up");
     // Without loads nothing acts but gravity: the whole weight is residual.
     bench.write("setups/id.xml", dynamics("<colour>blue</colour>"));
     forces(&bench, &["--setup", "setups/id.xml", "-o", "flight"]).done();
@@ -188,11 +191,12 @@ fn set_ups_that_contradict_each_other_or_an_option_are_refused() {
         "one of each tool",
     ]);
     setups(&["scale", "id"], &[]).refused(&["names coordinates", "expected a set-up of InverseKinematicsTool"]);
-    setups(&["scale", "ik"], &["--height", "1.8"]).refused(&["--height contradicts", "setups/scale.xml"]);
-    setups(&["ik"], &["--static", "standing.c3d"]).refused(&["--static would scale", "a set-up of ScaleTool"]);
+    setups(&["scale", "ik"], &["--height", "1.8"]).refused(&["the height contradicts", "setups/scale.xml"]);
+    setups(&["ik"], &["--static", "standing.c3d"])
+        .refused(&["the standing trial would scale", "a set-up of ScaleTool"]);
     setups(&["ik"], &["walk.mot"]).refused(&["walk.mot", "these are coordinates", "expected markers"]);
     bench.write("setups/ik.xml", kinematics("").replace("figure", "other"));
-    setups(&["ik", "id"], &[]).refused(&["two models", "other.osim", "figure.osim", "hint: --model"]);
+    setups(&["ik", "id"], &[]).refused(&["two models", "other.osim", "figure.osim", "hint: `--model"]);
     setups(&["ik"], &[]).refused(&["other.osim", "there is no such file"]);
     bench.write("setups/ik.xml", kinematics("").replace("<marker_file>../walk.trc</marker_file>", ""));
     setups(&["ik"], &[]).refused(&["names no recording", "<marker_file>"]);

@@ -48,7 +48,7 @@ fn invalid_options_exit_with_two_and_state_the_valid_ones() {
     let cases: [(&[&str], &str); 12] = [
         (&["dance"], "unrecognized subcommand"),
         (&["forces"], "<INPUT>"),
-        (&["forces", "walk.mot"], "expected --model FILE.osim"),
+        (&["forces", "walk.mot"], "`--model FILE.osim`"),
         (&["forces", "walk.mot", "--model", "figure.osim", "--fast"], "--fast"),
         (&["info"], "<FILE>"),
         (&["compare", "walk.mot"], "<B>"),

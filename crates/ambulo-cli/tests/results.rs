@@ -284,7 +284,7 @@ fn from_and_to_cut_the_range_without_changing_a_number() {
         "the range from 5 s to 6 s has 0 frames",
         "hint: motion and forces are both known from 0.000 s to 2.900 s",
     ]);
-    bench.forces(&["--from", "2", "--to", "1"]).refused(&["--from 2 is after --to 1"]);
+    bench.forces(&["--from", "2", "--to", "1"]).refused(&["the start, 2 s, is after the end, 1 s"]);
     bench.forces(&["--cutoff", "80"]).refused(&["cut-off is 80 Hz", "hint: "]);
     // With 1e-308 Hz the filtered forces were not finite, and the verdict was feasible.
     for cutoff in ["1e-308", "1e-9", "0.09"] {

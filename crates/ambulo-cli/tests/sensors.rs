@@ -155,10 +155,7 @@ fn refusals(bench: &Workbench) {
     let refused = |words: &[&str], message: &[&str]| {
         bench.run(&[&["forces"], words, &["-o", "out"]].concat()).refused(message);
     };
-    refused(
-        &["walking.sto", "--mass", "75"],
-        &["walking.sto", "expected --mass KG and --height M", "--model FILE.osim"],
-    );
+    refused(&["walking.sto", "--mass", "75"], &["walking.sto", "`--mass KG`, `--height M`", "`--model FILE.osim`"]);
     let model = ["--model", "demo/input/figure.osim"];
     let with_model = |words: &[&'static str]| -> Vec<&str> { [words, &model[..]].concat() };
     refused(
@@ -175,11 +172,11 @@ fn refusals(bench: &Workbench) {
     );
     refused(
         &with_model(&["walking.sto", "--markers", "cmu"]),
-        &["--markers has no effect for orientations of sensors"],
+        &["the marker set has no effect for orientations of sensors", "`--markers NAME|FILE`"],
     );
     refused(
         &with_model(&["demo/input/walk.mot", "--heading", "pelvis_imu:x"]),
-        &["--heading is for orientations of sensors"],
+        &["the heading is for orientations of sensors", "`--heading SENSOR:AXIS`"],
     );
     refused(&["walking.sto", "--heading", "pelvis_imu"], &["expected SENSOR:AXIS"]);
     refused(&["walking.sto", "--earth", "-90,0"], &["expected X,Y,Z: three angles in degrees"]);

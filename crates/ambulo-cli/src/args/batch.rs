@@ -1,6 +1,6 @@
 //! Options of `ambulo batch`.
 
-use super::{CheckArgs, PrintArgs};
+use super::{CheckArgs, PrintArgs, TrialWords};
 use ambulo_results::Keep;
 use clap::Args as ClapArgs;
 use clap::builder::PossibleValuesParser;
@@ -59,6 +59,13 @@ pub(crate) struct BatchArgs {
     /// Options of `ambulo forces` for every trial.
     #[arg(last = true, value_name = "OPTIONS")]
     pub(crate) options: Vec<OsString>,
+}
+
+impl BatchArgs {
+    /// The options of every trial.
+    pub(crate) fn of_trials(&self) -> Result<TrialWords, clap::Error> {
+        TrialWords::parse("ambulo batch SOURCE", &self.options)
+    }
 }
 
 /// Tables of a run that have a row per frame, cycles and events.

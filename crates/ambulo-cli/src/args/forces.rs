@@ -1,15 +1,19 @@
 //! Options of `ambulo forces`.
 
-use super::values::{
-    AddedMassArg, Cutoff, EarthTurn, FootColumns, ForceCutoff, HeadingAxis, PlateFoot, number, order, outputs_of_run,
-    seconds, zero_or_more_seconds,
-};
+use super::values::{number, one_of, order, outputs_of_run, seconds, segments, zero_or_more_seconds};
 use super::{CheckArgs, PrintArgs, ReplaceArgs};
+use ambulo::analysis::Adjustable;
+use ambulo::job::{
+    Cutoff, EarthTurn, Filter, FootColumns, ForceCutoff, ForceFiles, HeadingAxis, Job, MarkerFitting, ModelChoice,
+    PlateFoot, Processing, SensorStatements,
+};
 use ambulo::kinematics::marker_fit::FitSettings;
-use ambulo::study::Settings;
-use clap::{Args as ClapArgs, FromArgMatches, ValueEnum};
-use std::ffi::{OsStr, OsString};
-use std::path::{Path, PathBuf};
+use ambulo::model::anthropometry::SegmentTable;
+use ambulo::motion::Window;
+use ambulo::study::{AddedMass, GroundSettings, Settings, StatedSize};
+use ambulo_results::Convention;
+use clap::{Args as ClapArgs, ValueEnum};
+use std::path::PathBuf;
 
 #[derive(Debug, Clone, ClapArgs)]
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
@@ -107,22 +111,22 @@ pub(crate) struct ForcesArgs {
     #[arg(long, value_name = "N", default_value_t = Settings::LOW_PASS.order, value_parser = order)]
     pub(crate) order: usize,
     /// How the motion is smoothed. `spline`: quintic, stiffness by generalised cross-validation; --cutoff then applies only to forces with --force-cutoff same.
-    #[arg(long, value_enum, default_value_t = Filter::Butterworth)]
+    #[arg(long, value_name = "FILTER", default_value = "butterworth", value_parser = one_of(&Filter::ALL))]
     pub(crate) filter: Filter,
     /// Residual reduction: change the motion within its noise until it agrees with the measured forces (docs/CONSISTENCY.md). `motion`: the motion only; `body`: also the body mass and the mass centre of the trunk [without a value: body].
-    #[arg(long, value_enum, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "body", conflicts_with = "no_ground")]
-    pub(crate) consistent: Option<Adjusted>,
+    #[arg(long, value_name = "WHAT", value_parser = one_of(&Adjustable::ALL), num_args = 0..=1, require_equals = true, default_missing_value = "body", conflicts_with = "no_ground")]
+    pub(crate) consistent: Option<Adjustable>,
     /// Joint moments of a worn device: .sto or .csv with columns as in moments.sto; adds moments_biological.sto.
     #[arg(long, value_name = "FILE")]
     pub(crate) device: Option<PathBuf>,
     /// A point mass fixed to a body, with its position in the body's frame in metres; may be repeated.
     #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
-    pub(crate) add_mass: Vec<AddedMassArg>,
+    pub(crate) add_mass: Vec<AddedMass>,
     /// Limits of the feasibility checks: .toml (docs/JUDGEMENT.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
     /// Folder for the results.
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    #[arg(short, long, value_name = "DIR", default_value = ForcesArgs::OUTPUT)]
     pub(crate) output: PathBuf,
     /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_run())]
@@ -135,39 +139,69 @@ pub(crate) struct ForcesArgs {
     pub(crate) print: PrintArgs,
 }
 
+/// What is written of a run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Outputs {
+    /// How angles of pelvis and hips are measured.
+    pub(crate) convention: Convention,
+    /// Names of the outputs; all if there are none.
+    pub(crate) keep: Vec<String>,
+}
+
 impl ForcesArgs {
-    /// The options of `ambulo forces WORDS.. RECORDING`.
-    pub(crate) fn of(recording: &Path, words: &[OsString]) -> Result<ForcesArgs, clap::Error> {
-        let command = ForcesArgs::augment_args(clap::Command::new("forces"));
-        // The name follows after `--`, because it may look like an option.
-        let name = [OsStr::new("--"), recording.as_os_str()].into_iter().map(OsStr::to_owned);
-        let words = [OsString::from("forces")].into_iter().chain(words.iter().cloned()).chain(name);
-        ForcesArgs::from_arg_matches(&command.try_get_matches_from(words)?)
-    }
-
-    /// The recording; without one the name is empty.
-    pub(crate) fn recording(&self) -> &Path {
-        self.input.as_deref().unwrap_or(Path::new(""))
-    }
-
-    /// The low-pass filter of the motion.
-    pub(crate) fn cutoff(&self) -> Cutoff {
-        self.cutoff.unwrap_or(Cutoff(Some(Settings::LOW_PASS.cutoff_hz)))
-    }
-
-    /// The word for the built-in body in place of a model file.
-    pub(crate) const BUILT_IN: &'static str = "built-in";
+    /// The folder for the results, if none is given.
+    pub(super) const OUTPUT: &'static str = "out";
     /// The word for every trial.
-    pub(crate) const ALL_TRIALS: &'static str = "all";
+    const ALL_TRIALS: &'static str = "all";
 
-    /// The model file, if there is one.
-    pub(crate) fn model_file(&self) -> Option<&Path> {
-        self.model.as_deref().filter(|model| model.as_os_str() != ForcesArgs::BUILT_IN)
+    /// Whether every trial of a .b3d is to be computed.
+    pub(crate) fn chooses_all_trials(&self) -> bool {
+        self.trial.as_deref() == Some(ForcesArgs::ALL_TRIALS)
     }
 
-    /// Whether a model or the built-in body was chosen.
-    pub(crate) fn has_chosen_body(&self) -> bool {
-        self.model.is_some()
+    /// What is written.
+    pub(crate) fn outputs(&self) -> Outputs {
+        Outputs { convention: self.convention.into(), keep: self.keep.clone() }
+    }
+
+    /// The job that the options describe.
+    pub(crate) fn job(&self) -> Job {
+        let args = self.clone();
+        Job {
+            recording: args.input,
+            trial: args.trial,
+            model: args.model.map(ModelChoice::from),
+            smpl: args.smpl,
+            sensors: SensorStatements { heading: args.sensors.heading, earth: args.sensors.earth },
+            forces: ForceFiles { table: args.grf, loads: args.loads, right: args.right, left: args.left },
+            person: args.person,
+            device: args.device,
+            added_mass: args.add_mass,
+            thresholds: args.thresholds,
+            setups: args.setup,
+            settings: self.settings(),
+            ..args.subject.job()
+        }
+    }
+
+    fn settings(&self) -> Processing {
+        Processing {
+            ground: match (self.no_ground, self.track, self.predict) {
+                (true, ..) => GroundSettings::NoContact,
+                (_, true, _) => GroundSettings::Tracked,
+                (_, _, true) => GroundSettings::Predicted,
+                _ => GroundSettings::MeasuredOrPredicted,
+            },
+            refit: self.refit,
+            window: Window { from_s: self.from, to_s: self.to },
+            rate_hz: self.rate,
+            filter: self.filter,
+            cutoff: self.cutoff,
+            force_cutoff: self.force_cutoff,
+            order: self.order,
+            residual_reduction: self.consistent,
+            ..self.subject.settings()
+        }
     }
 }
 
@@ -200,10 +234,10 @@ pub(crate) struct CalibrateArgs {
 }
 
 impl CalibrateArgs {
-    /// The options by which a trial is predicted.
-    pub(crate) fn of_trial(&self, trial: &Path) -> Result<ForcesArgs, clap::Error> {
-        let defaults = ForcesArgs::of(trial, &["--predict".into()])?;
-        Ok(ForcesArgs { model: self.model.clone(), subject: self.subject.clone(), ..defaults })
+    /// The job of every trial: its ground forces are predicted.
+    pub(crate) fn job(&self) -> Job {
+        let settings = Processing { ground: GroundSettings::Predicted, ..self.subject.settings() };
+        Job { model: self.model.clone().map(ModelChoice::from), settings, ..self.subject.clone().job() }
     }
 }
 
@@ -215,31 +249,13 @@ pub(crate) enum AngleConvention {
     Opensim,
 }
 
-impl From<AngleConvention> for ambulo_results::Convention {
+impl From<AngleConvention> for Convention {
     fn from(convention: AngleConvention) -> Self {
         match convention {
             AngleConvention::Clinical => Self::Clinical,
             AngleConvention::Opensim => Self::Opensim,
         }
     }
-}
-
-/// The parts of a study that residual reduction may change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Adjusted {
-    /// The motion only.
-    Motion,
-    /// The motion, the body's mass and the trunk's mass centre.
-    Body,
-}
-
-/// A filter family.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Filter {
-    /// Zero-phase low-pass.
-    Butterworth,
-    /// Smoothing spline.
-    Spline,
 }
 
 // The recorded person, and how markers are processed.
@@ -257,8 +273,8 @@ pub(crate) struct SubjectArgs {
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
-    #[arg(long, value_name = "NAME", default_value = SubjectArgs::DEFAULT_FIGURE)]
-    pub(crate) figure: String,
+    #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name(), value_parser = segments())]
+    pub(crate) figure: SegmentTable,
     /// The marker set: a name from docs/MARKERS.md or a .toml [default: recognised from the marker names].
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) markers: Option<String>,
@@ -270,7 +286,7 @@ pub(crate) struct SubjectArgs {
     pub(crate) plate: Vec<PlateFoot>,
     /// Marker fit: frame by frame, or all frames together with a prior on the change of acceleration [default: frames for markers,
     /// trajectory for keypoints of video].
-    #[arg(long, value_enum)]
+    #[arg(long, value_name = "METHOD", value_parser = one_of(&MarkerFitting::ALL))]
     pub(crate) fit: Option<MarkerFitting>,
     /// Longest marker gap that is interpolated [s].
     #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s, value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
@@ -290,24 +306,21 @@ pub(crate) struct SensorArgs {
     pub(crate) earth: Option<EarthTurn>,
 }
 
-impl SensorArgs {
-    /// The first option that was given.
-    pub(crate) fn given(&self) -> Option<&'static str> {
-        [("--heading", self.heading.is_some()), ("--earth", self.earth.is_some())]
-            .into_iter()
-            .find_map(|(option, given)| given.then_some(option))
-    }
-}
-
 impl SubjectArgs {
-    pub(crate) const DEFAULT_FIGURE: &'static str = "de-leva-male";
-}
+    /// The job with these statements about the person and the markers.
+    fn job(self) -> Job {
+        Job {
+            standing: self.still,
+            size: StatedSize { mass_kg: self.mass, height_m: self.height },
+            segments: self.figure,
+            markers: self.markers,
+            marker_set: self.marker_set,
+            plates: self.plate,
+            ..Job::default()
+        }
+    }
 
-/// How coordinates are fitted to markers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum MarkerFitting {
-    /// Each frame separately.
-    Frames,
-    /// All frames together.
-    Trajectory,
+    fn settings(&self) -> Processing {
+        Processing { fit: self.fit, longest_gap_s: self.max_gap, ..Processing::default() }
+    }
 }

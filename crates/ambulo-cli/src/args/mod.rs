@@ -14,16 +14,14 @@ mod walk;
 
 pub(crate) use batch::{BatchArgs, Shard};
 pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
-pub(crate) use forces::{Adjusted, CalibrateArgs, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
+pub(crate) use forces::{CalibrateArgs, ForcesArgs, Outputs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use session::SessionArgs;
 pub(crate) use stream::{LabAxes, MarkerUnit, StreamArgs, StreamFormat};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
-pub(crate) use trial_files::TrialFiles;
+pub(crate) use trial_files::TrialWords;
 pub(crate) use validate::ValidateArgs;
-pub(crate) use values::{
-    Cutoff, EarthTurn, Endpoint, FootColumns, ForceCutoff, HeadingAxis, PlateFoot, TimedValue, Values,
-};
+pub(crate) use values::{Endpoint, TimedValue, Values};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};

@@ -1,6 +1,6 @@
 //! Options of `ambulo session`.
 
-use super::{PrintArgs, ReplaceArgs};
+use super::{PrintArgs, ReplaceArgs, TrialWords};
 use clap::Args as ClapArgs;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -50,4 +50,11 @@ pub(crate) struct SessionArgs {
     /// Options of `ambulo forces` for every trial.
     #[arg(last = true, value_name = "OPTIONS")]
     pub(crate) options: Vec<OsString>,
+}
+
+impl SessionArgs {
+    /// The options of every trial.
+    pub(crate) fn of_trials(&self) -> Result<TrialWords, clap::Error> {
+        TrialWords::parse("ambulo session DIR", &self.options)
+    }
 }

@@ -1,55 +1,69 @@
-//! The files of a trial of a folder, and the options by which it is computed.
+//! Options of `ambulo forces` for every trial of a folder: the words after `--`.
 
-use super::forces::{ForcesArgs, SubjectArgs};
+use super::forces::{ForcesArgs, Outputs};
+use ambulo::job::Job;
+use ambulo::job::trials::TrialFiles;
+use clap::error::ErrorKind;
+use clap::{Args as ClapArgs, FromArgMatches};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// The files of a trial, and what is stated about its person.
+/// Words after `--`, and the job that they describe.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct TrialFiles {
-    pub(crate) recording: PathBuf,
-    /// The number of the trial in a .b3d.
-    pub(crate) trial: Option<String>,
-    pub(crate) standing: Option<PathBuf>,
-    pub(crate) model: Option<PathBuf>,
-    pub(crate) grf: Option<PathBuf>,
-    pub(crate) loads: Option<PathBuf>,
-    pub(crate) mass: Option<f64>,
-    pub(crate) height: Option<f64>,
+pub(crate) struct TrialWords {
+    /// The words, as they were typed.
+    pub(crate) words: Vec<OsString>,
+    /// The job of all trials; each has its own recording.
+    pub(crate) job: Job,
+    /// What is written of a trial.
+    pub(crate) outputs: Outputs,
 }
 
-impl TrialFiles {
-    /// The options by which `ambulo forces` computes the trial: these words, with the files of the trial where the words name none.
-    pub(crate) fn options(&self, words: &[OsString]) -> Result<ForcesArgs, clap::Error> {
-        let given = ForcesArgs::of(&self.recording, words)?;
-        let TrialFiles { trial, standing, model, grf, loads, mass, height, .. } = self.clone();
-        let subject = SubjectArgs {
-            still: given.subject.still.or(standing),
-            mass: mass.or(given.subject.mass),
-            height: height.or(given.subject.height),
-            ..given.subject
-        };
-        let (model, grf, loads) = (given.model.or(model), given.grf.or(grf), given.loads.or(loads));
-        Ok(ForcesArgs { subject, trial: given.trial.or(trial), model, grf, loads, ..given })
+impl TrialWords {
+    /// Parses the words after `--` of a command, such as `ambulo batch SOURCE`.
+    pub(crate) fn parse(command: &str, words: &[OsString]) -> Result<TrialWords, clap::Error> {
+        let usage = format!("{command} [OPTIONS] -- OPTIONS, with options of `ambulo forces` after `--`");
+        let mut parser = ForcesArgs::augment_args(clap::Command::new("ambulo")).no_binary_name(true);
+        parser = parser.override_usage(usage);
+        // In place of the recording, which each trial has.
+        let place = ["--", "RECORDING"].map(OsString::from);
+        let matches = parser.try_get_matches_from_mut(words.iter().cloned().chain(place))?;
+        let args = ForcesArgs::from_arg_matches(&matches)?;
+        if args.output.as_os_str() != ForcesArgs::OUTPUT || !args.keep.is_empty() {
+            let message =
+                "trials have no folders of their own: -o and --keep choose nothing after `--`; expected them before";
+            return Err(parser.error(ErrorKind::ArgumentConflict, message));
+        }
+        let job = Job { recording: None, ..args.job() };
+        Ok(TrialWords { words: words.to_vec(), job, outputs: args.outputs() })
     }
 
-    /// The command that computes the trial alone, as it is typed into a shell: the words, and the files and sizes of the trial.
-    pub(crate) fn command(&self, words: &[OsString], output: &str) -> String {
+    /// The words with each value in a word of its own: `--from=0.5` becomes `--from 0.5`. Both mean the same trial.
+    pub(crate) fn apart(&self) -> Vec<OsString> {
+        let split = |word: &OsString| -> Vec<OsString> {
+            let option = word.to_str().filter(|word| word.starts_with("--")).and_then(|word| word.split_once('='));
+            option.map_or_else(|| vec![word.clone()], |(name, value)| vec![name.into(), value.into()])
+        };
+        self.words.iter().flat_map(split).collect()
+    }
+
+    /// The command that computes a trial alone, as it is typed into a shell: the words, and the files and sizes of the trial.
+    pub(crate) fn command(&self, trial: &TrialFiles, output: &str) -> String {
+        let TrialWords { words, job, .. } = self;
         let mut line: Vec<OsString> = ["ambulo", "forces"].map(OsString::from).to_vec();
-        line.push(self.recording.clone().into_os_string());
-        let given = ForcesArgs::of(&self.recording, words).ok();
-        let missing = |is_given: fn(&ForcesArgs) -> bool| !given.as_ref().is_some_and(is_given);
-        let path = |path: &Option<PathBuf>| path.clone().map(PathBuf::into_os_string);
+        line.push(trial.recording.clone().into_os_string());
+        let path =
+            |path: &Option<PathBuf>, is_given: bool| path.clone().filter(|_| !is_given).map(PathBuf::into_os_string);
         let number = |number: Option<f64>| number.map(|number| OsString::from(number.to_string()));
         let files = [
-            ("--static", path(&self.standing).filter(|_| missing(|given| given.subject.still.is_some()))),
-            ("--model", path(&self.model).filter(|_| missing(|given| given.model.is_some()))),
-            ("--grf", path(&self.grf).filter(|_| missing(|given| given.grf.is_some()))),
-            ("--loads", path(&self.loads).filter(|_| missing(|given| given.loads.is_some()))),
-            ("--trial", self.trial.clone().map(OsString::from).filter(|_| missing(|given| given.trial.is_some()))),
+            ("--static", path(&trial.standing, job.standing.is_some())),
+            ("--model", path(&trial.model, job.model.is_some())),
+            ("--grf", path(&trial.grf, job.forces.table.is_some())),
+            ("--loads", path(&trial.loads, job.forces.loads.is_some())),
+            ("--trial", trial.trial.clone().map(OsString::from).filter(|_| job.trial.is_none())),
         ];
         // The size of the trial has priority over the words.
-        let sizes = [("--mass", number(self.mass)), ("--height", number(self.height))];
+        let sizes = [("--mass", number(trial.size.mass_kg)), ("--height", number(trial.size.height_m))];
         let (replaced, mut rest) = (sizes.clone(), words.iter());
         while let Some(word) = rest.next() {
             let is_replaced = |name: &str| replaced.iter().any(|(own, value)| *own == name && value.is_some());
@@ -82,22 +96,33 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ambulo::study::StatedSize;
 
     #[test]
     fn the_command_has_the_files_and_sizes_of_the_trial_once() {
         let trial = TrialFiles {
             recording: "set/walk 1.c3d".into(),
             standing: Some("set/it's.c3d".into()),
-            mass: Some(70.5),
+            size: StatedSize { mass_kg: Some(70.5), height_m: None },
             ..TrialFiles::default()
         };
-        let words = |words: &[&str]| words.iter().map(OsString::from).collect::<Vec<_>>();
+        let words = |words: &[&str]| {
+            TrialWords::parse("ambulo batch", &words.iter().map(OsString::from).collect::<Vec<_>>()).unwrap()
+        };
         if cfg!(unix) {
-            let command = trial.command(&words(&["--predict", "--mass", "80", "--from=0.5"]), "page");
+            let command = words(&["--predict", "--mass", "80", "--from=0.5"]).command(&trial, "page");
             let expected = r"ambulo forces 'set/walk 1.c3d' --predict --from=0.5 --static 'set/it'\''s.c3d' --mass 70.5 --output page";
             assert_eq!(command, expected);
-            let command = trial.command(&words(&["--static=other.c3d", "--mass=80"]), "page");
+            let command = words(&["--static=other.c3d", "--mass=80"]).command(&trial, "page");
             assert_eq!(command, "ambulo forces 'set/walk 1.c3d' --static=other.c3d --mass 70.5 --output page");
+        }
+    }
+
+    #[test]
+    fn the_folder_of_a_trial_is_not_chosen_after_the_dashes() {
+        for words in [["-o", "there"], ["--keep", "grf"]] {
+            let refused = TrialWords::parse("ambulo batch", &words.map(OsString::from)).unwrap_err();
+            assert!(refused.to_string().contains("ambulo batch [OPTIONS] -- OPTIONS"), "{refused}");
         }
     }
 }

@@ -1,10 +1,12 @@
 //! Options of `ambulo validate`.
 
-use super::forces::{ForcesArgs, SubjectArgs};
-use super::trial_files::TrialFiles;
-use super::values::number;
+use super::values::{Figure, number, segments};
 use super::{PrintArgs, ReplaceArgs};
+use ambulo::job::trials::TrialFiles;
+use ambulo::job::{Job, Processing, ending};
+use ambulo::study::{GroundSettings, StatedSize};
 use clap::Args as ClapArgs;
+use clap::builder::TypedValueParser;
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, ClapArgs)]
@@ -34,8 +36,8 @@ pub(crate) struct ValidateArgs {
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
-    #[arg(long, value_name = "NAME", default_value = SubjectArgs::DEFAULT_FIGURE)]
-    pub(crate) figure: String,
+    #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name(), value_parser = segments().map(Figure))]
+    pub(crate) figure: Figure,
     /// The marker set: a name from docs/MARKERS.md or a .toml [default: recognised from the marker names].
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) markers: Option<String>,
@@ -58,18 +60,21 @@ pub(crate) struct ValidateArgs {
 }
 
 impl ValidateArgs {
-    /// The options by which a trial is predicted.
-    pub(crate) fn of_trial(&self, files: &TrialFiles) -> Result<ForcesArgs, clap::Error> {
-        let defaults = files.options(&["--predict".into()])?;
-        let has_markers = ["c3d", "trc"]
-            .iter()
-            .any(|known| files.recording.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known)));
+    /// The job of a trial: its ground forces are predicted.
+    pub(crate) fn job_of(&self, files: &TrialFiles) -> Job {
+        let has_markers = matches!(ending(&files.recording).as_str(), "c3d" | "trc");
         let is_built_in = files.model.is_none() && has_markers;
-        let subject = SubjectArgs {
-            figure: if is_built_in { self.figure.clone() } else { defaults.subject.figure },
+        let settings = Processing { ground: GroundSettings::Predicted, ..Processing::default() };
+        files.job(&Job {
+            segments: if is_built_in { self.figure.0 } else { Job::SEGMENTS },
             markers: self.markers.clone().filter(|_| is_built_in),
-            ..defaults.subject
-        };
-        Ok(ForcesArgs { subject, ..defaults })
+            settings,
+            ..Job::default()
+        })
+    }
+
+    /// The size of the person.
+    pub(crate) fn size(&self) -> StatedSize {
+        StatedSize { mass_kg: self.mass, height_m: self.height }
     }
 }

@@ -1,12 +1,10 @@
 //! Parsers of option values.
 
-use ambulo::model::Side;
+use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::filter::MAX_ORDER;
 use ambulo::optimal::{Load, LoadPlace};
-use ambulo::spatial::Vec3;
-use ambulo::study::AddedMass;
 use ambulo_results::Keep;
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::fmt;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::str::FromStr;
@@ -34,6 +32,30 @@ pub(super) fn outputs_of_sweep() -> PossibleValuesParser {
 /// Names of the outputs of the 1997 paper.
 pub(super) fn outputs_of_paper() -> PossibleValuesParser {
     PossibleValuesParser::new(Keep::OF_THE_PAPER)
+}
+
+/// One of the words for values.
+pub(super) fn one_of<T: Copy + Send + Sync + 'static>(
+    words: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    let value = |text: String| words.iter().find(|(word, _)| *word == text).map(|(_, value)| *value);
+    PossibleValuesParser::new(words.iter().map(|(word, _)| *word))
+        .try_map(move |text| value(text).ok_or("expected one of the words above"))
+}
+
+/// A table of segment masses.
+pub(super) fn segments() -> impl TypedValueParser<Value = SegmentTable> {
+    PossibleValuesParser::new(SegmentTable::ALL.map(SegmentTable::name)).try_map(|name| name.parse::<SegmentTable>())
+}
+
+/// A table of segment masses. The ids of runs are made from its name.
+#[derive(Clone, Copy)]
+pub(crate) struct Figure(pub(crate) SegmentTable);
+
+impl fmt::Debug for Figure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.name().fmt(f)
+    }
 }
 
 /// Any number; the library checks its range.
@@ -86,167 +108,6 @@ pub(super) fn limit(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(limit) if limit.is_finite() && limit >= 0.0 => Ok(limit),
         _ => Err("expected a number, zero or more".into()),
-    }
-}
-
-/// A cut-off frequency, or none.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Cutoff(pub(crate) Option<f64>);
-
-impl fmt::Display for Cutoff {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(hz) => write!(f, "{hz}"),
-            None => f.write_str("off"),
-        }
-    }
-}
-
-impl FromStr for Cutoff {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Cutoff, String> {
-        if text.eq_ignore_ascii_case("off") {
-            return Ok(Cutoff(None));
-        }
-        match text.parse::<f64>() {
-            Ok(hz) if hz.is_finite() && hz > 0.0 => Ok(Cutoff(Some(hz))),
-            _ => Err("expected a frequency above 0 in Hz, or `off`".into()),
-        }
-    }
-}
-
-/// How measured forces are filtered.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum ForceCutoff {
-    /// As the motion.
-    Same,
-    /// With this cut-off frequency [Hz].
-    Hz(f64),
-    /// Not at all.
-    Off,
-}
-
-impl FromStr for ForceCutoff {
-    type Err = String;
-    fn from_str(text: &str) -> Result<ForceCutoff, String> {
-        match (text.to_ascii_lowercase().as_str(), text.parse::<f64>()) {
-            ("same", _) => Ok(ForceCutoff::Same),
-            ("off", _) => Ok(ForceCutoff::Off),
-            (_, Ok(hz)) if (1.0..=500.0).contains(&hz) => Ok(ForceCutoff::Hz(hz)),
-            _ => Err("expected a frequency from 1 to 500 Hz, `same` (as the motion) or `off`".into()),
-        }
-    }
-}
-
-/// A body and the prefix of the columns that act on it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct FootColumns {
-    pub(crate) body: String,
-    pub(crate) prefix: String,
-}
-
-impl FromStr for FootColumns {
-    type Err = String;
-    fn from_str(text: &str) -> Result<FootColumns, String> {
-        match text.split_once(':') {
-            Some((body, prefix)) if !body.is_empty() && prefix.contains("force") => {
-                Ok(FootColumns { body: body.to_owned(), prefix: prefix.to_owned() })
-            }
-            _ => Err(
-                "expected BODY:PREFIX with `force` in the prefix, such as calcn_r:ground_force_r_; the columns are \
-                      PREFIX + vx vy vz and px py pz, with `torque` instead of `force` for the free moment"
-                    .into(),
-            ),
-        }
-    }
-}
-
-/// Which foot is on a force plate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct PlateFoot {
-    /// The plate, counted from 1.
-    pub(crate) plate: usize,
-    /// The foot; `None` ignores the plate.
-    pub(crate) side: Option<Side>,
-}
-
-impl FromStr for PlateFoot {
-    type Err = String;
-    fn from_str(text: &str) -> Result<PlateFoot, String> {
-        let expected = "expected PLATE=FOOT, such as 1=r, with plates counted from 1 and r, l or off as the foot";
-        let (plate, foot) = text.split_once('=').ok_or(expected)?;
-        let side = match foot.trim().to_ascii_lowercase().as_str() {
-            "r" | "right" => Some(Side::Right),
-            "l" | "left" => Some(Side::Left),
-            "off" => None,
-            _ => return Err(expected.into()),
-        };
-        match plate.trim().parse() {
-            Ok(plate @ 1..) => Ok(PlateFoot { plate, side }),
-            _ => Err(expected.into()),
-        }
-    }
-}
-
-/// The axis of a sensor that points forward.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct HeadingAxis {
-    /// Name of the sensor.
-    pub(crate) sensor: String,
-    /// Unit vector.
-    pub(crate) axis: Vec3,
-}
-
-impl HeadingAxis {
-    /// The axis x, y or z, by number, or the opposite direction.
-    pub(crate) fn of(sensor: &str, axis: usize, is_negative: bool) -> HeadingAxis {
-        HeadingAxis { sensor: sensor.to_owned(), axis: Vec3::ith(axis, if is_negative { -1.0 } else { 1.0 }) }
-    }
-}
-
-impl fmt::Display for HeadingAxis {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let number = self.axis.iamax();
-        let sign = if self.axis[number] < 0.0 { "-" } else { "" };
-        write!(f, "{}:{sign}{}", self.sensor, ["x", "y", "z"][number])
-    }
-}
-
-impl FromStr for HeadingAxis {
-    type Err = String;
-    fn from_str(text: &str) -> Result<HeadingAxis, String> {
-        let expected = "expected SENSOR:AXIS with one of x, y, z, -x, -y and -z, such as pelvis_imu:-z";
-        let (sensor, axis) = text.rsplit_once(':').ok_or(expected)?;
-        let (is_negative, letter) = axis.trim().strip_prefix('-').map_or((false, axis.trim()), |letter| (true, letter));
-        let number = ["x", "y", "z"].iter().position(|known| known.eq_ignore_ascii_case(letter)).ok_or(expected)?;
-        if sensor.trim().is_empty() {
-            return Err(expected.into());
-        }
-        Ok(HeadingAxis::of(sensor.trim(), number, is_negative))
-    }
-}
-
-/// Angles about the fixed axes x, y and z [rad].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct EarthTurn(pub(crate) [f64; 3]);
-
-/// In degrees, as the option takes it.
-impl fmt::Display for EarthTurn {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.map(|angle| (1e6 * angle.to_degrees()).round() / 1e6);
-        write!(f, "{x},{y},{z}")
-    }
-}
-
-impl FromStr for EarthTurn {
-    type Err = String;
-    fn from_str(text: &str) -> Result<EarthTurn, String> {
-        let angles: Option<Vec<f64>> =
-            text.split(',').map(|part| part.trim().parse().ok().filter(|angle: &f64| angle.abs() <= 360.0)).collect();
-        match angles.as_deref() {
-            Some([x, y, z]) => Ok(EarthTurn([*x, *y, *z].map(f64::to_radians))),
-            _ => Err("expected X,Y,Z: three angles in degrees from -360 to 360, such as -90,0,0".into()),
-        }
     }
 }
 
@@ -339,40 +200,6 @@ pub(super) fn weakness(text: &str) -> Result<(String, f64), String> {
     let expected = || "expected JOINT=SHARE, such as ankle_r=0.6".to_owned();
     let (joint, share) = text.split_once('=').ok_or_else(expected)?;
     Ok((joint.trim().to_owned(), share.trim().parse().map_err(|_| expected())?))
-}
-
-/// A mass carried by the person.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct AddedMassArg(pub(crate) AddedMass);
-
-impl fmt::Display for AddedMassArg {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let AddedMassArg(AddedMass { body, mass_kg, position_m }) = self;
-        let [x, y, z]: [f64; 3] = (*position_m).into();
-        write!(f, "{body}:{mass_kg}:{x},{y},{z}")
-    }
-}
-
-impl FromStr for AddedMassArg {
-    type Err = String;
-    fn from_str(text: &str) -> Result<AddedMassArg, String> {
-        let expected = || "expected BODY:KG or BODY:KG:X,Y,Z, such as torso:2.5:-0.1,0.3,0".to_owned();
-        let mut parts = text.split(':');
-        let (body, mass) = (parts.next().unwrap_or_default(), parts.next().ok_or_else(expected)?);
-        let mass_kg = mass.trim().parse().map_err(|_| expected())?;
-        let position: Vec<f64> = match parts.next() {
-            None => vec![0.0; 3],
-            Some(position) => {
-                position.split(',').map(|x| x.trim().parse()).collect::<Result<_, _>>().map_err(|_| expected())?
-            }
-        };
-        match (position[..].try_into(), parts.next()) {
-            (Ok::<[f64; 3], _>(position), None) if !body.is_empty() => {
-                Ok(AddedMassArg(AddedMass { body: body.to_owned(), mass_kg, position_m: Vec3::from(position) }))
-            }
-            _ => Err(expected()),
-        }
-    }
 }
 
 /// Where frames of a stream come from.

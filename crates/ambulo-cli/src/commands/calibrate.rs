@@ -1,10 +1,11 @@
 //! `ambulo calibrate`: what force plates show about the predicted ground forces of a person.
 
 use super::forces;
-use crate::args::CalibrateArgs;
+use crate::args::{CalibrateArgs, Outputs};
 use crate::caller::Caller;
 use crate::{Completion, files, printer};
 use ambulo::ground::predict::PersonalErrors;
+use ambulo::job::Job;
 use ambulo::study::{Outcome, personal_errors};
 use anyhow::{Error, Result};
 
@@ -19,10 +20,12 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<Completion> {
 
 /// The calibration that the trials show.
 pub(crate) fn compute(args: &CalibrateArgs, caller: &Caller) -> Result<PersonalErrors> {
+    let of_all = args.job();
     let mut outcomes: Vec<Outcome> = Vec::new();
     for trial in &args.trials {
         printer::progress(&format!("predicting {}", trial.display()), args.print);
-        outcomes.push(forces::compute(&args.of_trial(trial)?, caller)?.into_outcome());
+        let job = Job { recording: Some(trial.clone()), ..of_all.clone() };
+        outcomes.push(forces::compute(&job, Outputs::default(), caller)?.into_outcome());
     }
     personal_errors(&outcomes).map_err(|error| {
         let trial = error.trial().map(|number| args.trials[number].display().to_string());

@@ -3,14 +3,15 @@
 use super::result_folder::read_checked;
 use crate::args::CompareArgs;
 use crate::printer::ComparedColumn;
-use crate::{Completion, files, printer};
+use crate::{Completion, printer};
 use ambulo::analysis::{Curve, compare};
+use ambulo::job::table;
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 
 pub(crate) fn run(args: &CompareArgs) -> Result<Completion> {
-    let (a, _) = files::parse_table(&args.a, &read_checked(&args.a)?)?;
-    let (b, _) = files::parse_table(&args.b, &read_checked(&args.b)?)?;
+    let (a, _) = table(&args.a, &read_checked(&args.a)?)?;
+    let (b, _) = table(&args.b, &read_checked(&args.b)?)?;
     let columns = columns(args, &a, &b)?;
     let rows = columns.iter().map(|name| row(args, &a, &b, name)).collect::<Result<Vec<_>>>()?;
     printer::compare(&rows, args.limit, args.print)?;

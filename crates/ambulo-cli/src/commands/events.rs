@@ -8,6 +8,7 @@ use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{FootMotion, foot_motion};
 use ambulo::ground::phases::contacts_from_force;
 use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates};
+use ambulo::job::ending;
 use ambulo::model::Side;
 use ambulo::motion::skeleton::skeleton_from_bvh;
 use ambulo::motion::{Event, EventKind, MarkerRecording, PlateRecording, straightened};
@@ -21,7 +22,7 @@ pub(crate) fn run(args: &EventsArgs) -> Result<Completion> {
     let bytes = files::read(&args.input)?;
     let shown = args.input.display().to_string();
     let mut findings = Findings::default();
-    let read = match files::ending(&args.input).as_str() {
+    let read = match ending(&args.input).as_str() {
         "c3d" => from_c3d(&bytes, &shown, &mut findings),
         "trc" => from_trc(&bytes, &shown, &mut findings),
         "mvnx" => from_mvnx(&bytes, &shown, &mut findings),

@@ -1,7 +1,6 @@
 //! The subcommands, one module each.
 
 pub(crate) mod batch;
-mod bids;
 pub(crate) mod calibrate;
 pub(crate) mod compare;
 pub(crate) mod convert;
@@ -27,4 +26,3 @@ pub(crate) mod view;
 pub(crate) mod walk;
 
 pub use results::Results;
-pub(crate) use trials::PlannedTrial;

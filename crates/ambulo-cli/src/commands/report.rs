@@ -6,6 +6,7 @@ use crate::args::ReportArgs;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Finding};
+use ambulo::job::ending;
 use ambulo_report::page::report_page;
 use ambulo_results::{Folder, OutputFile, PAGE, RunSummary};
 use anyhow::{Result, bail};
@@ -20,7 +21,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Completion> {
         bail!("--compare: found {} folders; expected at most {MOST_COMPARED}", args.compare.len());
     }
     let output = args.output.clone().unwrap_or_else(|| args.folder.join(PAGE));
-    if !matches!(files::ending(&output).as_str(), "html" | "htm") {
+    if !matches!(ending(&output).as_str(), "html" | "htm") {
         bail!("{}: expected a name that ends in .html for the page", output.display());
     }
     if args.output.is_some() {

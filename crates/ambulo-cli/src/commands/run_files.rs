@@ -44,6 +44,12 @@ pub(crate) struct MotionRun {
     pub(super) clock: Stopwatch,
 }
 
+impl AsRef<Outcome> for MotionRun {
+    fn as_ref(&self) -> &Outcome {
+        &self.outcome
+    }
+}
+
 impl MotionRun {
     /// The results.
     pub(super) fn into_outcome(self) -> Outcome {

@@ -4,7 +4,8 @@ use super::report::write_page;
 use super::result_folder::{ResultFolder, read_checked};
 use crate::args::Existing;
 use crate::args::ViewArgs;
-use crate::{Completion, files, printer};
+use crate::{Completion, printer};
+use ambulo::job::ending;
 use ambulo_report::SESSION_PAGE;
 use ambulo_results::PAGE;
 use anyhow::{Result, bail};
@@ -35,7 +36,7 @@ fn page(path: &Path) -> Result<PathBuf> {
         }
         return Ok(page);
     }
-    match files::ending(path).as_str() {
+    match ending(path).as_str() {
         _ if !path.exists() => {
             bail!("{shown}: there is no such file or folder. hint: `ambulo demo -o demo`, then `ambulo view demo`")
         }

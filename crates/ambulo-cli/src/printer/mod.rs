@@ -92,12 +92,12 @@ pub(crate) fn guide() -> Result<()> {
 
 /// Prints an error: where and what on the first line, what to do on the second.
 pub(crate) fn error(error: &anyhow::Error) {
-    say(format_args!("error: {}", visible(&with_hint(&chain(error), hints::of_error(error)))));
+    say(format_args!("error: {}", visible(&with_hint(&chain(error), hints::of_error(error).as_deref()))));
 }
 
 /// An error as [`error`] prints it: what and where, and what to do.
 pub(crate) fn error_parts(error: &anyhow::Error) -> (String, Option<String>) {
-    parts(&chain(error), hints::of_error(error))
+    parts(&chain(error), hints::of_error(error).as_deref())
 }
 
 fn chain(error: &anyhow::Error) -> String {

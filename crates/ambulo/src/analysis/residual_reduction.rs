@@ -20,6 +20,12 @@ pub enum Adjustable {
     MotionAndBody,
 }
 
+impl Adjustable {
+    /// The choices with their names.
+    pub const ALL: [(&'static str, Adjustable); 2] =
+        [("motion", Adjustable::Motion), ("body", Adjustable::MotionAndBody)];
+}
+
 /// A filter mixes samples within half a period of its cut-off frequency, so the equations of motion only hold this far inside the window.
 const FILTER_REACH_PERIODS: f64 = 0.5;
 

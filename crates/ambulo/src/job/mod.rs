@@ -139,8 +139,15 @@ pub struct ForceFiles {
 pub struct Shared {
     standing_trials: StandingTrials,
     models: Models,
-    /// A body that was calibrated before, for markers with the built-in body.
-    pub body: Option<Subject>,
+    body: Option<Subject>,
+}
+
+impl Shared {
+    /// The same files, and a body that was calibrated before, which markers then follow.
+    #[must_use]
+    pub fn with_body(&self, body: Option<Subject>) -> Shared {
+        Shared { body, ..self.clone() }
+    }
 }
 
 impl Default for Job {

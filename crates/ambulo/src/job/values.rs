@@ -46,6 +46,11 @@ pub enum Filter {
     Spline,
 }
 
+impl Filter {
+    /// The families with their names.
+    pub const ALL: [(&'static str, Filter); 2] = [("butterworth", Filter::Butterworth), ("spline", Filter::Spline)];
+}
+
 /// How coordinates are fitted to markers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MarkerFitting {
@@ -53,6 +58,12 @@ pub enum MarkerFitting {
     Frames,
     /// All frames together.
     Trajectory,
+}
+
+impl MarkerFitting {
+    /// The methods with their names.
+    pub const ALL: [(&'static str, MarkerFitting); 2] =
+        [("frames", MarkerFitting::Frames), ("trajectory", MarkerFitting::Trajectory)];
 }
 
 /// A cut-off frequency, or none.

@@ -11,7 +11,6 @@ use crate::analysis::Subject;
 use crate::model::Model;
 use crate::numerics::median;
 use crate::study::{GroundSettings, Outcome, QualityState, Tracking};
-use std::borrow::Borrow;
 use std::path::Path;
 
 /// A trial to be computed, and what is known of its body.
@@ -53,7 +52,7 @@ pub fn of_all_trials(mut job: Job) -> Job {
 }
 
 /// Computes the trials of a visit. `run` computes some of them, in any order, and returns their results in the order of its argument.
-pub fn compute<R: Borrow<Outcome>>(
+pub fn compute<R: AsRef<Outcome>>(
     root: &Path,
     trials: &[&PlannedTrial],
     run: &mut dyn FnMut(&[VisitRun]) -> Vec<Result<R, String>>,
@@ -65,13 +64,13 @@ pub fn compute<R: Borrow<Outcome>>(
         true => runs,
         false => again_with_one_body(first, runs, trials, run),
     };
-    let body = runs[first].as_ref().map_or(String::new(), |run| source_of_body(root, trials[first], run.borrow()));
+    let body = runs[first].as_ref().map_or(String::new(), |run| source_of_body(root, trials[first], run.as_ref()));
     ComputedVisit { runs, body }
 }
 
 /// Whether all trials that were computed have the same body, with the same markers on it.
-fn has_one_body<R: Borrow<Outcome>>(runs: &[Result<R, String>]) -> bool {
-    let mut bodies = runs.iter().flatten().map(|run| &run.borrow().body);
+fn has_one_body<R: AsRef<Outcome>>(runs: &[Result<R, String>]) -> bool {
+    let mut bodies = runs.iter().flatten().map(|run| &run.as_ref().body);
     let Some(first) = bodies.next().map(every_number) else { return true };
     bodies.all(|body| every_number(body) == first)
 }
@@ -82,9 +81,9 @@ fn every_number(body: &Model) -> String {
 }
 
 /// The trial that gives the body: of those whose data are not bad the one whose markers lie nearest to their body.
-fn first_of<R: Borrow<Outcome>>(runs: &[Result<R, String>]) -> Option<usize> {
+fn first_of<R: AsRef<Outcome>>(runs: &[Result<R, String>]) -> Option<usize> {
     let rank = |k: &usize| {
-        let outcome = runs[*k].as_ref().ok()?.borrow();
+        let outcome = runs[*k].as_ref().ok()?.as_ref();
         let is_bad = outcome.quality.state == QualityState::Bad;
         Some((is_bad, marker_rms_m(outcome)))
     };
@@ -95,7 +94,7 @@ fn first_of<R: Borrow<Outcome>>(runs: &[Result<R, String>]) -> Option<usize> {
     })
 }
 
-fn again_with_one_body<R: Borrow<Outcome>>(
+fn again_with_one_body<R: AsRef<Outcome>>(
     first: usize,
     runs: Vec<Result<R, String>>,
     trials: &[&PlannedTrial],
@@ -104,7 +103,7 @@ fn again_with_one_body<R: Borrow<Outcome>>(
     let mass_kg = median_mass(&runs);
     let of_first = VisitRun { trial: first, mass_kg, body: None };
     let Some(own) = run(&[of_first]).pop() else { return runs };
-    let body = own.as_ref().ok().and_then(|run| subject(run.borrow())).cloned();
+    let body = own.as_ref().ok().and_then(|run| subject(run.as_ref())).cloned();
     let mass_kg = mass_kg.filter(|_| body.is_none());
     let others = (0..runs.len()).filter(|k| *k != first && runs[*k].is_ok());
     let others: Vec<VisitRun> = others.map(|trial| VisitRun { trial, mass_kg, body: body.clone() }).collect();
@@ -113,9 +112,9 @@ fn again_with_one_body<R: Borrow<Outcome>>(
         runs[order.trial] = found;
     }
     runs[first] = own;
-    let of_first = runs[first].as_ref().ok().map(|run| every_number(&run.borrow().body));
+    let of_first = runs[first].as_ref().ok().map(|run| every_number(&run.as_ref().body));
     let refused = runs.into_iter().map(|run| match run {
-        Ok(run) if Some(every_number(&run.borrow().body)) != of_first => Err(format!(
+        Ok(run) if Some(every_number(&run.as_ref().body)) != of_first => Err(format!(
             "its body is another one than that of {}: a session has one body. hint: state the same model for all trials, or leave this one out (`exclude` in trials.toml)",
             trials[first].name
         )),
@@ -159,9 +158,9 @@ fn marker_rms_m(outcome: &Outcome) -> f64 {
 }
 
 /// Median mass of the trials whose data are not bad, or of all.
-fn median_mass<R: Borrow<Outcome>>(runs: &[Result<R, String>]) -> Option<f64> {
+fn median_mass<R: AsRef<Outcome>>(runs: &[Result<R, String>]) -> Option<f64> {
     let masses = |is_counted: fn(&Outcome) -> bool| {
-        let counted = runs.iter().flatten().map(|run| run.borrow()).filter(|outcome| is_counted(outcome));
+        let counted = runs.iter().flatten().map(|run| run.as_ref()).filter(|outcome| is_counted(outcome));
         median(counted.map(|outcome| outcome.body.mass()))
     };
     masses(|outcome| outcome.quality.state != QualityState::Bad).or_else(|| masses(|_| true))

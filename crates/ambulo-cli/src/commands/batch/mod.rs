@@ -6,13 +6,15 @@ mod tables;
 mod trial;
 
 use super::side_by_side::{processors, side_by_side};
-use super::trials::{Plan, PlannedTrial, Wanted, apart, files_in, plan, planned_by};
+use super::trials::{Origin, files_in, plan};
 use crate::Completion;
-use crate::args::BatchArgs;
+use crate::args::{BatchArgs, TrialWords};
 use crate::caller::Caller;
-use crate::files::ending;
+use crate::files::FilesOf;
 use crate::printer::{self, BatchCounts, BatchRow};
 use crate::record::hash;
+use ambulo::job::ending;
+use ambulo::job::trials::{Plan, PlannedTrial, Wanted};
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use anyhow::{Result, bail};
 use ledger::{Description, Ledger};
@@ -30,19 +32,20 @@ const SCHEDULERS: [&str; 4] = ["SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "SGE_TA
 const QUOTED: usize = 3;
 
 pub(crate) fn run(args: &BatchArgs) -> Result<Completion> {
-    compute(args, &Caller::default())
+    compute(args, &args.of_trials()?, &Caller::default())
 }
 
 /// Computes a batch into its folder. A caller that stops it leaves the open part open.
-pub(crate) fn compute(args: &BatchArgs, caller: &Caller) -> Result<Completion> {
+pub(crate) fn compute(args: &BatchArgs, of_trials: &TrialWords, caller: &Caller) -> Result<Completion> {
     let in_job = SCHEDULERS.iter().any(|name| env::var_os(name).is_some());
     let threads = args.jobs.map_or_else(|| if in_job { 1 } else { processors() }, |jobs| jobs as usize);
     let (root, mut plan) = planned(args, threads)?;
-    let (words, keep, caller) = (args.options.clone(), args.keep.clone(), caller.clone());
-    let work = Work { root, words, keep, caller, ..Work::default() };
-    let Some(first) = plan.trials.first() else { bail!("{}", nothing_found(args, &plan)) };
-    let [mass, height] = work.check(first)?;
-    plan.take_size(&args.source, mass, height)?;
+    let (options, keep, caller) = (of_trials.clone(), args.keep.clone(), caller.clone());
+    let work = Work { root, options, keep, caller, ..Work::default() };
+    if plan.trials.is_empty() {
+        bail!("{}", nothing_found(args, &plan));
+    }
+    plan.take_size(&args.source, of_trials.job.size)?;
     let all = args.limit.map_or(usize::MAX, |limit| limit as usize).min(plan.trials.len());
     let own = plan.trials.iter().take(all).skip(args.shard.index).step_by(args.shard.count);
     let trials: Vec<&PlannedTrial> = own.collect();
@@ -50,7 +53,8 @@ pub(crate) fn compute(args: &BatchArgs, caller: &Caller) -> Result<Completion> {
         printer::batch_plan(&trials, &plan.others, args.print)?;
         return Ok(Completion::Passed);
     }
-    let ledger = Ledger::open(&args.output, args.shard, &description(args, &plan.trials[..all]), args.resume)?;
+    let ledger =
+        Ledger::open(&args.output, args.shard, &description(args, of_trials, &plan.trials[..all]), args.resume)?;
     let batch = Batch {
         args,
         work: &work,
@@ -65,7 +69,7 @@ pub(crate) fn compute(args: &BatchArgs, caller: &Caller) -> Result<Completion> {
         rows.extend(batch.part(number, part)?);
     }
     if let Some(tables) = ledger.complete(all, args.part as usize)? {
-        page::write(args, &plan.trials, &tables)?;
+        page::write(args, of_trials, &plan.trials, &tables)?;
     }
     let counts = BatchCounts::of(&rows);
     if counts.computed == 0 && !rows.is_empty() {
@@ -88,24 +92,26 @@ fn planned(args: &BatchArgs, threads: usize) -> Result<(PathBuf, Plan)> {
             source.display()
         );
     }
+    let files = &mut FilesOf(&Caller::default());
     match ending(source).as_str() {
         "csv" | "jsonl" if source.is_file() => {
             let root = source.parent().unwrap_or(Path::new("")).to_owned();
-            Ok((root, planned_by(source)?))
+            Ok((root, Plan::of_list(source, files)?))
         }
         "b3d" if source.is_file() => {
             let root = source.parent().unwrap_or(Path::new("")).to_owned();
-            Ok((root, Plan::of_subject(source)?))
+            Ok((root, Plan::of_subject(source, files)))
         }
         _ => {
             let wanted = Wanted::Motion;
-            Ok((source.clone(), plan(source, wanted, &files_in(source, wanted)?, threads)?))
+            let found = files_in(source, wanted)?;
+            Ok((source.clone(), plan(source, wanted, (Origin::Folder, &found), threads)?))
         }
     }
 }
 
-/// `trials` are the trials of all shards.
-fn description(args: &BatchArgs, trials: &[PlannedTrial]) -> Description {
+/// `trials` are those of all shards.
+fn description(args: &BatchArgs, of_trials: &TrialWords, trials: &[PlannedTrial]) -> Description {
     let names: Vec<&str> = trials.iter().map(|trial| trial.name.as_str()).collect();
     Description {
         version: env!("AMBULO_VERSION").to_owned(),
@@ -113,7 +119,7 @@ fn description(args: &BatchArgs, trials: &[PlannedTrial]) -> Description {
         part: args.part as usize,
         limit: args.limit,
         keep: args.keep.clone(),
-        options: apart(&args.options).iter().map(|word| word.to_string_lossy().into_owned()).collect(),
+        options: of_trials.apart().iter().map(|word| word.to_string_lossy().into_owned()).collect(),
         trials: (args.shard.count > 1).then(|| hash(names.join("\n").as_bytes())),
     }
 }

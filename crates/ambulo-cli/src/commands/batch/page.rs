@@ -1,10 +1,10 @@
 //! `summary.html`: the page of a batch, made from its tables of trials.
 
 use super::rows_of;
-use crate::args::BatchArgs;
-use crate::commands::trials::PlannedTrial;
+use crate::args::{BatchArgs, TrialWords};
 use crate::files;
 use crate::printer::BatchRow;
+use ambulo::job::trials::PlannedTrial;
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use ambulo_report::{BATCH_QUANTITIES, BatchTrial, batch_page};
 use anyhow::Result;
@@ -13,11 +13,16 @@ use std::collections::BTreeMap;
 const PAGE: &str = "summary.html";
 
 /// Writes the page. Trials are sorted by name, so that shards do not change the order.
-pub(super) fn write(args: &BatchArgs, planned: &[PlannedTrial], tables: &[ParquetTable]) -> Result<()> {
+pub(super) fn write(
+    args: &BatchArgs,
+    of_trials: &TrialWords,
+    planned: &[PlannedTrial],
+    tables: &[ParquetTable],
+) -> Result<()> {
     let planned: BTreeMap<&str, &PlannedTrial> = planned.iter().map(|trial| (trial.name.as_str(), trial)).collect();
     let command = |name: &str| {
         let output = format!("{}-page", name.replace(|c: char| !c.is_alphanumeric(), "-").trim_start_matches('-'));
-        planned.get(name).map(|trial| trial.files.command(&args.options, &output))
+        planned.get(name).map(|trial| of_trials.command(&trial.files, &output))
     };
     let mut trials: Vec<(BatchRow, BatchTrial)> = tables.iter().flat_map(trials_of).collect();
     trials.sort_by(|(_, a), (_, b)| a.name.cmp(&b.name));

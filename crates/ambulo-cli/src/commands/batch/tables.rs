@@ -1,7 +1,7 @@
 //! The tables of a part: trials, frames, cycles and events.
 
 use super::trial::{Computed, Key};
-use crate::commands::trials::PlannedTrial;
+use ambulo::job::trials::PlannedTrial;
 use ambulo::motion::EventKind;
 use ambulo_formats::parquet::{Column, ColumnValues, ParquetTable};
 use serde_json::{Value, json};

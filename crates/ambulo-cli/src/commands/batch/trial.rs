@@ -1,20 +1,20 @@
 //! One trial of a batch: its key, and what was computed.
 
-use crate::args::ForcesArgs;
+use crate::args::TrialWords;
 use crate::caller::Caller;
-use crate::commands::bids;
-use crate::commands::forces::{self, Shared};
-use crate::commands::trials::{PlannedTrial, apart, relative, sentence};
+use crate::commands::forces;
+use crate::commands::trials::sentence;
 use crate::printer;
 use crate::record::{hash, hash_of_file};
 use ambulo::analysis::Analysis;
+use ambulo::job::trials::{PlannedTrial, relative};
+use ambulo::job::{Shared, bids_files_beside};
 use ambulo::motion::Event;
 use ambulo_formats::table::Table;
 use ambulo_results::{CycleRow, Keep, cycle_rows, unit_of};
 use anyhow::{Context, Error, Result};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -27,8 +27,8 @@ const PREFIXES: [(&str, &str); 2] = [("grf_measured.mot", "measured_"), ("clinic
 pub(super) struct Work {
     /// The folder that names of trials begin at.
     pub(super) root: PathBuf,
-    /// Options of `ambulo forces`.
-    pub(super) words: Vec<OsString>,
+    /// The options of every trial.
+    pub(super) options: TrialWords,
     /// Tables that are kept.
     pub(super) keep: Vec<String>,
     /// Who may stop the computation.
@@ -68,34 +68,10 @@ pub(super) struct FrameColumn {
 }
 
 impl Work {
-    /// The options of a trial.
-    fn options(&self, trial: &PlannedTrial) -> Result<ForcesArgs> {
-        // The parser also prints the usage line of another command.
-        trial.files.options(&self.words).map_err(|refused| {
-            let text = refused.render().to_string();
-            let first = text.lines().next().unwrap_or_default();
-            Error::msg(format!("options after `--`: {}", first.trim_start_matches("error: ")))
-        })
-    }
-
-    /// Checks the options without computing anything.
-    ///
-    /// Returns the mass [kg] and the stature [m] that the words state.
-    pub(super) fn check(&self, trial: &PlannedTrial) -> Result<[Option<f64>; 2]> {
-        self.options(trial)?;
-        let options = ForcesArgs::of(&trial.files.recording, &self.words).map_err(Error::from)?;
-        let defaults = ForcesArgs::of(&trial.files.recording, &[]).map_err(Error::from)?;
-        let chooses_folder = options.output != defaults.output || options.keep != defaults.keep;
-        if chooses_folder {
-            anyhow::bail!("options after `--`: a batch has its own -o and --keep. hint: give them before `--`");
-        }
-        Ok([options.subject.mass, options.subject.height])
-    }
-
     /// The key of a trial; files that cannot be read have no hash.
     pub(super) fn key(&self, trial: &PlannedTrial) -> Key {
         let files = &trial.files;
-        let words = apart(&self.words);
+        let words = self.options.apart();
         let of_words = words.iter().map(Path::new).filter(|path| path.is_file());
         let named =
             [&files.standing, &files.model, &files.grf, &files.loads].into_iter().flatten().map(PathBuf::as_path);
@@ -109,14 +85,14 @@ impl Work {
             Some(_) => self.shared_hash(recording),
             None => hash_of_file(recording).unwrap_or_default(),
         };
-        let of_bids = bids::beside(recording).into_iter().flatten().filter(|path| path.is_file());
+        let of_bids = bids_files_beside(recording).into_iter().flatten().filter(|path| path.is_file());
         let of_bids = of_bids.map(|path| (shown(&path), hash_of_file(&path).unwrap_or_default()));
         let others = named.chain(of_words).map(|path| (shown(path), self.shared_hash(path)));
         let inputs: Vec<(String, String)> =
             std::iter::once((shown(recording), of_recording)).chain(of_bids).chain(others).collect();
         let mut text = format!("{}\n{:?}\n{:?}\n", env!("AMBULO_VERSION"), words, self.keep);
         // Writing to memory does not fail.
-        let _ = write!(text, "{:?} {:?} {:?} {:?}", files.trial, files.mass, files.height, trial.broken);
+        let _ = write!(text, "{:?} {:?} {:?} {:?}", files.trial, files.size.mass_kg, files.size.height_m, trial.broken);
         for (name, hash) in &inputs {
             let _ = write!(text, "\n{name} {hash}");
         }
@@ -147,7 +123,8 @@ impl Work {
     }
 
     fn computed(&self, trial: &PlannedTrial) -> Result<Computed> {
-        let run = forces::compute_with(&self.options(trial)?, &self.caller, &self.shared)?;
+        let TrialWords { job, outputs, .. } = &self.options;
+        let run = forces::compute_with(&trial.files.job(job), outputs.clone(), &self.caller, &self.shared)?;
         let keep = Keep::of_names(&self.keep);
         let (files, mut summary) = run.tables_for(&keep)?;
         let Analysis { events, .. } = &run.outcome.analysis;

@@ -8,6 +8,7 @@ mod table;
 use crate::args::ConvertArgs;
 use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Findings};
+use ambulo::job::ending;
 use anyhow::{Result, bail};
 use std::path::PathBuf;
 
@@ -28,7 +29,7 @@ struct Converted {
 }
 
 pub(crate) fn run(args: &ConvertArgs) -> Result<Completion> {
-    let (from, to) = (files::ending(&args.input), files::ending(&args.output));
+    let (from, to) = (ending(&args.input), ending(&args.output));
     let converted = if args.input.is_dir() { of_folder(args, &to) } else { of_file(args, &from, &to) }?;
     let inputs: Vec<PathBuf> =
         [Some(&args.input), args.model.as_ref(), args.rig.as_ref()].into_iter().flatten().cloned().collect();

@@ -2,7 +2,8 @@
 
 use super::Sheet;
 use crate::caller::Caller;
-use crate::commands::bids::{self, BidsFiles};
+use crate::files::FilesOf;
+use ambulo::job::{BidsFiles, read_bids};
 use ambulo::motion::is_bids_markers;
 use ambulo_formats::bids_motion::{BidsChannel, BidsMotion};
 use anyhow::Result;
@@ -11,7 +12,7 @@ use std::path::Path;
 
 /// Reads the motion and the files next to it.
 pub(super) fn describe(path: &Path) -> Result<Sheet> {
-    let BidsFiles { motion, rate_hz, .. } = bids::read(&Caller::default(), path)?;
+    let BidsFiles { motion, rate_hz, .. } = read_bids(&mut FilesOf(&Caller::default()), path)?;
     let mut sheet = Sheet::of("motion of a BIDS data set");
     let rate_hz = rate_hz.or(motion.rate_hz);
     sheet.value("frames", motion.frames());

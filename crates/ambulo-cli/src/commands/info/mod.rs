@@ -17,12 +17,13 @@ pub(crate) use sheet::Sheet;
 
 use crate::args::InfoArgs;
 use crate::{Completion, files, printer};
+use ambulo::job::ending;
 use ambulo_formats::external_loads::ExternalLoads;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
 pub(crate) fn run(args: &InfoArgs) -> Result<Completion> {
-    let ending = files::ending(&args.file);
+    let ending = ending(&args.file);
     // Of a .b3d only the header is read, and a BIDS motion is several files.
     if ["b3d", "tsv"].contains(&ending.as_str()) {
         if args.markers.is_some() {
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Completion> {
 }
 
 fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
-    match files::ending(path).as_str() {
+    match ending(path).as_str() {
         "c3d" => c3d::describe(path, bytes),
         "trc" => markers::describe_trc(path, bytes),
         "bvh" => bvh::describe(path, bytes),

@@ -2,7 +2,8 @@
 
 use super::Sheet;
 use crate::caller::Caller;
-use crate::commands::forces::subject::read_header;
+use crate::files::FilesOf;
+use ambulo::job::read_header;
 use ambulo::motion::missing_force_reasons;
 use ambulo_formats::b3d::{Header, TrialHeader};
 use anyhow::Result;
@@ -10,7 +11,7 @@ use std::path::Path;
 
 /// Only the header is read, whatever the size of the file.
 pub(super) fn describe(path: &Path) -> Result<Sheet> {
-    let header = read_header(&Caller::default(), path)?;
+    let header = read_header(&mut FilesOf(&Caller::default()), path)?;
     let mut sheet = Sheet::of("subject of AddBiomechanics");
     let stated = |value: f64| Some(value).filter(|value| *value > 0.0);
     sheet.value("version", header.version);

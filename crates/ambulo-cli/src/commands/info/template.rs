@@ -3,6 +3,7 @@
 use crate::args::InfoArgs;
 use crate::files;
 use ambulo::findings::Findings;
+use ambulo::job::{ending, table};
 use ambulo::kinematics::marker_proposal::{MarkerProposals, propose_markers};
 use ambulo::model::marker_set::{MarkerSet, marker_template};
 use ambulo::motion::{Heading, is_marker_table};
@@ -15,11 +16,11 @@ pub(super) fn write(args: &InfoArgs, target: &Path, bytes: &[u8]) -> Result<Stri
     files::check_target(target, std::slice::from_ref(&args.file), args.replace.existing())?;
     let shown = args.file.display().to_string();
     let mut findings = Findings::default();
-    let file = match files::ending(&args.file).as_str() {
+    let file = match ending(&args.file).as_str() {
         "c3d" => LaboratoryFile::from_c3d(bytes, &shown, &mut findings).with_context(|| shown.clone())?,
         "trc" => LaboratoryFile::from_trc(bytes, &shown, &mut findings).with_context(|| shown.clone())?,
         "csv" => {
-            let (table, _) = files::parse_table(&args.file, bytes)?;
+            let (table, _) = table(&args.file, bytes)?;
             if !is_marker_table(&table) {
                 bail!(
                     "{shown}: the table has no three columns per marker; --markers is for markers (.c3d, .trc, .csv)"

@@ -4,8 +4,8 @@
 //! its path, the names in trials.toml, those in the recordings, and those of models from files.
 
 use super::Finished;
-use crate::commands::trials::Plan;
 use crate::files;
+use ambulo::job::trials::Plan;
 use ambulo_report::Session;
 use std::cmp::Reverse;
 use std::path::Path;

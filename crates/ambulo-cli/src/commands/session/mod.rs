@@ -7,19 +7,20 @@ mod visit;
 
 use super::run_files::MotionRun;
 use super::side_by_side::processors;
-use super::trials::{Plan, PlannedTrial, apart};
-use crate::args::SessionArgs;
+use crate::args::{Outputs, SessionArgs, TrialWords};
 use crate::caller::Caller;
 use crate::record::{hash_of_file, run_id};
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
+use ambulo::job::Job;
+use ambulo::job::trials::{Plan, PlannedTrial};
+use ambulo::job::visit::of_all_trials;
 use ambulo_report::{ComparedSession, ComputedTrial, ReferenceGroup, Session, SessionFacts, SessionTrial};
 use ambulo_results::{OutputFile, summary_json};
 use anonymous::Anonymous;
 use anyhow::{Result, bail};
 use one_body::Visit;
 use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -29,11 +30,11 @@ const NORM: &str = "norm.json";
 const QUOTED: usize = 3;
 
 pub(crate) fn run(args: &SessionArgs) -> Result<Completion> {
-    compute(args, &Caller::default())
+    compute(args, &args.of_trials()?, &Caller::default())
 }
 
 /// Computes a session into its folder. A caller that stops it leaves the folder as it was.
-pub(crate) fn compute(args: &SessionArgs, caller: &Caller) -> Result<Completion> {
+pub(crate) fn compute(args: &SessionArgs, of_trials: &TrialWords, caller: &Caller) -> Result<Completion> {
     let threads = args.jobs.map_or_else(processors, |jobs| jobs as usize);
     let (root, mut plan) = visit::of(&args.source, threads)?;
     visit::check_person(&root, &plan)?;
@@ -47,7 +48,9 @@ pub(crate) fn compute(args: &SessionArgs, caller: &Caller) -> Result<Completion>
     other_sessions::check_output(args, &root, &recordings)?;
     let earlier = args.compare.as_deref().map(other_sessions::read).transpose()?;
     let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
-    let computing = Computing { words: &args.options, threads, print: args.print, caller };
+    let job = of_all_trials(of_trials.job.clone());
+    let outputs = of_trials.outputs.clone();
+    let computing = Computing { job, outputs, threads, print: args.print, caller };
     let group = args.norm.as_deref().map(|norm| other_sessions::group(norm, &computing)).transpose()?;
     let person = computing.person(&root, &plan, &trials)?;
     if !person.session.has_cycles() {
@@ -58,15 +61,16 @@ pub(crate) fn compute(args: &SessionArgs, caller: &Caller) -> Result<Completion>
         true => Anonymous::of(&root, &plan, &person.names, &person.models).applied(finished),
         false => finished,
     };
-    let summary = save(args, &target, &plan, finished)?;
+    let summary = save(args, &options(args, of_trials), &target, &plan, finished)?;
     printer::session(&summary, &args.output, args.print)?;
     Ok(Completion::Passed)
 }
 
 /// How trials are computed.
 struct Computing<'a> {
-    /// Options of `ambulo forces`.
-    words: &'a [OsString],
+    /// The job of all trials.
+    job: Job,
+    outputs: Outputs,
     threads: usize,
     print: crate::args::PrintArgs,
     /// Who may stop the computation.
@@ -85,8 +89,8 @@ impl Computing<'_> {
     fn person(&self, root: &Path, plan: &Plan, trials: &[&PlannedTrial]) -> Result<PersonSession> {
         visit::check_stated(root, trials)?;
         visit::check_standing(root, plan, trials)?;
-        let visit = Visit { root, trials, words: self.words, threads: self.threads, caller: self.caller };
-        visit.check()?;
+        let Computing { job, outputs, threads, caller, .. } = self;
+        let visit = Visit { root, trials, job, outputs, threads: *threads, caller };
         let begun = AtomicUsize::new(0);
         let computed = visit.compute(&|k| {
             let count = begun.fetch_add(1, Ordering::Relaxed) + 1;
@@ -150,6 +154,7 @@ fn finished(args: &SessionArgs, mut session: Session, inputs: Inputs<'_>) -> Fin
 /// Writes all files; returns the summary.
 fn save(
     args: &SessionArgs,
+    options: &str,
     target: &ResultTarget,
     plan: &Plan,
     finished: Finished,
@@ -165,7 +170,7 @@ fn save(
     }
     let read = inputs(args, plan);
     let mut summary = compared.session.summary;
-    summary.run_id = run_id(&options(args), &read, &Caller::default())?;
+    summary.run_id = run_id(options, &read, &Caller::default())?;
     target.replace(&written, &read, &mut |files: BTreeMap<String, String>| {
         summary.files = files;
         Ok(summary_json(&summary)?)
@@ -214,13 +219,13 @@ fn inputs(args: &SessionArgs, plan: &Plan) -> Vec<PathBuf> {
 
 /// The command with the options that matter for the results. Where the folders lie does not, nor, in an anonymous session, their names, which could be
 /// guessed and then confirmed by the id of the run.
-fn options(args: &SessionArgs) -> String {
+fn options(args: &SessionArgs, of_trials: &TrialWords) -> String {
     let (output, jobs, dry_run, replace, print) = Default::default();
     let name = |path: &Path| PathBuf::from(files::last(&path.canonicalize().unwrap_or_else(|_| path.to_owned())));
     let name = |path: &Path| if args.anonymous { PathBuf::new() } else { name(path) };
     let (compare, norm) = (args.compare.as_deref().map(name), args.norm.as_deref().map(name));
     let source = args.source.iter().map(|path| name(path)).collect();
-    let options = apart(&args.options);
+    let options = of_trials.apart();
     let args = SessionArgs { source, options, output, compare, norm, jobs, dry_run, replace, print, ..args.clone() };
     format!("session {args:?}")
 }

@@ -3,9 +3,9 @@
 use super::{Computing, visit};
 use crate::args::{Existing, SessionArgs};
 use crate::commands::result_folder::ResultFolder;
-use crate::commands::trials::{Plan, PlannedTrial};
 use crate::record::Record;
 use crate::{files, printer};
+use ambulo::job::trials::{Plan, PlannedTrial};
 use ambulo_report::{ReferenceGroup, Session, session_from_files};
 use ambulo_results::SUMMARY;
 use anyhow::{Context, Error, Result, bail};

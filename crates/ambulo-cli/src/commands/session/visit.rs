@@ -1,7 +1,8 @@
 //! The trials of one person, and what a session refuses: several persons, several standing trials.
 
-use crate::commands::trials::{LIST, Plan, PlannedTrial, Wanted, files_in, listed, plan, plan_listed};
+use crate::commands::trials::{Origin, files_in, listed, plan};
 use crate::record::hash_of_file;
+use ambulo::job::trials::{LIST, Plan, PlannedTrial, Wanted};
 use anyhow::{Result, bail};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -15,7 +16,7 @@ pub(super) fn of(source: &[PathBuf], threads: usize) -> Result<(PathBuf, Plan)> 
         [folder] if !folder.is_file() => Ok((folder.clone(), planned(folder, threads)?)),
         files => {
             let (root, found) = listed(files)?;
-            let plan = with_trials(&root, plan_listed(&root, Wanted::Motion, &found, threads)?)?;
+            let plan = with_trials(&root, plan(&root, Wanted::Motion, (Origin::List, &found), threads)?)?;
             Ok((root, plan))
         }
     }
@@ -24,7 +25,7 @@ pub(super) fn of(source: &[PathBuf], threads: usize) -> Result<(PathBuf, Plan)> 
 /// The trials of a folder, one person or several.
 pub(super) fn planned(folder: &Path, threads: usize) -> Result<Plan> {
     let wanted = Wanted::Motion;
-    with_trials(folder, plan(folder, wanted, &files_in(folder, wanted)?, threads)?)
+    with_trials(folder, plan(folder, wanted, (Origin::Folder, &files_in(folder, wanted)?), threads)?)
 }
 
 fn with_trials(folder: &Path, plan: Plan) -> Result<Plan> {

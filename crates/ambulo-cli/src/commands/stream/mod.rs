@@ -12,12 +12,12 @@ mod markers;
 mod numbering;
 mod page_server;
 
-use super::forces::parse_model;
 use crate::args::{Endpoint, StreamArgs};
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
 use ambulo::ground::stream::{Stream, StreamError, StreamSettings};
+use ambulo::job;
 use ambulo::model::Model;
 use ambulo_report::page::live_page;
 use ambulo_results::stream_columns;
@@ -51,7 +51,7 @@ impl Setup<'_> {
 
 pub(crate) fn run(args: &StreamArgs) -> Result<Completion> {
     let mut findings = Findings::default();
-    let model = parse_model(&files::read(&args.model)?, &args.model, &mut findings)?;
+    let model = job::model(&files::read(&args.model)?, &args.model, &mut findings)?;
     let settings = StreamSettings { delay_s: 1e-3 * args.delay, ..StreamSettings::at_rate(args.rate) };
     let mut setup = Setup { args, model, settings, page: None };
     for finding in findings.as_slice() {

@@ -1,9 +1,7 @@
 //! The files of a folder and of the folders in it.
 
-use super::Wanted;
-use crate::commands::bids;
-use crate::files::ending;
 use crate::record::Record;
+use ambulo::job::trials::{FoundFile, Wanted};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,57 +9,6 @@ use std::path::{Path, PathBuf};
 
 /// More folders inside each other are a mistake, such as a link to the root of a disk.
 const DEEPEST: usize = 32;
-/// Endings of the files that may be a part of a trial with force plates.
-const ENDINGS: [&str; 6] = ["c3d", "trc", "mot", "sto", "b3d", "osim"];
-/// Endings of other recordings of motion.
-const OF_MOTION: [&str; 3] = ["bvh", "npz", "mvnx"];
-/// The description of a BIDS data set, in its folder.
-const BIDS: &str = "dataset_description.json";
-/// Folders of a BIDS data set that have no recordings of their own: originals and results of these recordings, programs and pictures.
-const NOT_BIDS_RECORDINGS: [&str; 4] = ["sourcedata/", "derivatives/", "code/", "stimuli/"];
-
-/// A file that may be a part of a trial.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct FoundFile {
-    pub(crate) path: PathBuf,
-    /// Its path from the folder of all trials, with `/`.
-    pub(super) name: String,
-    /// The folder whose standing trial and model belong to it, in the same form; empty for the folder of all trials.
-    pub(super) folder: String,
-}
-
-impl FoundFile {
-    /// The folder that it lies in, in the same form.
-    pub(super) fn own_folder(&self) -> &str {
-        self.name.rsplit_once('/').map_or("", |(folder, _)| folder)
-    }
-
-    pub(super) fn ending(&self) -> String {
-        ending(&self.path)
-    }
-
-    /// Whether a file with this name belongs to a trial, with or without measured forces.
-    fn may_be_part(&self) -> bool {
-        let ending = self.ending();
-        ENDINGS.contains(&ending.as_str()) || OF_MOTION.contains(&ending.as_str()) || self.is_bids_motion()
-    }
-
-    /// Whether a file with this name is the motion of a BIDS data set.
-    pub(super) fn is_bids_motion(&self) -> bool {
-        bids::beside(&self.path).is_some()
-    }
-
-    /// The subject of a BIDS data set that the file belongs to.
-    pub(super) fn bids_subject(&self) -> Option<&str> {
-        let is_subject = |part: &&str| part.starts_with("sub-");
-        self.folder.split('/').find(is_subject).filter(|_| self.is_bids_motion())
-    }
-
-    /// The name without folder and ending, in lower case.
-    pub(super) fn stem(&self) -> String {
-        self.path.file_stem().unwrap_or_default().to_string_lossy().to_lowercase()
-    }
-}
 
 /// All files that may be parts of trials, in the order of their names. Hidden files and folders are left out, and result folders of this
 /// program, whose motion is not a recording.
@@ -82,13 +29,8 @@ pub(crate) fn files_in(root: &Path, wanted: Wanted) -> Result<Vec<FoundFile>> {
     }
     let mut found = Vec::new();
     collect(root, "", DEEPEST, &mut BTreeSet::new(), &mut found)?;
-    let may_be = |file: &FoundFile| match wanted {
-        Wanted::Motion => file.may_be_part(),
-        Wanted::MeasuredForces => ENDINGS.contains(&file.ending().as_str()),
-    };
-    let is_bids = root.join(BIDS).is_file();
-    let is_left_out = |file: &FoundFile| NOT_BIDS_RECORDINGS.iter().any(|folder| file.name.starts_with(folder));
-    found.retain(|file| may_be(file) && !(is_bids && is_left_out(file)));
+    let is_bids = root.join(FoundFile::BIDS).is_file();
+    found.retain(|file| file.may_be_part(wanted, is_bids));
     Ok(found)
 }
 
@@ -111,10 +53,10 @@ pub(crate) fn listed(paths: &[PathBuf]) -> Result<(PathBuf, Vec<FoundFile>)> {
         }
         let name = path.strip_prefix(&root).unwrap_or(path).display().to_string().replace('\\', "/");
         let file = FoundFile { path: path.clone(), name, folder: String::new() };
-        if !file.may_be_part() {
+        if !file.may_be_part(Wanted::Motion, false) {
             bail!(
                 "{shown}: this is no file of a trial; expected .{}, or the motion of a BIDS data set",
-                ENDINGS.iter().chain(&OF_MOTION).copied().collect::<Vec<_>>().join(", .")
+                FoundFile::endings().collect::<Vec<_>>().join(", .")
             );
         }
         if found.iter().any(|other| other.path == file.path) {

@@ -1,29 +1,54 @@
-//! Folders and lists of recordings: which files are trials, and which other files belong to each.
+//! Folders and lists of recordings: their files, read side by side for [`ambulo::job::trials`].
 
 mod folder;
-mod manifest;
-mod participants;
-mod plan;
 
 pub(crate) use folder::{files_in, listed};
-pub(crate) use manifest::planned_by;
-pub(crate) use plan::{LIST, Plan, PlannedTrial, plan, plan_listed, relative, sentence};
-use std::ffi::OsString;
 
-/// The recordings that are trials.
+use super::side_by_side::side_by_side;
+use crate::caller::Caller;
+use crate::files::{self, FilesOf};
+use ambulo::job::trials::{Content, FoundFile, Listing, Plan, TrialFolder, Wanted, relative};
+use anyhow::Result;
+use std::path::Path;
+
+/// Where the files of trials come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Wanted {
-    /// Those with measured ground forces.
-    MeasuredForces,
-    /// All recordings of motion.
-    Motion,
+pub(crate) enum Origin {
+    /// All files of a folder.
+    Folder,
+    /// Files that a user listed.
+    List,
 }
 
-/// The words of a command line with each value in a separate word: `--from=0.5` becomes `--from 0.5`. Both mean the same trial.
-pub(crate) fn apart(words: &[OsString]) -> Vec<OsString> {
-    let split = |word: &OsString| -> Vec<OsString> {
-        let option = word.to_str().filter(|word| word.starts_with("--")).and_then(|word| word.split_once('='));
-        option.map_or_else(|| vec![word.clone()], |(name, value)| vec![name.into(), value.into()])
+/// Finds trials and what belongs to them.
+pub(crate) fn plan(
+    root: &Path,
+    wanted: Wanted,
+    (origin, found): (Origin, &[FoundFile]),
+    threads: usize,
+) -> Result<Plan> {
+    let caller = Caller::default();
+    let name = folder_name(root);
+    let folder = TrialFolder { path: root, name: &name, wanted };
+    let listing = match origin {
+        Origin::Folder => Listing::of_folder(folder, found, &mut FilesOf(&caller))?,
+        Origin::List => Listing::of_files(folder, found, &mut FilesOf(&caller))?,
     };
-    words.iter().flat_map(split).collect()
+    let contents: Vec<Content> =
+        side_by_side(listing.recordings(), threads, |k| listing.content(k, &mut FilesOf(&caller)));
+    Ok(listing.plan(&contents, &mut FilesOf(&caller)))
+}
+
+/// The name of a folder, also of `.`.
+pub(crate) fn folder_name(folder: &Path) -> String {
+    files::last(&folder.canonicalize().unwrap_or_else(|_| folder.to_owned()))
+}
+
+/// The error of a recording in a row that has the name of the recording.
+pub(crate) fn sentence(message: &str, hint: Option<String>, recording: &Path, root: &Path) -> String {
+    let message = relative(message, root);
+    let shown = relative(&recording.display().to_string(), root);
+    let own = message.strip_prefix(&shown).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(&message);
+    let sentence = own.trim_end().trim_end_matches('.').to_owned();
+    hint.map_or(sentence.clone(), |hint| format!("{sentence}. hint: {hint}"))
 }

@@ -2,12 +2,13 @@
 
 use super::forces;
 use super::side_by_side::{processors, side_by_side};
-use super::trials::{LIST, Plan, PlannedTrial, Wanted, files_in, plan, sentence};
-use crate::args::ValidateArgs;
+use super::trials::{Origin, files_in, folder_name, plan, sentence};
+use crate::args::{Outputs, ValidateArgs};
 use crate::caller::Caller;
 use crate::record::run_id;
 use crate::replacement::ResultTarget;
-use crate::{Completion, files, printer};
+use crate::{Completion, printer};
+use ambulo::job::trials::{LIST, Plan, PlannedTrial, Wanted};
 use ambulo::study::validation::JudgedTrial;
 use ambulo_report::{ListedTrial, validation_files};
 use ambulo_results::{OutputFile, summary_json};
@@ -51,8 +52,9 @@ pub(crate) fn compute(args: &ValidateArgs, caller: &Caller) -> Result<Validation
 
 fn planned(args: &ValidateArgs) -> Result<Plan> {
     let wanted = Wanted::MeasuredForces;
-    let mut plan = plan(&args.folder, wanted, &files_in(&args.folder, wanted)?, threads(args))?;
-    plan.take_size(&args.folder, args.mass, args.height)?;
+    let found = files_in(&args.folder, wanted)?;
+    let mut plan = plan(&args.folder, wanted, (Origin::Folder, &found), threads(args))?;
+    plan.take_size(&args.folder, args.size())?;
     if plan.trials.is_empty() {
         bail!("{}", nothing_found(args, &plan));
     }
@@ -73,7 +75,7 @@ fn judge_all(args: &ValidateArgs, plan: &Plan, caller: &Caller) -> Result<Valida
     if judged.is_empty() {
         bail!("{}", none_judged(args, &listed));
     }
-    let title = format!("Predicted ground forces judged by the force plates of {}", shown_name(&args.folder));
+    let title = format!("Predicted ground forces judged by the force plates of {}", folder_name(&args.folder));
     let written = validation_files(&title, &listed, &plan.others, &judged)?;
     let (others, read, options) = (plan.others.clone(), inputs(plan), options(args));
     Ok(ValidationRun { listed, others, judged, written, read, options })
@@ -127,7 +129,7 @@ fn judge(args: &ValidateArgs, trial: &PlannedTrial, caller: &Caller) -> Result<J
     if let Some(reason) = &trial.broken {
         return Err(Error::msg(reason.clone()));
     }
-    let run = forces::compute(&args.of_trial(&trial.files)?, caller)?;
+    let run = forces::compute(&args.job_of(&trial.files), Outputs::default(), caller)?;
     let mut judged = JudgedTrial::of(&trial.name, &trial.person, &run.outcome, &run.findings)?;
     if let Some(kind) = &trial.kind {
         judged.kind.clone_from(kind);
@@ -153,14 +155,10 @@ fn listed(trial: &PlannedTrial, root: &Path) -> ListedTrial {
         is_subject: files.trial.is_some(),
         model: of(&files.model),
         forces: of(&files.grf).or_else(|| of(&files.loads)),
-        mass_kg: files.mass,
-        height_m: files.height,
+        mass_kg: files.size.mass_kg,
+        height_m: files.size.height_m,
         error: None,
     }
-}
-
-fn shown_name(folder: &Path) -> String {
-    files::last(&folder.canonicalize().unwrap_or_else(|_| folder.to_owned()))
 }
 
 fn nothing_found(args: &ValidateArgs, plan: &Plan) -> String {
@@ -196,6 +194,6 @@ fn inputs(plan: &Plan) -> Vec<PathBuf> {
 /// The command with the options that matter for the results; where the folder lies does not.
 fn options(args: &ValidateArgs) -> String {
     let (output, jobs, dry_run, replace, print) = Default::default();
-    let folder = shown_name(&args.folder).into();
+    let folder = folder_name(&args.folder).into();
     format!("validate {:?}", ValidateArgs { folder, output, jobs, dry_run, replace, print, ..args.clone() })
 }
