@@ -6,18 +6,17 @@ use ambulo::numerics::{correlation, extremes, finite_mean, mean, median, range, 
 fn statistics_are_those_worked_out_by_hand() {
     let values = [2.0, 4.0, 4.0, 6.0];
     assert_eq!((mean(&values), extremes(&values), range(&values)), (4.0, (2.0, 6.0), 4.0));
-    assert_eq!(rms(&[3.0, -4.0, 0.0, 0.0]), 2.5);
     assert_eq!(sample_deviation(&[1.0, 3.0, 5.0]), Some(2.0));
-    assert_eq!(correlation(&values, &[1.0, 0.0, 0.0, -1.0]), -1.0);
+    assert_eq!((rms(&[3.0, -4.0, 0.0, 0.0]), correlation(&values, &[1.0, 0.0, 0.0, -1.0])), (2.5, -1.0));
 }
 
 #[test]
 fn few_numbers_and_numbers_that_are_not_finite_have_defined_statistics() {
     assert_eq!((mean(&[]), rms(&[])), (0.0, 0.0));
     assert!(finite_mean([]).is_nan() && mean(&[1.0, f64::NAN]).is_nan());
-    assert_eq!(finite_mean([1.0, f64::NAN, 3.0, f64::INFINITY]), 2.0);
     assert_eq!(sample_deviation(&[1.0]), None);
-    assert_eq!(correlation(&[1.0, 2.0], &[3.0, 3.0]), 0.0);
+    let finite = finite_mean([1.0, f64::NAN, 3.0, f64::INFINITY]);
+    assert_eq!((finite, correlation(&[1.0, 2.0], &[3.0, 3.0])), (2.0, 0.0));
 }
 
 #[test]
