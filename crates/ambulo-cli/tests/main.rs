@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
-#[allow(dead_code, unused_imports, reason = "only the description of the command line is used")]
+#[allow(dead_code, unused_imports, unreachable_pub, reason = "only the description of the command line is used")]
 #[path = "../src/args/mod.rs"]
 mod args;
 #[path = "../src/bug_report.rs"]
