@@ -6,6 +6,7 @@
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
+use ambulo::job::Job;
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::kinematics::sensor_fit::{SensorAxes, SensorTrial, fit_sensors};
 use ambulo::model::anthropometry::{Build, SegmentTable};
@@ -17,7 +18,7 @@ use ambulo::motion::{
     segment_poses_from_mvnx, sensors_from_table,
 };
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
-use ambulo::study::{self, LaboratoryFile, MarkerBody, MarkerSource, Settings, Source};
+use ambulo::study::{self, Settings, Source, StatedSize};
 use ambulo_formats::b3d::B3d;
 use ambulo_formats::bids_motion::BidsMotion;
 use ambulo_formats::bvh::Bvh;
@@ -30,6 +31,7 @@ use ambulo_formats::setup::Setup;
 use ambulo_formats::table::{OrientationTable, Table};
 use ambulo_formats::trc::Trc;
 use ambulo_results::Folder;
+use std::path::Path;
 
 /// A check of one input.
 pub type Check = fn(&[u8]);
@@ -291,9 +293,8 @@ pub fn study_markers(bytes: &[u8]) {
     if record.frames() * (record.points.len() + poses) > MOST_SAMPLES {
         return;
     }
-    let Ok(trial) = LaboratoryFile::from_c3d(bytes, "recording", &mut findings) else { return };
-    let body =
-        MarkerBody::BuiltIn { table: SegmentTable::DeLevaFemale, mass_kg: Some(60.0), height_m: None, set: None };
-    let source = Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() });
-    let _ = study::run(source, &Settings::default(), &mut findings);
+    let size = StatedSize { mass_kg: Some(60.0), height_m: None };
+    let job = Job { segments: SegmentTable::DeLevaFemale, size, ..Job::of("recording.c3d") };
+    let read = job.read(&mut |_: &Path| Ok(bytes.to_vec()), &mut findings);
+    let _ = read.and_then(|read| read.run(&mut findings));
 }

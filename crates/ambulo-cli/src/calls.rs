@@ -1,110 +1,113 @@
-//! The verbs as functions that return their results. Options are the words of the command, so that both have the same defaults,
-//! checks and messages.
+//! The verbs as functions that return their results, for bindings to other languages. A recording is computed by a [`Job`]; other options are
+//! stated by the names that the command has for them.
 
-use crate::args::{Args, Command};
+use crate::args::{Command, Options, Outputs, PrintArgs, TrialWords};
 use crate::caller::Caller;
 use crate::commands::{self, Results};
 use crate::failure::Failure;
 use crate::files;
 use ambulo::findings::Findings;
-use ambulo::job;
+use ambulo::job::{self, Job};
 use ambulo::model::Model;
 use ambulo::study::LaboratoryFile;
 use ambulo_formats::table::Table;
 use anyhow::{Error, Result as AnyResult};
-use clap::Parser;
 use std::path::{Path, PathBuf};
 
-/// The results of `ambulo forces` with these words.
+/// The forces of a job, as `ambulo forces` computes them.
 ///
 /// # Errors
 /// Those of the command.
-pub fn forces(words: &[String], caller: &Caller) -> Result<Results, Failure> {
-    named(words, || match parsed("forces", words)? {
-        Command::Forces(args) => Ok(commands::forces::compute(&args.job(), args.outputs(), caller)?.into()),
-        _ => Err(other_verb()),
+pub fn forces(job: &Job, outputs: Outputs, caller: &Caller) -> Result<Results, Failure> {
+    in_one_of(job.files(), || {
+        job.check().map_err(Error::new)?;
+        Ok(commands::forces::compute(job, outputs, caller)?.into())
     })
 }
 
-/// The results of `ambulo walk` with these words.
+/// The calibration of a person, in the form of the file that `ambulo calibrate` writes. `of_all` is the job of all trials.
 ///
 /// # Errors
 /// Those of the command.
-pub fn walk(words: &[String], caller: &Caller) -> Result<Results, Failure> {
-    named(words, || match parsed("walk", words)? {
+pub fn calibrate(trials: &[PathBuf], of_all: &Job, caller: &Caller) -> Result<Vec<u8>, Failure> {
+    let files = trials.iter().map(PathBuf::as_path).chain(of_all.files());
+    in_one_of(files, || {
+        of_all.check().map_err(Error::new)?;
+        let person = commands::calibrate::compute(trials, of_all, PrintArgs::QUIET, caller)?;
+        Ok(person.to_toml().into_bytes())
+    })
+}
+
+/// The results of `ambulo walk` with these options.
+///
+/// # Errors
+/// Those of the command.
+pub fn walk(options: &Options, caller: &Caller) -> Result<Results, Failure> {
+    with_options(options, "walk", |command| match command {
         Command::Walk(args) => Ok(commands::walk::compute(&args, caller)?.into()),
         _ => Err(other_verb()),
     })
 }
 
-/// The results of `ambulo simulate` with these words.
+/// The results of `ambulo simulate` with these options.
 ///
 /// # Errors
 /// Those of the command.
-pub fn simulate(words: &[String], caller: &Caller) -> Result<Results, Failure> {
-    named(words, || match parsed("simulate", words)? {
+pub fn simulate(options: &Options, caller: &Caller) -> Result<Results, Failure> {
+    with_options(options, "simulate", |command| match command {
         Command::Simulate(args) => Ok(commands::simulate::compute(&args, caller)?.into()),
         _ => Err(other_verb()),
     })
 }
 
-/// The results of `ambulo sweep` with these words.
+/// The results of `ambulo sweep` with these options.
 ///
 /// # Errors
 /// Those of the command.
-pub fn sweep(words: &[String], caller: &Caller) -> Result<Results, Failure> {
-    named(words, || match parsed("sweep", words)? {
+pub fn sweep(options: &Options, caller: &Caller) -> Result<Results, Failure> {
+    with_options(options, "sweep", |command| match command {
         Command::Sweep(args) => Ok(commands::sweep::compute(&args, caller)?.into()),
         _ => Err(other_verb()),
     })
 }
 
-/// The results of `ambulo validate` with these words.
+/// The results of `ambulo validate` with these options.
 ///
 /// # Errors
 /// Those of the command.
-pub fn validate(words: &[String], caller: &Caller) -> Result<Results, Failure> {
-    named(words, || match parsed("validate", words)? {
+pub fn validate(options: &Options, caller: &Caller) -> Result<Results, Failure> {
+    with_options(options, "validate", |command| match command {
         Command::Validate(args) => Ok(commands::validate::compute(&args, caller)?.into()),
         _ => Err(other_verb()),
     })
 }
 
-/// Computes what `ambulo batch` computes with these words, and returns the folder of its tables. Nothing is printed if the words have `--quiet`.
+/// Computes what `ambulo batch` computes with these options and this job of every trial, and returns the folder of its tables.
 ///
 /// # Errors
 /// Those of the command; a batch that the caller stopped.
-pub fn batch(words: &[String], caller: &Caller) -> Result<PathBuf, Failure> {
-    named(words, || match parsed("batch", words)? {
+pub fn batch(options: &Options, of_all: Job, outputs: Outputs, caller: &Caller) -> Result<PathBuf, Failure> {
+    with_options(options, "batch", |command| match command {
         Command::Batch(args) => {
-            commands::batch::compute(&args, &args.of_trials().map_err(Error::new)?, caller)?;
+            of_all.check().map_err(Error::new)?;
+            commands::batch::compute(&args, &TrialWords::of_job(of_all, outputs), caller)?;
             Ok(args.output)
         }
         _ => Err(other_verb()),
     })
 }
 
-/// Computes what `ambulo session` computes with these words, and returns the results in its folder. Nothing is printed if the words have `--quiet`.
+/// Computes what `ambulo session` computes with these options and this job of every trial, and returns the results in its folder.
 ///
 /// # Errors
 /// Those of the command; a session that the caller stopped.
-pub fn session(words: &[String], caller: &Caller) -> Result<Results, Failure> {
-    named(words, || match parsed("session", words)? {
+pub fn session(options: &Options, of_all: Job, outputs: Outputs, caller: &Caller) -> Result<Results, Failure> {
+    with_options(options, "session", |command| match command {
         Command::Session(args) => {
-            commands::session::compute(&args, &args.of_trials().map_err(Error::new)?, caller)?;
+            of_all.check().map_err(Error::new)?;
+            commands::session::compute(&args, &TrialWords::of_job(of_all, outputs), caller)?;
             Ok(Results::of_folder(&args.output)?)
         }
-        _ => Err(other_verb()),
-    })
-}
-
-/// The content of the file that `ambulo calibrate` writes with these words.
-///
-/// # Errors
-/// Those of the command.
-pub fn calibrate(words: &[String], caller: &Caller) -> Result<Vec<u8>, Failure> {
-    named(words, || match parsed("calibrate", words)? {
-        Command::Calibrate(args) => Ok(commands::calibrate::compute(&args, caller)?.to_toml().into_bytes()),
         _ => Err(other_verb()),
     })
 }
@@ -155,10 +158,16 @@ fn of_file<T>(path: &Path, call: impl FnOnce() -> AnyResult<T>) -> Result<T, Fai
     call().map_err(|error| Failure::from(error).in_one_of([shown.as_str()].into_iter()))
 }
 
-fn parsed(verb: &str, words: &[String]) -> Result<Command, Failure> {
-    let words = ["ambulo", verb].into_iter().chain(words.iter().map(String::as_str));
-    let args = Args::try_parse_from(words).map_err(|refused| Failure::refused(message(&refused)))?;
-    args.command.ok_or_else(other_verb)
+/// Calls a verb with its options.
+fn with_options<T>(
+    options: &Options,
+    verb: &str,
+    call: impl FnOnce(Command) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let parsed = options.parse(verb).map_err(|refused| Failure::refused(message(&refused)));
+    let values = options.named.iter().filter_map(|(_, value)| value.as_deref()).map(Path::new);
+    let files = values.chain(options.inputs.iter().map(PathBuf::as_path));
+    in_one_of(files, || call(parsed?.ok_or_else(other_verb)?))
 }
 
 /// The refused text, without the usage of the command line.
@@ -169,17 +178,18 @@ fn message(refused: &clap::Error) -> String {
     text.trim_start_matches("error: ").trim_end().to_owned()
 }
 
-/// The words begin with a verb, so no other verb can follow from them.
+/// The parser was given the verb, so it finds no other one.
 fn other_verb() -> Failure {
     Failure::refused("found another command; expected the options of this one".to_owned())
 }
 
 /// Adds the file to an error that begins with the name of one.
-fn named<T>(words: &[String], call: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
-    let value = |option: &'_ str| option.split_once('=').map_or("", |(_, value)| value).len();
-    let values = words.iter().map(|word| {
-        // Only an option has a value; the name of a file may contain the sign.
-        if word.starts_with("--") { &word[word.len() - value(word)..] } else { word.as_str() }
-    });
-    call().map_err(|failure| failure.in_one_of(values))
+fn in_one_of<'a, T>(
+    files: impl Iterator<Item = &'a Path>,
+    call: impl FnOnce() -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    call().map_err(|failure| {
+        let names: Vec<String> = files.map(|file| file.display().to_string()).collect();
+        failure.in_one_of(names.iter().map(String::as_str))
+    })
 }

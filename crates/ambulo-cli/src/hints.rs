@@ -88,12 +88,15 @@ fn option(field: Field) -> &'static str {
         Field::Loads => "`--loads FILE`",
         Field::Plates => "`--plate N=r|l|off`",
         Field::AddedMass => "`--add-mass BODY:KG[:X,Y,Z]`",
+        Field::Feet => "`--right BODY:PREFIX`, `--left BODY:PREFIX`",
         Field::From => "`--from T`",
         Field::To => "`--to T`",
         Field::Ground => {
             "`--predict`, `--track` and `--no-ground` choose the ground forces; `--predict` needs no motion that feet can make"
         }
         Field::Cutoff => "`--cutoff HZ|off`",
+        Field::Order => "`--order N`",
+        Field::Gap => "`--max-gap S`",
         Field::Fit => "`--fit frames|trajectory`",
         Field::ResidualReduction => "`--consistent`",
     }

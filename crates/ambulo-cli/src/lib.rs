@@ -1,7 +1,7 @@
 //! The `ambulo` command: reads files, calls the library, writes files and messages.
 //!
 //! [`command`] is the whole command. [`forces`], [`walk`], [`simulate`], [`sweep`], [`validate`] and [`calibrate`] compute the same as the
-//! verbs of these names from the same words and return the results instead of writing them, for bindings to other languages; [`open`] reads a
+//! verbs of these names and return the results instead of writing them, for bindings to other languages; [`open`] reads a
 //! folder again.
 
 #![cfg_attr(
@@ -22,6 +22,7 @@ mod printer;
 mod record;
 mod replacement;
 
+pub use args::{Options, Outputs};
 pub use caller::Caller;
 pub use calls::{
     batch, calibrate, forces, laboratory, model, open, read, session, simulate, sweep, table, validate, walk,

@@ -7,6 +7,7 @@ mod calls;
 mod failure;
 mod model;
 mod recordings;
+mod request;
 mod results;
 mod smoothing;
 mod stream;

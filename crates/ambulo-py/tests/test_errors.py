@@ -21,7 +21,6 @@ def cases(files):
         (("text.c3d",), {}),
         (("walk.c3d",), {"static": "text.c3d"}),
         (("walk.c3d",), {"mass": -3.0}),
-        (("walk.c3d",), {"figure": "nobody"}),
         (("walk.c3d",), {"start": 3.0, "end": 2.0}),
         (("walk.c3d",), {"plates": {99: "r"}}),
         (("walk.c3d",), {"cutoff": 1e6}),
@@ -60,6 +59,26 @@ def test_a_bad_input_has_the_message_of_the_command(there):
             ambulo.forces(*arguments, **options)
         assert done.stderr == f"error: {refused.value}\n", (arguments, options)
         assert (refused.value.hint or "") in done.stderr
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"figure": "nobody"},
+        {"cutoff": "slow"},
+        {"mass": "heavy"},
+        {"fit": "twice"},
+        {"keep": ["nothing"]},
+        {"predict": True, "track": True},
+        {"predict": True, "ground": False},
+    ],
+)
+def test_a_value_that_is_none_names_its_option(files, options):
+    with pytest.raises(ambulo.InputError) as refused:
+        ambulo.forces(files / "walk.c3d", **options)
+    assert str(refused.value).startswith(tuple(options))
+    with pytest.raises(ambulo.InputError, match="found the option `predct`"):
+        ambulo.batch(files, files / "batch", options={"predct": True})
 
 
 def test_an_error_has_its_file_and_line(there):

@@ -49,6 +49,12 @@ def test_every_option_of_the_command_is_an_argument(verb, function, tmp_path):
         assert re.search(rf"^(?:\w+, )*{name}(?:, \w+)* : ", inspect.getdoc(function), re.MULTILINE), name
 
 
+def test_every_argument_of_forces_is_read():
+    source = (PACKAGE / "src/request.rs").read_text()
+    arms = set(re.findall(r'^ +"(\w+)" =>', source, re.MULTILINE))
+    assert arms == set(inspect.signature(ambulo.forces).parameters)
+
+
 @pytest.mark.parametrize("name", [name for name in ambulo.__all__ if inspect.isfunction(getattr(ambulo, name))])
 def test_functions_are_documented_in_the_form_of_numpy(name):
     text = inspect.getdoc(getattr(ambulo, name))

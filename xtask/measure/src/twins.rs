@@ -18,13 +18,11 @@ use ambulo::analysis::activity::ActivityKind;
 use ambulo::analysis::feasibility::{Reason, Verdict, VerdictState};
 use ambulo::findings::Findings;
 use ambulo::ground::GroundForces;
-use ambulo::model::anthropometry::SegmentTable;
+use ambulo::job::{FileError, Job};
 use ambulo::model::{Displacement, JointAxis, Movement, Side};
 use ambulo::motion::{ForceRecording, Motion};
 use ambulo::spatial::Vec3;
-use ambulo::study::{
-    self, ForceFilter, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Outcome, Settings, Source,
-};
+use ambulo::study::{self, ForceFilter, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::table::Table;
 use std::fs;
 use std::path::Path;
@@ -153,11 +151,8 @@ fn entries(folder: &Path) -> Result<Vec<std::path::PathBuf>, String> {
 
 /// A file on the built-in body, weighed by its own plates.
 fn trial(path: &Path) -> Result<Source, String> {
-    let bytes = fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let trial =
-        LaboratoryFile::from_c3d(&bytes, &file_name(path), &mut Findings::default()).map_err(|e| e.to_string())?;
-    let body = MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg: None, height_m: None, set: None };
-    Ok(Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() }))
+    let mut files = |path: &Path| fs::read(path).map_err(FileError::from);
+    Ok(Job::of(path).read(&mut files, &mut Findings::default()).map_err(|error| error.text())?.source)
 }
 
 /// The verdict on a twin. Motion and forces are filtered already, and are filtered once more as those of a recording are.

@@ -141,11 +141,11 @@ pub(crate) struct ForcesArgs {
 
 /// What is written of a run.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Outputs {
+pub struct Outputs {
     /// How angles of pelvis and hips are measured.
-    pub(crate) convention: Convention,
+    pub convention: Convention,
     /// Names of the outputs; all if there are none.
-    pub(crate) keep: Vec<String>,
+    pub keep: Vec<String>,
 }
 
 impl ForcesArgs {

@@ -3,6 +3,7 @@
 mod batch;
 mod exchange;
 mod forces;
+mod named;
 mod report;
 mod session;
 mod stream;
@@ -11,10 +12,13 @@ mod trial_files;
 mod validate;
 mod values;
 mod walk;
+mod words_of_job;
 
 pub(crate) use batch::{BatchArgs, Shard};
 pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
-pub(crate) use forces::{CalibrateArgs, ForcesArgs, Outputs};
+pub use forces::Outputs;
+pub(crate) use forces::{CalibrateArgs, ForcesArgs};
+pub use named::Options;
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use session::SessionArgs;
 pub(crate) use stream::{LabAxes, MarkerUnit, StreamArgs, StreamFormat};
@@ -92,6 +96,11 @@ pub(crate) enum Existing {
     Kept,
     /// It is replaced (`--force`).
     Replaced,
+}
+
+impl PrintArgs {
+    /// Nothing but errors.
+    pub(crate) const QUIET: PrintArgs = PrintArgs { json: false, quiet: true, verbose: false };
 }
 
 impl ReplaceArgs {

@@ -1,6 +1,7 @@
 //! Options of `ambulo forces` for every trial of a folder: the words after `--`.
 
 use super::forces::{ForcesArgs, Outputs};
+use super::words_of_job::words;
 use ambulo::job::Job;
 use ambulo::job::trials::TrialFiles;
 use clap::error::ErrorKind;
@@ -36,6 +37,11 @@ impl TrialWords {
         }
         let job = Job { recording: None, ..args.job() };
         Ok(TrialWords { words: words.to_vec(), job, outputs: args.outputs() })
+    }
+
+    /// The job of all trials, from a program that has no command line.
+    pub(crate) fn of_job(job: Job, outputs: Outputs) -> TrialWords {
+        TrialWords { words: words(&job, &outputs), job, outputs }
     }
 
     /// The words with each value in a word of its own: `--from=0.5` becomes `--from 0.5`. Both mean the same trial.

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ambulo import _ambulo
 from ambulo._batch import Batch
 from ambulo._errors import InputError
+from ambulo._inputs import Inputs, joined, listed
 from ambulo._person import Person
 from ambulo._recording import Recording
 from ambulo._result import Result
-from ambulo._words import Words, joined, listed, of_forces
 
 if TYPE_CHECKING:
     from ambulo._ambulo import Model
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     _Path = str | os.PathLike[str]
     _Cutoff = float | str
-
-_Verb = Callable[[list[str], list[tuple[str, bytes]]], _ambulo.Results]
 
 
 def model(path: _Path | bytes, name: str | None = None) -> Model:
@@ -198,51 +196,48 @@ def forces(
     docs/GROUND_FORCES.md for predicted forces, docs/CONSISTENCY.md for residual reduction, docs/OPTIMAL.md for tracking, docs/MARKERS.md for the
     body, docs/CONVENTIONS.md for axes and signs.
     """
-    words = Words()
-    if recording is not None:
-        words.input(recording, "recording")
-    words.option("setup", [os.fspath(path) for path in ([setup] if isinstance(setup, (str, os.PathLike)) else setup or [])])
-    words.file("model", model, "model.osim")
-    words.file("smpl", smpl, "smpl.npz")
-    words.file("person", person, "person.toml")
-    words.option("heading", heading)
-    words.option("earth", None if earth is None else ",".join(map(str, earth)))
-    words.file("static", static, "static")
-    words.file("grf", grf, "grf.mot")
-    words.file("loads", loads, "loads.xml")
-    words.file("marker-set", marker_set, "markers.xml")
-    words.file("device", device, "device.sto")
-    words.option("plate", [f"{plate}={foot}" for plate, foot in (plates or {}).items()])
-    words.option("no-ground", not ground)
-    words.options(
-        {
-            "mass": mass,
-            "height": height,
-            "trial": trial,
-            "right": right,
-            "left": left,
-            "predict": predict,
-            "track": track,
-            "refit": refit,
-            "figure": figure,
-            "markers": markers,
-            "fit": fit,
-            "max_gap": max_gap,
-            "convention": convention,
-            "from": start,
-            "to": end,
-            "rate": rate,
-            "filter": filter,
-            "cutoff": cutoff,
-            "force_cutoff": force_cutoff,
-            "order": order,
-            "consistent": consistent,
-            "add_mass": None if add_mass is None else list(add_mass),
-            "thresholds": thresholds,
-            "keep": listed(keep),
-        }
-    )
-    return _computed(_ambulo.forces, words)
+    inputs = Inputs()
+    options = {
+        "recording": inputs.path(recording, "recording"),
+        "setup": [setup] if isinstance(setup, (str, os.PathLike)) else list(setup or []),
+        "model": inputs.path(model, "model.osim"),
+        "smpl": inputs.path(smpl, "smpl.npz"),
+        "person": inputs.path(person, "person.toml"),
+        "heading": heading,
+        "earth": earth,
+        "static": inputs.path(static, "static"),
+        "grf": inputs.path(grf, "grf.mot"),
+        "loads": inputs.path(loads, "loads.xml"),
+        "marker_set": inputs.path(marker_set, "markers.xml"),
+        "device": inputs.path(device, "device.sto"),
+        "plates": plates and dict(plates),
+        "ground": ground,
+        "mass": mass,
+        "height": height,
+        "trial": trial,
+        "right": right,
+        "left": left,
+        "predict": predict,
+        "track": track,
+        "refit": refit,
+        "figure": figure,
+        "markers": markers,
+        "fit": fit,
+        "max_gap": max_gap,
+        "convention": convention,
+        "start": start,
+        "end": end,
+        "rate": rate,
+        "filter": filter,
+        "cutoff": cutoff,
+        "force_cutoff": force_cutoff,
+        "order": order,
+        "consistent": consistent,
+        "add_mass": None if add_mass is None else list(add_mass),
+        "thresholds": thresholds,
+        "keep": keep.split(",") if isinstance(keep, str) else keep and list(keep),
+    }
+    return _warned(_ambulo.forces(options, inputs.files()))
 
 
 def calibrate(recording: Recording | _Path, **options: Any) -> Model:
@@ -334,16 +329,22 @@ def calibrate_person(
     -----
     Method, and errors with and without a calibration: docs/GROUND_FORCES.md.
     """
-    words = Words()
-    for trial in [trials] if isinstance(trials, (Recording, str, os.PathLike)) else trials:
-        words.input(trial, "trial.c3d")
-    words.file("model", model, "model.osim")
-    words.file("static", static, "static")
-    words.file("marker-set", marker_set, "markers.xml")
-    words.option("plate", [f"{plate}={foot}" for plate, foot in (plates or {}).items()])
-    words.options({"mass": mass, "height": height, "figure": figure, "markers": markers, "fit": fit, "max_gap": max_gap})
-    words.option("quiet", True)
-    return Person(_ambulo.calibrate(words.words, words.listed()))
+    inputs = Inputs()
+    named = [trials] if isinstance(trials, (Recording, str, os.PathLike)) else trials
+    paths = [path for trial in named if (path := inputs.path(trial, "trial.c3d"))]
+    options = {
+        "model": inputs.path(model, "model.osim"),
+        "static": inputs.path(static, "static"),
+        "marker_set": inputs.path(marker_set, "markers.xml"),
+        "plates": plates and dict(plates),
+        "mass": mass,
+        "height": height,
+        "figure": figure,
+        "markers": markers,
+        "fit": fit,
+        "max_gap": max_gap,
+    }
+    return Person(_ambulo.calibrate(paths, options, inputs.files()))
 
 
 def validate(
@@ -391,11 +392,8 @@ def validate(
     -----
     Other threads run meanwhile. Which files belong together, and definitions of the errors: docs/VALIDATE.md.
     """
-    words = Words()
-    words.input(folder, "folder")
-    words.options({"mass": mass, "height": height, "figure": figure, "markers": markers, "track": track, "jobs": jobs})
-    words.option("quiet", True)
-    return _computed(_ambulo.validate, words)
+    options = {"mass": mass, "height": height, "figure": figure, "markers": markers, "track": track, "jobs": jobs, "quiet": True}
+    return _warned(_ambulo.validate(folder, options))
 
 
 def batch(
@@ -451,13 +449,8 @@ def batch(
     Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the parts that are closed are kept, and `resume` continues. Which files are
     trials, and the columns of the tables: docs/BATCH.md.
     """
-    words = Words()
-    words.input(source, "source")
-    words.option("output", os.fspath(output))
-    words.options({"jobs": jobs, "shard": shard, "resume": resume, "keep": listed(keep), "part": part, "limit": limit})
-    words.option("quiet", True)
-    words.rest(of_forces(options))
-    return Batch(_ambulo.batch(words.words, words.listed()))
+    own = {"output": os.fspath(output), "jobs": jobs, "shard": shard, "resume": resume, "keep": listed(keep), "part": part}
+    return Batch(_ambulo.batch(source, {**own, "limit": limit, "quiet": True}, dict(options or {})))
 
 
 def session(
@@ -510,13 +503,9 @@ def session(
     -----
     Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`, and nothing is written. Rules and definitions: docs/SESSION.md.
     """
-    words = Words()
-    for path in [folder] if isinstance(folder, (str, os.PathLike)) else folder:
-        words.input(path, "folder")
-    words.option("output", os.fspath(output))
-    words.options({"compare": compare, "norm": norm, "anonymous": anonymous, "jobs": jobs, "force": force, "quiet": True})
-    words.rest(of_forces(options))
-    return Result(_ambulo.session(words.words, words.listed()))
+    source = [folder] if isinstance(folder, (str, os.PathLike)) else list(folder)
+    own = {"output": os.fspath(output), "compare": compare, "norm": norm, "anonymous": anonymous, "jobs": jobs, "force": force}
+    return Result(_ambulo.session(source, {**own, "quiet": True}, dict(options or {})))
 
 
 def walk(
@@ -624,9 +613,7 @@ def walk(
     options = dict(locals())
     options["no_toe_joint"] = not options.pop("toe_joint")
     options["keep"] = listed(keep)
-    words = Words()
-    words.options(options)
-    return _computed(_ambulo.walk, words)
+    return _warned(_ambulo.walk(options))
 
 
 def simulate(
@@ -668,10 +655,10 @@ def simulate(
     -----
     Other threads run meanwhile. Scene files: docs/SCENES.md. Methods and sources: docs/SIMULATION.md.
     """
-    words = Words()
-    words.input(scene, "scene.toml")
-    words.options({"duration": duration, "step": step, "resume": resume, "keep": listed(keep)})
-    return _computed(_ambulo.simulate, words)
+    inputs = Inputs()
+    path = inputs.path(scene, "scene.toml") or ""
+    options = {"duration": duration, "step": step, "resume": resume, "keep": listed(keep)}
+    return _warned(_ambulo.simulate(path, options, inputs.files()))
 
 
 def sweep(
@@ -729,11 +716,9 @@ def sweep(
     Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the walks that are being computed are finished before the threads end. Methods and
     sources: docs/OPTIMAL.md.
     """
-    words = Words()
     numbers = {"speed": speed, "mass": mass, "height": height, "slope": slope, "load": load}
-    words.options({name: joined(values) for name, values in numbers.items()})
-    words.options({"weak": weak, "device": device, "predict": predict, "figure": figure, "keep": listed(keep), "quiet": True})
-    return _computed(_ambulo.sweep, words)
+    options = {"weak": weak, "device": device, "predict": predict, "figure": figure, "keep": listed(keep), "quiet": True}
+    return _warned(_ambulo.sweep({name: joined(values) for name, values in numbers.items()} | options))
 
 
 def open(folder: _Path) -> Result:
@@ -760,6 +745,6 @@ def open(folder: _Path) -> Result:
     return Result(_ambulo.open(folder))
 
 
-def _computed(verb: _Verb, words: Words) -> Result:
-    """Call a verb; warnings point to the caller of the function of the package."""
-    return Result(verb(words.words, words.listed()))._warn(stacklevel=4)
+def _warned(results: _ambulo.Results) -> Result:
+    """Return the result of a call; warnings point to the caller of the function of the package."""
+    return Result(results)._warn(stacklevel=4)

@@ -51,6 +51,8 @@ pub enum Field {
     Plates,
     /// [`Job::added_mass`](super::Job::added_mass)
     AddedMass,
+    /// The columns of a foot in [`Job::forces`](super::Job::forces).
+    Feet,
     /// The start of the time range.
     From,
     /// The end of the time range.
@@ -59,6 +61,10 @@ pub enum Field {
     Ground,
     /// The cut-off of the motion.
     Cutoff,
+    /// The order of the filters.
+    Order,
+    /// The longest gap that is interpolated.
+    Gap,
     /// The method of the marker fit.
     Fit,
     /// The residual reduction.
@@ -86,10 +92,13 @@ impl Field {
             Field::Loads => "external loads",
             Field::Plates => "force plates",
             Field::AddedMass => "added mass",
+            Field::Feet => "columns of the feet",
             Field::From => "start",
             Field::To => "end",
             Field::Ground => "ground forces",
             Field::Cutoff => "cut-off",
+            Field::Order => "order of the filters",
+            Field::Gap => "longest gap",
             Field::Fit => "marker fit",
             Field::ResidualReduction => "residual reduction",
         }

@@ -29,6 +29,7 @@
 //! Errors and findings name fields of the job; a shell adds how its user states them.
 
 mod bids;
+mod check;
 mod coordinates;
 mod error;
 mod files;
@@ -204,6 +205,15 @@ impl Job {
             Some(ModelChoice::File(path)) => Some(path),
             Some(ModelChoice::BuiltIn) | None => None,
         }
+    }
+
+    /// All files that the job names.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let ForceFiles { table, loads, .. } = &self.forces;
+        let others = [&self.recording, &self.standing, &self.marker_set, &self.smpl, table, loads];
+        let more = [&self.person, &self.device, &self.thresholds];
+        let files = others.into_iter().chain(more).flatten().chain(&self.setups).map(PathBuf::as_path);
+        files.chain(self.model_file()).chain(self.markers.as_deref().map(Path::new))
     }
 
     /// The recording, for messages.

@@ -86,20 +86,6 @@ impl Job {
         Ok(ReadJob { job, source, settings, files: read, ground })
     }
 
-    /// Rejects a time range that ends before it starts.
-    ///
-    /// # Errors
-    /// Such a range.
-    pub fn check_range(&self) -> Result<(), JobError> {
-        if let (Some(from), Some(to)) = (self.settings.window.from_s, self.settings.window.to_s)
-            && from > to
-        {
-            let message = format!("the start, {from} s, is after the end, {to} s; expected a start before the end");
-            return Err(JobError::new(&[Field::From, Field::To], message));
-        }
-        Ok(())
-    }
-
     fn source(&self, reading: &mut Reading<'_>, shared: &Shared) -> Result<Source, JobError> {
         self.check_range()?;
         reading.read.push(self.recording().to_owned());

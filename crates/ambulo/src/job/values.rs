@@ -106,6 +106,16 @@ pub enum ForceCutoff {
     Off,
 }
 
+impl fmt::Display for ForceCutoff {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ForceCutoff::Same => f.write_str("same"),
+            ForceCutoff::Hz(hz) => write!(f, "{hz}"),
+            ForceCutoff::Off => f.write_str("off"),
+        }
+    }
+}
+
 impl FromStr for ForceCutoff {
     type Err = String;
     fn from_str(text: &str) -> Result<ForceCutoff, String> {
@@ -125,6 +135,12 @@ pub struct FootColumns {
     pub body: String,
     /// What the names of the columns begin with.
     pub prefix: String,
+}
+
+impl fmt::Display for FootColumns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.body, self.prefix)
+    }
 }
 
 impl FromStr for FootColumns {
@@ -150,6 +166,12 @@ pub struct PlateFoot {
     pub plate: usize,
     /// The foot; `None` ignores the plate.
     pub side: Option<Side>,
+}
+
+impl fmt::Display for PlateFoot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.plate, self.side.map_or("off", Side::letter))
+    }
 }
 
 impl FromStr for PlateFoot {

@@ -3,12 +3,12 @@
 use super::made::tracked;
 use super::{JOINTS, moment, outcome};
 use ambulo::findings::Findings;
+use ambulo::job::Job;
 use ambulo::model::Side;
-use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::MarkerRecording;
 use ambulo::spatial::Vec3;
 use ambulo::study::validation::TextTable as Table;
-use ambulo::study::{GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, Outcome, Source};
+use ambulo::study::{GroundSettings, Outcome, Recording, StatedSize};
 use cpu_time::ThreadTime;
 use std::fs;
 use std::path::Path;
@@ -56,11 +56,11 @@ pub(super) fn table(data: &Path, only: &str) -> Result<String, String> {
 }
 
 fn row(name: &str, bytes: &[u8]) -> Result<[String; 8], String> {
-    let trial = LaboratoryFile::from_trc(bytes, name, &mut Findings::default()).map_err(|e| e.to_string())?;
-    let body =
-        MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg: Some(MASS_KG), height_m: None, set: None };
-    let world = trial.recording.in_world(&mut Findings::default()).1.markers;
-    let source = Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() });
+    let mut files = |_: &Path| Ok(bytes.to_vec());
+    let job = Job { size: StatedSize { mass_kg: Some(MASS_KG), height_m: None }, ..Job::of(name) };
+    let source = job.read(&mut files, &mut Findings::default()).map_err(|error| error.text())?.source;
+    let Recording::Markers(markers) = &source.recording else { return Err(format!("{name}: no markers")) };
+    let world = markers.trial.recording.in_world(&mut Findings::default()).1.markers;
     let began = ThreadTime::now();
     let found = outcome(source, GroundSettings::MeasuredOrPredicted)?;
     let seconds = began.elapsed().as_secs_f64();

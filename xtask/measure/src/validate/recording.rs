@@ -2,15 +2,11 @@
 
 use ambulo::findings::Findings;
 use ambulo::ground::predict::{PersonalErrors, PredictSettings, Prescribed};
-use ambulo::model::anthropometry::SegmentTable;
-use ambulo::model::{BodyId, Marker, Model};
-use ambulo::motion::coordinates_from_table;
+use ambulo::job::{FileError, FootColumns, ForceFiles, Job, ModelChoice};
+use ambulo::model::{BodyId, Marker};
 use ambulo::study::{
-    self, ForceTable, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Outcome, Settings,
-    Source, StandingTrial,
+    self, GroundSettings, LaboratoryFile, Outcome, Recording as Recorded, Settings, Source, StandingTrial, StatedSize,
 };
-use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
-use ambulo_formats::table::Table;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
@@ -336,65 +332,50 @@ impl Recording {
     }
 
     fn read_with(&self, data: &Path, stays: &dyn Fn(&str) -> bool) -> Result<Source, String> {
+        let mut files = |path: &Path| fs::read(path).map_err(|e| FileError::from(format!("{}: {e}", path.display())));
+        let read = self.job(data).read(&mut files, &mut Findings::default()).map_err(|error| error.text())?;
+        let mut source = read.source;
+        if let Recorded::Markers(markers) = &mut source.recording {
+            let keep = |file: &mut LaboratoryFile| file.recording.markers.markers.retain(|marker| stays(&marker.name));
+            keep(&mut markers.trial);
+            let standing = markers.standing.take().map(|standing| {
+                let mut file = LaboratoryFile::clone(&standing);
+                keep(&mut file);
+                Arc::new(StandingTrial::new(file))
+            });
+            markers.standing = standing;
+        }
+        Ok(source)
+    }
+
+    /// Its files, with what the laboratory states.
+    fn job(&self, data: &Path) -> Job {
         let folder = data.join(self.folder);
-        let file = |name: &str| {
-            let path = folder.join(name);
-            fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))
+        let of_model = |recording: &str, model: &str| Job {
+            model: Some(ModelChoice::File(folder.join(model))),
+            ..Job::of(folder.join(recording))
         };
-        let findings = &mut Findings::default();
-        let keep = |file: &mut LaboratoryFile| file.recording.markers.markers.retain(|marker| stays(&marker.name));
-        let source = match self.kind {
-            Kind::Coordinates { motion, model } => coordinates(&file(model)?, &file(motion)?, findings)?,
-            Kind::ModelMarkers { markers, model } => {
-                let model = Model::from_osim(&file(model)?, findings).map_err(|e| e.to_string())?;
-                let mut trial = laboratory_file(markers, &file(markers)?, findings)?;
-                keep(&mut trial);
-                let body = MarkerBody::Model { model, mass_kg: None, protocol: None };
-                Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() })
-            }
-            Kind::Markers { markers, standing, mass, height } => {
-                let mut trial = laboratory_file(markers, &file(markers)?, findings)?;
-                keep(&mut trial);
-                let read = |name: &str| laboratory_file(name, &file(name)?, &mut Findings::default());
-                let mut standing = standing.map(read).transpose()?;
-                standing.iter_mut().for_each(keep);
-                let standing = standing.map(|standing| Arc::new(StandingTrial::new(standing)));
-                let table = SegmentTable::DeLevaMale;
-                let body = MarkerBody::BuiltIn { table, mass_kg: Some(mass), height_m: height, set: None };
-                Source::markers(MarkerSource { trial, standing, body, plates: Vec::new() })
-            }
+        let job = match self.kind {
+            Kind::Coordinates { motion, model } => of_model(motion, model),
+            Kind::ModelMarkers { markers, model } => of_model(markers, model),
+            Kind::Markers { markers, standing, mass, height } => Job {
+                standing: standing.map(|name| folder.join(name)),
+                size: StatedSize { mass_kg: Some(mass), height_m: height },
+                ..Job::of(folder.join(markers))
+            },
         };
-        Ok(match self.grf {
-            Some((name, prefixes)) => source.with_forces(force_table(&file(name)?, prefixes)?),
-            None => source,
-        })
+        let foot = |body: &str, prefix: &str| Some(FootColumns { body: body.to_owned(), prefix: prefix.to_owned() });
+        let forces = self.grf.map_or_else(ForceFiles::default, |(name, [right, left])| ForceFiles {
+            table: Some(folder.join(name)),
+            right: foot("calcn_r", right),
+            left: foot("calcn_l", left),
+            loads: None,
+        });
+        Job { forces, ..job }
     }
 }
 
 fn predicted(source: &Source, prediction: PredictSettings) -> Result<Outcome, String> {
     let settings = Settings { ground: GroundSettings::Predicted, prediction, ..Settings::default() };
     study::run(source.clone(), &settings, &mut Findings::default()).map_err(|e| e.to_string())
-}
-
-fn coordinates(model: &[u8], motion: &[u8], findings: &mut Findings) -> Result<Source, String> {
-    let model = Model::from_osim(model, findings).map_err(|e| e.to_string())?;
-    let (table, _) = Table::read_storage(motion).map_err(|e| e.to_string())?;
-    let motion = coordinates_from_table(&model, &table, "the recording", findings).map_err(|e| e.to_string())?;
-    Ok(Source::coordinates(model, motion))
-}
-
-fn laboratory_file(name: &str, bytes: &[u8], findings: &mut Findings) -> Result<LaboratoryFile, String> {
-    let read = if name.ends_with(".c3d") { LaboratoryFile::from_c3d } else { LaboratoryFile::from_trc };
-    read(bytes, name, findings).map_err(|e| format!("{name}: {e}"))
-}
-
-/// Forces of a table on the usual feet.
-fn force_table(bytes: &[u8], [right, left]: [&str; 2]) -> Result<MeasuredForces, String> {
-    let (table, _) = Table::read_storage(bytes).map_err(|e| e.to_string())?;
-    let forces = vec![
-        ExternalForce::with_prefix("right", "calcn_r", right),
-        ExternalForce::with_prefix("left", "calcn_l", left),
-    ];
-    let loads = Some(ExternalLoads { name: "feet".into(), datafile: None, forces });
-    Ok(MeasuredForces::Table(ForceTable { table, loads }))
 }

@@ -25,7 +25,7 @@ const OWN_MODEL: &str = "the file's own";
 
 pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
     let job = args.job();
-    job.check_range()?;
+    job.check()?;
     if args.chooses_all_trials() {
         return every_trial::run(args, &job);
     }

@@ -1,0 +1,59 @@
+"""Inputs of functions: paths, or values in memory with names."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from ambulo import _ambulo
+from ambulo._errors import InputError
+from ambulo._person import Person
+from ambulo._recording import Recording
+from ambulo._table import Table
+
+
+class Inputs:
+    """The files in memory of a call."""
+
+    def __init__(self) -> None:
+        self._files: dict[str, bytes] = {}
+
+    def path(self, value: Any, name: str) -> str | None:
+        """Return the path of an input, or None without one; an input in memory without a name is called `name`."""
+        if value is None:
+            return None
+        if isinstance(value, Recording):
+            return self._in_memory(value.name, value.data)
+        if isinstance(value, _ambulo.Model):
+            return self._in_memory(value.file, value.data)
+        if isinstance(value, Person):
+            return self._in_memory(name, value.data)
+        if isinstance(value, Table):
+            return self._in_memory(name, value._storage())
+        if isinstance(value, (bytes, bytearray, memoryview)):
+            return self._in_memory(name, bytes(value))
+        return os.fspath(value)
+
+    def _in_memory(self, name: str, content: bytes) -> str:
+        if self._files.setdefault(name, content) != content:
+            raise InputError(f"found two different inputs named {name}; expected different names. hint: read(..., name=)")
+        return name
+
+    def files(self) -> list[tuple[str, bytes]]:
+        """Return the files in memory."""
+        return list(self._files.items())
+
+
+def joined(value: Any) -> Any:
+    """Return numbers of a sweep as the command takes them: separated by commas."""
+    if value is None or isinstance(value, str):
+        return value
+    try:
+        return ",".join(str(float(number)) for number in value)
+    except TypeError:
+        return str(float(value))
+
+
+def listed(values: Any) -> Any:
+    """Return words as the command takes a list of them: separated by commas."""
+    return values if values is None or isinstance(values, str) else ",".join(values)

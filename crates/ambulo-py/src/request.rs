@@ -1,0 +1,240 @@
+//! Options of `ambulo.forces` as a job, and options of the other verbs by their names.
+
+use crate::failure::refused;
+use ambulo::analysis::Adjustable;
+use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, PlateFoot};
+use ambulo::study::GroundSettings;
+use ambulo_cli::{Options, Outputs};
+use ambulo_results::{Convention, Keep};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyTuple};
+use std::fmt::Display;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// A job, and what is written of its results.
+#[derive(Default)]
+pub(crate) struct Request {
+    pub(crate) job: Job,
+    pub(crate) outputs: Outputs,
+}
+
+/// An option: its name and its value, which is not None.
+struct Given<'a, 'py> {
+    name: &'a str,
+    value: &'a Bound<'py, PyAny>,
+}
+
+impl Request {
+    /// From options by their names in Python. None and the defaults of Python are left out.
+    pub(crate) fn of(options: &Bound<'_, PyDict>) -> PyResult<Request> {
+        let mut request = Request::default();
+        for (name, value) in options {
+            let name: String = name.extract()?;
+            let given = Given { name: &name, value: &value };
+            let is_known = value.is_none()
+                || request.take_file(&given)?
+                || request.take_statement(&given)?
+                || request.take_setting(&given)?;
+            if !is_known {
+                return Err(refused(options.py(), format!("found the option `{name}`, which `forces` does not have")));
+            }
+        }
+        Ok(request)
+    }
+
+    /// The options of every trial of a folder, whose outputs are chosen by the verb.
+    pub(crate) fn of_all(options: &Bound<'_, PyDict>) -> PyResult<Request> {
+        match options.get_item("keep")?.filter(|keep| !keep.is_none()) {
+            Some(_) => Err(refused(
+                options.py(),
+                "keep: trials have no folders of their own; expected it beside `options`".into(),
+            )),
+            None => Request::of(options),
+        }
+    }
+
+    /// Takes the option if its value is a file.
+    fn take_file(&mut self, given: &Given<'_, '_>) -> PyResult<bool> {
+        let job = &mut self.job;
+        let place = match given.name {
+            "model" => {
+                job.model = Some(ModelChoice::from(given.path()?));
+                return Ok(true);
+            }
+            "setup" => {
+                job.setups = given.list()?.iter().map(|given| given.path()).collect::<PyResult<_>>()?;
+                return Ok(true);
+            }
+            "recording" => &mut job.recording,
+            "static" => &mut job.standing,
+            "marker_set" => &mut job.marker_set,
+            "smpl" => &mut job.smpl,
+            "grf" => &mut job.forces.table,
+            "loads" => &mut job.forces.loads,
+            "person" => &mut job.person,
+            "device" => &mut job.device,
+            "thresholds" => &mut job.thresholds,
+            _ => return Ok(false),
+        };
+        *place = Some(given.path()?);
+        Ok(true)
+    }
+
+    /// Takes the option if it states something about the person or the laboratory.
+    fn take_statement(&mut self, given: &Given<'_, '_>) -> PyResult<bool> {
+        let job = &mut self.job;
+        match given.name {
+            "mass" => job.size.mass_kg = Some(given.number()?),
+            "height" => job.size.height_m = Some(given.number()?),
+            "trial" => job.trial = Some(given.text()?),
+            "figure" => job.segments = given.parsed()?,
+            "markers" => job.markers = Some(given.path()?.display().to_string()),
+            "right" => job.forces.right = Some(given.parsed()?),
+            "left" => job.forces.left = Some(given.parsed()?),
+            "heading" => job.sensors.heading = Some(given.parsed()?),
+            "earth" => {
+                let angles: Vec<String> = given.list()?.iter().map(|given| given.text()).collect::<PyResult<_>>()?;
+                job.sensors.earth = Some(given.of_text(&angles.join(","))?);
+            }
+            "plates" => {
+                let plates = given.value.cast::<PyDict>()?.iter();
+                let plate = |(plate, foot): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<PlateFoot> {
+                    given.of_text(&format!("{}={}", plate.str()?, foot.str()?))
+                };
+                job.plates = plates.map(plate).collect::<PyResult<_>>()?;
+            }
+            "add_mass" => job.added_mass = given.list()?.iter().map(|given| given.parsed()).collect::<PyResult<_>>()?,
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// Takes the option if it chooses how the recording is processed.
+    fn take_setting(&mut self, given: &Given<'_, '_>) -> PyResult<bool> {
+        let settings = &mut self.job.settings;
+        match given.name {
+            "predict" => return self.take_ground(given, GroundSettings::Predicted, given.switch()?),
+            "track" => return self.take_ground(given, GroundSettings::Tracked, given.switch()?),
+            "ground" => return self.take_ground(given, GroundSettings::NoContact, !given.switch()?),
+            "refit" => settings.refit = given.switch()?,
+            "fit" => settings.fit = Some(given.one_of(&MarkerFitting::ALL)?),
+            "max_gap" => settings.longest_gap_s = given.number()?,
+            "start" => settings.window.from_s = Some(given.number()?),
+            "end" => settings.window.to_s = Some(given.number()?),
+            "rate" => settings.rate_hz = Some(given.number()?),
+            "filter" => settings.filter = given.one_of(&Filter::ALL)?,
+            "cutoff" => settings.cutoff = Some(given.parsed()?),
+            "force_cutoff" => settings.force_cutoff = Some(given.parsed()?),
+            "order" => settings.order = given.parsed()?,
+            "consistent" => {
+                settings.residual_reduction = match given.value.cast::<PyBool>() {
+                    Ok(switch) => switch.is_true().then_some(Adjustable::MotionAndBody),
+                    Err(_) => Some(given.one_of(&Adjustable::ALL)?),
+                }
+            }
+            "convention" => {
+                let words = [Convention::Clinical, Convention::Opensim].map(|known| (known.word(), known));
+                self.outputs.convention = given.one_of(&words)?;
+            }
+            "keep" => {
+                let known = Keep::OF_RUNS.map(|name| (name, name));
+                let name = |given: Given<'_, '_>| given.one_of(&known).map(str::to_owned);
+                self.outputs.keep = given.list()?.iter().map(name).collect::<PyResult<_>>()?;
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn take_ground(&mut self, given: &Given<'_, '_>, ground: GroundSettings, is_chosen: bool) -> PyResult<bool> {
+        let chosen = &mut self.job.settings.ground;
+        if is_chosen && *chosen != GroundSettings::default() {
+            return Err(given.refused("predict, track and ground=False exclude each other"));
+        }
+        if is_chosen {
+            *chosen = ground;
+        }
+        Ok(true)
+    }
+}
+
+impl Given<'_, '_> {
+    fn refused(&self, what: impl Display) -> PyErr {
+        refused(self.value.py(), format!("{}: {what}", self.name))
+    }
+
+    fn text(&self) -> PyResult<String> {
+        Ok(self.value.str()?.to_string())
+    }
+
+    fn of_text<T: FromStr<Err: Display>>(&self, text: &str) -> PyResult<T> {
+        text.parse().map_err(|error| self.refused(format!("found `{text}`; {error}")))
+    }
+
+    fn parsed<T: FromStr<Err: Display>>(&self) -> PyResult<T> {
+        self.of_text(&self.text()?)
+    }
+
+    fn number(&self) -> PyResult<f64> {
+        let is_number = self.value.is_instance_of::<PyFloat>() || self.value.is_instance_of::<PyInt>();
+        if is_number { self.value.extract() } else { self.parsed() }
+    }
+
+    fn switch(&self) -> PyResult<bool> {
+        self.value.is_truthy()
+    }
+
+    fn path(&self) -> PyResult<PathBuf> {
+        self.value.extract()
+    }
+
+    fn one_of<T: Copy>(&self, words: &[(&'static str, T)]) -> PyResult<T> {
+        let text = self.text()?;
+        words.iter().find(|(word, _)| *word == text).map(|(_, value)| *value).ok_or_else(|| {
+            let known = words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", ");
+            self.refused(format!("found `{text}`; expected one of {known}"))
+        })
+    }
+}
+
+impl<'a, 'py> Given<'a, 'py> {
+    /// The items of a sequence; a value that is no list or tuple is the only one.
+    fn list(&self) -> PyResult<Items<'a, 'py>> {
+        let is_list = self.value.is_instance_of::<PyList>() || self.value.is_instance_of::<PyTuple>();
+        let items = match is_list {
+            true => self.value.try_iter()?.collect::<PyResult<_>>()?,
+            false => vec![self.value.clone()],
+        };
+        Ok(Items { name: self.name, items })
+    }
+}
+
+/// Values of an option.
+struct Items<'a, 'py> {
+    name: &'a str,
+    items: Vec<Bound<'py, PyAny>>,
+}
+
+impl<'py> Items<'_, 'py> {
+    fn iter(&self) -> impl Iterator<Item = Given<'_, 'py>> {
+        self.items.iter().map(|value| Given { name: self.name, value })
+    }
+}
+
+/// Options of another verb by their names: True is a switch, a list repeats an option, None and False leave it out.
+pub(crate) fn options(inputs: Vec<PathBuf>, named: &Bound<'_, PyDict>) -> PyResult<Options> {
+    let mut options = Options { inputs, named: Vec::new() };
+    for (name, value) in named {
+        let name: String = name.extract()?;
+        for given in (Given { name: &name, value: &value }).list()?.iter() {
+            match given.value.cast::<PyBool>() {
+                Ok(switch) if switch.is_true() => options.named.push((name.clone(), None)),
+                Ok(_) => {}
+                Err(_) if given.value.is_none() => {}
+                Err(_) => options.named.push((name.clone(), Some(given.text()?))),
+            }
+        }
+    }
+    Ok(options)
+}

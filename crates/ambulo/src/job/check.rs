@@ -1,0 +1,65 @@
+//! Statements of one caller that contradict each other, and numbers out of range.
+
+use super::error::{Field, JobError};
+use super::{ForceFiles, Job};
+use crate::motion::filter::MAX_ORDER;
+use crate::study::GroundSettings;
+
+impl Job {
+    /// Rejects statements of one caller that contradict each other, before anything is read. A job that was completed by a set-up or by the
+    /// files of a trial may have them.
+    ///
+    /// # Errors
+    /// The first contradiction, or a number out of range.
+    pub fn check(&self) -> Result<(), JobError> {
+        let ForceFiles { table, loads, right, left } = &self.forces;
+        let has_feet = right.is_some() || left.is_some();
+        let is_free = self.settings.ground == GroundSettings::NoContact;
+        let is_tracked = self.settings.ground == GroundSettings::Tracked;
+        let is_reduced = self.settings.residual_reduction.is_some();
+        let without = "of a motion without contact; expected one of both";
+        let contradictions = [
+            (has_feet && table.is_none(), Field::Feet, "of a table, but no table is given"),
+            (has_feet && loads.is_some(), Field::Feet, "and external loads; expected one of both"),
+            (is_free && table.is_some(), Field::ForceTable, without),
+            (is_free && loads.is_some(), Field::Loads, without),
+            (is_free && self.person.is_some(), Field::Ground, "predicted for a calibrated person; expected contact"),
+            (is_free && self.settings.refit, Field::Ground, "for feet that do not slide; expected contact"),
+            (is_free && is_reduced, Field::ResidualReduction, without),
+            (is_tracked && is_reduced, Field::ResidualReduction, "of a tracked motion; expected one of both"),
+        ];
+        if let Some((_, field, what)) = contradictions.into_iter().find(|(is_found, ..)| *is_found) {
+            return Err(JobError::new(&[field], format!("found {} {what}", field.name())));
+        }
+        self.check_numbers()
+    }
+
+    fn check_numbers(&self) -> Result<(), JobError> {
+        let settings = &self.settings;
+        let times = [(Field::From, settings.window.from_s), (Field::To, settings.window.to_s)];
+        if let Some((field, _)) = times.into_iter().find(|(_, time)| time.is_some_and(|time| !time.is_finite())) {
+            return Err(JobError::new(&[field], format!("{}: expected a number of seconds", field.name())));
+        }
+        if !(1..=MAX_ORDER).contains(&settings.order) {
+            let what =
+                format!("found the order {}; expected 1 to {MAX_ORDER}, because higher ones ring", settings.order);
+            return Err(JobError::new(&[Field::Order], what));
+        }
+        if !(settings.longest_gap_s.is_finite() && settings.longest_gap_s >= 0.0) {
+            let what = format!("found a longest gap of {} s; expected zero or more", settings.longest_gap_s);
+            return Err(JobError::new(&[Field::Gap], what));
+        }
+        self.check_range()
+    }
+
+    /// Rejects a time range that ends before it starts.
+    pub(super) fn check_range(&self) -> Result<(), JobError> {
+        if let (Some(from), Some(to)) = (self.settings.window.from_s, self.settings.window.to_s)
+            && from > to
+        {
+            let message = format!("the start, {from} s, is after the end, {to} s; expected a start before the end");
+            return Err(JobError::new(&[Field::From, Field::To], message));
+        }
+        Ok(())
+    }
+}
