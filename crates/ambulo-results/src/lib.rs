@@ -23,7 +23,9 @@ mod units;
 mod walk_summary;
 mod walking_summary;
 
-pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
+/// Source of the ground forces of [`Input`].
+pub use ambulo::study::ForceOrigin as GroundSource;
+pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize};
 pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use file_names::{
@@ -51,11 +53,11 @@ pub use subject_summary::{
     SegmentSummary, SubjectSummary,
 };
 pub use summary::{
-    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, GroundSource, Input, PeakSummary,
-    ResidualSummary, Summary, outcome_summary,
+    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, Input, PeakSummary, ResidualSummary, Summary,
+    outcome_summary,
 };
 pub use tables::ground_columns;
 pub use tracking_summary::TrackingSummary;
 pub use units::{is_storage, unit_of};
-pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkPredictionSummary, WalkSummary};
+pub use walk_summary::{PaceChangeSummary, PelvisPath, WalkPredictionSummary, WalkSummary};
 pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};

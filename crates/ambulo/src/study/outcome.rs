@@ -52,7 +52,7 @@ pub struct Outcome {
 }
 
 /// Where ground forces come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum ForceOrigin {
     /// Force plates or other sensors.
     Measured,
@@ -67,6 +67,7 @@ pub enum ForceOrigin {
         rule: &'static str,
     },
     /// There are none.
+    #[default]
     None,
 }
 
