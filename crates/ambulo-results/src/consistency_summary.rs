@@ -12,9 +12,9 @@ pub struct ConsistencySummary {
     /// First and last instant at which the equations of motion were enforced [s].
     pub window_s: [f64; 2],
     /// Residual at the root before, in that time.
-    pub residual_before: ResidualSize,
+    pub residual_before: RootResidual,
     /// Residual at the root after, in that time.
-    pub residual_after: ResidualSize,
+    pub residual_after: RootResidual,
     /// Change of each coordinate.
     pub changes: BTreeMap<String, CoordinateSize>,
     /// Displacement of each loaded body [mm].
@@ -29,20 +29,6 @@ pub struct ConsistencySummary {
     pub iterations: usize,
     /// Whether the last iteration changed less than the tolerance.
     pub converged: bool,
-}
-
-/// Size of the residual at the root.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ResidualSize {
-    /// Root mean square of the force in body weights.
-    pub force_rms_bw: f64,
-    /// Largest force in body weights.
-    pub force_peak_bw: f64,
-    /// Root mean square of the moment about the root joint [N.m].
-    pub moment_rms_nm: f64,
-    /// Largest moment [N.m].
-    pub moment_peak_nm: f64,
 }
 
 /// Size of a coordinate's change.
@@ -105,8 +91,8 @@ impl ConsistencySummary {
         let feet_mm = feet.map(|f| (f.body.clone(), FootSize { rms: 1e3 * f.rms_m, max: 1e3 * f.max_m }));
         ConsistencySummary {
             window_s: consistent.window_s,
-            residual_before: ResidualSize::of(consistent.residual_before),
-            residual_after: ResidualSize::of(consistent.residual_after),
+            residual_before: consistent.residual_before,
+            residual_after: consistent.residual_after,
             changes: changes.collect(),
             feet_mm: feet_mm.collect(),
             mass_percent: 100.0 * consistent.body.mass_share,
@@ -115,13 +101,6 @@ impl ConsistencySummary {
             iterations: consistent.iterations,
             converged: consistent.converged,
         }
-    }
-}
-
-impl ResidualSize {
-    fn of(residual: RootResidual) -> ResidualSize {
-        let RootResidual { force_rms_bw, force_peak_bw, moment_rms_nm, moment_peak_nm } = residual;
-        ResidualSize { force_rms_bw, force_peak_bw, moment_rms_nm, moment_peak_nm }
     }
 }
 

@@ -24,7 +24,9 @@ mod units;
 mod walk_summary;
 mod walking_summary;
 
-pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
+/// Source of the ground forces of [`Input`].
+pub use ambulo::study::ForceOrigin as GroundSource;
+pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize};
 pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use file_names::{
@@ -52,14 +54,14 @@ pub use subject_summary::{
     SegmentSummary, SubjectSummary,
 };
 pub use summary::{
-    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, GroundSource, Input, PeakSummary,
-    ResidualSummary, Summary, outcome_summary,
+    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, Input, PeakSummary, ResidualSummary, Summary,
+    outcome_summary,
 };
 pub use tables::ground_columns;
 pub use timings::Timings;
 pub use tracking_summary::TrackingSummary;
 pub use units::{is_storage, unit_of};
-pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkPredictionSummary, WalkSummary};
+pub use walk_summary::{PaceChangeSummary, PelvisPath, WalkPredictionSummary, WalkSummary};
 pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
 
 /// For the tests of this crate.

@@ -117,27 +117,7 @@ pub struct Input {
     pub added_mass: Vec<String>,
     /// Source of the ground forces; reported under `ground`.
     #[serde(skip)]
-    pub ground_source: GroundSource,
-}
-
-/// Source of the ground forces.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum GroundSource {
-    /// Force plates or other sensors.
-    Measured,
-    /// Predicted from the motion; `rule` is the method for double support.
-    Predicted {
-        /// The method, in words.
-        rule: &'static str,
-    },
-    /// A simulation of the motion; `rule` is the method for double support.
-    Simulated {
-        /// The method, in words.
-        rule: &'static str,
-    },
-    /// There are none.
-    #[default]
-    None,
+    pub ground_source: ForceOrigin,
 }
 
 /// The filters in words and numbers.
@@ -287,12 +267,12 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
     let Outcome { body: model, analysis, verdict, prediction, processing, .. } = outcome;
     let prediction = prediction.as_ref();
     let grid = analysis.trajectory.grid();
-    let (ground_source, source, rule) = ground(outcome.force_origin);
+    let (source, rule) = ground(outcome.force_origin);
     Summary {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         run_id: String::new(),
         files: BTreeMap::new(),
-        input: Input { ground_source, ..input },
+        input: Input { ground_source: outcome.force_origin, ..input },
         model: model.name().to_owned(),
         mass_kg: analysis.mass.kg,
         gravity_m_s2: model.gravity().norm(),
@@ -323,16 +303,12 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
     }
 }
 
-fn ground(origin: ForceOrigin) -> (GroundSource, GroundOrigin, Option<String>) {
+fn ground(origin: ForceOrigin) -> (GroundOrigin, Option<String>) {
     match origin {
-        ForceOrigin::Measured => (GroundSource::Measured, GroundOrigin::Measured, None),
-        ForceOrigin::Predicted { rule } => {
-            (GroundSource::Predicted { rule }, GroundOrigin::Predicted, Some(rule.to_owned()))
-        }
-        ForceOrigin::Simulated { rule } => {
-            (GroundSource::Simulated { rule }, GroundOrigin::Simulated, Some(rule.to_owned()))
-        }
-        ForceOrigin::None => (GroundSource::None, GroundOrigin::None, None),
+        ForceOrigin::Measured => (GroundOrigin::Measured, None),
+        ForceOrigin::Predicted { rule } => (GroundOrigin::Predicted, Some(rule.to_owned())),
+        ForceOrigin::Simulated { rule } => (GroundOrigin::Simulated, Some(rule.to_owned())),
+        ForceOrigin::None => (GroundOrigin::None, None),
     }
 }
 

@@ -36,22 +36,22 @@ pub struct WalkSummary {
     /// Number of adjusted parameters; `null` in paper mode. This and the following lines on the correction are of the first pace.
     pub parameters_adjusted: Option<usize>,
     /// Change of the angle of each coordinate [deg]; `null` in paper mode.
-    pub adjustment_deg: Option<BTreeMap<String, Size>>,
+    pub adjustment_deg: Option<BTreeMap<String, Magnitude>>,
     /// Deviation of the path of the pelvis from uniform motion [mm]; `null` in paper mode.
     pub pelvis_path_mm: Option<PelvisPath>,
     /// Residual force at the root of the planned motion [N]; `null` in paper mode.
-    pub lacking_force_n: Option<Size>,
+    pub lacking_force_n: Option<Magnitude>,
     /// Residual moment at the root of the planned motion [N.m]; `null` in paper mode.
-    pub lacking_moment_nm: Option<Size>,
+    pub lacking_moment_nm: Option<Magnitude>,
     /// Progress of the solver by stage; `null` in paper mode.
-    pub solver: Option<Vec<SolverStage>>,
+    pub solver: Option<Vec<Progress>>,
     /// Conditions and effort of a predicted walk; `null` in the other modes.
     #[serde(default)]
     pub prediction: Option<WalkPredictionSummary>,
     /// External torque that supports the trunk [N.m].
-    pub trunk_torque_nm: Size,
+    pub trunk_torque_nm: Magnitude,
     /// The same per kilogram of body mass [N.m/kg].
-    pub trunk_torque_nm_kg: Size,
+    pub trunk_torque_nm_kg: Magnitude,
     /// Largest displacement of a loaded sole in the worst stance [mm]; `null` without a whole stance.
     pub foot_slip_mm: Option<f64>,
     /// Length of the path of that displacement [mm].
@@ -149,36 +149,14 @@ pub struct PaceChangeSummary {
     pub cadence_steps_min: f64,
 }
 
-/// Root mean square and maximum of the magnitude.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Size {
-    /// Root mean square.
-    pub rms: f64,
-    /// Largest.
-    pub largest: f64,
-}
-
 /// Deviation of a path, forward and up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PelvisPath {
     /// Forward, from constant speed.
-    pub forward: Size,
+    pub forward: Magnitude,
     /// Upward, from the mean height.
-    pub up: Size,
-}
-
-/// One stage of the solver.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct SolverStage {
-    /// Steps taken.
-    pub iterations: usize,
-    /// Sum of squares at the start.
-    pub from: f64,
-    /// Sum of squares at the end.
-    pub to: f64,
+    pub up: Magnitude,
 }
 
 impl PaceChangeSummary {
@@ -193,26 +171,19 @@ impl PaceChangeSummary {
     }
 }
 
-impl Size {
-    fn new(change: Magnitude, factor: f64) -> Size {
-        Size { rms: factor * change.rms, largest: factor * change.largest }
-    }
-}
-
 impl WalkSummary {
     /// Makes the summary from the report of a walk.
     #[must_use]
     pub fn new(model: &Model, report: &WalkReport) -> WalkSummary {
         let correction = report.correction.as_ref();
         let degrees = 1.0_f64.to_degrees();
-        let adjusted = |c: &CorrectionReport| -> BTreeMap<String, Size> {
-            c.adjustment.angles.iter().map(|(name, change)| (name.clone(), Size::new(*change, degrees))).collect()
+        let adjusted = |c: &CorrectionReport| -> BTreeMap<String, Magnitude> {
+            c.adjustment.angles.iter().map(|(name, change)| (name.clone(), change.times(degrees))).collect()
         };
         let path = |c: &CorrectionReport| {
-            let [forward, up] = c.adjustment.pelvis.map(|change| Size::new(change, 1e3));
+            let [forward, up] = c.adjustment.pelvis.map(|change| change.times(1e3));
             PelvisPath { forward, up }
         };
-        let stage = |p: &Progress| SolverStage { iterations: p.iterations, from: p.from, to: p.to };
         WalkSummary {
             gait: report.gait.clone(),
             style: report.style.name().to_owned(),
@@ -228,12 +199,12 @@ impl WalkSummary {
             parameters_adjusted: correction.map(|c| c.parameters),
             adjustment_deg: correction.map(adjusted),
             pelvis_path_mm: correction.map(path),
-            lacking_force_n: correction.map(|c| Size::new(c.residual[0], 1.0)),
-            lacking_moment_nm: correction.map(|c| Size::new(c.residual[1], 1.0)),
-            solver: correction.map(|c| c.progress.iter().map(stage).collect()),
+            lacking_force_n: correction.map(|c| c.residual[0]),
+            lacking_moment_nm: correction.map(|c| c.residual[1]),
+            solver: correction.map(|c| c.progress.clone()),
             prediction: report.prediction.as_ref().map(|made| WalkPredictionSummary::new(made, report.speed)),
-            trunk_torque_nm: Size::new(report.trunk_torque, 1.0),
-            trunk_torque_nm_kg: Size::new(report.trunk_torque, 1.0 / model.mass()),
+            trunk_torque_nm: report.trunk_torque,
+            trunk_torque_nm_kg: report.trunk_torque.times(1.0 / model.mass()),
             foot_slip_mm: report.slip.map(|slip| 1e3 * slip.excursion),
             foot_slip_path_mm: report.slip.map(|slip| 1e3 * slip.path),
             flight_s: report.flight_s,

@@ -91,7 +91,12 @@ impl NormalEquations {
 }
 
 /// Iterations and costs of a minimisation.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(
+    feature = "schema",
+    derive(schemars::JsonSchema),
+    schemars(rename = "SolverStage", description = "One stage of the solver.")
+)]
 pub struct Progress {
     /// Steps taken.
     pub iterations: usize,

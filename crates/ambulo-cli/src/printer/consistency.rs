@@ -1,7 +1,8 @@
 //! Prints the outcome of residual reduction.
 
 use super::print_line;
-use ambulo_results::{ChangeUnit, ConsistencySummary, CoordinateSize, ResidualSize};
+use ambulo::dynamics::residual_reduction::RootResidual;
+use ambulo_results::{ChangeUnit, ConsistencySummary, CoordinateSize};
 use anyhow::Result;
 
 /// Coordinates printed per unit: those that changed most.
@@ -33,7 +34,7 @@ pub(super) fn print(summary: &ConsistencySummary) -> Result<()> {
     Ok(())
 }
 
-fn residual_line(when: &str, residual: &ResidualSize) -> String {
+fn residual_line(when: &str, residual: &RootResidual) -> String {
     format!(
         "    residual {when:<8} {:>8.2} %BW {:>7.2} N.m {:>8.2} %BW {:>7.2} N.m",
         100.0 * residual.force_rms_bw,

@@ -6,10 +6,11 @@ use super::{
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
+use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo::simulation::synthetic::SyntheticMode;
 use ambulo::study::{MassState, MassWitness, Quality};
 use ambulo_results::{
-    FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Size, Summary, TrackingSummary,
+    FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Summary, TrackingSummary,
     WalkSummary,
 };
 use anyhow::Result;
@@ -210,7 +211,7 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
             format!("outside   {:.2} N and {:.2} N.m rms act on the pelvis", force.rms, moment.rms)
         }
         _ => {
-            let Size { rms, largest } = walk.trunk_torque_nm;
+            let Magnitude { rms, largest } = walk.trunk_torque_nm;
             format!("trunk     held upright with {rms:.1} N.m rms, {largest:.1} N.m peak")
         }
     };

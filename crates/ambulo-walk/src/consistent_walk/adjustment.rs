@@ -9,12 +9,13 @@ use crate::optimal::{Sample, Solution, WalkProblem};
 /// Number of instants per cycle that are evaluated.
 const INSTANTS: usize = 200;
 
-/// Magnitude of a quantity over a cycle.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+/// Root mean square and maximum of the magnitude.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "Size"))]
 pub struct Magnitude {
     /// Root mean square.
     pub rms: f64,
-    /// Largest absolute value.
+    /// Largest.
     pub largest: f64,
 }
 
@@ -29,6 +30,12 @@ impl Magnitude {
             largest = largest.max(value.abs());
         }
         Magnitude { rms: if count > 0.0 { (sum / count).sqrt() } else { 0.0 }, largest }
+    }
+
+    /// The magnitude of the values times a factor above zero.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Magnitude {
+        Magnitude { rms: factor * self.rms, largest: factor * self.largest }
     }
 }
 

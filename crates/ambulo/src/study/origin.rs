@@ -5,7 +5,7 @@ use crate::kinematics::FlightGravity;
 use crate::kinematics::marker_fit::MarkerFit;
 
 /// Where ground forces come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum ForceOrigin {
     /// Force plates or other sensors.
     Measured,
@@ -20,6 +20,7 @@ pub enum ForceOrigin {
         rule: &'static str,
     },
     /// There are none.
+    #[default]
     None,
 }
 

@@ -30,14 +30,15 @@ pub struct ReducedMotion {
     pub converged: bool,
 }
 
-/// Residual force at the root, and residual moment about the root joint (magnitudes).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Size of the residual at the root.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "ResidualSize"))]
 pub struct RootResidual {
-    /// Root mean square of the force [body weights].
+    /// Root mean square of the force in body weights.
     pub force_rms_bw: f64,
-    /// Largest force [body weights].
+    /// Largest force in body weights.
     pub force_peak_bw: f64,
-    /// Root mean square of the moment [N.m].
+    /// Root mean square of the moment about the root joint [N.m].
     pub moment_rms_nm: f64,
     /// Largest moment [N.m].
     pub moment_peak_nm: f64,

@@ -3,7 +3,8 @@
 use crate::page::contract::{Judged, PageSource};
 use crate::page::session::results::Results;
 use ambulo::analysis::PredictionCheck;
-use ambulo_results::{ConsistencySummary, MarkersSummary, ResidualSummary, Size, Summary, WalkSummary};
+use ambulo::simulation::consistent_walk::Magnitude;
+use ambulo_results::{ConsistencySummary, MarkersSummary, ResidualSummary, Summary, WalkSummary};
 
 /// Residual force, root mean square [body weights]: walking data with every foot on a plate stay below it (finding `residual.large`).
 const RESIDUAL_BW: f64 = 0.1;
@@ -105,7 +106,8 @@ fn check(check: &PredictionCheck) -> Judged {
 
 /// How well a synthetic walk obeys the laws of motion.
 fn of_walk(walk: &WalkSummary) -> Vec<Judged> {
-    let in_words = |size: Size, unit: &str| format!("{:.1} {unit} RMS, {:.1} {unit} at most", size.rms, size.largest);
+    let in_words =
+        |size: Magnitude, unit: &str| format!("{:.1} {unit} RMS, {:.1} {unit} at most", size.rms, size.largest);
     let lines = [
         Some(plain("External torque that supports the trunk", in_words(walk.trunk_torque_nm, "N.m"))),
         walk.lacking_force_n.map(|size| plain("Residual force of the planned motion", in_words(size, "N"))),

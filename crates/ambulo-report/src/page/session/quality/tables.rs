@@ -7,7 +7,8 @@ use crate::page::session::results::Results;
 use crate::page::session::words;
 use ambulo::analysis::{EventAgreement, FootAgreement, ForceAgreement, MomentAgreement};
 use ambulo::model::Side;
-use ambulo_results::{ConsistencySummary, MarkerErrorSummary, PlateContactSummary, SegmentSummary, Size, Summary};
+use ambulo::simulation::consistent_walk::Magnitude;
+use ambulo_results::{ConsistencySummary, MarkerErrorSummary, PlateContactSummary, SegmentSummary, Summary};
 
 /// A marker error above this is marked [mm]: such a marker has little weight in the fit (docs/MARKERS.md).
 const FAR_MM: f64 = 40.0;
@@ -80,7 +81,7 @@ const SEGMENTS: [Column<SegmentSummary>; 3] = [
     ("Length / table", |segment| number(Some(segment.factor), 3, None)),
     ("Measured by markers", |segment| text(if segment.measured { "yes" } else { "no" })),
 ];
-const ADJUSTMENT: [Column<(String, Size)>; 3] = [
+const ADJUSTMENT: [Column<(String, Magnitude)>; 3] = [
     ("Angle", |(name, _)| text(name)),
     ("RMS [deg]", |(_, size)| number(Some(size.rms), 1, None)),
     ("Largest [deg]", |(_, size)| number(Some(size.largest), 1, None)),
