@@ -54,7 +54,7 @@ Two of --speed, --step-length and --cadence determine the third. With one of the
 and cadence to speed (docs/GAITS.md, which also describes gait files). In both cases the gait's own values are ignored.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-clinical.csv, times_and_distances.csv, states.csv (the states of the gait's machines), summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The
+clinical.csv, times_and_distances.csv, states.csv (the states of the gait's machines), summary.json, timings.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The
 results of an earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep writes only
 some of them; summary.json is always written.
 
