@@ -1,7 +1,8 @@
 //! Generated pages: `cargo xtask measured [PAGE...]`, `cargo xtask measured --check`.
 //!
-//! The pages of `docs/measured/` are written by commands of `xtask-measure`, and one by `cargo xtask mutants` from outcomes that it has
-//! recorded. This command runs them and puts a first line on each page: the version and the commit that were measured.
+//! The pages of `docs/measured/` are written by commands of `xtask-measure`, and one by `cargo xtask mutants` from
+//! outcomes that it has recorded. This command runs them and puts a first line on each page: the version and the commit
+//! that were measured.
 //!
 //! A page is out of date when its numbers are, not when source changes. How that is found depends on the page:
 //!
@@ -83,7 +84,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     Ok(())
 }
 
-/// Puts the first line on the page that a command of `xtask-measure` has written, if it has written one: a new page has none yet.
+/// Puts the first line on the page that a command of `xtask-measure` has written, if it has written one: a new page
+/// has none yet.
 pub(crate) fn stamp(command: &str) -> Result<(), String> {
     let root = workspace::root();
     let Some(page) = PAGES.iter().find(|page| page.command == command) else { return Ok(()) };
@@ -165,7 +167,8 @@ impl Page {
         }
         let name = self.name;
         Err(format!(
-            "{FOLDER}/{name}.md is out of date\n  found:    {first}\n  expected: {}{version} at commit ...; do not edit.\n  hint: run `cargo xtask measured {name}`, then read and commit the page",
+            "{FOLDER}/{name}.md is out of date\n  found:    {first}\n  expected: {}{version} at commit ...; do not edit.\n\
+             \x20 hint: run `cargo xtask measured {name}`, then read and commit the page",
             self.beginning()
         ))
     }

@@ -9,8 +9,8 @@
 //! | 5 | the manifest is removed, then `.ambulo-new` | finishes |
 //!
 //! Steps 3 to 5 can be repeated: what is already removed or moved is left out. A lock ([`FolderLock`]) keeps other commands out. Only files that the
-//! old `summary.json` records with their present content are replaced, and the `timings.json` of the same run, which is not recorded because durations
-//! differ between equal runs; any other file needs `--force`, and an input is never replaced.
+//! old `summary.json` records with their present content are replaced, and the `timings.json` of the same run, which is
+//! not recorded because durations differ between equal runs; any other file needs `--force`, and an input is never replaced.
 //! The folder itself is never replaced, so it may be a mount point or `.`.
 //!
 //! Tests: every step interrupted, also while an interrupted run is finished (below); kills, a full disk and two runs at once (tests/folders.rs).

@@ -7,7 +7,7 @@
 //! | WALK_BANDS | peaks of free walking |
 //! | OPTIMAL_WALK | slip and knee of three walks |
 //! | PHYSICAL_WALK | harmonics of the torques of the plan |
-//! | REPRODUCTION | all claims but the clock (called from `reproduce.rs`, which computes them) |
+//! | REPRODUCTION | all claims but the clock (called from `reproduce.rs`) |
 //!
 //! A number that moved is an error of the change, or the page is out of date: `cargo xtask measured PAGE` writes it again.
 
@@ -23,31 +23,48 @@ use ambulo_formats::table::Table;
 use serde_json::Value;
 use std::path::Path;
 
-/// A trial: name in VALIDATION, subject in GROUND_FIT if this is its only straight walk, folder, recording, standing trial, and mass if the
-/// recording does not have it.
-type Trial =
-    (&'static str, Option<&'static str>, &'static str, &'static str, Option<&'static str>, Option<&'static str>);
+/// A trial of VALIDATION.
+struct Trial {
+    /// Its name on the page.
+    name: &'static str,
+    /// Its person in GROUND_FIT, if this is the only straight walk of the person.
+    subject: Option<&'static str>,
+    folder: &'static str,
+    recording: &'static str,
+    standing: Option<&'static str>,
+    /// Mass [kg], if the recording does not have it.
+    mass: Option<&'static str>,
+}
+
+/// A straight walk.
+const fn straight(name: &'static str, subject: &'static str, folder: &'static str, files: [&'static str; 2]) -> Trial {
+    Trial { subject: Some(subject), ..turn(name, folder, files) }
+}
+
+/// A turn; files are the recording and the standing trial.
+const fn turn(name: &'static str, folder: &'static str, files: [&'static str; 2]) -> Trial {
+    Trial { name, subject: None, folder, recording: files[0], standing: Some(files[1]), mass: None }
+}
 
 const TRIALS: [Trial; 12] = [
-    ("HC032A03", Some("HC032A"), "biomechzoo-HC032A", "HC032A03.c3d", Some("HC032A01.c3d"), None),
-    ("HC032A18", None, "biomechzoo-HC032A", "HC032A18.c3d", Some("HC032A01.c3d"), None),
-    ("HC002D25", None, "biomechzoo-HC002D", "HC002D25.c3d", Some("HC002D02.c3d"), None),
-    ("HC030A05", Some("HC030A"), "biomechzoo-HC030A", "HC030A05.c3d", Some("HC030A01.c3d"), None),
-    ("HC031A23", None, "biomechzoo-HC031A", "HC031A23.c3d", Some("HC031A01.c3d"), None),
-    ("HC033A10", Some("HC033A"), "biomechzoo-HC033A", "HC033A10.c3d", Some("HC033A01.c3d"), None),
-    ("HC036A10", Some("HC036A"), "biomechzoo-HC036A", "HC036A10.c3d", Some("HC036A01.c3d"), None),
-    ("HC055A34", None, "biomechzoo-HC055A", "HC055A34.c3d", Some("HC055A01.c3d"), None),
-    ("HC003B08", Some("HC003B"), "biomechzoo-HC003B", "HC003B08.c3d", None, None),
-    ("HC034A07", Some("HC034A"), "biomechzoo-HC034A", "HC034A07.c3d", None, None),
-    (
+    straight("HC032A03", "HC032A", "biomechzoo-HC032A", ["HC032A03.c3d", "HC032A01.c3d"]),
+    turn("HC032A18", "biomechzoo-HC032A", ["HC032A18.c3d", "HC032A01.c3d"]),
+    turn("HC002D25", "biomechzoo-HC002D", ["HC002D25.c3d", "HC002D02.c3d"]),
+    straight("HC030A05", "HC030A", "biomechzoo-HC030A", ["HC030A05.c3d", "HC030A01.c3d"]),
+    turn("HC031A23", "biomechzoo-HC031A", ["HC031A23.c3d", "HC031A01.c3d"]),
+    straight("HC033A10", "HC033A", "biomechzoo-HC033A", ["HC033A10.c3d", "HC033A01.c3d"]),
+    straight("HC036A10", "HC036A", "biomechzoo-HC036A", ["HC036A10.c3d", "HC036A01.c3d"]),
+    turn("HC055A34", "biomechzoo-HC055A", ["HC055A34.c3d", "HC055A01.c3d"]),
+    Trial { standing: None, ..straight("HC003B08", "HC003B", "biomechzoo-HC003B", ["HC003B08.c3d", ""]) },
+    Trial { standing: None, ..straight("HC034A07", "HC034A", "biomechzoo-HC034A", ["HC034A07.c3d", ""]) },
+    straight(
         "flat foot",
-        Some("flat foot"),
+        "flat foot",
         "btkdata-flatfoot-full",
-        "PiG_Motion-FlatFoot-Full.c3d",
-        Some("PiG_Calibration-FlatFoot-Full.c3d"),
-        None,
+        ["PiG_Motion-FlatFoot-Full.c3d", "PiG_Calibration-FlatFoot-Full.c3d"],
     ),
-    ("fast 5", None, "opensim-core-fast-walk", "walking5.c3d", None, Some("66.4")),
+    // One of three trials of a person who walks fast.
+    Trial { standing: None, mass: Some("66.4"), ..turn("fast 5", "opensim-core-fast-walk", ["walking5.c3d", ""]) },
 ];
 
 /// A page of `docs/measured/`.
@@ -75,7 +92,8 @@ impl MeasuredPage {
         if let Err(reason) = equal_as_printed(cell, found) {
             let name = self.name;
             panic!(
-                "docs/measured/{name}.md: {what}: {reason}\nhint: if the change is meant, `cargo xtask measured {name}` writes the page again"
+                "docs/measured/{name}.md: {what}: {reason}\n\
+                 hint: if the change is meant, `cargo xtask measured {name}` writes the page again"
             );
         }
     }
@@ -104,13 +122,12 @@ fn number(value: &Value) -> f64 {
 }
 
 /// Predicts the forces of a trial and returns the comparison with its plates, foot by foot.
-fn feet_of(bench: &Workbench, data: &Path, trial: Trial) -> Vec<Value> {
-    let (_, _, folder, recording, standing, mass) = trial;
-    let path = |name: &str| data.join(folder).join(name).display().to_string();
-    let (recording, standing) = (path(recording), standing.map(path));
+fn feet_of(bench: &Workbench, data: &Path, trial: &Trial) -> Vec<Value> {
+    let path = |name: &str| data.join(trial.folder).join(name).display().to_string();
+    let (recording, standing) = (path(trial.recording), trial.standing.map(path));
     let mut words = vec!["forces", &recording, "--predict", "--keep", "summary", "--json", "-o", "out"];
     words.extend(standing.iter().flat_map(|standing| ["--static", standing]));
-    words.extend(mass.iter().flat_map(|mass| ["--mass", mass]));
+    words.extend(trial.mass.iter().flat_map(|mass| ["--mass", mass]));
     let run = bench.run(&words).done();
     let summary: Value = serde_json::from_str(&run.stdout).unwrap();
     summary["comparison"]["feet"].as_array().unwrap().clone()
@@ -166,10 +183,10 @@ fn predicted_forces_have_the_errors_of_the_pages() {
     let bench = Workbench::empty("measured_pages_forces");
     let (validation, fit) = (MeasuredPage::read("VALIDATION"), MeasuredPage::read("GROUND_FIT"));
     let mut compared = 0;
-    for trial in TRIALS {
+    for trial in &TRIALS {
         let feet = feet_of(&bench, &data, trial);
-        compared += compare_with_validation(&validation, trial.0, &feet);
-        if let Some(subject) = trial.1 {
+        compared += compare_with_validation(&validation, trial.name, &feet);
+        if let Some(subject) = trial.subject {
             compare_with_fit(&fit, subject, &feet);
         }
     }

@@ -153,7 +153,7 @@ fn a_quiet_run_writes_no_durations_and_removes_those_of_an_earlier_one() {
     bench.forces(&["--quiet"]).done();
     bench.write("out/summary.json", serde_json::to_vec(&earlier).unwrap());
     bench.run(&["report", "out"]).done();
-    bench.run(&["compare", "out", "out"]).done();
+    bench.run(&["compare", "out/moments.sto", "out/moments.sto"]).done();
 }
 
 #[test]

@@ -28,7 +28,7 @@ pub struct Summary {
     /// Identifies the run: SHA-256 of version, options and the content of the input files. Empty until files are written.
     #[serde(default)]
     pub run_id: String,
-    /// SHA-256 of every other file of the run, by name.
+    /// SHA-256 of every other file of the run but `timings.json`, by name.
     #[serde(default)]
     pub files: BTreeMap<String, String>,
     /// Input files and settings.

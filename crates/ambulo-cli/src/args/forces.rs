@@ -33,8 +33,8 @@ motion; with --predict, the prediction is compared with the measurement. With --
 to rounding, without force plates.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
-events.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, report.html (open it with
-`ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --device moments_biological.sto; with
+events.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, timings.json, report.html (open it
+with `ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --device moments_biological.sto; with
 predicted forces grf_sd.mot; with --predict or --track and force plates grf_measured.mot. The results of an
 earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep
 writes only some of them; summary.json is always written.

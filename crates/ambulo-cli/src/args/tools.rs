@@ -11,7 +11,7 @@ use std::path::PathBuf;
   ambulo simulate examples/pile.toml --keep report,energy -o out
 
 Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, shapes.json,
-summary.json, report.html (open it with `ambulo view DIR`); moments.sto if the scene has figures; figures/*.svg
+summary.json, timings.json, report.html (open it with `ambulo view DIR`); moments.sto if the scene has figures; figures/*.svg
 (the quantities under `plot` in the scene, or else energy, contacts, joints and heights). Files that would be
 empty are not written; --keep writes only some of them. The results of an earlier run in DIR are replaced as a
 whole; other files stay. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]

@@ -57,7 +57,7 @@ cases the gait's own values are ignored.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
 events.csv, cycles.csv, clinical.csv, times_and_distances.csv, states.csv (states of the gait's machines),
-summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The results of an
+summary.json, timings.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. The results of an
 earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep
 writes only some of them; summary.json is always written.
 

@@ -142,7 +142,7 @@ class Result:
 
     @property
     def timings(self) -> dict[str, float]:
-        """Computing time of each stage [ms], as in ``timings.json``; they differ between equal runs and are no results."""
+        """Computing time of each stage [ms], as in ``timings.json``; it differs between equal runs."""
         return self._results.timings()
 
     @property
