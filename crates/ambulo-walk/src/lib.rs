@@ -12,11 +12,6 @@
 //! | [`scene`] | worlds from files |
 //! | [`synthetic`] | from a gait and a body size to motion and ground forces |
 
-#![cfg_attr(
-    test,
-    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
-)]
-
 #[doc(no_inline)]
 pub use ambulo_body::{contact, dynamics, findings, kinematics, model, motion, numerics, spatial, toml_reader};
 
@@ -35,3 +30,26 @@ pub mod scene;
 
 pub mod synthetic;
 pub mod tuning;
+
+/// For the tests of this crate.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::control::figure::FigureWorld;
+    pub use crate::control::linear::{Impedance, with_impedances};
+    pub use crate::control::plan::{CyclePlan, PlannedStep, Root};
+    pub use crate::control::riccati::{Costs, StepMap, foreseen};
+    pub use crate::engine::joint::MOST;
+    pub use crate::engine::signal::Instant as SignalInstant;
+    pub use crate::gait::cyclic_curve::SteadyCurve;
+    pub use crate::optimal::effort::tissue_of;
+    pub use crate::optimal::instant::{Contact, Evaluator, Instant};
+    pub use crate::optimal::layout::mirror;
+    pub use crate::optimal::objective::Row;
+    pub use crate::optimal::predict::flatter_slopes;
+    pub use crate::optimal::problem::Stage;
+    pub use crate::optimal::refine::Newton;
+    pub use crate::optimal::walk::passage::coefficient;
+    pub use crate::tuning::gain::rounded;
+    pub use crate::tuning::outcome::Sums;
+    pub use crate::walking::slip::stances;
+}

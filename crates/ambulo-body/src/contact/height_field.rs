@@ -26,7 +26,7 @@ use std::ops::RangeInclusive;
 
 /// Heights [m] on a grid over a rectangle in x and z about the origin, y up.
 #[derive(Debug)]
-pub(super) struct HeightField {
+pub struct HeightField {
     rows: usize,
     columns: usize,
     /// Row by row.
@@ -67,12 +67,13 @@ fn spread(count: usize, most: usize) -> Vec<usize> {
 }
 
 impl HeightField {
-    pub(super) fn new([rows, columns]: [usize; 2], heights: Vec<f64>, size: [f64; 2]) -> HeightField {
+    /// Rows and columns, heights row by row [m], and the extent along both [m].
+    pub fn new([rows, columns]: [usize; 2], heights: Vec<f64>, size: [f64; 2]) -> HeightField {
         HeightField { rows, columns, heights, size }
     }
 
     /// Lowest and highest corner of the box around the surface [m].
-    pub(super) fn bounding(&self) -> (Vec3, Vec3) {
+    pub fn bounding(&self) -> (Vec3, Vec3) {
         let (low, high) = self.heights.iter().fold((f64::MAX, f64::MIN), |(a, b), h| (a.min(*h), b.max(*h)));
         let [x, z] = self.size;
         (Vec3::new(-x / 2.0, low, -z / 2.0), Vec3::new(x / 2.0, high, z / 2.0))
@@ -355,15 +356,4 @@ fn crossing(ridge: Segment, edge: Segment) -> Option<Touch> {
     let inside = |x: f64| (0.0..=cross.norm_squared()).contains(&x);
     let point = ridge[0] + u * (s / cross.norm_squared()) + outward * (gap / 2.0);
     (inside(s) && inside(t)).then_some(Touch { point, outward, gap, feature: [0; 4] })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_box_around_a_field_touches_its_edges_and_extreme_heights() {
-        let field = HeightField::new([2, 3], vec![0.0, 0.1, -0.2, 0.3, 0.0, 0.05], [4.0, 2.0]);
-        assert_eq!(field.bounding(), (Vec3::new(-2.0, -0.2, -1.0), Vec3::new(2.0, 0.3, 1.0)));
-    }
 }

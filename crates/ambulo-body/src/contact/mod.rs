@@ -2,13 +2,13 @@
 
 mod shape;
 
-mod height_field;
-mod polytope;
+pub(crate) mod height_field;
+pub(crate) mod polytope;
 mod segment;
 
 mod broad_phase;
 mod detect;
-mod separating_axis;
+pub(crate) mod separating_axis;
 mod sphere_and_capsule;
 
 mod compliant;

@@ -143,18 +143,19 @@ fn arcs_cross([a, b]: [Vec3; 2], [c, d]: [Vec3; 2]) -> bool {
 
 /// A corner of the clipped face and the line from it to the next corner.
 #[derive(Debug, Clone, Copy)]
-struct Cut {
-    point: Vec3,
+pub struct Cut {
+    /// The corner.
+    pub point: Vec3,
     /// Origin of the corner: two lines, or a vertex.
-    origin: [usize; 2],
+    pub origin: [usize; 2],
     /// The line to the next corner: a side of the clipped face or of the clipping face.
-    line: usize,
+    pub line: usize,
 }
 
-/// Lines are numbered from 0 for sides of the clipped face, from `CUTTING` for sides of the clipping face; `VERTEX` marks
-/// vertices.
-const CUTTING: usize = 1 << 16;
-const VERTEX: usize = 1 << 17;
+/// Lines are numbered from 0 for sides of the clipped face, from here for sides of the clipping face.
+pub const CUTTING: usize = 1 << 16;
+/// The mark of vertices.
+pub const VERTEX: usize = 1 << 17;
 
 /// Clips the face of `other` that opposes `face` of `solid` by the sides of `face`, and reports the remaining corners.
 fn face_touches(solid: &Polytope, face: usize, other: &Polytope, reach: f64, mut report: impl FnMut(Touch)) {
@@ -187,16 +188,19 @@ fn face_touches(solid: &Polytope, face: usize, other: &Polytope, reach: f64, mut
 
 /// The plane through a side of the clipping face.
 #[derive(Debug, Clone, Copy)]
-struct Line {
-    side: usize,
-    outward: Vec3,
-    start: Vec3,
+pub struct Line {
+    /// The number of the side.
+    pub side: usize,
+    /// Unit vector in the plane of the face, away from the face.
+    pub outward: Vec3,
+    /// A point of the side.
+    pub start: Vec3,
     /// Corners within this distance of the plane [m] are kept unchanged, so that equal boxes touch in four points.
-    slack: f64,
+    pub slack: f64,
 }
 
 /// Keeps the part of a polygon inside the line (Sutherland-Hodgman clipping).
-fn cut_polygon(polygon: &[Cut], line: Line, kept: &mut Vec<Cut>) {
+pub fn cut_polygon(polygon: &[Cut], line: Line, kept: &mut Vec<Cut>) {
     kept.clear();
     let number = CUTTING + line.side;
     let outside = |corner: &Cut| line.outward.dot(&(corner.point - line.start));
@@ -224,27 +228,4 @@ fn edge_touch([p, p_end]: [Vec3; 2], [q, q_end]: [Vec3; 2], outward: Vec3) -> To
     // p + s u + gap n = q + t v, crossed with v and dotted with n.
     let s = (q - p).cross(&v).dot(&outward) / u.cross(&v).dot(&outward);
     Touch { point: p + u * s + outward * (gap / 2.0), outward, gap, feature: [0; 4] }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A square with corners (0, 0), (1, 0), (1, 1), (0, 1), cut by the line through (0, 0) and (1, 1).
-    #[test]
-    fn a_polygon_that_is_cut_through_its_corners_keeps_each_of_them_once() {
-        let corner = |(i, (x, y)): (usize, (f64, f64))| Cut {
-            point: Vec3::new(x, y, 0.0),
-            origin: [VERTEX + i, VERTEX],
-            line: i,
-        };
-        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
-        let square: Vec<Cut> = corners.into_iter().enumerate().map(corner).collect();
-        let line = Line { side: 2, outward: Vec3::new(1.0, -1.0, 0.0).normalize(), start: Vec3::zeros(), slack: 1e-9 };
-        let mut kept = Vec::new();
-        cut_polygon(&square, line, &mut kept);
-        let places: Vec<(f64, f64)> = kept.iter().map(|cut| (cut.point.x, cut.point.y)).collect();
-        assert_eq!(places, [(0.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
-        assert_eq!(kept.iter().map(|cut| cut.line).collect::<Vec<_>>(), [CUTTING + 2, 2, 3]);
-    }
 }

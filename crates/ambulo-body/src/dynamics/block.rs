@@ -245,7 +245,7 @@ pub(crate) fn carry(f: &Six, arm: &Vec3) -> Six {
 
 /// X a: the motion of the parent at the child's mass centre, v + ω × arm.
 #[inline(always)]
-pub(crate) fn transport(a: &Six, arm: &Vec3) -> Six {
+pub fn transport(a: &Six, arm: &Vec3) -> Six {
     Six::new(
         a[0],
         a[1],

@@ -12,7 +12,7 @@ mod inverse_derivatives;
 mod joint_powers;
 mod roots;
 
-mod block;
+pub(crate) mod block;
 mod elimination;
 mod elimination_order;
 

@@ -10,7 +10,7 @@ mod band_cholesky;
 mod banded;
 mod cardinal_spline;
 mod cma;
-mod dense;
+pub(crate) mod dense;
 pub mod elementary;
 mod harmonics;
 mod least_squares;

@@ -39,7 +39,7 @@ const C: [f64; 6] = [
 
 /// `sin[i]`, `cos[i]` of `angle[i]` [rad]; the three slices have the same length.
 #[inline(always)]
-pub(crate) fn sin_cos(angle: &[f64], sin: &mut [f64], cos: &mut [f64]) {
+pub fn sin_cos(angle: &[f64], sin: &mut [f64], cos: &mut [f64]) {
     let n = angle.len().min(sin.len()).min(cos.len());
     let (angle, sin, cos) = (&angle[..n], &mut sin[..n], &mut cos[..n]);
     let mut all_small = true;
@@ -79,29 +79,4 @@ fn sin_cos_small(x: f64) -> (f64, f64) {
     let sin = ((s & !swap) | (c & swap)) ^ sin_sign;
     let cos = ((c & !swap) | (s & swap)) ^ cos_sign;
     (f64::from_bits(sin), f64::from_bits(cos))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Largest difference from the library over `n` angles within ±`range`.
-    fn worst(range: f64, n: u32) -> f64 {
-        let angles: Vec<f64> = (0..=n).map(|i| range * (2.0 * f64::from(i) / f64::from(n) - 1.0)).collect();
-        let (mut sin, mut cos) = (vec![0.0; angles.len()], vec![0.0; angles.len()]);
-        sin_cos(&angles, &mut sin, &mut cos);
-        let error = |i: usize| {
-            let (s, c) = angles[i].sin_cos();
-            (sin[i] - s).abs().max((cos[i] - c).abs())
-        };
-        (0..angles.len()).map(error).fold(0.0, f64::max)
-    }
-
-    #[test]
-    fn agrees_with_the_math_library_to_the_last_place() {
-        for range in [0.01, 1.0, 10.0, 1e3, 9.9e4, 1e7] {
-            let error = worst(range, 100_003);
-            assert!(error <= f64::EPSILON, "range {range}: {error:e}");
-        }
-    }
 }

@@ -29,11 +29,11 @@ use super::riccati::StepMap;
 use super::settings::{Balance, ControlError, ControlSettings};
 use super::standing::{Maker, Stage};
 use super::walk_plan::{Body, SPEED_ROUNDING, WalkPlan};
+use crate::engine::{Motor, StepSettings};
 use crate::model::CoordinateId;
 use crate::model::anthropometry::Human;
 use crate::optimal::{Solution, StandingMovements};
 use crate::walking::TorqueSeries;
-use crate::engine::{Motor, StepSettings};
 use std::sync::Arc;
 
 /// Walks a figure along a plan by torques of its joints.

@@ -15,7 +15,7 @@ use crate::walking::{WalkingError, sole_material};
 
 /// A figure on level ground.
 #[derive(Debug, Clone)]
-pub(super) struct FigureWorld {
+pub struct FigureWorld {
     /// Bodies in the order of the model, then the links between hinges; surfaces are the soles in their order, then the ground.
     pub(super) world: World,
     pub(super) state: WorldState,
@@ -29,7 +29,7 @@ pub(super) struct FigureWorld {
 
 impl FigureWorld {
     /// A figure whose soles are `human.soles`, in shoes on level ground.
-    pub(super) fn new(human: &Human, shoes: HuntCrossley, settings: StepSettings) -> Result<FigureWorld, ControlError> {
+    pub fn new(human: &Human, shoes: HuntCrossley, settings: StepSettings) -> Result<FigureWorld, ControlError> {
         let mut world = World { gravity: human.model.gravity(), ..World::default() };
         let tree = FigureTree::add(&mut world, &human.model, "")?;
         world.materials.push(sole_material(&soft_ground(shoes)));

@@ -26,14 +26,14 @@
 mod controller;
 mod fall;
 mod feedback;
-mod figure;
+pub(crate) mod figure;
 mod foot_placement;
 mod gains;
-mod linear;
+pub(crate) mod linear;
 mod pace;
 mod phase;
 mod physical;
-mod plan;
+pub(crate) mod plan;
 pub(crate) mod riccati;
 mod schedule;
 mod settings;

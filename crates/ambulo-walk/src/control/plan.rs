@@ -20,13 +20,13 @@ pub(super) const STRIKE: f64 = 0.05;
 
 /// Coordinates, rates and torques of the plan in one time step.
 #[derive(Debug, Clone)]
-pub(super) struct PlannedStep {
+pub struct PlannedStep {
     /// Coordinates and rates at its start.
-    pub(super) state: [Vec<f64>; 2],
+    pub state: [Vec<f64>; 2],
     /// Coordinates and rates in its middle, the targets of the impedance.
-    pub(super) target: [Vec<f64>; 2],
+    pub target: [Vec<f64>; 2],
     /// Torques in its middle [N.m], one per coordinate.
-    pub(super) torques: Vec<f64>,
+    pub torques: Vec<f64>,
 }
 
 impl PlannedStep {
@@ -44,28 +44,33 @@ impl PlannedStep {
 
 /// A cycle of the plan.
 #[derive(Debug, Clone)]
-pub(super) struct CyclePlan {
-    pub(super) steps: Vec<PlannedStep>,
+pub struct CyclePlan {
+    /// All steps of the cycle.
+    pub steps: Vec<PlannedStep>,
     /// Numbers of the steps in which the right and the left foot strike: their load passes [`STRIKE`].
-    pub(super) strikes: [usize; 2],
-    pub(super) root: Root,
+    pub strikes: [usize; 2],
+    /// The coordinates of the root.
+    pub root: Root,
     /// The coordinate on the other side and its sign, if the second half of the cycle is the mirror image of the first.
-    pub(super) mirror: Option<Vec<(usize, f64)>>,
+    pub mirror: Option<Vec<(usize, f64)>>,
 }
 
 /// Numbers of the coordinates of the root.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Root {
-    pub(super) forward: usize,
-    pub(super) up: usize,
+pub struct Root {
+    /// Along x.
+    pub forward: usize,
+    /// Along y.
+    pub up: usize,
     /// To the right; a planar figure has none.
-    pub(super) sideways: Option<usize>,
+    pub sideways: Option<usize>,
     /// Rotations.
-    pub(super) turns: Vec<usize>,
+    pub turns: Vec<usize>,
 }
 
 impl Root {
-    pub(super) fn of(model: &Model) -> Root {
+    /// Those of a model of a figure.
+    pub fn of(model: &Model) -> Root {
         let named = |name: &str| model.coordinate(name).map(|id| id.index());
         let turns = ["pelvis_tilt", "pelvis_list", "pelvis_rotation"].into_iter().filter_map(named).collect();
         let place = |name: &str| named(name).unwrap_or(0);
@@ -194,7 +199,7 @@ impl CyclePlan {
     }
 
     /// The coordinates that joints move.
-    pub(super) fn joints(&self) -> Vec<usize> {
+    pub fn joints(&self) -> Vec<usize> {
         (0..self.steps[0].torques.len()).filter(|c| !self.root.contains(*c)).collect()
     }
 

@@ -41,7 +41,7 @@ pub enum JointKind {
 }
 
 /// Largest number of coordinates of a joint.
-pub(crate) const MOST: usize = 6;
+pub const MOST: usize = 6;
 
 /// Coordinates of a joint; only the first [`JointKind::freedom`] are used.
 pub(crate) type Coordinates = [f64; MOST];
@@ -117,7 +117,8 @@ impl JointKind {
     }
 
     /// T for these coordinates.
-    pub(crate) fn parent_from_child(self, q: &Coordinates) -> Pose {
+    #[doc(hidden)] // for tests
+    pub fn parent_from_child(self, q: &Coordinates) -> Pose {
         let turn = |rotation| Pose { rotation, translation: Vec3::zeros() };
         match self {
             JointKind::Weld => Pose::IDENTITY,
@@ -137,7 +138,8 @@ impl JointKind {
 
     /// `world_from_C` from `world_from_P`: P T without the products by zero and one of a hinge.
     #[inline(always)]
-    pub(crate) fn child_frame(self, parent: &Pose, q: &Coordinates) -> Pose {
+    #[doc(hidden)] // for tests
+    pub fn child_frame(self, parent: &Pose, q: &Coordinates) -> Pose {
         match self {
             JointKind::Revolute => Pose { rotation: turned(&parent.rotation, q[0]), translation: parent.translation },
             JointKind::Planar => {
@@ -348,30 +350,4 @@ fn near_vector(v: Vec3, last: &[f64]) -> Vec3 {
 fn nearest_turn(angle: f64, last: f64) -> f64 {
     let turns = (last - angle) / TAU;
     if turns.abs() < 0.5 { angle } else { angle + TAU * turns.round() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_frame_of_a_child_is_the_product_of_its_parents_frame_and_its_joint() {
-        let parent = Pose { rotation: rotation(&Vec3::new(0.3, -0.7, 1.1)), translation: Vec3::new(0.2, -0.4, 0.9) };
-        let level = Pose::at(Vec3::new(0.1, 0.2, -0.3));
-        let turned = Pose { rotation: rotation(&Vec3::new(0.0, 0.4, 0.0)), ..level };
-        let q = [0.6, -0.2, 0.35, 0.1, 0.2, -0.1];
-        let kinds = [JointKind::Weld, JointKind::Revolute, JointKind::Prismatic, JointKind::Universal];
-        for kind in kinds.into_iter().chain([JointKind::Ball, JointKind::Planar, JointKind::Free]) {
-            assert_eq!(kind.child_frame(&parent, &q), parent * kind.parent_from_child(&q), "{kind:?}");
-        }
-        for frame in [level, turned] {
-            assert_eq!(parent.with(&frame), parent * frame);
-            assert_eq!(parent.without(&frame), parent * frame.inverse());
-        }
-        assert_ne!(parent.with(&turned), parent.with(&level));
-        assert_ne!(
-            JointKind::Revolute.child_frame(&parent, &[-0.6; MOST]),
-            JointKind::Revolute.child_frame(&parent, &q)
-        );
-    }
 }

@@ -116,20 +116,21 @@ fn following(function: &Function, [x, rate, acceleration]: [f64; 3]) -> [f64; 3]
 
 /// Reads many signals at one instant: samples on one grid look for their place in it once.
 #[derive(Debug)]
-pub(crate) struct Instant<'a> {
+pub struct Instant<'a> {
     time_s: f64,
     /// The last samples, and the place of the instant on their grid.
     last: Option<(&'a Samples, (usize, f64))>,
 }
 
 impl<'a> Instant<'a> {
-    pub(crate) fn new(time_s: f64) -> Instant<'a> {
+    /// Nothing is read yet.
+    pub fn new(time_s: f64) -> Instant<'a> {
         Instant { time_s, last: None }
     }
 
     /// [`Signal::at`].
     #[inline]
-    pub(crate) fn at(&mut self, signal: &'a Signal) -> [f64; 3] {
+    pub fn at(&mut self, signal: &'a Signal) -> [f64; 3] {
         match signal {
             Signal::Sampled(samples, column) => samples.at_place(*column, self.place(samples)),
             Signal::Of(function, leader) => following(function, self.at(leader)),
@@ -139,7 +140,7 @@ impl<'a> Instant<'a> {
 
     /// [`Signal::value`].
     #[inline]
-    pub(super) fn value(&mut self, signal: &'a Signal) -> f64 {
+    pub fn value(&mut self, signal: &'a Signal) -> f64 {
         match signal {
             Signal::Sampled(samples, column) => samples.value_at_place(*column, self.place(samples)),
             Signal::Of(function, leader) => function.at(self.value(leader))[0],
@@ -178,34 +179,4 @@ fn between_stops(stops: &[(f64, f64)], t: f64) -> [f64; 3] {
         rise * 30.0 * s2 * (1.0 - 2.0 * s + s2) / span,
         rise * 60.0 * s * (1.0 - 3.0 * s + 2.0 * s2) / (span * span),
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn wave(t: f64) -> [f64; 3] {
-        let (sin, cos) = (3.0 * t).sin_cos();
-        [sin, 3.0 * cos, -9.0 * sin]
-    }
-
-    #[test]
-    fn signals_read_together_have_the_bits_of_signals_read_alone() {
-        let mut signals = Signal::periodic(2, 1.3, |t, row| row.copy_from_slice(&[wave(t), wave(2.0 * t)]));
-        // Samples on another grid between two of the first one, functions of samples, and signals without samples.
-        signals.insert(1, Signal::over(1, 0.7, |t, row| row[0] = [t * t, 2.0 * t, 2.0]).remove(0));
-        let turned = Function::Linear { slope: -1.0, intercept: 0.5 };
-        signals.push(Signal::Of(turned, Box::new(signals[0].clone())));
-        signals.push(Signal::Stops(vec![(0.0, 1.0), (1.0, 2.0)]));
-        let bits = |values: [f64; 3]| values.map(f64::to_bits);
-        for t in [-0.4, 0.0, 0.123_456, 0.7, 1.299_999, 4.2] {
-            let mut instant = Instant::new(t);
-            for signal in &signals {
-                assert_eq!(bits(instant.at(signal)), bits(signal.at(t)), "{t} s: {signal:?}");
-                assert_eq!(instant.value(signal).to_bits(), signal.at(t)[0].to_bits());
-            }
-        }
-        // The place on one grid is not that on another.
-        assert!((signals[0].at(0.6)[0] - signals[1].at(0.6)[0]).abs() > 0.1);
-    }
 }

@@ -73,7 +73,8 @@ impl CyclicCurve {
     }
 
     /// A curve through knots that the crate itself chose, at least two.
-    pub(super) fn of(knots: Vec<Knot>) -> CyclicCurve {
+    #[doc(hidden)] // for tests
+    pub fn of(knots: Vec<Knot>) -> CyclicCurve {
         debug_assert!(knots.len() >= 2, "a curve needs two knots");
         CyclicCurve { knots }
     }
@@ -154,7 +155,7 @@ fn wrapped(phase: Jet, first: f64) -> Jet {
 
 /// One segment at one speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Segment {
+pub struct Segment {
     /// Phase of its start, and 1/w.
     start: Jet,
     per_width: Jet,
@@ -172,16 +173,18 @@ impl Segment {
 /// A curve with the numbers of all its segments at one speed, for walks whose speed is that one most of the time. It gives the same bits as
 /// the curve; at any other speed it computes them.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct SteadyCurve {
+pub struct SteadyCurve {
     curve: CyclicCurve,
     speed: Jet,
     /// Phases of the knots [cycles].
     phases: Vec<f64>,
-    segments: Vec<Segment>,
+    /// One per knot.
+    pub segments: Vec<Segment>,
 }
 
 impl SteadyCurve {
-    pub(super) fn new(curve: &CyclicCurve, speed: Jet) -> SteadyCurve {
+    /// The numbers of the curve at this speed.
+    pub fn new(curve: &CyclicCurve, speed: Jet) -> SteadyCurve {
         let knots = 0..curve.knots.len();
         SteadyCurve {
             phases: knots.clone().map(|k| curve.knot_phase(k, speed.value)).collect(),
@@ -192,7 +195,7 @@ impl SteadyCurve {
     }
 
     /// [`CyclicCurve::at`].
-    pub(super) fn at(&self, phase: Jet, speed: Jet) -> Jet {
+    pub fn at(&self, phase: Jet, speed: Jet) -> Jet {
         self.at_chosen(phase, speed, |segment| segment)
     }
 
@@ -217,41 +220,5 @@ impl SteadyCurve {
             return self.curve.segment_at(phase, speed.value);
         }
         self.segment_of(wrapped(Jet::constant(phase), self.phases[0]).value)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn curve() -> CyclicCurve {
-        let knot = |phase: f64, angle: f64| Knot {
-            name: String::new(),
-            begins: None,
-            phase: SpeedLaw { coefficients: [phase, 0.02, 0.01] },
-            angle: SpeedLaw { coefficients: [angle, 0.3, -0.1] },
-            slope: SpeedLaw { coefficients: [0.2 * angle, 0.1, 0.0] },
-            curvature: SpeedLaw::constant(0.4),
-            height_share: 0.0,
-        };
-        CyclicCurve::of(vec![knot(0.1, 0.2), knot(0.4, 1.0), knot(0.7, -0.3)])
-    }
-
-    #[test]
-    fn a_steady_curve_has_the_bits_of_the_curve_at_its_own_and_at_other_speeds() {
-        let (curve, own) = (curve(), Jet::constant(0.43));
-        let steady = SteadyCurve::new(&curve, own);
-        let bits = |jet: Jet| [jet.value, jet.rate, jet.acceleration].map(f64::to_bits);
-        for speed in [own, Jet::constant(0.5), Jet::new(0.43, 0.2, -0.1)] {
-            for k in -30..90 {
-                let phase = Jet::new(f64::from(k) / 37.0, 1.1, 0.3);
-                assert_eq!(bits(steady.at(phase, speed)), bits(curve.at(phase, speed)), "{phase:?} at {speed:?}");
-            }
-        }
-        // A curve that is steady at another speed has other numbers.
-        let other = SteadyCurve::new(&curve, Jet::constant(0.5));
-        let phase = Jet::new(0.3, 1.1, 0.3);
-        assert_ne!(other.segments[0], steady.segments[0]);
-        assert_ne!(bits(curve.at(phase, Jet::constant(0.5))), bits(steady.at(phase, own)));
     }
 }

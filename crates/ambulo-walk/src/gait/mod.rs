@@ -26,7 +26,7 @@
 mod arms;
 mod curve_check;
 mod curve_table;
-mod cyclic_curve;
+pub(crate) mod cyclic_curve;
 mod ground_force;
 mod jet;
 mod joint;

@@ -38,7 +38,8 @@ const STEEPEST: f64 = 5.5;
 
 impl Exponential {
     /// The force, and its derivative by the exponent.
-    fn value(&self, at: &Instant) -> (f64, f64) {
+    #[doc(hidden)] // for tests
+    pub fn value(&self, at: &Instant) -> (f64, f64) {
         let exponent = self.constant + self.rates.iter().map(|(id, a)| a * at.posture[0][id.index()]).sum::<f64>();
         let value = self.scale * exp(exponent.min(STEEPEST));
         (value * (1.0 + (exponent - STEEPEST).max(0.0)), value)
@@ -116,7 +117,7 @@ const TISSUE: [TissueLaw; 3] = [
 ];
 
 /// Passive moment about a joint of a leg of an adult: its exponentials, and its constant part [N.m]. `None` for other joints.
-pub(super) fn tissue_of(anatomy: &Anatomy, movement: Movement, side: Side) -> Option<(Vec<Exponential>, f64)> {
+pub fn tissue_of(anatomy: &Anatomy, movement: Movement, side: Side) -> Option<(Vec<Exponential>, f64)> {
     let law = TISSUE.iter().find(|law| law.movement == movement)?;
     let (_, sign) = anatomy.coordinate(movement, Some(side))?;
     let joints = [Movement::HipFlexion, Movement::KneeFlexion, Movement::AnkleDorsiflexion];
@@ -129,83 +130,4 @@ pub(super) fn tissue_of(anatomy: &Anatomy, movement: Movement, side: Side) -> Op
         Exponential { scale: scale * sign, constant: *constant, rates }
     };
     Some((law.parts.iter().map(exponential).collect(), law.constant * sign))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::instant::Evaluator;
-    use super::super::objective::{Quantity, Row};
-    use super::*;
-    use crate::contact::HuntCrossley;
-    use crate::model::anthropometry::{Build, SegmentTable};
-    use crate::model::full_body::full_body;
-
-    #[test]
-    fn slopes_of_all_quantities_of_muscles_and_feet_are_those_of_differences() {
-        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
-        let human = full_body(&build).unwrap();
-        let anatomy = human.model.anatomy();
-        let (knee, _) = anatomy.coordinate(Movement::KneeFlexion, Some(Side::Left)).unwrap();
-        let (tissue, constant) = tissue_of(anatomy, Movement::KneeFlexion, Side::Left).unwrap();
-        let effort = Effort { coordinate: knee, tissue, stiffness: 30.0, damping: 3.0, given: vec![constant, 7.0] };
-        let quantities = [
-            Quantity::Effort(effort.clone()),
-            Quantity::RootPower { effort: effort.clone(), prices: [4.0, 0.8], smooth_w: 5.0 },
-            Quantity::RootPower { effort: Effort::whole(knee), prices: [4.0, 0.8], smooth_w: 50.0 },
-            Quantity::Sideways(3),
-            Quantity::LoadOffset { spheres: vec![0, 1, 2], axis: 0, points: vec![0.0, 0.05] },
-            Quantity::LoadOffset { spheres: vec![1, 3], axis: 2, points: vec![0.0, -0.02] },
-            Quantity::Height(3),
-        ];
-        let mut evaluator = Evaluator::new(&human.model, &human.soles, &[]).unwrap();
-        let law = HuntCrossley::SOFT_SHOES;
-        let count = human.model.coordinates().len();
-        let wave = |size: f64, shift: f64| (0..count).map(|k| size * (1.3 * k as f64 + shift).sin()).collect();
-        let mut at = [Instant { posture: [wave(0.2, 0.0), wave(1.0, 2.0), wave(5.0, 4.0)], ..Instant::default() }];
-        at[0].posture[0][4] = human.dimensions.leg_length;
-        evaluator.evaluate(&law, &mut at);
-        for quantity in &quantities {
-            let mut full = Vec::new();
-            let row = match quantity.row(1, &at[0], 1.0, &mut full) {
-                Row::Full => full,
-                Row::Entries(entries) => {
-                    let mut row = vec![0.0; 3 * count];
-                    entries.into_iter().for_each(|(place, slope)| row[place] += slope);
-                    row
-                }
-            };
-            let size = row.iter().fold(1.0_f64, |a, x| a.max(x.abs()));
-            for (part, step) in [1e-6, 1e-5, 1e-3].into_iter().enumerate() {
-                for column in 0..count {
-                    let mut pair = [at[0].clone(), at[0].clone()];
-                    pair[0].posture[part][column] += step;
-                    pair[1].posture[part][column] -= step;
-                    evaluator.evaluate(&law, &mut pair);
-                    let expected = (quantity.value(1, &pair[0]) - quantity.value(1, &pair[1])) / (2.0 * step);
-                    let found = row[part * count + column];
-                    assert!((found - expected).abs() < 1e-5 * size, "{quantity:?}: {found}, difference {expected}");
-                }
-            }
-        }
-    }
-
-    /// Riener and Edrich's passive knee: little moment at 20 degrees of flexion, more towards both ends.
-    #[test]
-    fn tissue_pulls_a_joint_away_from_the_ends_of_its_range() {
-        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
-        let human = full_body(&build).unwrap();
-        let anatomy = human.model.anatomy();
-        for side in Side::BOTH {
-            let (knee, sign) = anatomy.coordinate(Movement::KneeFlexion, Some(side)).unwrap();
-            let (tissue, constant) = tissue_of(anatomy, Movement::KneeFlexion, side).unwrap();
-            let flexion = |degrees: f64| {
-                let mut at = Instant::default();
-                at.posture[0] = vec![0.0; human.model.coordinates().len()];
-                at.posture[0][knee.index()] = sign * degrees.to_radians();
-                sign * (constant + tissue.iter().map(|part| part.value(&at).0).sum::<f64>())
-            };
-            assert!(flexion(20.0).abs() < 2.0, "{}", flexion(20.0));
-            assert!(flexion(-5.0) > 10.0 && flexion(120.0) < -5.0, "{} and {}", flexion(-5.0), flexion(120.0));
-        }
-    }
 }

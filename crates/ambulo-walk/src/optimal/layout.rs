@@ -113,7 +113,7 @@ impl Layout {
 }
 
 /// Per coordinate: the coordinate on the other side, and its sign. Coordinates of pelvis and trunk outside the sagittal plane change sign.
-pub(crate) fn mirror(model: &Model) -> Vec<(usize, f64)> {
+pub fn mirror(model: &Model) -> Vec<(usize, f64)> {
     let anatomy = model.anatomy();
     let sign = |id: CoordinateId| anatomy.meaning(id).map_or(1.0, |meaning| meaning.sign);
     model

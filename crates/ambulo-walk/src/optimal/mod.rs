@@ -13,32 +13,32 @@
 //! Not handled: obstacles, unknown durations; slopes are inclined gravity.
 //! Pinned by: tests/optimal.rs, tests/optimal_prediction.rs, tests/optimal_movements.rs
 
-mod layout;
+pub(crate) mod layout;
 
-mod instant;
+pub(crate) mod instant;
 
-mod objective;
+pub(crate) mod objective;
 
 mod forward;
 mod normal;
-mod problem;
-mod refine;
+pub(crate) mod problem;
+pub(crate) mod refine;
 mod solution;
 mod solve;
 
 mod conditions;
-mod effort;
+pub(crate) mod effort;
 mod error;
 mod find;
 mod movement;
 mod muscles;
 mod near;
 mod plan;
-mod predict;
+pub(crate) mod predict;
 mod standing;
 mod strength;
 mod track;
-mod walk;
+pub(crate) mod walk;
 
 pub use conditions::{Device, Load, LoadPlace, WalkConditions};
 pub use effort::{Effort, Exponential};

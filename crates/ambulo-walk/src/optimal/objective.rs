@@ -83,7 +83,7 @@ pub struct Term {
 }
 
 /// Derivatives of a quantity by z = (q, q̇, q̈).
-pub(super) enum Row {
+pub enum Row {
     /// The entries that are not zero: index in z and derivative.
     Entries(Vec<(usize, f64)>),
     /// All entries; they were appended to the buffer.
@@ -112,7 +112,8 @@ impl Quantity {
     }
 
     /// Value at an instant, given with its number.
-    pub(super) fn value(&self, instant: usize, at: &Instant) -> f64 {
+    #[doc(hidden)] // for tests
+    pub fn value(&self, instant: usize, at: &Instant) -> f64 {
         let sum = |part: usize, of: &[(CoordinateId, f64)]| {
             of.iter().map(|(id, factor)| factor * at.posture[part][id.index()]).sum::<f64>()
         };
@@ -141,7 +142,8 @@ impl Quantity {
     }
 
     /// Derivatives at an instant divided by `scale`; a full row is appended to `full`.
-    pub(super) fn row(&self, instant: usize, at: &Instant, scale: f64, full: &mut Vec<f64>) -> Row {
+    #[doc(hidden)] // for tests
+    pub fn row(&self, instant: usize, at: &Instant, scale: f64, full: &mut Vec<f64>) -> Row {
         let n = at.posture[0].len();
         let entries = |part: usize, of: &[(CoordinateId, f64)]| {
             Row::Entries(of.iter().map(|(id, factor)| (part * n + id.index(), factor / scale)).collect())

@@ -47,23 +47,24 @@ pub struct Problem {
 
 /// Properties of the problem that change from stage to stage of the solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stage {
-    pub(super) shoes: HuntCrossley,
+pub struct Stage {
+    /// The law of contact.
+    pub shoes: HuntCrossley,
     /// Slack s of the residual forces at the root [body weights, body weights × length]: the residual at which an instant costs 1.
-    pub(super) slack: f64,
+    pub slack: f64,
     /// Factor of the deviation of slip.
-    pub(super) slip: f64,
+    pub slip: f64,
 }
 
 impl Stage {
     /// The deviation of a term that costs 1.
-    fn deviation(&self, term: &Term) -> f64 {
+    pub fn deviation(&self, term: &Term) -> f64 {
         let factor = if matches!(term.quantity, Quantity::Slip { .. }) { self.slip } else { 1.0 };
         factor * term.deviation
     }
 
     /// (value - target) / deviation at an instant; `None` if it does not count.
-    fn residual(&self, term: &Term, index: usize, at: &Instant) -> Option<f64> {
+    pub fn residual(&self, term: &Term, index: usize, at: &Instant) -> Option<f64> {
         let residual = term.residual(index, term.quantity.value(index, at))?;
         Some(residual * (term.deviation / self.deviation(term)))
     }
@@ -470,40 +471,5 @@ impl<'a> Transcription<'a> {
 
     pub(super) fn instants(&self) -> &[Instant] {
         &self.instants
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::optimal::instant::Contact;
-    use crate::optimal::objective::Bound;
-    use crate::optimal::{Continuation, SPATIAL_STAGES, STAGES};
-
-    fn term(quantity: Quantity) -> Term {
-        Term { name: String::new(), quantity, targets: vec![Some(1.0)], deviation: 0.5, bound: Bound::Near }
-    }
-
-    #[test]
-    fn a_stage_makes_slip_alone_cheaper() {
-        let stage = Stage { shoes: HuntCrossley::SOFT_SHOES, slack: 1.0, slip: 4.0 };
-        let mut contact = Contact::default();
-        (contact.values.force.y, contact.values.slip[0]) = (100.0, 3.0);
-        let at = Instant { posture: [vec![3.0], vec![0.0], vec![0.0]], contacts: vec![contact], ..Instant::default() };
-        let slip = term(Quantity::Slip { sphere: 0, axis: 0, light_n: 0.0 });
-        let place = term(Quantity::Position(vec![(CoordinateId(0), 1.0)]));
-        let residual = |term: &Term| stage.residual(term, 0, &at).unwrap();
-        let near = |found: [f64; 2], expected: [f64; 2]| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
-        assert!(near([stage.deviation(&slip), stage.deviation(&place)], [2.0, 0.5]));
-        assert!(near([residual(&slip), residual(&place)], [1.0, 4.0]));
-    }
-
-    #[test]
-    fn stages_in_three_dimensions_end_with_the_cost_of_slip_of_the_problem() {
-        let slips = SPATIAL_STAGES.map(|stage| stage.slip);
-        assert!(slips.is_sorted_by(|a, b| a >= b) && slips[0] > 1.0 && slips.last() == Some(&1.0), "{slips:?}");
-        for (spatial, planar) in SPATIAL_STAGES.iter().zip(&STAGES) {
-            assert_eq!(Continuation { slip: planar.slip, updates: planar.updates, ..*spatial }, *planar);
-        }
     }
 }

@@ -32,10 +32,7 @@ impl Problem {
     /// # Errors
     /// If the model has joints that are not hinges or slides.
     pub fn refine(&self, unknowns: &[f64], accuracy: f64, steps: usize) -> Result<Solution, CurvedJointError> {
-        let mut transcription = Transcription::new(self)?;
-        transcription.stage = Stage { shoes: self.shoes, slack: SLACK, slip: 1.0 };
-        let normal = NormalEquations::new(&transcription.layout);
-        let mut method = Newton { transcription, normal, damping: 0.0 };
+        let mut method = Newton::new(self)?;
         let mut unknowns = unknowns.to_vec();
         let from = method.cost(&unknowns);
         let (mut cost, mut done, mut allowed) = (from, 0, accuracy.max(FIRST_GRADIENT));
@@ -47,7 +44,7 @@ impl Problem {
                     break;
                 }
                 allowed = accuracy.max(GRADIENT_FACTOR * allowed);
-                method.transcription.update_multipliers();
+                method.update_multipliers();
                 cost = method.transcription.cost();
                 continue;
             }
@@ -62,26 +59,42 @@ impl Problem {
     }
 }
 
-struct Newton<'a> {
+/// The method, at the unknowns whose cost it computed last.
+pub struct Newton<'a> {
     transcription: Transcription<'a>,
     normal: NormalEquations,
     damping: f64,
 }
 
-impl Newton<'_> {
-    fn cost(&mut self, unknowns: &[f64]) -> f64 {
+impl<'a> Newton<'a> {
+    /// # Errors
+    /// If the model has joints that are not hinges or slides.
+    pub fn new(problem: &'a Problem) -> Result<Newton<'a>, CurvedJointError> {
+        let mut transcription = Transcription::new(problem)?;
+        transcription.stage = Stage { shoes: problem.shoes, slack: SLACK, slip: 1.0 };
+        let normal = NormalEquations::new(&transcription.layout);
+        Ok(Newton { transcription, normal, damping: 0.0 })
+    }
+
+    /// The cost at these unknowns.
+    pub fn cost(&mut self, unknowns: &[f64]) -> f64 {
         self.transcription.evaluate(unknowns);
         self.transcription.cost()
     }
 
+    /// Takes over the forces at the root into the multipliers.
+    pub fn update_multipliers(&mut self) {
+        self.transcription.update_multipliers();
+    }
+
     /// Half the gradient of the cost at the instants that were evaluated: the right-hand side, because the cost is a sum of squares.
-    fn half_gradient(&mut self) -> Vec<f64> {
+    pub fn half_gradient(&mut self) -> Vec<f64> {
         self.transcription.linearise(&mut self.normal);
         self.normal.fold_right(&self.transcription.layout)
     }
 
     /// Half the Hessian, after [`Newton::half_gradient`].
-    fn half_hessian(&mut self) -> ProfileMatrix {
+    pub fn half_hessian(&mut self) -> ProfileMatrix {
         self.transcription.add_bending(&mut self.normal);
         let layout = &self.transcription.layout;
         let mut matrix = empty_matrix(layout);
@@ -113,59 +126,5 @@ impl Newton<'_> {
         }
         self.transcription.evaluate(unknowns);
         None
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::contact::{FrictionCurve, HuntCrossley, Onset};
-    use crate::findings::Findings;
-    use crate::gait::{Gait, Walk};
-    use crate::model::anthropometry::{Build, SegmentTable};
-    use crate::optimal::{Bound, WalkCosts, WalkProblem};
-
-    #[test]
-    fn second_derivatives_are_differences_of_the_gradient() {
-        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-        let human = build.human().unwrap();
-        let gait = Gait::named("free").unwrap();
-        let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
-        let smooth = HuntCrossley { friction_curve: FrictionCurve::Smooth, ..HuntCrossley::MOCO_2D_GAIT };
-        let shoes = HuntCrossley { onset: Onset::Published, ..smooth };
-        let costs = WalkCosts { knots: 8, per_knot: 1, ..WalkCosts::default() };
-        let WalkProblem { mut problem, guess, .. } =
-            WalkProblem::new(&human, &human.soles, shoes, &walk, &costs).unwrap();
-        // Without corners; all kinds of terms remain.
-        for term in &mut problem.terms {
-            term.bound = Bound::Near;
-        }
-        let mut transcription = Transcription::new(&problem).unwrap();
-        transcription.stage = Stage { shoes, slack: SLACK, slip: 1.0 };
-        let normal = NormalEquations::new(&transcription.layout);
-        let mut newton = Newton { transcription, normal, damping: 0.0 };
-        newton.cost(&guess);
-        newton.transcription.update_multipliers();
-        newton.half_gradient();
-        let mut matrix = newton.half_hessian();
-        // With a diagonal that makes it positive definite, the matrix can be solved for the direction.
-        let shift = 2.0 * matrix.diagonal().iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        (0..guess.len()).for_each(|row| matrix.add(row, row, shift));
-        let factor = matrix.factor().unwrap();
-        for seed in 0..3 {
-            let direction: Vec<f64> = (0..guess.len()).map(|i| (1.0 + 3.7 * (i * i + seed) as f64).sin()).collect();
-            let h = 1e-7;
-            let mut gradient = |step: f64| {
-                let moved: Vec<f64> = guess.iter().zip(&direction).map(|(x, d)| x + step * d).collect();
-                newton.cost(&moved);
-                newton.half_gradient()
-            };
-            let (plus, minus) = (gradient(h), gradient(-h));
-            let mut found: Vec<f64> =
-                (0..guess.len()).map(|i| (plus[i] - minus[i]) / (2.0 * h) + shift * direction[i]).collect();
-            factor.solve(&mut found);
-            let worst = found.iter().zip(&direction).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            assert!(worst < 1e-4, "direction {seed}: {worst}");
-        }
     }
 }

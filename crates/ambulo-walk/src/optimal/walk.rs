@@ -1,6 +1,6 @@
 //! The problem of walking: a figure walks at a given speed with mean curves of healthy people as targets.
 
-mod passage;
+pub(crate) mod passage;
 mod targets;
 
 pub use passage::{Passage, PassageEnd};

@@ -36,14 +36,15 @@ pub struct TrialOutcome {
 
 impl TrialOutcome {
     /// The outcome of settings without gains: the Riccati equation does not converge.
-    pub(super) fn without_gains(pushes: usize) -> TrialOutcome {
+    #[doc(hidden)] // for tests
+    pub fn without_gains(pushes: usize) -> TrialOutcome {
         TrialOutcome { cost: f64::NAN, pushes, survived: 0, deviation: 0.0, effort: 0.0, speed_error: 0.0 }
     }
 }
 
 /// Sums over trials.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Sums {
+pub struct Sums {
     pushes: usize,
     survived: usize,
     falls: f64,
@@ -56,26 +57,26 @@ pub(super) struct Sums {
 
 impl Sums {
     /// Adds mean squares of deviation and effort at an instant.
-    pub(super) fn sample(&mut self, [deviation, effort]: [f64; 2]) {
+    pub fn sample(&mut self, [deviation, effort]: [f64; 2]) {
         self.samples += 1.0;
         self.deviation += deviation;
         self.effort += effort;
     }
 
     /// Adds the speed of a trial without a fall, over that of the plan.
-    pub(super) fn speed(&mut self, share: f64) {
+    pub fn speed(&mut self, share: f64) {
         self.speeds += 1.0;
         self.speed_error += (share - 1.0).abs();
     }
 
     /// Adds a push that ended in a fall after a share of the time.
-    pub(super) fn fell(&mut self, share: f64) {
+    pub fn fell(&mut self, share: f64) {
         self.pushes += 1;
         self.falls += 2.0 - share.clamp(0.0, 1.0);
     }
 
     /// Adds a push that was survived, with its own sums.
-    pub(super) fn survived(&mut self, own: &Sums) {
+    pub fn survived(&mut self, own: &Sums) {
         self.pushes += 1;
         self.survived += 1;
         self.samples += own.samples;
@@ -85,7 +86,8 @@ impl Sums {
         self.speeds += own.speeds;
     }
 
-    pub(super) fn outcome(&self) -> TrialOutcome {
+    /// The outcome of the trials that were added.
+    pub fn outcome(&self) -> TrialOutcome {
         let samples = self.samples.max(1.0);
         let (deviation, effort) = (self.deviation / samples, self.effort / samples);
         // Where nothing walked, nothing had the speed.
@@ -99,28 +101,5 @@ impl Sums {
             effort: effort.sqrt(),
             speed_error,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_cost_is_that_of_the_formula() {
-        let mut sums = Sums::default();
-        sums.sample([0.01, 0.04]);
-        let mut own = Sums::default();
-        own.sample([0.03, 0.12]);
-        own.speed(0.9);
-        sums.speed(1.0);
-        sums.survived(&own);
-        sums.fell(0.25);
-        let found = sums.outcome();
-        assert_eq!((found.pushes, found.survived), (2, 1));
-        let expected = 0.5 * 1.75 + 10.0 * 0.02 + 0.5 * 0.08 + 0.5 * 0.05;
-        assert!((found.cost - expected).abs() < 1e-12, "{found:?}");
-        assert!((found.deviation - 0.02_f64.sqrt()).abs() < 1e-12 && (found.speed_error - 0.05).abs() < 1e-12);
-        assert!(TrialOutcome::without_gains(3).cost.is_nan());
     }
 }

@@ -14,7 +14,7 @@ mod feet;
 mod figure;
 mod recording;
 mod run;
-mod slip;
+pub(crate) mod slip;
 mod torques;
 
 pub use feet::{FootRecord, ToeRecord};

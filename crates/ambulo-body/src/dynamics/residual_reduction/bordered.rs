@@ -10,17 +10,22 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// The equations, assembled term by term.
 #[derive(Debug, Clone)]
-pub(super) struct BorderedSystem {
-    pub(super) band: BandMatrix,
+pub struct BorderedSystem {
+    /// A.
+    pub band: BandMatrix,
     /// B by columns.
-    pub(super) border: Vec<Vec<f64>>,
-    pub(super) corner: DMatrix<f64>,
-    pub(super) right: Vec<f64>,
-    pub(super) corner_right: DVector<f64>,
+    pub border: Vec<Vec<f64>>,
+    /// D.
+    pub corner: DMatrix<f64>,
+    /// r.
+    pub right: Vec<f64>,
+    /// s.
+    pub corner_right: DVector<f64>,
 }
 
 impl BorderedSystem {
-    pub(super) fn zeros(size: usize, bands: usize, border: usize) -> BorderedSystem {
+    /// No terms yet: so many unknowns in the band, half the width of the band, and so many unknowns in the border.
+    pub fn zeros(size: usize, bands: usize, border: usize) -> BorderedSystem {
         BorderedSystem {
             band: BandMatrix::zeros(size, bands),
             border: vec![vec![0.0; size]; border],
@@ -31,7 +36,7 @@ impl BorderedSystem {
     }
 
     /// x and y, with each entry of y clamped to its range. Returns `None` if the matrix is not positive definite.
-    pub(super) fn solve(self, ranges: &[[f64; 2]]) -> Option<(Vec<f64>, Vec<f64>)> {
+    pub fn solve(self, ranges: &[[f64; 2]]) -> Option<(Vec<f64>, Vec<f64>)> {
         let BorderedSystem { band, border, corner, right, corner_right } = self;
         let factor = band.factor()?;
         let mut x = right;
@@ -85,53 +90,4 @@ fn within(inner: &DMatrix<f64>, rest: &DVector<f64>, ranges: &[[f64; 2]]) -> Opt
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Six unknowns in a band of one, two in the border.
-    fn equations() -> (BorderedSystem, DMatrix<f64>, DVector<f64>) {
-        let mut bordered = BorderedSystem::zeros(6, 1, 2);
-        let mut dense = DMatrix::<f64>::zeros(8, 8);
-        for i in 0..6 {
-            bordered.band.add(i, i, 4.0 + i as f64);
-            dense[(i, i)] = 4.0 + i as f64;
-            if i > 0 {
-                bordered.band.add(i, i - 1, -1.0);
-                (dense[(i, i - 1)], dense[(i - 1, i)]) = (-1.0, -1.0);
-            }
-            for k in 0..2 {
-                let b = ((i + 3 * k) as f64).cos();
-                bordered.border[k][i] = b;
-                (dense[(i, 6 + k)], dense[(6 + k, i)]) = (b, b);
-            }
-            bordered.right[i] = 1.0 + i as f64;
-        }
-        for k in 0..2 {
-            (bordered.corner[(k, k)], dense[(6 + k, 6 + k)]) = (5.0, 5.0);
-            bordered.corner_right[k] = 3.0 - k as f64;
-        }
-        let right = DVector::from_iterator(8, (0..6).map(|i| 1.0 + f64::from(i)).chain([3.0, 2.0]));
-        (bordered, dense, right)
-    }
-
-    #[test]
-    fn the_solution_is_that_of_the_dense_matrix() {
-        let (bordered, dense, right) = equations();
-        let (x, y) = bordered.solve(&[[-9.0, 9.0]; 2]).unwrap();
-        let found = DVector::from_iterator(8, x.into_iter().chain(y));
-        assert!((dense * found - right).amax() < 1e-12);
-    }
-
-    #[test]
-    fn entries_outside_their_range_are_fixed_at_the_limit_and_the_others_solved_again() {
-        let (bordered, dense, right) = equations();
-        let (x, y) = bordered.solve(&[[-9.0, 9.0], [-9.0, 0.01]]).unwrap();
-        assert!((y[1] - 0.01).abs() < 1e-15, "{y:?}");
-        let found = DVector::from_iterator(8, x.into_iter().chain(y));
-        let left = dense * found - right;
-        assert!(left.rows(0, 7).amax() < 1e-12, "{left}");
-    }
 }

@@ -32,7 +32,7 @@
 mod settings;
 
 mod adjustable_body;
-mod bordered;
+pub(crate) mod bordered;
 mod frame;
 mod problem;
 mod result;

@@ -54,19 +54,19 @@ pub(super) fn from_y_x(y: Vec3, x: Vec3) -> Option<Mat3> {
 }
 
 /// Rotation about x [rad].
-pub(super) fn about_x(angle: f64) -> Mat3 {
+pub fn about_x(angle: f64) -> Mat3 {
     let (s, c) = sin_cos(angle);
     Mat3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c)
 }
 
 /// Rotation about y [rad].
-pub(super) fn about_y(angle: f64) -> Mat3 {
+pub fn about_y(angle: f64) -> Mat3 {
     let (s, c) = sin_cos(angle);
     Mat3::new(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c)
 }
 
 /// Rotation about z [rad].
-pub(super) fn about_z(angle: f64) -> Mat3 {
+pub fn about_z(angle: f64) -> Mat3 {
     let (s, c) = sin_cos(angle);
     Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 }
@@ -89,7 +89,7 @@ pub(super) fn in_frame(world_from_frame: &Pose, point: Vec3) -> Vec3 {
 
 /// The pose that maps `places` to `points`, in the same order, with least squares (Kabsch 1976; unverified).
 /// `None` for fewer than three points or points on a line.
-pub(super) fn fit_pose(places: &[Vec3], points: &[Vec3]) -> Option<Pose> {
+pub fn fit_pose(places: &[Vec3], points: &[Vec3]) -> Option<Pose> {
     let count = places.len();
     if count < 3 || count != points.len() {
         return None;
@@ -113,35 +113,4 @@ pub(super) fn fit_pose(places: &[Vec3], points: &[Vec3]) -> Option<Pose> {
     turn[(least, least)] = (u * v_t).determinant().signum();
     let rotation = u * turn * v_t;
     Some(Pose { rotation, translation: to - rotation * from })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn angles_reproduce_their_rotation() {
-        let angles = [0.4, -0.3, 1.1];
-        let found = angles_zxy(&(about_z(angles[0]) * about_x(angles[1]) * about_y(angles[2])));
-        for (a, b) in angles.iter().zip(found) {
-            assert!((a - b).abs() < 1e-14, "{found:?}");
-        }
-    }
-
-    #[test]
-    fn a_rigid_motion_of_points_is_recovered_and_a_line_is_rejected() {
-        let places =
-            [Vec3::new(0.1, 0.0, 0.0), Vec3::new(0.0, 0.2, 0.0), Vec3::new(0.0, 0.0, 0.0), Vec3::new(0.0, 0.1, 0.3)];
-        let pose = Pose { rotation: about_y(2.0) * about_x(0.3), translation: Vec3::new(1.0, 2.0, 3.0) };
-        for count in [3, 4] {
-            let points: Vec<Vec3> = places[..count].iter().map(|p| pose.place(*p)).collect();
-            let found = fit_pose(&places[..count], &points).unwrap_or(Pose::IDENTITY);
-            assert!(
-                (found.rotation - pose.rotation).norm() < 1e-12
-                    && (found.translation - pose.translation).norm() < 1e-12
-            );
-        }
-        let line: Vec<Vec3> = (0..4).map(|i| Vec3::x() * f64::from(i)).collect();
-        assert!(fit_pose(&line, &line).is_none());
-    }
 }

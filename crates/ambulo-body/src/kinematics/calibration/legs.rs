@@ -247,7 +247,7 @@ impl Finder<'_> {
 
 /// Centre of a hinge at half the width from a lateral marker: perpendicular to the line to the upper joint, in the plane of upper
 /// joint, marker and wand, on the side of the line from joint to marker opposite to the wand (the chord of Plug-in-Gait).
-fn chord(upper: Vec3, lateral: Vec3, wand: Vec3, half: f64) -> Option<Vec3> {
+pub fn chord(upper: Vec3, lateral: Vec3, wand: Vec3, half: f64) -> Option<Vec3> {
     let length = (upper - lateral).norm();
     let along = direction(upper - lateral)?;
     let aside = -perpendicular(wand - lateral, along)?;
@@ -259,7 +259,7 @@ fn chord(upper: Vec3, lateral: Vec3, wand: Vec3, half: f64) -> Option<Vec3> {
 }
 
 /// Normal of the plane of flexion of a knee, to the right; `None` if it is nearly straight.
-fn bending_axis(hip: Vec3, knee: Vec3, ankle: Vec3) -> Option<Vec3> {
+pub fn bending_axis(hip: Vec3, knee: Vec3, ankle: Vec3) -> Option<Vec3> {
     let (thigh, shank) = (direction(knee - hip)?, direction(ankle - knee)?);
     let normal = shank.cross(&thigh);
     (normal.norm() > sin(BENT)).then(|| normal.normalize())
@@ -306,28 +306,4 @@ pub(in crate::kinematics) fn stature(
     let found = height * median(lengths).unwrap_or(f64::NAN) / (d.thigh + d.shank);
     assumptions.push(format!("the stature is not given; it is estimated as {found:.2} m from thighs and shanks"));
     Ok(found)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_chord_is_half_a_width_long_and_perpendicular_to_the_thigh() {
-        let (hip, lateral, wand) = (Vec3::new(0.0, 0.4, 0.0), Vec3::new(0.0, 0.0, 0.06), Vec3::new(0.02, 0.2, 0.13));
-        let centre = chord(hip, lateral, wand, 0.055).unwrap_or_default();
-        assert!(((centre - lateral).norm() - 0.055).abs() < 1e-15);
-        assert!((centre - lateral).dot(&(centre - hip)).abs() < 1e-15);
-        assert!((hip - lateral).cross(&(wand - lateral)).dot(&(centre - lateral)).abs() < 1e-15);
-        assert!(centre.z < lateral.z, "{centre}");
-        assert!(chord(hip, lateral, wand, 0.5).is_none(), "a knee wider than the thigh is long");
-    }
-
-    #[test]
-    fn a_bent_knee_shows_its_axis_and_a_straight_one_does_not() {
-        let (hip, knee) = (Vec3::new(0.0, 0.8, 0.0), Vec3::new(0.0, 0.4, 0.0));
-        let axis = bending_axis(hip, knee, Vec3::new(-0.3, 0.1, 0.0)).unwrap_or_default();
-        assert!((axis - Vec3::z()).norm() < 1e-15, "to the right");
-        assert!(bending_axis(hip, knee, Vec3::new(-0.01, 0.0, 0.0)).is_none());
-    }
 }

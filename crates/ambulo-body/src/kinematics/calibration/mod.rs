@@ -28,11 +28,11 @@
 //! Pinned by: tests/calibration.rs
 
 mod assembly;
-mod axes;
+pub(crate) mod axes;
 mod error;
 mod feet;
 mod landmark_trajectories;
-mod legs;
+pub(crate) mod legs;
 mod pelvis;
 mod person;
 mod reference;

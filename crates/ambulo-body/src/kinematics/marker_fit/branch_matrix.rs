@@ -24,7 +24,7 @@
 
 /// Places of the entries of matrices with the same tree.
 #[derive(Debug, Clone)]
-pub(super) struct Branches {
+pub struct Branches {
     /// First entry of the row of each unknown.
     start: Vec<usize>,
     /// Number of unknowns on the path before each unknown.
@@ -37,7 +37,7 @@ pub(super) struct Branches {
 impl Branches {
     /// The tree of matrices with entries for these pairs of unknowns and for each unknown with itself. `outwards` has all unknowns; those
     /// of a body come after those of its parent.
-    pub(super) fn new(outwards: Vec<usize>, pairs: impl Iterator<Item = (usize, usize)>) -> Branches {
+    pub fn new(outwards: Vec<usize>, pairs: impl Iterator<Item = (usize, usize)>) -> Branches {
         let n = outwards.len();
         let mut place = vec![0; n];
         outwards.iter().enumerate().for_each(|(k, &u)| place[u] = k);
@@ -71,12 +71,12 @@ impl Branches {
     }
 
     /// Number of unknowns.
-    pub(super) fn unknowns(&self) -> usize {
+    pub fn unknowns(&self) -> usize {
         self.start.len()
     }
 
     /// Number of entries.
-    pub(super) fn entries(&self) -> usize {
+    pub fn entries(&self) -> usize {
         self.path.len()
     }
 
@@ -88,12 +88,13 @@ impl Branches {
         entry
     }
 
-    pub(super) fn diagonal(&self, unknown: usize) -> usize {
+    /// The entry on the diagonal.
+    pub fn diagonal(&self, unknown: usize) -> usize {
         self.start[unknown] + self.level[unknown]
     }
 
     /// Unknowns of each entry: that of the row, that of the column, and the place of the entry.
-    pub(super) fn each_entry(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
+    pub fn each_entry(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         self.outwards.iter().flat_map(move |&row| self.row(row).map(move |entry| (row, self.path[entry], entry)))
     }
 
@@ -103,7 +104,7 @@ impl Branches {
     }
 
     /// Replaces a matrix by its factors. Returns false if it is not positive definite.
-    pub(super) fn factor(&self, entries: &mut [f64]) -> bool {
+    pub fn factor(&self, entries: &mut [f64]) -> bool {
         for &own in self.outwards.iter().rev() {
             let (inner, row) = entries.split_at_mut(self.start[own]);
             let (row, diagonal) = row.split_at_mut(self.level[own]);
@@ -123,7 +124,7 @@ impl Branches {
     }
 
     /// Solves A x = b in place, with the factors.
-    pub(super) fn solve(&self, factors: &[f64], x: &mut [f64]) {
+    pub fn solve(&self, factors: &[f64], x: &mut [f64]) {
         for &own in self.outwards.iter().rev() {
             let value = x[own];
             for (entry, &other) in self.before(own, factors) {
@@ -137,7 +138,7 @@ impl Branches {
     }
 
     /// The diagonal of A⁻¹, with the factors: entry k is Σ z²/D with zᵀ = eₖᵀ L⁻¹, which is zero outside the path of k.
-    pub(super) fn inverse_diagonal(&self, factors: &[f64], scratch: &mut [f64], diagonal: &mut [f64]) {
+    pub fn inverse_diagonal(&self, factors: &[f64], scratch: &mut [f64], diagonal: &mut [f64]) {
         for &own in &self.outwards {
             let row = self.row(own);
             let z = &mut scratch[..row.len()];
@@ -155,7 +156,7 @@ impl Branches {
     }
 
     /// Makes the row and the column of some unknowns those of the unit matrix.
-    pub(super) fn hold(&self, entries: &mut [f64], held: &[bool]) {
+    pub fn hold(&self, entries: &mut [f64], held: &[bool]) {
         for (row, column, entry) in self.each_entry() {
             if held[row] || held[column] {
                 entries[entry] = if row == column { 1.0 } else { 0.0 };
@@ -167,104 +168,5 @@ impl Branches {
     fn before<'a>(&'a self, unknown: usize, entries: &'a [f64]) -> impl Iterator<Item = (f64, &'a usize)> {
         let row = self.start[unknown]..self.diagonal(unknown);
         entries[row.clone()].iter().copied().zip(&self.path[row])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::{DMatrix, DVector};
-
-    /// Two arms on a trunk, numbered against the order of the tree; unknown 3 drives an axis in both arms.
-    fn branches() -> Branches {
-        let pairs = [
-            (6, 5),
-            (4, 6),
-            (4, 5),
-            (2, 4),
-            (2, 6),
-            (2, 5),
-            (1, 5),
-            (1, 6),
-            (0, 1),
-            (0, 5),
-            (0, 6),
-            (3, 2),
-            (3, 1),
-            (3, 5),
-        ];
-        Branches::new(vec![6, 5, 4, 2, 1, 3, 0], pairs.into_iter())
-    }
-
-    /// A positive definite matrix with entries in all places of the tree, dense and in the tree.
-    fn matrix(branches: &Branches) -> (DMatrix<f64>, Vec<f64>) {
-        let n = branches.unknowns();
-        let mut dense = DMatrix::zeros(n, n);
-        let mut entries = vec![0.0; branches.entries()];
-        for (row, column, entry) in branches.each_entry() {
-            let value = if row == column { 5.0 + row as f64 } else { (1.7 * entry as f64 + 0.3).sin() };
-            (dense[(row, column)], dense[(column, row)]) = (value, value);
-            entries[entry] = value;
-        }
-        (dense, entries)
-    }
-
-    #[test]
-    fn solutions_and_the_diagonal_of_the_inverse_are_those_of_the_dense_matrix() {
-        let branches = branches();
-        let (dense, mut entries) = matrix(&branches);
-        let right: Vec<f64> = (0..7).map(|i| (0.9 * f64::from(i)).cos()).collect();
-        let inverse = dense.try_inverse().unwrap();
-        assert!(branches.factor(&mut entries));
-        let mut x = right.clone();
-        branches.solve(&entries, &mut x);
-        let expected = &inverse * DVector::from_vec(right);
-        let (mut scratch, mut diagonal) = (vec![0.0; 7], vec![0.0; 7]);
-        branches.inverse_diagonal(&entries, &mut scratch, &mut diagonal);
-        for i in 0..7 {
-            assert!((x[i] - expected[i]).abs() < 1e-14, "unknown {i}: {} for {}", x[i], expected[i]);
-            assert!((diagonal[i] - inverse[(i, i)]).abs() < 1e-14, "diagonal {i}");
-        }
-    }
-
-    #[test]
-    fn different_branches_have_no_entries_and_a_shared_unknown_joins_them() {
-        let separate = Branches::new(vec![0, 1, 2], [(1, 0), (2, 0)].into_iter());
-        assert_eq!(separate.entries(), 5);
-        let joined = Branches::new(vec![0, 1, 2], [(1, 0), (2, 0), (2, 1)].into_iter());
-        assert_eq!(joined.entries(), 6);
-        assert_eq!(
-            branches().each_entry().filter(|(row, column, _)| [*row, *column] == [3, 4]).count(),
-            1,
-            "changed by unknown 2"
-        );
-    }
-
-    #[test]
-    fn held_unknowns_do_not_move_and_others_are_solved_without_them() {
-        let branches = branches();
-        let (dense, mut entries) = matrix(&branches);
-        let held = [false, false, true, false, false, true, false];
-        branches.hold(&mut entries, &held);
-        assert!(branches.factor(&mut entries));
-        let mut x: Vec<f64> = held.iter().map(|held| if *held { 0.0 } else { 1.0 }).collect();
-        branches.solve(&entries, &mut x);
-        let free: Vec<usize> = (0..7).filter(|&i| !held[i]).collect();
-        let reduced = DMatrix::from_fn(5, 5, |a, b| dense[(free[a], free[b])]);
-        let expected = reduced.try_inverse().unwrap() * DVector::from_element(5, 1.0);
-        for (k, &i) in free.iter().enumerate() {
-            assert!((x[i] - expected[k]).abs() < 1e-14, "unknown {i}");
-        }
-        assert_eq!((x[2], x[5]), (0.0, 0.0));
-    }
-
-    #[test]
-    fn a_matrix_that_is_not_positive_definite_is_refused() {
-        let branches = branches();
-        let (_, mut entries) = matrix(&branches);
-        entries[branches.diagonal(4)] = -1.0;
-        assert!(!branches.factor(&mut entries));
-        entries[branches.diagonal(4)] = f64::NAN;
-        assert!(!branches.factor(&mut entries));
     }
 }

@@ -56,7 +56,7 @@ const MOST_FRAMES: usize = 4096;
 
 /// How each unknown is determined in each frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Determination {
+pub enum Determination {
     /// By the markers.
     Determined,
     /// Weakly by the markers, supported by a curve.
@@ -304,7 +304,7 @@ fn bridge_all(
 }
 
 /// Marks short gaps inside a stretch as bridged.
-fn bridge_gaps(
+pub fn bridge_gaps(
     states: &mut [Determination],
     stride: usize,
     [start, end, count]: [usize; 3],
@@ -411,7 +411,7 @@ pub(super) fn fit_as_if_seen(problem: &mut FitProblem<'_>, frames: &mut Frames, 
 ///
 /// Noise matters more than the model of motion: through the three last values alone, 1 mm of a marker 0.15 m from a joint causes an
 /// acceleration error of 0.007 · 100² = 70 rad/s² at 100 Hz, which is 0.2 rad in the middle of 0.15 s.
-fn fill_gap(values: &mut [f64], known: &[bool], start: usize, end: usize, step_s: f64) {
+pub fn fill_gap(values: &mut [f64], known: &[bool], start: usize, end: usize, step_s: f64) {
     let reach = ((REACH_S / step_s).ceil() as usize).clamp(3, MOST_FRAMES);
     let (first, last) = (start.saturating_sub(reach), (end + reach).min(values.len()));
     let count = last - first;
@@ -448,38 +448,5 @@ fn fill_gap(values: &mut [f64], known: &[bool], start: usize, end: usize, step_s
     for i in start..end {
         let share = (i + 1 - start) as f64 / (end + 1 - start) as f64;
         values[i] = base + q[i - first] + miss_left + share * (miss_right - miss_left);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use Determination::{Bridged, Determined, Gap};
-
-    #[test]
-    fn short_gaps_inside_a_recording_are_bridged_others_are_not() {
-        // At both ends, of two frames, of three frames.
-        let before = [Gap, Determined, Gap, Gap, Determined, Gap, Gap, Gap, Determined, Gap];
-        let after = [Gap, Determined, Bridged, Bridged, Determined, Gap, Gap, Gap, Determined, Gap];
-        let mut states = before;
-        bridge_gaps(&mut states, 1, [0, 10, 10], 0.025, 0.01);
-        assert_eq!(states, after);
-        // A stretch that begins later has its first frames inside the recording.
-        let mut states = [Determined, Gap, Gap, Determined];
-        bridge_gaps(&mut states, 1, [1, 4, 4], 0.025, 0.01);
-        assert_eq!(states, [Determined, Bridged, Bridged, Determined]);
-    }
-
-    #[test]
-    fn a_parabola_is_continued_across_a_gap() {
-        const STEP: f64 = 0.01;
-        let parabola = |i: usize| 0.3 + 0.1 * (i as f64 * STEP) - 2.0 * (i as f64 * STEP).powi(2);
-        let mut values: Vec<f64> = (0..60).map(parabola).collect();
-        let known: Vec<bool> = (0..60).map(|i| !(25..33).contains(&i)).collect();
-        values[25..33].fill(f64::NAN);
-        fill_gap(&mut values, &known, 25, 33, STEP);
-        for (i, value) in values.iter().enumerate() {
-            assert!((value - parabola(i)).abs() < 1e-6, "frame {i}: {value}, expected {}", parabola(i));
-        }
     }
 }

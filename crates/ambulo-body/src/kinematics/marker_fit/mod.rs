@@ -26,7 +26,7 @@
 mod result;
 mod settings;
 
-mod branch_matrix;
+pub(crate) mod branch_matrix;
 mod budget;
 mod normal;
 mod problem;
@@ -38,7 +38,7 @@ mod frames;
 mod sequence;
 mod start;
 
-mod gaps;
+pub(crate) mod gaps;
 mod misplaced;
 mod skin_motion;
 mod smoothing;

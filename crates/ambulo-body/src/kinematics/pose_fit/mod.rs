@@ -17,7 +17,7 @@
 //! Pinned by: tests/segment_poses.rs
 
 mod body;
-mod joint_angles;
+pub(crate) mod joint_angles;
 
 pub(crate) use body::mean_rotation;
 pub use body::{PosedBody, body_of_poses};

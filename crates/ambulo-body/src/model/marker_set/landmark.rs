@@ -238,15 +238,3 @@ impl Landmark {
         Vec3::from(self.row().place)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_table_is_in_the_order_of_the_landmarks() {
-        for (i, row) in TABLE.iter().enumerate() {
-            assert_eq!(row.landmark as usize, i, "{}", row.word);
-        }
-    }
-}

@@ -5,7 +5,7 @@
 
 mod file;
 mod landmark;
-mod name_index;
+pub(crate) mod name_index;
 mod recognised;
 mod segment;
 mod template;

@@ -32,7 +32,7 @@ pub(super) enum NameReading {
 }
 
 /// The names of a set.
-pub(super) struct NameIndex<'s> {
+pub struct NameIndex<'s> {
     /// Names as written, in lower case.
     written: BTreeMap<String, &'s MarkerDefinition>,
     /// Sides with names in letters and digits.
@@ -40,7 +40,8 @@ pub(super) struct NameIndex<'s> {
 }
 
 impl<'s> NameIndex<'s> {
-    pub(super) fn new(set: &'s MarkerSet) -> NameIndex<'s> {
+    /// Indexes all markers of a set.
+    pub fn new(set: &'s MarkerSet) -> NameIndex<'s> {
         let mut index = NameIndex { written: BTreeMap::new(), meant: BTreeMap::new() };
         for marker in &set.markers {
             for name in &marker.names {
@@ -70,27 +71,28 @@ impl<'s> NameIndex<'s> {
     }
 
     /// The marker with exactly this name; only the case may differ.
-    fn written(&self, name: &Readings) -> Option<&'s MarkerDefinition> {
+    pub fn written(&self, name: &Readings) -> Option<&'s MarkerDefinition> {
         self.written.get(&name.written).copied()
     }
 
     /// The marker whose name means the same.
-    fn meant(&self, name: &Readings) -> Option<&'s MarkerDefinition> {
+    pub fn meant(&self, name: &Readings) -> Option<&'s MarkerDefinition> {
         name.meant.iter().find_map(|key| self.meant.get(key)).copied()
     }
 }
 
 /// The keys under which a name may be found.
 #[derive(Debug, Clone, PartialEq, Eq)]
-struct Readings {
+pub struct Readings {
     /// In lower case.
-    written: String,
+    pub written: String,
     /// As the name of each side and at last of none, in letters and digits.
     meant: Vec<(Option<Side>, String)>,
 }
 
 impl Readings {
-    fn of(name: &str) -> Readings {
+    /// The keys of this name.
+    pub fn of(name: &str) -> Readings {
         let bare = bare(name);
         let of_sides = sided(&bare).map(|(side, stem)| (Some(side), stem));
         let meant = of_sides.chain([(None, bare.clone())]).collect();
@@ -113,15 +115,15 @@ fn sided(bare: &str) -> impl Iterator<Item = (Side, String)> {
 
 /// A recorded name, without the subject's prefix up to the last colon.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct RecordedName {
+pub struct RecordedName {
     whole: Readings,
     /// Without the beginning that all names share, up to a separator.
-    rest: Readings,
+    pub rest: Readings,
 }
 
 impl RecordedName {
     /// The names of a recording.
-    pub(super) fn all(names: &[&str]) -> Vec<RecordedName> {
+    pub fn all(names: &[&str]) -> Vec<RecordedName> {
         let plain: Vec<&str> = names.iter().map(|name| name.rsplit(':').next().unwrap_or(name).trim()).collect();
         let shared = shared_prefix(&plain);
         let name = |name: &str| RecordedName { whole: Readings::of(name), rest: Readings::of(&name[shared..]) };
@@ -139,48 +141,4 @@ fn shared_prefix(names: &[&str]) -> usize {
         SIDES.iter().any(|(word, _)| bare(&first[..*end]).ends_with(word) && bare(&first[..*end]).len() == word.len())
     };
     ends.filter(|end| is_shared(end) && !is_side(end)).max().unwrap_or(0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_prefix_that_all_names_share_is_removed_but_never_a_side() {
-        let plain =
-            |names: &[&str]| RecordedName::all(names).into_iter().map(|name| name.rest.written).collect::<Vec<_>>();
-        assert_eq!(plain(&["251112_KUO_LASI", "251112_KUO_RASI", "251112_KUO_C7", "251112_KUO_LKNE"])[0], "lasi");
-        assert_eq!(plain(&["Anna:LASI", "Anna:RASI", "Bob:LKNE"]), ["lasi", "rasi", "lkne"]);
-        assert_eq!(plain(&["R_knee", "R_ankle", "R_toe", "R_heel"])[0], "r_knee");
-        assert_eq!(plain(&["P_R_knee", "P_R_ankle", "P_R_toe", "P_L_heel"])[0], "r_knee");
-        assert_eq!(plain(&["r knee 1", "r asis", "l asis", "c7"])[0], "r knee 1");
-        assert_eq!(plain(&["ä_LASI", "ä_RASI", "ä_LKNE", "ä_RKNE"])[3], "rkne");
-    }
-
-    #[test]
-    fn every_way_to_write_a_side_means_the_same() {
-        let text = "name = \"one\"\n[[pair]]\nright = \"R.Knee.Lat\"\nleft = \"L.Knee.Lat\"\nlandmark = \"lateral_epicondyle\"\n";
-        let set = MarkerSet::from_toml(text).unwrap();
-        let index = NameIndex::new(&set);
-        for name in [
-            "R.Knee.Lat",
-            "r_knee_lat",
-            "RKneeLat",
-            "knee_lat_r",
-            "Knee.Lat.R",
-            "right knee lat",
-            "KneeLat-Right",
-            "RT KNEE LAT",
-        ] {
-            assert_eq!(index.meant(&Readings::of(name)).and_then(|marker| marker.side), Some(Side::Right), "{name}");
-        }
-        for name in ["l_knee_lat_study", "KneeLat_L", "Left.Knee.Lat"] {
-            assert_eq!(index.meant(&Readings::of(name)).and_then(|marker| marker.side), Some(Side::Left), "{name}");
-        }
-        for name in ["Knee.Lat", "R.Knee", "R", "L", "", "study"] {
-            assert!(index.meant(&Readings::of(name)).is_none(), "{name}");
-        }
-        let is_written = |name: &str| index.written(&Readings::of(name)).is_some();
-        assert!(is_written("r.knee.lat") && !is_written("r_knee_lat"));
-    }
 }

@@ -23,7 +23,7 @@ mod decode;
 mod kind;
 mod standing;
 mod surface;
-mod units;
+pub(crate) mod units;
 
 pub use c3d::{PlateError, plates_from_c3d};
 pub use standing::standing_weight_n;

@@ -26,12 +26,12 @@ pub(super) fn about(axis: usize, angle: f64) -> Mat3 {
 }
 
 /// The rotation of these channels: the angles [rad] about the axes one after the other.
-pub(super) fn rotation(axes: &[usize], angles: &[f64]) -> Mat3 {
+pub fn rotation(axes: &[usize], angles: &[f64]) -> Mat3 {
     axes.iter().zip(angles).fold(Mat3::identity(), |turned, (&axis, &angle)| turned * about(axis, angle))
 }
 
 /// The angles [rad] about at most three different axes whose rotation is nearest to `wanted`; of several, those nearest to `near`.
-pub(super) fn angles(axes: &[usize], wanted: &Mat3, near: &[f64]) -> Vec<f64> {
+pub fn angles(axes: &[usize], wanted: &Mat3, near: &[f64]) -> Vec<f64> {
     let found = match *axes {
         [i, j, k] => three([i, j, k], wanted, near),
         _ => fewer(axes, wanted, near),
@@ -82,49 +82,7 @@ fn unwound(angle: f64, near: f64) -> f64 {
 }
 
 /// The angle between two rotations [rad].
-pub(super) fn angle_between(a: &Mat3, b: &Mat3) -> f64 {
+pub fn angle_between(a: &Mat3, b: &Mat3) -> f64 {
     // Accurate also for small angles, where the trace is flat: |A - B|² = 8 sin²(angle / 2).
     2.0 * asin(((a - b).norm() / 8.0_f64.sqrt()).min(1.0))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-
-    #[test]
-    fn every_order_of_channels_gives_back_its_angles_and_turns() {
-        for order in ORDERS {
-            for angles_in in [[0.3, -0.7, 1.1], [2.9, 2.0, -3.0], [7.0, -1.2, -9.0], [0.4, PI / 2.0, -0.2]] {
-                let r = rotation(&order, &angles_in);
-                let near = angles_in.map(|angle| angle + 0.05);
-                let found =
-                    angles(&order, &r, if (angles_in[1] - PI / 2.0).abs() < 1e-12 { &angles_in } else { &near });
-                for (found, expected) in found.iter().zip(angles_in) {
-                    assert!((found - expected).abs() < 1e-7, "{order:?}: {found:?} instead of {angles_in:?}");
-                }
-                assert!(angle_between(&rotation(&order, &found), &r) < 1e-12);
-            }
-        }
-    }
-
-    #[test]
-    fn fewer_channels_get_the_nearest_rotation() {
-        let wanted = rotation(&[2, 0, 1], &[0.2, 0.9, 0.1]);
-        for axes in [&[0][..], &[0, 2], &[1, 0]] {
-            let found = angles(axes, &wanted, &vec![0.0; axes.len()]);
-            let left = angle_between(&rotation(axes, &found), &wanted);
-            for place in 0..axes.len() {
-                for step in [-1e-3, 1e-3] {
-                    let mut other = found.clone();
-                    other[place] += step;
-                    assert!(angle_between(&rotation(axes, &other), &wanted) > left, "{axes:?}");
-                }
-            }
-            let reached = rotation(axes, &found);
-            assert!(angle_between(&rotation(axes, &angles(axes, &reached, &found)), &reached) < 1e-9);
-        }
-        assert!(angles(&[], &wanted, &[]).is_empty());
-    }
 }

@@ -22,7 +22,7 @@
 
 mod axes;
 mod body_joints;
-mod channel_angles;
+pub(crate) mod channel_angles;
 mod error;
 mod joint_paths;
 mod points;

@@ -1,0 +1,124 @@
+//! Impedances of joints, and the derivatives of time steps of a figure.
+
+use ambulo_walk::contact::HuntCrossley;
+use ambulo_walk::dynamics::{Workspace, inverse_frame};
+use ambulo_walk::engine::StepSettings;
+use ambulo_walk::internals::{CyclePlan, FigureWorld, Impedance, PlannedStep, Root, mirror, with_impedances};
+use ambulo_walk::kinematics::Posture;
+use ambulo_walk::model::anthropometry::{Build, SegmentTable};
+use ambulo_walk::model::full_body::full_body;
+use ambulo_walk::optimal::StrengthCurve;
+
+/// The strength of a giant.
+fn strong() -> StrengthCurve {
+    StrengthCurve { angles: vec![0.0], positive: vec![1e3], negative: vec![1e3], hill: None }
+}
+
+#[test]
+fn maps_of_the_second_half_of_a_cycle_are_mirror_images_of_those_of_the_first() {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+    let human = full_body(&build).unwrap();
+    let (count, mirror) = (human.model.coordinates().len(), mirror(&human.model));
+    let root = Root::of(&human.model);
+    let first: Vec<f64> = (0..count).map(|k| 0.2 * (1.0 + 1.7 * k as f64).sin()).collect();
+    let second: Vec<f64> = mirror.iter().map(|(c, sign)| sign * first[*c]).collect();
+    let on_the_ground = |q: &[f64]| {
+        let mut q = q.to_vec();
+        q[root.up] = 0.9;
+        q
+    };
+    let step = |q: &[f64]| PlannedStep {
+        state: [on_the_ground(q), q.to_vec()],
+        target: [on_the_ground(q), q.to_vec()],
+        torques: q.iter().map(|q| 50.0 * q).collect(),
+    };
+    let steps = vec![step(&first), step(&second)];
+    let plan = CyclePlan { steps, strikes: [0; 2], root: root.clone(), mirror: Some(mirror) };
+    let impedance = |stiffness: f64| Impedance { stiffness, damping: 5.0, strength: strong() };
+    let joints = plan.joints();
+    let impedances: Vec<Impedance> =
+        (0..count).map(|c| impedance(if joints.contains(&c) { 50.0 } else { 0.0 })).collect();
+    let mut figure = FigureWorld::new(&human, HuntCrossley::SOFT_SHOES, StepSettings::default()).unwrap();
+    let image = figure.maps(&plan, &impedances).unwrap().remove(1);
+    let found = figure.map(&plan, &impedances, 1).unwrap();
+    let [by_state, by_input] = [(&found.by_state, &image.by_state), (&found.by_input, &image.by_input)]
+        .map(|(a, b)| (a - b).amax() / a.amax());
+    assert!(by_state < 1e-6 && by_input < 1e-6, "{by_state} {by_input}");
+}
+
+/// In the air, a torque e of one joint changes the rates by Δ with (M + h d + h² k) Δ = h e, and M Δ is what inverse dynamics says.
+#[test]
+fn derivatives_by_torque_agree_with_inverse_dynamics() {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+    let human = full_body(&build).unwrap();
+    let count = human.model.coordinates().len();
+    let root = Root::of(&human.model);
+    let wave = |k: usize, size: f64| size * (1.0 + 1.7 * k as f64).sin();
+    let mut q: Vec<f64> = (0..count).map(|k| wave(k, 0.3)).collect();
+    q[root.up] = 3.0;
+    // At rest: rates after a step are those of its posture at the end.
+    let qd = vec![0.0; count];
+    let step =
+        PlannedStep { state: [q.clone(), qd.clone()], target: [q.clone(), qd.clone()], torques: vec![0.0; count] };
+    let plan = CyclePlan { steps: vec![step], strikes: [0; 2], root, mirror: None };
+    let impedance = |stiffness: f64| Impedance { stiffness, damping: 0.1 * stiffness, strength: strong() };
+    let impedances: Vec<Impedance> =
+        (0..count).map(|c| impedance(if plan.joints().contains(&c) { 50.0 + c as f64 } else { 0.0 })).collect();
+    let settings = StepSettings::default();
+    let mut figure = FigureWorld::new(&human, HuntCrossley::SOFT_SHOES, settings).unwrap();
+    let map = figure.maps(&plan, &impedances).unwrap().remove(0);
+    let mut workspace = Workspace::new(&human.model);
+    let mut torques = |qdd: &[f64]| {
+        let still = vec![0.0; count];
+        inverse_frame(&mut workspace, Posture { q: &q, qd: &still, qdd }, &[]).generalized().to_vec()
+    };
+    let weight = torques(&vec![0.0; count]);
+    let h = settings.step_s;
+    for (column, joint) in plan.joints().into_iter().enumerate() {
+        let change: Vec<f64> = (0..count).map(|c| map.by_input[(count - 1 + c, column)]).collect();
+        let inertial = torques(&change);
+        for c in 0..count {
+            let yields = (h * impedances[c].damping + h * h * impedances[c].stiffness) * change[c];
+            let expected = if c == joint { h } else { 0.0 };
+            let found = inertial[c] - weight[c] + yields;
+            assert!((found - expected).abs() < 1e-6 * h.max(1e-3), "{joint}, {c}: {found} instead of {expected}");
+        }
+    }
+}
+
+/// In the air and at rest nothing moves the joints, whatever their impedance, so both maps belong to the same torques.
+#[test]
+fn maps_of_another_impedance_follow_from_those_of_one() {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+    let human = build.human().unwrap();
+    let count = human.model.coordinates().len();
+    let root = Root::of(&human.model);
+    let mut q: Vec<f64> = (0..count).map(|k| 0.3 * (1.0 + 1.7 * k as f64).sin()).collect();
+    q[root.up] = 3.0;
+    let mut figure = FigureWorld::new(&human, HuntCrossley::SOFT_SHOES, StepSettings::default()).unwrap();
+    let state = [q, vec![0.0; count]];
+    let step = PlannedStep { state: state.clone(), target: state, torques: vec![0.0; count] };
+    let plan = CyclePlan { steps: vec![step], strikes: [0; 2], root, mirror: None };
+    let with = |stiffness: f64, damping: f64| -> Vec<Impedance> {
+        let joints = plan.joints();
+        let driven = |c: usize| if joints.contains(&c) { 1.0 } else { 0.0 };
+        let of = |c: usize| Impedance {
+            stiffness: driven(c) * (stiffness + c as f64),
+            damping: driven(c) * damping,
+            strength: strong(),
+        };
+        (0..count).map(of).collect()
+    };
+    let [soft, stiff] = [with(20.0, 1.0), with(250.0, 30.0)];
+    let own = figure.maps(&plan, &soft).unwrap();
+    let direct = figure.maps(&plan, &stiff).unwrap().remove(0);
+    let found = with_impedances(&own, &plan, [&soft, &stiff], StepSettings::default().step_s).unwrap().remove(0);
+    for (name, found, direct, other) in [
+        ("state", found.by_state, direct.by_state, &own[0].by_state),
+        ("input", found.by_input, direct.by_input, &own[0].by_input),
+    ] {
+        let (apart, change) = ((found - &direct).amax(), (other - &direct).amax());
+        println!("{name}: {apart:.1e} of a change of {change:.1e}");
+        assert!(apart < 1e-5 * change, "{name}: {apart} of a change of {change}");
+    }
+}
