@@ -12,7 +12,7 @@
 //!
 //! On a treadmill, positions are relative to the belt; its velocity is taken from the loaded feet. The walking direction of a step is the
 //! direction of the strides around it, so turning does not change the step width. The path is the pelvis path relative to the same floor.
-//! Pinned by: its own tests, tests/times_and_distances.rs
+//! Pinned by: tests/analysis_times_and_distances.rs, tests/times_and_distances.rs
 
 use super::events::{Event, EventKind};
 use super::feasibility::over_ground;
