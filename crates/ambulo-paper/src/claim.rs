@@ -116,7 +116,7 @@ pub struct Judgement {
 }
 
 /// A claim with the functions that measure and judge it.
-pub(super) struct Statement {
+pub struct Statement {
     pub(super) id: &'static str,
     pub(super) kind: ClaimKind,
     pub(super) paper: &'static str,
@@ -126,7 +126,7 @@ pub(super) struct Statement {
     pub(super) scope: Scope,
     pub(super) measure: fn(&Evidence) -> Numbers,
     /// Judges the numbers of the paper's mode and of the corrected mode.
-    pub(super) judge: fn(&Numbers, Option<&Numbers>) -> (bool, String),
+    pub judge: fn(&Numbers, Option<&Numbers>) -> (bool, String),
 }
 
 impl Statement {

@@ -126,7 +126,7 @@ pub(super) fn stance(run: &Run) -> Option<(Vec<f64>, [f64; 2])> {
 }
 
 /// Number of local maxima with at least the prominence [`PROMINENCE`].
-fn humps(curve: &[f64]) -> usize {
+pub fn humps(curve: &[f64]) -> usize {
     let (mut count, mut low, mut high, mut rising) = (0, curve[0].min(0.0), f64::NEG_INFINITY, true);
     for &x in curve.iter().chain([&0.0]) {
         if rising {
@@ -188,17 +188,4 @@ pub fn measured_vertical(stance: f64) -> [f64; 2] {
     let (k, share) = (place as usize, place.fract());
     let [from, to] = [VERTICAL_EVERY_4_PERCENT[k], VERTICAL_EVERY_4_PERCENT[k + 1]];
     [0, 1].map(|i| from[i] + share * (to[i] - from[i]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn humps_are_counted_by_how_far_they_stand_out() {
-        assert_eq!(humps(&[0.0, 1.0, 0.7, 1.1, 0.0]), 2);
-        assert_eq!(humps(&[0.0, 1.0, 0.95, 1.1, 0.0]), 1);
-        let measured: Vec<f64> = (0..POINTS).map(|p| measured_vertical(p as f64 / 100.0)[0]).collect();
-        assert_eq!(humps(&measured), 2);
-    }
 }

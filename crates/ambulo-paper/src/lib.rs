@@ -4,11 +4,6 @@
 //! all walks that the claims need, and [`claims`] judges them. [`paper_walk`] is the mode of the paper; [`CorrectedMode`] is evaluated by the
 //! same measures for comparison.
 
-#![cfg_attr(
-    test,
-    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
-)]
-
 mod corrected;
 mod error;
 mod evidence;
@@ -55,3 +50,12 @@ pub use paper_settings::PaperSettings;
 pub use shares::{OpenValues, StoredShares, judged_of_the_paper, read_shares, shares_csv, stored_shares};
 pub use statements::{claims, judgements};
 pub use steady::{IMPACT_MARGIN_S, POINTS, STEADY_CYCLES, Steady};
+
+/// For the tests of this crate.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::claim::Statement;
+    pub use crate::ground_force::humps;
+    pub use crate::interaction::{GRASP_CLAIM, HAND_IN_HAND, LOOPS, OBSTACLE};
+    pub use crate::shares::OPEN;
+}

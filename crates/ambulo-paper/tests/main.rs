@@ -5,4 +5,7 @@
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
 mod claims;
+mod ground_force;
+mod interaction;
+mod shares;
 mod synthetic_walk;

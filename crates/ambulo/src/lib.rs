@@ -75,11 +75,6 @@
 //! SI units and radians; world x forward, y up, z to the right; body quantities at the centre of mass in world axes, angular part
 //! before linear; joint moments act from the parent on the child, with the sign of the model's own coordinate (docs/CONVENTIONS.md).
 
-#![cfg_attr(
-    test,
-    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
-)]
-
 #[doc(inline)]
 pub use ambulo_body::{
     contact, dynamics, findings, formats, kinematics, model, motion, numerics, spatial, toml_reader,
@@ -101,3 +96,39 @@ pub mod job;
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// For the tests of this crate.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::analysis::feasibility::spans::Track;
+    pub use crate::analysis::foot_progression::{inwards, level_axes};
+    pub use crate::analysis::prediction_checks::base_of_support::BaseOfSupport;
+    pub use crate::analysis::prediction_checks::sustained::sustained_maximum;
+    pub use crate::analysis::progress::Progress;
+    pub use crate::analysis::recording::cycle_mean;
+    pub use crate::analysis::times_and_distances::{Floor, Places, Strike};
+    pub use crate::analysis::walking_direction::WalkingDirection;
+    pub use crate::ground::predict::center_path::{center_path, share};
+    pub use crate::ground::predict::deviation_calibration::Misfit;
+    pub use crate::ground::predict::evidence_filter::EvidenceFilter;
+    pub use crate::ground::predict::forefoot::heel_down;
+    pub use crate::ground::predict::geometry::FootPlace;
+    pub use crate::ground::predict::stance_curves::StanceCurves;
+    pub use crate::ground::predict::stances::{BodyScale, GaitType, Stance};
+    pub use crate::ground::predict::strike_descent::{CenterVelocity, MOST, Strike as DescentStrike, USUAL, descents};
+    pub use crate::ground::predict::unilateral::{unilateral_share, within_friction_cone};
+    pub use crate::ground::predict::unknowns::{Curve, UNIT};
+    pub use crate::ground::predict::zero_moment_point::{share_along_soles, zero_moment_point};
+    pub use crate::ground::stream::continuation::Continuation;
+    pub use crate::ground::stream::frame_buffer::FrameBuffer;
+    pub use crate::ground::stream::step_timing::StepTiming;
+    pub use crate::ground::stream::tail::{FrameRange, NEIGHBOURS, TailSmoother};
+    pub use crate::job::sensors::about_fixed_axes;
+    pub use crate::job::trials::participants::{
+        DESCRIPTION as PARTICIPANTS_DESCRIPTION, Size, TABLE as PARTICIPANTS_TABLE, sizes,
+    };
+    pub use crate::study::force_columns::{load_columns, with_axis_last};
+    pub use crate::study::mass::{KnownMass, combined, report_decided};
+    pub use crate::study::quality::stance_heights::{Middle, compared};
+    pub use crate::study::trial_list::pattern::Pattern;
+}

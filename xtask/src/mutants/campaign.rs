@@ -39,8 +39,6 @@ struct Tests {
     named: Vec<&'static str>,
     /// Parts of the names of tests that are left out.
     skipped: Vec<&'static str>,
-    /// Whether the tests inside the library are among them.
-    unit: bool,
     limit_s: u32,
     /// Whether they are known to pass without a mutation.
     passed: bool,
@@ -49,13 +47,13 @@ struct Tests {
 impl Tests {
     fn quick(module: &Module) -> Tests {
         let skipped = SLOW.iter().chain(&LONG).copied().collect();
-        Tests { named: module.quick.to_vec(), skipped, unit: false, limit_s: QUICK_LIMIT_S, passed: false }
+        Tests { named: module.quick.to_vec(), skipped, limit_s: QUICK_LIMIT_S, passed: false }
     }
 
     /// The quick tests are among the wide ones.
     fn wide(module: &Module) -> Tests {
         let named = module.quick.iter().chain(module.wide).copied().collect();
-        Tests { named, skipped: SLOW.to_vec(), unit: module.unit, limit_s: WIDE_LIMIT_S, passed: false }
+        Tests { named, skipped: SLOW.to_vec(), limit_s: WIDE_LIMIT_S, passed: false }
     }
 }
 
@@ -126,9 +124,9 @@ impl Place {
     /// Runs mutants with some tests.
     fn run(&self, module: &Module, names: &[String], tests: &mut Tests) -> Result<Outcomes, String> {
         let mut command = self.mutants(module);
-        command.args(["--in-place", "--annotations", "none", "--cargo-arg=--test=library"]);
-        command.args(tests.unit.then_some("--cargo-arg=--lib"));
-        // The integration tests are those of `ambulo`, whatever crate the module is in.
+        command.args(["--in-place", "--annotations", "none"]);
+        command.args(module.programs().map(|program| format!("--cargo-arg=--test={program}")));
+        // Most tests are those of `ambulo`, whatever crate the module is in.
         command.args(["--test-package", "ambulo", "--test-package", module.package()]);
         command.args(["--baseline", if tests.passed { "skip" } else { "run" }]);
         command.arg("--timeout").arg(tests.limit_s.to_string()).arg("--output").arg(&self.output);

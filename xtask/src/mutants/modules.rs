@@ -12,8 +12,6 @@ pub(super) struct Module {
     pub(super) quick: &'static [&'static str],
     /// Tests that what survives the quick ones is run with.
     pub(super) wide: &'static [&'static str],
-    /// Whether the wide tests include those inside the library; their names begin with that of the module.
-    pub(super) unit: bool,
 }
 
 /// Tests that take more than five seconds, left out everywhere: a mutant that only they would notice counts as a survivor.
@@ -67,6 +65,11 @@ impl Module {
     pub(super) fn package(&self) -> &'static str {
         self.files.split('/').nth(1).unwrap_or_default()
     }
+
+    /// The programs of its tests: that of `ambulo`, and that of its own crate.
+    pub(super) fn programs(&self) -> impl Iterator<Item = &'static str> {
+        std::iter::once("library").chain(self.package().strip_prefix("ambulo-"))
+    }
 }
 
 pub(super) const MODULES: [Module; 8] = [
@@ -87,7 +90,6 @@ pub(super) const MODULES: [Module; 8] = [
             "feasibility",
             "scaling",
         ],
-        unit: false,
     },
     Module {
         name: "step",
@@ -95,15 +97,13 @@ pub(super) const MODULES: [Module; 8] = [
         sample: None,
         quick: SIMULATOR,
         wide: &["simulation_", "scene_", "walking", "consistent_walk"],
-        unit: false,
     },
     Module {
         name: "contact",
         files: "crates/ambulo-body/src/contact/**",
         sample: Some(40),
         quick: &["contact_geometry", "simulation_closed_form", "simulation_contact"],
-        wide: &["contact::", "simulation_", "scene_", "walking", "consistent_walk"],
-        unit: true,
+        wide: &["contact_", "simulation_", "scene_", "walking", "consistent_walk"],
     },
     Module {
         name: "touch",
@@ -111,7 +111,6 @@ pub(super) const MODULES: [Module; 8] = [
         sample: Some(40),
         quick: SIMULATOR,
         wide: &["simulation_", "scene_", "walking", "consistent_walk"],
-        unit: false,
     },
     Module {
         name: "kinematics",
@@ -128,7 +127,7 @@ pub(super) const MODULES: [Module; 8] = [
             "opensim_parity",
         ],
         wide: &[
-            "kinematics::",
+            "kinematics_",
             "analysis",
             "laboratory",
             "recordings",
@@ -137,7 +136,6 @@ pub(super) const MODULES: [Module; 8] = [
             "anatomy",
             "splines",
         ],
-        unit: true,
     },
     Module {
         name: "predict",
@@ -150,8 +148,7 @@ pub(super) const MODULES: [Module; 8] = [
             "prediction_checks",
             "standing_ground",
         ],
-        wide: &["ground_", "ground::predict", "prediction_checks", "footfalls", "feasibility", "activity"],
-        unit: true,
+        wide: &["ground_", "prediction_checks", "footfalls", "feasibility", "activity"],
     },
     Module {
         name: "analysis",
@@ -179,7 +176,6 @@ pub(super) const MODULES: [Module; 8] = [
             "events",
             "walking",
         ],
-        unit: true,
     },
     Module {
         name: "optimal",
@@ -187,7 +183,6 @@ pub(super) const MODULES: [Module; 8] = [
         sample: Some(40),
         quick: &["optimal"],
         wide: &["inverse_derivatives", "consistent_walk", "feasibility"],
-        unit: true,
     },
 ];
 

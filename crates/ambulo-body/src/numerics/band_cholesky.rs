@@ -9,7 +9,7 @@
 //! Source: G.H. Golub, C.F. Van Loan, Matrix Computations, section on banded systems (unverified).
 //! Cost: rows times w² for the factors, rows times 4 w for a solution.
 //! Not handled: pivoting. `factor` returns `None` if the matrix is not positive definite.
-//! Pinned by: the tests below; tests/marker_gaps.rs
+//! Pinned by: tests/numerics_band_cholesky.rs, tests/marker_gaps.rs
 
 /// Entries of a row that are eliminated side by side.
 const TOGETHER: usize = 4;

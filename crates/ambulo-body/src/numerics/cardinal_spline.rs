@@ -11,7 +11,7 @@
 //!
 //! Source: de Boor 1978, "A practical guide to splines", chapters IX and X (unverified).
 //! Cost: constant.
-//! Pinned by: the tests below; tests/optimal.rs
+//! Pinned by: tests/numerics_cardinal_spline.rs, tests/optimal.rs
 
 /// Degree of the splines.
 const DEGREE: usize = 5;

@@ -5,7 +5,7 @@
 //!
 //! Source: Levenberg 1944; Marquardt 1963 (both unverified).
 //! Cost: one Cholesky factorisation per iteration, plus the rows.
-//! Pinned by: the tests below; tests/consistent_walk.rs
+//! Pinned by: tests/numerics_least_squares.rs, tests/consistent_walk.rs
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 

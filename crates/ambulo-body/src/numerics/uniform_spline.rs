@@ -6,7 +6,7 @@
 //!
 //! Source: as `cardinal_spline`, of degree three.
 //! Cost: constant.
-//! Pinned by: the tests below; tests/residual_reduction.rs
+//! Pinned by: tests/numerics_uniform_spline.rs, tests/residual_reduction.rs
 
 use super::cardinal_spline::cardinal;
 

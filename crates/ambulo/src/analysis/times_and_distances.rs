@@ -12,7 +12,7 @@
 //!
 //! On a treadmill, positions are relative to the belt; its velocity is taken from the loaded feet. The walking direction of a step is the
 //! direction of the strides around it, so turning does not change the step width. The path is the pelvis path relative to the same floor.
-//! Pinned by: its own tests, tests/times_and_distances.rs
+//! Pinned by: tests/analysis_times_and_distances.rs, tests/times_and_distances.rs
 
 use super::events::{Event, EventKind};
 use super::feasibility::over_ground;
@@ -290,17 +290,22 @@ fn only(times: &[f64], [from, to]: [f64; 2]) -> Option<f64> {
 
 /// A foot strike with the position of the heel relative to the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Strike {
-    side: Side,
-    time_s: f64,
-    heel: Vec3,
+pub struct Strike {
+    /// Which foot.
+    pub side: Side,
+    /// When [s].
+    pub time_s: f64,
+    /// Position of the heel relative to the floor [m].
+    pub heel: Vec3,
 }
 
 /// The floor: which direction is up, and how a belt moves [m/s].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Floor {
-    up: Vec3,
-    velocity: Vec3,
+pub struct Floor {
+    /// Upward unit vector.
+    pub up: Vec3,
+    /// Velocity of the belt [m/s].
+    pub velocity: Vec3,
 }
 
 impl Floor {
@@ -365,17 +370,21 @@ impl PelvisPath {
 }
 
 /// Where the heels are at the strikes, in order of time.
-struct Places {
-    floor: Floor,
-    strikes: Vec<Strike>,
+pub struct Places {
+    /// What the feet stand on.
+    pub floor: Floor,
+    /// In order of time.
+    pub strikes: Vec<Strike>,
 }
 
 /// Distances of one stride.
 #[derive(Debug, Clone, Copy)]
-struct Placed {
+pub struct Placed {
     stride_m: f64,
-    step_m: Option<f64>,
-    width_m: Option<f64>,
+    /// Length of the step [m].
+    pub step_m: Option<f64>,
+    /// Width of the step [m].
+    pub width_m: Option<f64>,
 }
 
 impl Places {
@@ -398,7 +407,8 @@ impl Places {
         Places { floor, strikes }
     }
 
-    fn of_stride(&self, side: Side, [from, to]: [f64; 2]) -> Option<Placed> {
+    /// Distances of the stride between two strikes of a foot at these times [s].
+    pub fn of_stride(&self, side: Side, [from, to]: [f64; 2]) -> Option<Placed> {
         let at = |time: f64| self.strikes.iter().find(|s| s.side == side && s.time_s.total_cmp(&time).is_eq());
         let (first, last) = (at(from)?, at(to)?);
         let line = self.floor.level(last.heel - first.heel);
@@ -440,73 +450,4 @@ fn at(grid: TimeGrid, path: &[Vec3], time_s: f64) -> Option<Vec3> {
     let times = grid.times();
     let along = |axis: usize| interpolate(&times, &path.iter().map(|p| p[axis]).collect::<Vec<f64>>(), time_s);
     (!path.is_empty()).then(|| Vec3::new(along(0), along(1), along(2)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn stride_of(side: Side, cycle_s: f64, stance: f64) -> Stride {
-        Stride {
-            side,
-            start_s: 0.0,
-            cycle_s,
-            stance,
-            single_support: Some(0.4),
-            initial_double_support: None,
-            terminal_double_support: None,
-            step_time_s: None,
-            stride_length_m: Some(1.4),
-            step_length_m: Some(0.7),
-            step_width_m: None,
-        }
-    }
-
-    #[test]
-    fn means_standard_deviations_and_symmetry_are_computed_over_strides() {
-        let strides = vec![
-            stride_of(Side::Right, 1.0, 0.62),
-            stride_of(Side::Right, 1.2, 0.58),
-            stride_of(Side::Left, 1.1, 0.66),
-        ];
-        let found = TimesAndDistances { strides, ..TimesAndDistances::default() };
-        let right = found.spread(StrideQuantity::CycleTime, Some(Side::Right)).unwrap();
-        assert!((right.mean - 1.1).abs() < 1e-12 && right.strides == 2);
-        assert!((right.standard_deviation.unwrap() - 0.02_f64.sqrt()).abs() < 1e-12);
-        assert_eq!(found.spread(StrideQuantity::CycleTime, Some(Side::Left)).unwrap().standard_deviation, None);
-        assert_eq!(found.spread(StrideQuantity::StepWidth, None), None);
-        assert!((found.symmetry(StrideQuantity::Stance).unwrap() - (0.60 - 0.66) / 0.63).abs() < 1e-12);
-        let double = found.spread(StrideQuantity::DoubleSupport, Some(Side::Left)).unwrap().mean;
-        assert!((double - 0.26).abs() < 1e-12);
-        let cadence = found.spread(StrideQuantity::Cadence, Some(Side::Left)).unwrap().mean;
-        let ratio = found.spread(StrideQuantity::WalkRatio, Some(Side::Left)).unwrap().mean;
-        assert!((ratio * cadence - 0.7).abs() < 1e-12, "step length is walk ratio times cadence");
-    }
-
-    #[test]
-    fn symmetry_is_positive_if_the_right_side_is_larger() {
-        assert!((symmetry_index(1.1, 0.9).unwrap() - 0.2).abs() < 1e-12);
-        assert!((symmetry_index(-0.9, -1.1).unwrap() + 0.2).abs() < 1e-12, "sizes of negative peaks");
-        assert_eq!(symmetry_index(0.1, -0.1), None);
-    }
-
-    #[test]
-    fn steps_in_a_turn_are_measured_along_the_curve() {
-        // Feet 0.2 m apart on a circle of 2 m, 20 degrees from strike to strike.
-        let on_circle = |i: usize| {
-            let (angle, side) =
-                (f64::to_radians(20.0) * i as f64, if i.is_multiple_of(2) { Side::Right } else { Side::Left });
-            // Turning left: the right foot is outside.
-            let radius = if side == Side::Right { 2.1 } else { 1.9 };
-            let heel = Vec3::new(radius * angle.sin(), 0.0, radius * angle.cos());
-            Strike { side, time_s: 0.5 * i as f64, heel }
-        };
-        let places = Places {
-            floor: Floor { up: Vec3::y(), velocity: Vec3::zeros() },
-            strikes: (0..5).map(on_circle).collect(),
-        };
-        let placed = places.of_stride(Side::Right, [0.0, 1.0]).unwrap();
-        assert!((placed.width_m.unwrap() - 0.2).abs() < 0.02, "{placed:?}");
-        assert!((placed.step_m.unwrap() - 0.70).abs() < 0.02, "{placed:?}");
-    }
 }

@@ -39,7 +39,7 @@ mod markers;
 mod model_file;
 mod read_once;
 mod reading;
-mod sensors;
+pub(crate) mod sensors;
 mod settings;
 mod setup;
 mod setup_values;

@@ -100,7 +100,7 @@ fn axes(job: &Job) -> SensorAxes {
 }
 
 /// The rotation about x, then y, then z, which stay where they are [rad].
-fn about_fixed_axes([x, y, z]: [f64; 3]) -> Mat3 {
+pub fn about_fixed_axes([x, y, z]: [f64; 3]) -> Mat3 {
     let turn = |angle: f64, [a, b]: [usize; 2]| {
         let (sin, cos) = sin_cos(angle);
         let mut turn = Mat3::identity();
@@ -120,24 +120,4 @@ fn reject_unused_fields(job: &Job) -> Result<(), JobError> {
     let Some((field, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
     let what = format!("the {} has no effect for orientations of sensors", field.name());
     Err(JobError::new(&[field], what).within(job.shown()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::spatial::Vec3;
-
-    #[test]
-    fn turns_about_fixed_axes_follow_each_other() {
-        let quarter = std::f64::consts::FRAC_PI_2;
-        let up = about_fixed_axes([-quarter, 0.0, 0.0]) * Vec3::z();
-        assert!((up - Vec3::y()).norm() < 1e-15, "z up becomes y up: {up}");
-        let (default, own) = (SensorAxes::default().world_from_earth, about_fixed_axes([-quarter, 0.0, 0.0]));
-        assert!((default - own).norm() < 1e-15);
-        // x, about z to y after x about itself.
-        let turned = about_fixed_axes([0.3, 0.0, quarter]) * Vec3::x();
-        assert!((turned - Vec3::y()).norm() < 1e-15, "{turned}");
-        let turned = about_fixed_axes([0.0, quarter, quarter]) * Vec3::z();
-        assert!((turned - Vec3::y()).norm() < 1e-15, "z to x about y, then to y about z: {turned}");
-    }
 }

@@ -12,16 +12,16 @@ use ambulo_formats::table::Table;
 
 /// The columns of one load.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct LoadColumns {
+pub struct LoadColumns {
     /// The part of the names that only this load has: a number, a side, or nothing.
-    pub(super) key: String,
+    pub key: String,
     /// The side that the names state.
-    pub(super) side: Option<Side>,
+    pub side: Option<Side>,
     /// The beginning of the names of the force, for messages.
-    pub(super) prefix: String,
-    force: String,
-    point: Option<String>,
-    moment: Option<String>,
+    pub prefix: String,
+    pub force: String,
+    pub point: Option<String>,
+    pub moment: Option<String>,
 }
 
 /// The quantity of three columns.
@@ -75,7 +75,7 @@ impl LoadColumns {
 
 /// The table with the axis at the end of each name: the number or side of a load may follow the axis, as in `ground_force_vx_r` or `Fx1`,
 /// and is put before the name. `None` if no name has such a part.
-pub(super) fn with_axis_last(table: &Table) -> Option<Table> {
+pub fn with_axis_last(table: &Table) -> Option<Table> {
     let (names, columns): (Vec<&str>, Vec<&[f64]>) = table.columns().unzip();
     let has = |name: &str| names.contains(&name);
     let mut renamed: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
@@ -104,7 +104,7 @@ pub(super) fn with_axis_last(table: &Table) -> Option<Table> {
 
 /// The loads of a table, in the order of their forces. A load needs a force, and a point or a moment; one whose names are a single letter
 /// with its number or side, such as `F1x`, needs a point.
-pub(super) fn load_columns(table: &Table) -> Vec<LoadColumns> {
+pub fn load_columns(table: &Table) -> Vec<LoadColumns> {
     let stems = table.names().iter().skip(1).filter_map(|name| name.strip_suffix('x'));
     let is_vector = |stem: &&str| ["y", "z"].iter().all(|axis| table.column(&format!("{stem}{axis}")).is_some());
     let found: Vec<(&str, Kind, String)> = stems
@@ -189,34 +189,5 @@ fn side(key: &str) -> Option<Side> {
         (true, false) => Some(Side::Right),
         (false, true) => Some(Side::Left),
         _ => None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Key, side, force, point and moment of the loads in a table with these names, each for x, y and z at the place of `*`.
-    fn found(names: &[&str]) -> Vec<(String, Option<Side>, bool, bool)> {
-        let axes = names.iter().flat_map(|name| ["x", "y", "z"].map(|axis| name.replace('*', axis)));
-        let columns = std::iter::once("time".to_owned()).chain(axes).map(|name| (name, vec![0.0, 1.0])).collect();
-        let table = Table::new("loads", columns).unwrap();
-        let table = with_axis_last(&table).unwrap_or(table);
-        load_columns(&table).into_iter().map(|l| (l.key, l.side, l.point.is_some(), l.moment.is_some())).collect()
-    }
-
-    #[test]
-    fn the_side_or_number_of_a_load_may_follow_the_axis() {
-        let whole = |key: &str, side| (key.to_owned(), side, true, true);
-        let loads = found(&["ground_force_v*_r", "ground_force_p*_r", "ground_torque_*_r"]);
-        assert_eq!(loads, [whole("r", Some(Side::Right))]);
-        let loads = found(&["F*1", "P*1", "M*1", "F*2", "P*2", "M*2"]);
-        assert_eq!(loads, [whole("1", None), whole("2", None)]);
-        let loads = found(&["Force_L_*", "Center_of_Pressure_L_*", "Torque_L_*"]);
-        assert_eq!(loads, [whole("l", Some(Side::Left))]);
-        // Forces and moments of a plate about its own origin have no known place.
-        assert_eq!(found(&["F*1", "M*1"]), []);
-        // Columns of something else are no loads.
-        assert_eq!(found(&["pelvis_t*", "head_*"]), []);
     }
 }

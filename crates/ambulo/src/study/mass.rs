@@ -130,7 +130,8 @@ pub struct MassEstimate {
 }
 
 impl MassEstimate {
-    fn stated(kg: f64) -> MassEstimate {
+    #[doc(hidden)] // for tests
+    pub fn stated(kg: f64) -> MassEstimate {
         MassEstimate { by: MassWitness::Stated, kg, error_kg: STATED_ERROR * kg, times: 1, time_s: None }
     }
 
@@ -147,9 +148,11 @@ impl MassEstimate {
 
 /// Estimates of the mass that do not need the motion.
 #[derive(Debug, Clone, Default)]
-pub(super) struct KnownMass {
-    pub(super) stated: Option<MassEstimate>,
-    pub(super) standing: Option<MassEstimate>,
+pub struct KnownMass {
+    /// What the user states.
+    pub stated: Option<MassEstimate>,
+    /// What the plates weigh in a standing trial.
+    pub standing: Option<MassEstimate>,
 }
 
 impl KnownMass {
@@ -174,7 +177,7 @@ impl KnownMass {
     }
 
     /// Whether the motion on the plates is needed to know the mass.
-    pub(super) fn needs_motion(&self) -> bool {
+    pub fn needs_motion(&self) -> bool {
         match (&self.stated, &self.standing) {
             (Some(stated), Some(standing)) => !stated.agrees(standing),
             (stated, standing) => stated.is_none() && standing.is_none(),
@@ -183,7 +186,7 @@ impl KnownMass {
 
     /// The mass to use [kg], with its source. The plates are used before a statement where both agree, because the ground forces are
     /// measured by them. Where standing and stated mass differ, the motion on the plates decides; without it the stated mass is used.
-    pub(super) fn decided(&self, motion: &[MassEstimate]) -> Option<MassEstimate> {
+    pub fn decided(&self, motion: &[MassEstimate]) -> Option<MassEstimate> {
         let moving = combined(motion);
         match (&self.stated, &self.standing) {
             (Some(stated), Some(standing)) if stated.agrees(standing) => Some(standing.clone()),
@@ -201,12 +204,8 @@ impl KnownMass {
 
 impl BodyMass {
     /// From all sources; `model_kg` is the mass that the forces are computed with.
-    pub(super) fn of(
-        model_kg: f64,
-        known: &KnownMass,
-        motion: Vec<MassEstimate>,
-        normalised_by: MassSource,
-    ) -> BodyMass {
+    #[doc(hidden)] // for tests
+    pub fn of(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>, normalised_by: MassSource) -> BodyMass {
         let moving = combined(&motion);
         let chosen = known.decided(&motion).filter(|chosen| (chosen.kg / model_kg - 1.0).abs() < SAME_MASS);
         let source = chosen.map_or(MassWitness::Model, |chosen| chosen.by);
@@ -258,7 +257,8 @@ impl BodyMass {
     }
 
     /// Reports sources that contradict the used mass.
-    pub(super) fn report(&self, findings: &mut Findings) {
+    #[doc(hidden)] // for tests
+    pub fn report(&self, findings: &mut Findings) {
         let used = MassEstimate { by: self.source, kg: self.kg, error_kg: 0.0, times: 1, time_s: None };
         let witnesses = [self.in_motion(), self.by(MassWitness::Standing).cloned()];
         let others: Vec<MassEstimate> = witnesses.into_iter().flatten().filter(|other| !other.agrees(&used)).collect();
@@ -294,7 +294,7 @@ impl BodyMass {
 
 /// The estimate of a motion: the mean of all ways, weighted by the inverse of their variance. The ways share the same forces, so that
 /// together they are no more certain than the best of them, and less where they differ (Birge 1932, Phys Rev 40:207-227).
-fn combined(estimates: &[MassEstimate]) -> Option<MassEstimate> {
+pub fn combined(estimates: &[MassEstimate]) -> Option<MassEstimate> {
     let best = estimates.iter().min_by(|a, b| a.error_kg.total_cmp(&b.error_kg))?;
     let weight = |e: &MassEstimate| e.error_kg.max(f64::MIN_POSITIVE).powi(-2);
     let total: f64 = estimates.iter().map(weight).sum();
@@ -340,7 +340,7 @@ fn standing_estimate(plates: &[PlateRecording]) -> Option<MassEstimate> {
 }
 
 /// Reports which mass the built-in body has.
-pub(super) fn report_decided(known: &KnownMass, decided: &MassEstimate, findings: &mut Findings) {
+pub fn report_decided(known: &KnownMass, decided: &MassEstimate, findings: &mut Findings) {
     let kg = decided.kg;
     match (&known.stated, &known.standing) {
         (Some(stated), Some(standing)) if stated.agrees(standing) => {
@@ -371,91 +371,5 @@ pub(super) fn report_decided(known: &KnownMass, decided: &MassEstimate, findings
             findings.report(Code::MassWeighed, message);
         }
         (Some(_), _) => {}
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn body_mass(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>) -> BodyMass {
-        BodyMass::of(model_kg, known, motion, MassSource::Model)
-    }
-
-    fn by(by: MassWitness, kg: f64, error_kg: f64) -> MassEstimate {
-        MassEstimate { by, kg, error_kg, times: 1, time_s: None }
-    }
-
-    fn known(stated: Option<f64>, standing: Option<f64>) -> KnownMass {
-        let standing = standing.map(|kg| by(MassWitness::Standing, kg, 0.005 * kg));
-        KnownMass { stated: stated.map(MassEstimate::stated), standing }
-    }
-
-    fn moving(kg: f64) -> Vec<MassEstimate> {
-        vec![by(MassWitness::Cycles, kg, 0.01 * kg)]
-    }
-
-    #[test]
-    fn the_plates_are_believed_where_they_weigh_the_same_person() {
-        let kg = |stated, standing| known(stated, standing).decided(&[]).map(|decided| decided.kg);
-        assert_eq!(kg(Some(32.1), Some(31.07)), Some(31.07));
-        assert_eq!(kg(None, Some(60.0)), Some(60.0));
-        assert_eq!(kg(Some(60.0), None), Some(60.0));
-        assert_eq!(kg(None, None), None);
-        assert_eq!(kg(Some(60.0), Some(41.0)), Some(60.0), "a foot next to the plates");
-        let codes = |known: &KnownMass, motion: &[MassEstimate]| {
-            let mut findings = Findings::default();
-            let decided = known.decided(motion).unwrap();
-            report_decided(known, &decided, &mut findings);
-            body_mass(decided.kg, known, motion.to_vec()).report(&mut findings);
-            findings.as_slice().iter().map(|finding| finding.code).collect::<Vec<Code>>()
-        };
-        assert_eq!(codes(&known(Some(60.0), Some(41.0)), &[]), [Code::MassContradicted]);
-        assert_eq!(codes(&known(Some(60.0), Some(41.0)), &moving(41.2)), [Code::MassStandingMismatch]);
-    }
-
-    #[test]
-    fn a_third_witness_decides_where_two_disagree() {
-        // A child stands at 27.2 kg, is stated at 25.0 kg and walks at 25.7 kg.
-        let child = known(Some(25.0), Some(27.2));
-        assert!(child.needs_motion());
-        let decided = child.decided(&moving(25.7)).unwrap();
-        assert_eq!((decided.by, decided.kg), (MassWitness::Stated, 25.0));
-        let mass = body_mass(decided.kg, &child, moving(25.7));
-        assert_eq!((mass.state, mass.plates_kg), (MassState::Weighed, Some(25.7)));
-        let mut findings = Findings::default();
-        mass.report(&mut findings);
-        assert!(findings.has(Code::MassContradicted), "the standing trial is named");
-        let other = child.decided(&moving(27.0)).unwrap();
-        assert_eq!((other.by, other.kg), (MassWitness::Standing, 27.2));
-    }
-
-    #[test]
-    fn a_light_model_is_contradicted_and_weight_next_to_the_plates_is_not_a_lighter_person() {
-        let light = body_mass(0.85 * 70.0, &KnownMass::default(), moving(70.0));
-        assert_eq!(
-            (light.state, light.source, light.plates_kg),
-            (MassState::Contradicted, MassWitness::Model, Some(70.0))
-        );
-        let beside = body_mass(70.0, &known(Some(70.0), Some(70.3)), moving(42.0));
-        assert_eq!((beside.state, beside.plates_kg), (MassState::Contradicted, Some(42.0)), "not by these plates");
-        let mut findings = Findings::default();
-        beside.report(&mut findings);
-        let said = &findings.as_slice()[0].message;
-        assert!(said.contains("42.0 kg") && said.contains("next to the plates"), "{said}");
-        // The source is the model where the body has another mass than the plates, even if it could be this person's.
-        let own = body_mass(68.0, &KnownMass::default(), moving(70.0));
-        assert_eq!((own.state, own.source), (MassState::Weighed, MassWitness::Model));
-        let unknown = body_mass(70.0, &KnownMass::default(), Vec::new());
-        assert_eq!(unknown.state, MassState::Unknown);
-        assert_eq!(body_mass(70.0, &known(Some(70.0), None), Vec::new()).state, MassState::Stated);
-    }
-
-    #[test]
-    fn a_disagreement_between_ways_of_weighing_widens_the_error() {
-        let both = [by(MassWitness::Cycles, 70.0, 0.5), by(MassWitness::Valleys, 74.0, 0.5)];
-        let found = combined(&both).unwrap();
-        assert!((found.kg - 72.0).abs() < 1e-9 && found.error_kg > 2.0, "{found:?}");
-        assert!(combined(&[]).is_none());
     }
 }

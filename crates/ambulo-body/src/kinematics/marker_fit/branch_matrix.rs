@@ -20,7 +20,7 @@
 //! Source: R. Featherstone 2005, "Efficient factorization of the joint-space inertia matrix for branched kinematic trees", Int. J. Robot.
 //! Res. 24:487-500 (unverified); elimination trees: T.A. Davis 2006, "Direct Methods for Sparse Linear Systems", chapter 4 (unverified).
 //! Cost: half the sum of the squared lengths of all paths; for 43 unknowns of a whole body a fifth of a dense factor's.
-//! Pinned by: the tests below (dense matrices), tests/marker_fit.rs
+//! Pinned by: tests/kinematics_branch_matrix.rs (dense matrices), tests/marker_fit.rs
 
 /// Places of the entries of matrices with the same tree.
 #[derive(Debug, Clone)]

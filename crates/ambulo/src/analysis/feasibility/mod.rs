@@ -12,7 +12,7 @@ mod ground_speed;
 mod judgement;
 mod motion_and_forces;
 mod person;
-mod spans;
+pub(crate) mod spans;
 mod thresholds;
 mod verdict;
 

@@ -14,10 +14,10 @@ pub(super) struct Span {
 
 /// One check of one part of the body over time.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Track {
+pub struct Track {
     pub(super) spans: Vec<Span>,
     /// Frame and value of the largest share that lasted long enough.
-    pub(super) closest: Option<(usize, CheckedValue)>,
+    pub closest: Option<(usize, CheckedValue)>,
     /// First and latest of the consecutive frames.
     run: Option<[usize; 2]>,
     /// Of the latest `lasting` of them, those with a smaller share than all after them: the first has the smallest.
@@ -26,7 +26,7 @@ pub(super) struct Track {
 
 impl Track {
     /// Adds the value of the next frame. Fewer than `lasting` consecutive frames are noise.
-    pub(super) fn add(&mut self, frame: usize, measurement: CheckedValue, lasting: usize) {
+    pub fn add(&mut self, frame: usize, measurement: CheckedValue, lasting: usize) {
         let first = match self.run {
             Some([first, last]) if last + 1 == frame => first,
             _ => {
@@ -83,41 +83,5 @@ impl Span {
 
     pub(super) fn duration_s(&self, step_s: f64) -> f64 {
         (self.last - self.first + 1) as f64 * step_s
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::frame::CheckedPart;
-    use super::super::verdict::Check;
-    use super::*;
-
-    /// The largest of the smallest shares of `lasting` consecutive frames, and the frame of that smallest share.
-    fn closest_by_definition(shares: &[(usize, f64)], lasting: usize) -> Option<(usize, f64)> {
-        let mut closest: Option<(usize, f64)> = None;
-        for window in shares.windows(lasting) {
-            let consecutive = window[lasting - 1].0 - window[0].0 + 1 == lasting;
-            let smallest = window.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1)).filter(|_| consecutive);
-            if let Some(found) = smallest.filter(|found| closest.is_none_or(|closest| found.1 > closest.1)) {
-                closest = Some(found);
-            }
-        }
-        closest
-    }
-
-    #[test]
-    fn the_share_that_lasted_is_that_of_the_definition() {
-        // Frames with gaps, shares with equal ones among them.
-        let shares: Vec<(usize, f64)> =
-            (0..400).filter(|k| k % 37 != 0).map(|k| (k, f64::from((k * k % 101) as u8) / 10.0)).collect();
-        for lasting in [1, 2, 3, 7, 20, 36, 37] {
-            let mut track = Track::default();
-            for &(frame, share) in &shares {
-                let of = CheckedPart::Body;
-                track.add(frame, CheckedValue { check: Check::Support, of, value: share, limit: 1.0, share }, lasting);
-            }
-            let found = track.closest.map(|(frame, m)| (frame, m.share));
-            assert_eq!(found, closest_by_definition(&shares, lasting), "{lasting} frames");
-        }
     }
 }

@@ -5,7 +5,7 @@ use crate::spatial::Vec3;
 
 /// Convex hull of discs around sole points.
 #[derive(Debug, Clone)]
-pub(super) struct BaseOfSupport {
+pub struct BaseOfSupport {
     /// Corners, counterclockwise; one or two if the soles span no area.
     corners: Vec<[f64; 2]>,
     /// Radius of the discs at them [m].
@@ -16,13 +16,13 @@ pub(super) struct BaseOfSupport {
 impl BaseOfSupport {
     /// The base of support of points with discs of `radius` [m] around them; `axes` are two horizontal orthogonal unit vectors. `None`
     /// without points.
-    pub(super) fn around(points: &[Vec3], radius: f64, axes: [Vec3; 2]) -> Option<BaseOfSupport> {
+    pub fn around(points: &[Vec3], radius: f64, axes: [Vec3; 2]) -> Option<BaseOfSupport> {
         let corners = hull(points.iter().map(|p| [p.dot(&axes[0]), p.dot(&axes[1])]).collect());
         (!corners.is_empty()).then_some(BaseOfSupport { corners, radius, axes })
     }
 
     /// Horizontal vector from the nearest point of the base [m]; zero inside.
-    pub(super) fn outside(&self, point: Vec3) -> Vec3 {
+    pub fn outside(&self, point: Vec3) -> Vec3 {
         let p = [point.dot(&self.axes[0]), point.dot(&self.axes[1])];
         let count = self.corners.len();
         let edges = || (0..count).map(|i| (self.corners[i], self.corners[(i + 1) % count]));
@@ -75,32 +75,4 @@ fn hull(mut places: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let mut corners = chain(&mut places.iter().copied());
     corners.extend(chain(&mut places.iter().rev().copied()));
     corners
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn outside(places: &[[f64; 2]], at: [f64; 2]) -> f64 {
-        let places: Vec<Vec3> = places.iter().map(|p| Vec3::new(p[0], 0.3, p[1])).collect();
-        let base = BaseOfSupport::around(&places, 0.05, [Vec3::x(), Vec3::z()]).unwrap();
-        base.outside(Vec3::new(at[0], -1.0, at[1])).norm()
-    }
-
-    #[test]
-    fn the_distance_outside_is_measured_from_the_rounded_edge() {
-        let square = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.5], [1.0, 1.0], [0.0, 1.0], [0.5, 0.0]];
-        for (at, expected) in
-            [([0.5, 0.5], 0.0), ([1.04, 0.5], 0.0), ([1.25, 0.5], 0.2), ([1.3, 1.4], 0.45), ([0.2, -0.15], 0.1)]
-        {
-            assert!((outside(&square, at) - expected).abs() < 1e-12, "{at:?}");
-        }
-    }
-
-    #[test]
-    fn a_single_point_and_a_line_have_a_width_too() {
-        assert!((outside(&[[0.0, 0.0]], [0.3, 0.4]) - 0.45).abs() < 1e-12);
-        assert!((outside(&[[0.0, 0.0], [1.0, 0.0]], [0.5, 0.25]) - 0.2).abs() < 1e-12);
-        assert!(outside(&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]], [0.9, -0.04]) < 1e-12);
-    }
 }

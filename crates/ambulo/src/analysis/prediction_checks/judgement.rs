@@ -21,9 +21,9 @@ pub(super) struct Criterion {
 
 /// A value and its time [s].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct TimedValue {
-    pub(super) value: f64,
-    pub(super) time_s: [f64; 2],
+pub struct TimedValue {
+    pub value: f64,
+    pub time_s: [f64; 2],
 }
 
 impl<'a> Judgement<'a> {

@@ -24,7 +24,7 @@
 //! Pinned by: tests/prediction_checks.rs, which prints the values of the available recordings.
 
 mod balance;
-mod base_of_support;
+pub(crate) mod base_of_support;
 mod friction;
 mod judgement;
 mod low_pass;
@@ -33,7 +33,7 @@ mod needed_center;
 mod offsets;
 mod other_support;
 mod record;
-mod sustained;
+pub(crate) mod sustained;
 
 use super::cycles::Cycle;
 use super::feasibility::{Reason, Thresholds};

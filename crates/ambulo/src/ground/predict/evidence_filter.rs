@@ -80,16 +80,16 @@ impl EvidenceFilters {
 
 /// Coefficients of a filter.
 #[derive(Debug, Clone)]
-pub(super) struct EvidenceFilter {
+pub struct EvidenceFilter {
     /// Frames between two coefficients.
-    pub(super) stride: usize,
+    pub stride: usize,
     /// The middle coefficient and those on one side.
     weights: Vec<f64>,
 }
 
 impl EvidenceFilter {
     /// The Gaussian alone.
-    fn gaussian(bandwidth_hz: f64, grid: TimeGrid) -> EvidenceFilter {
+    pub fn gaussian(bandwidth_hz: f64, grid: TimeGrid) -> EvidenceFilter {
         let sigma = (0.5 * LN_2).sqrt() / (PI * bandwidth_hz);
         let (stride, step) = spacing(grid);
         let count = (REACH * sigma / step).ceil() as usize;
@@ -98,7 +98,7 @@ impl EvidenceFilter {
     }
 
     /// The Gaussian and the filter that the motion has passed.
-    fn of_motion(bandwidth_hz: f64, motion: LowPass, grid: TimeGrid) -> EvidenceFilter {
+    pub fn of_motion(bandwidth_hz: f64, motion: LowPass, grid: TimeGrid) -> EvidenceFilter {
         let (stride, step) = spacing(grid);
         let frequencies = (0..=(HIGHEST * PER_BANDWIDTH as f64) as usize).map(|i| i as f64 / PER_BANDWIDTH as f64);
         let gains: Vec<[f64; 2]> = frequencies
@@ -127,7 +127,7 @@ impl EvidenceFilter {
     }
 
     /// Frames around a frame with their coefficients, which sum to one; fewer at the ends of the recording.
-    pub(super) fn around(&self, frame: usize, frames: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub fn around(&self, frame: usize, frames: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let side = self.weights.len() as isize - 1;
         let inside = move |i: isize| {
             let tap = frame.checked_add_signed(i * self.stride as isize).filter(|tap| *tap < frames)?;
@@ -142,50 +142,4 @@ impl EvidenceFilter {
 fn spacing(grid: TimeGrid) -> (usize, f64) {
     let stride = ((EVERY_S / grid.step_s + 1e-6) as usize).max(1);
     (stride, stride as f64 * grid.step_s)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_wave_at_the_bandwidth_keeps_half_of_its_amplitude() {
-        let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 400 };
-        let filter = EvidenceFilter::gaussian(7.0, grid);
-        let wave = |frame: usize| (TAU * 7.0 * grid.time(frame)).sin();
-        for frame in 100..200 {
-            let passed: f64 = filter.around(frame, 400).map(|(tap, weight)| weight * wave(tap)).sum();
-            assert!((passed - 0.5 * wave(frame)).abs() < 5e-3);
-        }
-    }
-
-    #[test]
-    fn estimated_forces_lose_what_the_motion_has_lost() {
-        let grid = TimeGrid { start_s: 0.0, step_s: 0.005, frames: 800 };
-        let filter = EvidenceFilter::of_motion(7.0, LowPass::MOTION, grid);
-        for frequency in [1.0, 3.0, 6.0, 9.0] {
-            let wave = |frame: usize| (TAU * frequency * grid.time(frame)).cos();
-            let gaussian = (-LN_2 * (frequency / 7.0_f64).powi(2)).exp();
-            let gain = gaussian / (1.0 + (frequency / 6.0_f64).powi(6));
-            for frame in [300, 307, 411] {
-                let passed: f64 = filter.around(frame, 800).map(|(tap, weight)| weight * wave(tap)).sum();
-                assert!(
-                    (passed - gain * wave(frame)).abs() < 0.015,
-                    "{frequency} Hz: {passed}, {}",
-                    gain * wave(frame)
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn at_the_ends_the_coefficients_still_sum_to_one() {
-        let grid = TimeGrid { start_s: 0.0, step_s: 0.002, frames: 50 };
-        let filter = EvidenceFilter::gaussian(7.0, grid);
-        assert_eq!(filter.stride, 6);
-        for frame in [0, 3, 49] {
-            let sum: f64 = filter.around(frame, 50).map(|(_, weight)| weight).sum();
-            assert!((sum - 1.0).abs() < 1e-12);
-        }
-    }
 }

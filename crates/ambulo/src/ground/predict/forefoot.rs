@@ -10,7 +10,7 @@ const HEEL_UP: [f64; 2] = [0.087, 0.262];
 
 /// When the heel of a foot that comes down forefoot first touches the ground: the first of the places, in order of time, in which it does.
 /// `None` for a foot that comes down heel first or flat; the number of places if the heel stays up.
-pub(super) fn heel_down(places: &[FootPlace], up: Vec3) -> Option<usize> {
+pub fn heel_down(places: &[FootPlace], up: Vec3) -> Option<usize> {
     let is_down = |place: &FootPlace| share_of_ball(place, up) <= 0.0;
     let first = places.iter().position(is_down).unwrap_or(places.len());
     (first > 0).then_some(first)

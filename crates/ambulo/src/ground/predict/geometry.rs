@@ -7,11 +7,11 @@ use crate::spatial::Vec3;
 
 /// Sole and shank of one foot in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::ground) struct FootPlace {
+pub struct FootPlace {
     /// Rear, ball and tip of the sole [m].
-    pub(super) sole: [Vec3; 3],
+    pub sole: [Vec3; 3],
     /// Unit vector from ankle to knee; `None` where the model has no such joints.
-    pub(super) shank: Option<Vec3>,
+    pub shank: Option<Vec3>,
 }
 
 /// Mass centre and feet in one frame.

@@ -6,28 +6,28 @@
 //! and its limits. In double support twelve unknowns have six equations: every result names the rule that divides the forces.
 //! Pinned by: tests/ground_predict.rs
 
-mod center_path;
-mod deviation_calibration;
+pub(crate) mod center_path;
+pub(crate) mod deviation_calibration;
 mod estimate;
-mod evidence_filter;
+pub(crate) mod evidence_filter;
 mod expected;
 mod fitted_parameters;
-mod forefoot;
-mod geometry;
+pub(crate) mod forefoot;
+pub(crate) mod geometry;
 mod loads;
 mod misfit;
 mod normal_equations;
 mod personal;
 mod prescribed;
 mod samples;
-mod stance_curves;
+pub(crate) mod stance_curves;
 mod stance_errors;
-mod stances;
-mod strike_descent;
+pub(crate) mod stances;
+pub(crate) mod strike_descent;
 mod total;
-mod unilateral;
-mod unknowns;
-mod zero_moment_point;
+pub(crate) mod unilateral;
+pub(crate) mod unknowns;
+pub(crate) mod zero_moment_point;
 
 use super::footfalls::{Footfall, Footfalls, OffSpeed, SignalFrame, Signals, detect};
 use super::{BodyForces, GroundForces};

@@ -14,9 +14,9 @@ const SAMPLES: usize = 26;
 
 /// Mean and standard deviation [body weights].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct MeanAndDeviation {
-    pub(super) mean: f64,
-    pub(super) deviation: f64,
+pub struct MeanAndDeviation {
+    pub mean: f64,
+    pub deviation: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -27,14 +27,16 @@ struct Curve {
 
 /// Times of the other foot's off and strike, as shares of a stance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct OtherFootEvents {
-    pub(super) other_off: f64,
-    pub(super) other_strike: f64,
+pub struct OtherFootEvents {
+    /// Off of the other foot.
+    pub other_off: f64,
+    /// Strike of the other foot.
+    pub other_strike: f64,
 }
 
 /// The built-in normative curves.
 #[derive(Debug, Clone)]
-pub(super) struct StanceCurves {
+pub struct StanceCurves {
     speeds: [f64; SPEEDS],
     other_foot_events: [OtherFootEvents; SPEEDS],
     vertical: [Curve; SPEEDS],
@@ -43,7 +45,7 @@ pub(super) struct StanceCurves {
 
 /// The curves at a speed: index of the next lower speed of the table, and the share of the next higher one.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct AtSpeed<'c> {
+pub struct AtSpeed<'c> {
     curves: &'c StanceCurves,
     index: usize,
     share: f64,
@@ -54,7 +56,7 @@ impl StanceCurves {
     ///
     /// # Errors
     /// None: a test reads the file.
-    pub(super) fn built_in() -> Result<&'static StanceCurves, &'static TomlError> {
+    pub fn built_in() -> Result<&'static StanceCurves, &'static TomlError> {
         static CURVES_READ: LazyLock<Result<StanceCurves, TomlError>> =
             LazyLock::new(|| StanceCurves::from_toml(CURVES));
         CURVES_READ.as_ref()
@@ -80,7 +82,7 @@ impl StanceCurves {
     }
 
     /// The curves at a dimensionless speed V / √(g L).
-    pub(super) fn at_speed(&self, speed: f64) -> AtSpeed<'_> {
+    pub fn at_speed(&self, speed: f64) -> AtSpeed<'_> {
         let speed = speed.clamp(self.speeds[0], self.speeds[SPEEDS - 1]);
         let index = self.speeds[1..SPEEDS - 1].partition_point(|s| *s < speed);
         let [low, high] = [self.speeds[index], self.speeds[index + 1]];
@@ -89,7 +91,7 @@ impl StanceCurves {
 }
 
 impl AtSpeed<'_> {
-    pub(super) fn other_foot_events(&self) -> OtherFootEvents {
+    pub fn other_foot_events(&self) -> OtherFootEvents {
         let [low, high] = [self.curves.other_foot_events[self.index], self.curves.other_foot_events[self.index + 1]];
         OtherFootEvents {
             other_off: mix(low.other_off, high.other_off, self.share),
@@ -98,12 +100,12 @@ impl AtSpeed<'_> {
     }
 
     /// Vertical force at a share of the stance.
-    pub(super) fn vertical(&self, phase: f64) -> MeanAndDeviation {
+    pub fn vertical(&self, phase: f64) -> MeanAndDeviation {
         self.expected(&self.curves.vertical, phase)
     }
 
     /// Fore-aft force at a share of the stance.
-    pub(super) fn fore_aft(&self, phase: f64) -> MeanAndDeviation {
+    pub fn fore_aft(&self, phase: f64) -> MeanAndDeviation {
         self.expected(&self.curves.fore_aft, phase)
     }
 
@@ -135,29 +137,4 @@ fn curves(root: &Table<'_>, key: &str) -> Result<[Curve; SPEEDS], TomlError> {
     };
     let found = root.tables(key)?.iter().map(read).collect::<Result<Vec<_>, TomlError>>()?;
     found.try_into().map_err(|found: Vec<Curve>| root.wrong(format!("`{key}` has {} curves; expected 5", found.len())))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_built_in_curves_are_those_of_walking() {
-        let curves = StanceCurves::built_in().unwrap();
-        let free = curves.at_speed(0.429);
-        let peak = (0..=100).map(|i| free.vertical(f64::from(i) / 100.0).mean).fold(0.0, f64::max);
-        assert!((1.05..1.2).contains(&peak), "{peak}");
-        assert!(free.vertical(0.0).mean.abs() < 1e-12 && free.vertical(1.0).mean.abs() < 1e-12);
-        assert!(free.fore_aft(0.2).mean < -0.1 && free.fore_aft(0.85).mean > 0.1);
-        assert!((free.other_foot_events().other_off - 0.10 / 0.59).abs() < 1e-9);
-    }
-
-    #[test]
-    fn beyond_the_speeds_the_nearest_one_is_used() {
-        let curves = StanceCurves::built_in().unwrap();
-        for (outside, nearest) in [(0.0, 0.172), (2.0, 0.694)] {
-            let (a, b) = (curves.at_speed(outside).vertical(0.3), curves.at_speed(nearest).vertical(0.3));
-            assert!((a.mean - b.mean).abs() < 1e-12 && (a.deviation - b.deviation).abs() < 1e-12);
-        }
-    }
 }

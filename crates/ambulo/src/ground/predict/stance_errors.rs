@@ -151,13 +151,15 @@ impl StanceErrors {
     }
 
     /// Forward, up, to the right [body weights] at a share of the stance of a foot.
-    pub(super) fn force(&self, side: Side, phase: f64) -> [f64; 3] {
+    #[doc(hidden)] // for tests
+    pub fn force(&self, side: Side, phase: f64) -> [f64; 3] {
         let [forward, up, outwards] = [0, 1, 2].map(|axis| self.force[axis].at(phase));
         [forward, up, outwards * outwards_sign(side)]
     }
 
     /// Forward and to the right [stature].
-    pub(super) fn center(&self, side: Side, phase: f64) -> [f64; 2] {
+    #[doc(hidden)] // for tests
+    pub fn center(&self, side: Side, phase: f64) -> [f64; 2] {
         let [forward, outwards] = [0, 1].map(|axis| self.center[axis].at(phase));
         [forward, outwards * outwards_sign(side)]
     }
@@ -185,71 +187,4 @@ impl ErrorsByDescent {
 #[must_use]
 pub fn outwards_sign(side: Side) -> f64 {
     if side == Side::Right { 1.0 } else { -1.0 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn samples(curve: impl Fn(f64) -> f64) -> Vec<ErrorSample> {
-        let sample = |i: u32| {
-            let phase = f64::from(i) / 500.0;
-            ErrorSample { phase, error: curve(phase), weight: 0.01, descent: 0.0 }
-        };
-        (0..=500).map(sample).collect()
-    }
-
-    #[test]
-    fn a_curve_is_found_up_to_the_ridge_and_none_where_nothing_is_known() {
-        let truth = |phase: f64| 0.1 * (phase * std::f64::consts::PI).sin();
-        let found = StanceCurve::through(&samples(truth), Ends::Free);
-        for phase in [0.25, 0.5, 0.75] {
-            assert!((found.at(phase) - truth(phase)).abs() < 0.015, "{phase}: {}", found.at(phase));
-        }
-        assert_eq!(StanceCurve::through(&[], Ends::Free), StanceCurve::default());
-        let known_late: Vec<ErrorSample> = samples(|_| 1.0).into_iter().filter(|s| s.phase > 0.5).collect();
-        let found = StanceCurve::through(&known_late, Ends::Free);
-        assert!(found.at(0.2).abs() < 1e-12 && found.at(0.8) > 0.9);
-    }
-
-    #[test]
-    fn forces_have_no_error_at_the_ends_and_depend_on_the_descent_of_each_stance() {
-        let flat = |error: f64, descent: f64| {
-            let all = samples(|_| error).into_iter();
-            all.map(move |sample| ErrorSample { descent, ..sample })
-        };
-        let all: Vec<ErrorSample> = flat(0.1, 0.0).chain(flat(0.3, 0.5)).collect();
-        let [usual, by_descent] = StanceCurve::through_by_descent(&all);
-        for curve in [usual, by_descent, StanceCurve::through(&all, Ends::Zero)] {
-            assert!(curve.at(0.0).abs() < 1e-6 && curve.at(1.0).abs() < 1e-6, "{curve:?}");
-        }
-        // The ridges hold the first curve down by a half and leave the second one.
-        let at = |descent: f64| usual.at(0.5) + descent * by_descent.at(0.5);
-        assert!((at(0.5) - 0.3).abs() < 0.06 && at(0.0) < 0.11 && at(0.5) > at(0.0) + 0.1, "{} {}", at(0.0), at(0.5));
-    }
-
-    #[test]
-    fn a_curve_passes_its_knots_is_smooth_between_and_constant_beyond() {
-        let mut curve = StanceCurve::default();
-        curve.0[6] = 1.0;
-        assert!((curve.at(0.3) - 1.0).abs() < 1e-12 && (curve.at(0.35) - 0.5).abs() < 1e-12);
-        curve.0[14] = 2.0;
-        assert!((curve.at(1.7) - 2.0).abs() < 1e-12 && curve.at(-3.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn the_left_foot_mirrors_the_right_one() {
-        let mut errors = StanceErrors::default();
-        errors.force.iter_mut().for_each(|curve| curve.0.fill(0.02));
-        errors.center.iter_mut().for_each(|curve| curve.0.fill(0.01));
-        let (right, left) = (errors.force(Side::Right, 0.4), errors.force(Side::Left, 0.4));
-        assert!((right[2] + left[2]).abs() < 1e-15 && (right[0] - left[0]).abs() < 1e-15);
-        assert!((errors.center(Side::Left, 0.4)[1] + 0.01).abs() < 1e-15);
-    }
-
-    #[test]
-    fn more_trials_are_trusted_more_and_never_wholly() {
-        assert!(trusted(0).abs() < 1e-12 && (trusted(1) - REPEATS).abs() < 1e-12);
-        assert!(trusted(4) > trusted(1) && trusted(1000) < 1.0);
-    }
 }

@@ -21,7 +21,7 @@ const UNDER_WAY: f64 = 0.08;
 
 /// Type of gait of a stance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum GaitType {
+pub enum GaitType {
     /// Walking: with double support before or after.
     Walk,
     /// Running: between two flights.
@@ -32,41 +32,46 @@ pub(super) enum GaitType {
 
 /// One stance with its axes, speed and phase.
 #[derive(Debug, Clone)]
-pub(super) struct Stance {
-    pub(super) side: Side,
-    /// Strike and off [s]; estimated where the recording cuts the stance.
-    pub(super) start_s: f64,
-    pub(super) end_s: f64,
+pub struct Stance {
+    /// Which foot.
+    pub side: Side,
+    /// Strike [s]; estimated where the recording cuts the stance.
+    pub start_s: f64,
+    /// Off [s]; estimated likewise.
+    pub end_s: f64,
     /// Height of the ground [m].
-    pub(super) height_m: f64,
-    /// Horizontal direction of walking, and the direction to its right.
-    pub(super) forward: Vec3,
-    pub(super) right: Vec3,
+    pub height_m: f64,
+    /// Horizontal direction of walking.
+    pub forward: Vec3,
+    /// The direction to its right.
+    pub right: Vec3,
     /// Dimensionless speed V / √(g L).
-    pub(super) speed: f64,
-    pub(super) gait: GaitType,
+    pub speed: f64,
+    /// Of what the stance is a part.
+    pub gait: GaitType,
     /// Until when the foot stands on its forefoot alone after a strike with the forefoot; `None` after a strike with the heel [s].
-    pub(super) heel_down_s: Option<f64>,
+    pub heel_down_s: Option<f64>,
     /// Whether the stance before or after it is on another step of stairs.
-    pub(super) on_stairs: bool,
+    pub on_stairs: bool,
     /// How much more than usual the mass centre descends at the strike ([`super::strike_descent`]).
-    pub(super) descent: f64,
+    pub descent: f64,
     /// Time [s] and phase of strike, other foot's off, other foot's strike, and off.
-    knots: Vec<[f64; 2]>,
+    pub knots: Vec<[f64; 2]>,
 }
 
 /// Scales that make times, lengths and forces dimensionless.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct BodyScale {
+pub struct BodyScale {
     /// Direction against gravity.
-    pub(super) up: Vec3,
+    pub up: Vec3,
     /// Body weight [N].
-    pub(super) weight_n: f64,
-    /// √(L/g) [s] and √(g L) [m/s].
-    pub(super) leg_time_s: f64,
-    pub(super) leg_speed_m_s: f64,
+    pub weight_n: f64,
+    /// √(L/g) [s].
+    pub leg_time_s: f64,
+    /// √(g L) [m/s].
+    pub leg_speed_m_s: f64,
     /// Stature [m].
-    pub(super) height_m: f64,
+    pub height_m: f64,
 }
 
 /// Stature that the lengths in [`super::FittedParameters`] refer to [m].
@@ -231,26 +236,5 @@ impl Stance {
     /// The normative curves at the speed of this stance.
     pub(super) fn curves<'c>(&self, curves: &'c StanceCurves) -> AtSpeed<'c> {
         curves.at_speed(self.speed)
-    }
-}
-
-#[cfg(test)]
-impl Stance {
-    /// A walking stance along x on level ground.
-    pub(super) fn level(side: Side, [start_s, end_s]: [f64; 2], heel_down_s: Option<f64>) -> Stance {
-        Stance {
-            side,
-            start_s,
-            end_s,
-            height_m: 0.0,
-            forward: Vec3::x(),
-            right: Vec3::z(),
-            speed: 0.4,
-            gait: GaitType::Walk,
-            heel_down_s,
-            on_stairs: false,
-            descent: 0.0,
-            knots: vec![[start_s, 0.0], [end_s, 1.0]],
-        }
     }
 }

@@ -14,28 +14,31 @@ use crate::model::Model;
 use crate::motion::TimeGrid;
 use crate::spatial::Vec3;
 
-/// v₀, the descent in a usual strike, and v₁, from which on it makes no further difference [√(g L)]: 0.08 and 0.21 m/s of an adult.
-const USUAL: f64 = 0.027;
-const MOST: f64 = 0.07;
+/// v₀, the descent in a usual strike [√(g L)]: 0.08 m/s of an adult.
+pub const USUAL: f64 = 0.027;
+/// v₁, the descent from which on it makes no further difference [√(g L)]: 0.21 m/s of an adult.
+pub const MOST: f64 = 0.07;
 
 /// When and at which height a stance begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Strike {
+pub struct Strike {
     /// `None` where the recording begins with the foot on the ground [s].
-    pub(super) time_s: Option<f64>,
+    pub time_s: Option<f64>,
     /// Of the floor [m].
-    pub(super) height_m: f64,
+    pub height_m: f64,
 }
 
 /// Velocity of the mass centre [m/s], one entry per frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct CenterVelocity<'a> {
-    pub(super) grid: TimeGrid,
-    pub(super) velocity: &'a [Vec3],
+pub struct CenterVelocity<'a> {
+    /// Times of the frames.
+    pub grid: TimeGrid,
+    /// One entry per frame [m/s].
+    pub velocity: &'a [Vec3],
 }
 
 /// x of each stance, in order of time; 0 where the recording does not show the strike.
-pub(super) fn descents(strikes: &[Strike], center: CenterVelocity<'_>, up: Vec3, leg_speed_m_s: f64) -> Vec<f64> {
+pub fn descents(strikes: &[Strike], center: CenterVelocity<'_>, up: Vec3, leg_speed_m_s: f64) -> Vec<f64> {
     let before = |i: usize| strikes[..i].iter().rev().find_map(|strike| Some((strike.time_s?, strike.height_m)));
     let at = |i: usize| -> Option<f64> {
         let Strike { time_s, height_m } = strikes[i];
@@ -80,41 +83,4 @@ pub fn strike_descents(model: &Model, trajectory: &Trajectory, footfalls: &Footf
     let strikes: Vec<Strike> = footfalls.falls.iter().map(strike).collect();
     let leg_speed_m_s = (model.stature().leg_length_m * model.gravity().norm()).sqrt();
     descents(&strikes, CenterVelocity { grid: trajectory.grid(), velocity: &velocity }, model.up(), leg_speed_m_s)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Descents of strikes at 0.5 s on these heights, one step of 0.5 s before, with an upward velocity [m/s].
-    fn of(upwards: f64, heights: [f64; 2]) -> f64 {
-        let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 101 };
-        let velocity = vec![Vec3::y() * upwards; 101];
-        let strikes = [0, 1].map(|i| Strike { time_s: Some(0.5 * i as f64), height_m: heights[i] });
-        descents(&strikes, CenterVelocity { grid, velocity: &velocity }, Vec3::y(), 3.0)[1]
-    }
-
-    #[test]
-    fn a_usual_descent_counts_nothing_a_faster_one_with_its_energy_and_none_beyond_the_most() {
-        let speed = 3.0;
-        assert!(of(-USUAL * speed, [0.0; 2]).abs() < 1e-12);
-        let whole = 1.0 - (USUAL / MOST).powi(2);
-        assert!((of(-MOST * speed, [0.0; 2]) - whole).abs() < 1e-12 && (of(-9.0, [0.0; 2]) - whole).abs() < 1e-12);
-        assert!((of(0.4, [0.0; 2]) + (USUAL / MOST).powi(2)).abs() < 1e-12, "rising counts as no descent");
-    }
-
-    #[test]
-    fn on_a_ramp_the_descent_is_relative_to_the_floor() {
-        // 0.1 m/s of descent with a floor that falls by 0.1 m/s is none.
-        let level = of(0.0, [0.0; 2]);
-        assert!((of(-0.1, [0.2, 0.15]) - level).abs() < 1e-12 && of(-0.1, [0.2, 0.2]) > level);
-    }
-
-    #[test]
-    fn where_the_recording_does_not_show_the_strike_it_is_as_usual() {
-        let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 11 };
-        let velocity = [Vec3::y() * -1.0; 11];
-        let strikes = [None, Some(-0.2), Some(0.4)].map(|time_s| Strike { time_s, height_m: 0.0 });
-        assert_eq!(descents(&strikes, CenterVelocity { grid, velocity: &velocity }, Vec3::y(), 3.0), [0.0; 3]);
-    }
 }

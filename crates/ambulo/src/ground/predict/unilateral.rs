@@ -31,37 +31,14 @@ pub(super) fn enforce_unilateral_contact(feet: &mut BySide<FootLoads>, up: Vec3,
 }
 
 /// Vertical force of a foot: not below zero, reduced by the pull of the other one.
-fn unilateral_share(own: f64, other: f64) -> f64 {
+pub fn unilateral_share(own: f64, other: f64) -> f64 {
     if own > 0.0 { (own + other.min(0.0)).max(0.0) } else { 0.0 }
 }
 
 /// The force with a new vertical part, and its horizontal part within the friction cone.
-fn within_friction_cone(force: Vec3, vertical: f64, up: Vec3) -> Vec3 {
+pub fn within_friction_cone(force: Vec3, vertical: f64, up: Vec3) -> Vec3 {
     let level = force - up * force.dot(&up);
     let most = MOST_FRICTION * vertical.max(0.0);
     let share = if level.norm() > most { most / level.norm() } else { 1.0 };
     level * share + up * vertical
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_pull_is_subtracted_from_the_foot_that_pushes() {
-        assert!(unilateral_share(-30.0, 700.0).abs() < 1e-12);
-        assert!((unilateral_share(700.0, -30.0) - 670.0).abs() < 1e-12);
-        assert!((unilateral_share(300.0, 400.0) - 300.0).abs() < 1e-12);
-        assert!(unilateral_share(-3.0, -4.0).abs() < 1e-12 && unilateral_share(3.0, -4.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn tangential_forces_stay_inside_the_friction_cone() {
-        let up = Vec3::y();
-        let kept = within_friction_cone(Vec3::new(30.0, 100.0, 40.0), 100.0, up);
-        assert!((kept - Vec3::new(30.0, 100.0, 40.0)).norm() < 1e-12);
-        let limited = within_friction_cone(Vec3::new(30.0, 100.0, 40.0), 25.0, up);
-        assert!((limited - Vec3::new(15.0, 25.0, 20.0)).norm() < 1e-12);
-        assert!(within_friction_cone(Vec3::new(5.0, -9.0, 0.0), 0.0, up).norm() < 1e-12);
-    }
 }

@@ -10,15 +10,17 @@ use super::fitted_parameters::FittedParameters;
 use super::stances::{BodyScale, Stance};
 
 /// β: root of the mean over one interval of Σ B², 151/315.
-const UNIT: f64 = 0.692_358_7;
+pub const UNIT: f64 = 0.692_358_7;
 
 /// One component of one stance: cubic B-splines on uniform knots from strike to off.
 #[derive(Debug, Clone)]
-pub(super) struct Curve {
-    start_s: f64,
-    spacing_s: f64,
+pub struct Curve {
+    /// Time of the first knot [s].
+    pub start_s: f64,
+    /// Time between knots [s].
+    pub spacing_s: f64,
     /// Indices of its unknowns in the whole system.
-    pub(super) numbers: Vec<usize>,
+    pub numbers: Vec<usize>,
 }
 
 /// The four splines that are not zero at a time: index of the first one, and their values divided by β.
@@ -26,7 +28,7 @@ pub(super) type ActiveSplines = (usize, [f64; 4]);
 
 impl Curve {
     /// The splines with influence at a time inside the stance.
-    pub(super) fn active(&self, time: f64) -> ActiveSplines {
+    pub fn active(&self, time: f64) -> ActiveSplines {
         let intervals = self.numbers.len() - 3;
         let place = ((time - self.start_s) / self.spacing_s).clamp(0.0, intervals as f64);
         let first = (place as usize).min(intervals - 1);
@@ -88,30 +90,5 @@ impl Unknowns {
     pub(super) fn widest(&self) -> usize {
         let together = self.curves.iter().flatten().flat_map(|curve| curve.numbers.windows(4));
         together.map(|four| four[3] - four[0]).max().unwrap_or(0)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn splines_sum_to_one_and_have_unit_deviation_on_average() {
-        let curve = Curve { start_s: 1.0, spacing_s: 0.1, numbers: (0..9).collect() };
-        let mut square = 0.0;
-        for i in 0..1000 {
-            let (first, values) = curve.active(1.0 + 0.6 * (f64::from(i) + 0.5) / 1000.0);
-            assert!(first + 4 <= curve.numbers.len());
-            assert!((values.iter().sum::<f64>() * UNIT - 1.0).abs() < 1e-12);
-            square += values.iter().map(|b| b * b).sum::<f64>() / 1000.0;
-        }
-        assert!((square - 1.0).abs() < 1e-3, "{square}");
-    }
-
-    #[test]
-    fn outside_the_stance_the_nearest_splines_are_used() {
-        let curve = Curve { start_s: 0.0, spacing_s: 0.1, numbers: (0..6).collect() };
-        assert_eq!(curve.active(-1.0).0, 0);
-        assert_eq!(curve.active(9.0).0, 2);
     }
 }

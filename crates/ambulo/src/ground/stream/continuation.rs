@@ -25,7 +25,7 @@ const COARSE_S: f64 = 0.02;
 
 /// How a motion repeats itself at its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Continuation {
+pub struct Continuation {
     /// Frames to the earlier part that resembles the newest part.
     back: usize,
     /// Frames that are extrapolated.
@@ -34,7 +34,7 @@ pub(super) struct Continuation {
 
 impl Continuation {
     /// `None` if no earlier part resembles the end of the motion. Times are `step_s` apart.
-    pub(super) fn find(motion: &Motion, step_s: f64) -> Option<Continuation> {
+    pub fn find(motion: &Motion, step_s: f64) -> Option<Continuation> {
         let frames = |time_s: f64| (time_s / step_s).round() as usize;
         let last = frames(LAST_PART_S).max(2);
         let back = repetition(motion, last, frames(SHORTEST_S), frames(COARSE_S).max(1))?;
@@ -50,7 +50,7 @@ impl Continuation {
     }
 
     /// The motion with its extrapolation.
-    pub(super) fn appended_to(self, motion: &Motion, step_s: f64) -> Motion {
+    pub fn appended_to(self, motion: &Motion, step_s: f64) -> Motion {
         let mut out = motion.clone();
         let Some(end_s) = motion.times.last() else { return out };
         out.times.extend((1..=self.ahead).map(|j| end_s + j as f64 * step_s));
@@ -102,36 +102,4 @@ fn line_residual(column: &[f64], back: usize, last: usize, stride: usize) -> f64
     let left = squares - sum * sum / count - slope * slope / spread;
     // A part with a gap resembles nothing.
     if left.is_nan() { f64::INFINITY } else { left.max(0.0) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn motion(of: impl Fn(f64) -> f64, count: usize) -> Motion {
-        let times: Vec<f64> = (0..count).map(|i| 0.01 * i as f64).collect();
-        let column = times.iter().map(|t| of(*t)).collect();
-        Motion { origin: String::new(), columns: vec![None, Some(column)], times }
-    }
-
-    #[test]
-    fn a_periodic_motion_with_drift_is_continued_exactly() {
-        let of = |t: f64| 0.3 * (std::f64::consts::TAU * t).sin() + 1.2 * t;
-        let motion = motion(of, 230);
-        let out = Continuation::find(&motion, 0.01).unwrap().appended_to(&motion, 0.01);
-        assert_eq!(out.times.len(), 260);
-        let column = out.columns[1].as_ref().unwrap();
-        for (t, x) in out.times.iter().zip(column) {
-            assert!((x - of(*t)).abs() < 1e-9, "{t} s: {x}");
-        }
-    }
-
-    #[test]
-    fn a_motion_without_repetition_is_not_continued() {
-        // Two and a half oscillations in the newest part, after rest: the difference is not a straight line.
-        let of = |t: f64| if t < 2.0 { 0.0 } else { 0.1 * (78.5 * (t - 2.0)).sin() };
-        for motion in [motion(of, 230), motion(of, 30)] {
-            assert_eq!(Continuation::find(&motion, 0.01), None);
-        }
-    }
 }

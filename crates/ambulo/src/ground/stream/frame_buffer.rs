@@ -6,7 +6,7 @@ use crate::motion::Motion;
 
 /// The newest frames of the free coordinates, up to a fixed number.
 #[derive(Debug, Clone)]
-pub(super) struct FrameBuffer {
+pub struct FrameBuffer {
     motion: Motion,
     step_s: f64,
     capacity: usize,
@@ -16,7 +16,8 @@ pub(super) struct FrameBuffer {
 }
 
 impl FrameBuffer {
-    pub(super) fn new(model: &Model, rate_hz: f64, capacity: usize) -> FrameBuffer {
+    /// Empty, for so many frames.
+    pub fn new(model: &Model, rate_hz: f64, capacity: usize) -> FrameBuffer {
         let is_free = |drive: &Drive| matches!(drive, Drive::Free);
         let column = |drive: &Drive| is_free(drive).then(|| Vec::with_capacity(capacity));
         let motion = Motion {
@@ -28,7 +29,7 @@ impl FrameBuffer {
     }
 
     /// Adds a frame, and drops the oldest one if the buffer is full.
-    pub(super) fn push(&mut self, model: &Model, q: &[f64]) -> Result<(), StreamError> {
+    pub fn push(&mut self, model: &Model, q: &[f64]) -> Result<(), StreamError> {
         let (frame, expected) = (self.next, model.coordinates().len());
         if q.len() != expected {
             return Err(StreamError::Length { frame, found: q.len(), expected, model: model.name().to_owned() });

@@ -14,13 +14,13 @@
 //! full, however long the stream runs.
 //! Pinned by: tests/ground_stream.rs
 
-mod continuation;
+pub(crate) mod continuation;
 mod error;
 mod frame;
-mod frame_buffer;
+pub(crate) mod frame_buffer;
 mod settled;
-mod step_timing;
-mod tail;
+pub(crate) mod step_timing;
+pub(crate) mod tail;
 
 use super::footfalls::{OffSpeed, detect};
 use super::predict::{FittedParameters, KnownMotion, PredictSettings, Prediction, both_soles, predict_frames};

@@ -22,7 +22,7 @@ const TAKES_OVER_AFTER: f64 = 0.5;
 
 /// Usual times of a person's steps [s]; `None` until they were observed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct StepTiming {
+pub struct StepTiming {
     stance_s: Option<f64>,
     stride_s: Option<f64>,
     overlap_s: Option<f64>,
@@ -30,7 +30,7 @@ pub(super) struct StepTiming {
 
 impl StepTiming {
     /// Updates the times from the footfalls of a window.
-    pub(super) fn update(&mut self, footfalls: &Footfalls) {
+    pub fn update(&mut self, footfalls: &Footfalls) {
         let falls = &footfalls.falls;
         let stances = falls.iter().filter_map(|fall| Some(fall.off_s? - fall.strike_s?));
         let strikes = |side: Side| footfalls.of(side).filter_map(|fall| fall.strike_s).collect::<Vec<f64>>();
@@ -42,7 +42,7 @@ impl StepTiming {
     }
 
     /// Adds the predicted events after the window: the offs of feet in stance, and the next stance of each foot.
-    pub(super) fn extrapolate(&self, footfalls: &mut Footfalls, grid: TimeGrid) {
+    pub fn extrapolate(&self, footfalls: &mut Footfalls, grid: TimeGrid) {
         let Some(stance_s) = self.stance_s else { return };
         let seen = footfalls.falls.clone();
         for fall in footfalls.falls.iter_mut().filter(|fall| fall.off_s.is_none()) {
@@ -74,61 +74,4 @@ fn other_strike(fall: &Footfall, end_s: f64, falls: &[Footfall]) -> Option<f64> 
 fn expected_time(expected_s: f64, grid: TimeGrid) -> f64 {
     let overdue = grid.end_s() - expected_s;
     if overdue < 0.0 { expected_s } else { grid.end_s() + overdue.max(grid.step_s) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::spatial::Vec3;
-
-    fn fall(side: Side, strike_s: f64, off_s: Option<f64>) -> Footfall {
-        Footfall { side, strike_s: Some(strike_s), off_s, floor_height_m: 0.0, floor_velocity: Vec3::zeros() }
-    }
-
-    /// Strides of 1 s, stances of 0.6 s, seen until `end_s`.
-    fn seen(end_s: f64) -> (Footfalls, TimeGrid) {
-        let mut falls = Vec::new();
-        for i in 0..8 {
-            let (side, strike) = ([Side::Right, Side::Left][i % 2], 0.5 * i as f64);
-            if strike < end_s {
-                falls.push(fall(side, strike, Some(strike + 0.6).filter(|off| *off < end_s)));
-            }
-        }
-        let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: (end_s / 0.01).round() as usize + 1 };
-        (Footfalls { falls, floor_velocity: Vec3::zeros() }, grid)
-    }
-
-    #[test]
-    fn a_regular_walk_is_extrapolated_exactly() {
-        for end_s in [2.2, 2.45, 2.55] {
-            let (mut footfalls, grid) = seen(end_s);
-            let mut step_timing = StepTiming::default();
-            step_timing.update(&footfalls);
-            step_timing.extrapolate(&mut footfalls, grid);
-            for (i, fall) in footfalls.falls.iter().enumerate() {
-                let (strike, off) = (fall.strike_s.unwrap(), fall.off_s.unwrap());
-                assert!(
-                    (strike - 0.5 * i as f64).abs() < 1e-9 && (off - strike - 0.6).abs() < 1e-9,
-                    "{end_s}: {fall:?}"
-                );
-            }
-            assert!(footfalls.falls.last().unwrap().strike_s.unwrap() > end_s);
-        }
-    }
-
-    #[test]
-    fn continued_stance_is_expected_of_a_person_who_stops_and_nothing_is_predicted_without_a_step() {
-        let (mut footfalls, grid) = seen(4.5);
-        footfalls.falls.last_mut().unwrap().off_s = None;
-        let mut step_timing = StepTiming::default();
-        step_timing.update(&footfalls);
-        step_timing.extrapolate(&mut footfalls, grid);
-        let last = footfalls.of(Side::Left).find(|fall| fall.strike_s == Some(3.5)).unwrap();
-        // Expected at 4.1 s, not seen until 4.5 s.
-        assert!((last.off_s.unwrap() - 4.9).abs() < 1e-9, "{last:?}");
-        let mut standing = Footfalls { falls: vec![fall(Side::Right, 0.1, None)], floor_velocity: Vec3::zeros() };
-        let before = standing.clone();
-        StepTiming::default().extrapolate(&mut standing, grid);
-        assert_eq!(standing, before);
-    }
 }

@@ -28,39 +28,51 @@ use std::f64::consts::{PI, TAU};
 /// Share of a change in later frames that remains in a settled frame.
 const SETTLED: f64 = 1e-4;
 /// Neighbours on each side that decide about the derivatives of a spline; the next one has 2e-8 of the weight of the first.
-const NEIGHBOURS: usize = 20;
+pub const NEIGHBOURS: usize = 20;
 
 /// Smooths the newest part of a stream.
 #[derive(Debug, Clone)]
-pub(super) struct TailSmoother {
+pub struct TailSmoother {
     smoother: Smoother,
     rate_hz: f64,
     /// `None` if no frame of the window settles.
-    settles: Option<usize>,
+    pub settles: Option<usize>,
     /// First and second derivative of a spline from the values of a frame and its neighbours.
     derivatives: [Vec<f64>; 2],
 }
 
 /// The newest part, smoothed.
-pub(super) enum Tail {
+pub enum Tail {
     /// Filtered columns, with the number of their first frame, which may lie before the stream.
-    Filtered { first: isize, columns: Vec<Option<Vec<f64>>> },
+    Filtered {
+        /// Number of the first frame.
+        first: isize,
+        /// One per coordinate.
+        columns: Vec<Option<Vec<f64>>>,
+    },
     /// All frames of the window, with the number of the first one.
-    Whole { first: usize, motion: SmoothMotion },
+    Whole {
+        /// Number of the first frame.
+        first: usize,
+        /// All frames.
+        motion: SmoothMotion,
+    },
 }
 
 /// Frames of a stream at a uniform step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct FrameRange {
+pub struct FrameRange {
     /// Number of the first one.
-    pub(super) first: usize,
-    pub(super) stride: usize,
-    pub(super) count: usize,
+    pub first: usize,
+    /// From one to the next, in frames of the stream.
+    pub stride: usize,
+    /// How many there are.
+    pub count: usize,
 }
 
 impl TailSmoother {
     /// For windows of a number of frames.
-    pub(super) fn new(smoother: Smoother, rate_hz: f64, window: usize) -> Result<TailSmoother, MotionError> {
+    pub fn new(smoother: Smoother, rate_hz: f64, window: usize) -> Result<TailSmoother, MotionError> {
         let frames = |time_s: f64| (time_s * rate_hz).ceil() as usize;
         let settles = match smoother {
             Smoother::Off => Some(NEIGHBOURS),
@@ -72,12 +84,12 @@ impl TailSmoother {
     }
 
     /// After how many later frames a frame is settled, more than `delay`; `None` if it never is.
-    pub(super) fn settles(&self, delay: usize) -> Option<usize> {
+    pub fn settles(&self, delay: usize) -> Option<usize> {
         self.settles.map(|frames| frames.max(delay + 1))
     }
 
     /// Smooths the frames from number `first` on.
-    pub(super) fn smooth(
+    pub fn smooth(
         &self,
         model: &Model,
         buffer: &FrameBuffer,
@@ -148,7 +160,7 @@ impl TailSmoother {
     }
 
     /// Values and derivatives in some frames of the tail.
-    pub(super) fn motion(&self, tail: &Tail, frames: FrameRange) -> SmoothMotion {
+    pub fn motion(&self, tail: &Tail, frames: FrameRange) -> SmoothMotion {
         let FrameRange { first, stride, count } = frames;
         let step_s = 1.0 / self.rate_hz;
         let grid = TimeGrid { start_s: first as f64 * step_s, step_s: stride as f64 * step_s, frames: count };
@@ -204,55 +216,4 @@ fn derivatives(rate_hz: f64) -> Result<[Vec<f64>; 2], MotionError> {
         (0..=2 * NEIGHBOURS).map(|i| spline.derivative(order, grid.time(middle + NEIGHBOURS - i))).collect()
     };
     Ok([weights(1), weights(2)])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::anthropometry::{Build, SegmentTable};
-
-    #[test]
-    fn the_newest_part_is_smoothed_as_in_the_whole_window() {
-        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-        let model = build.human().unwrap().model;
-        let (frames, smoother) = (251, Smoother::Butterworth(LowPass::MOTION));
-        let mut buffer = FrameBuffer::new(&model, 100.0, frames);
-        // Another frequency for every coordinate, up to 2.5 Hz, and noise above the cut-off.
-        let value = |c: usize, t: f64| {
-            0.3 * (TAU * (0.9 + 0.1 * c as f64) * t + c as f64).sin() + 0.002 * (TAU * 31.0 * t + c as f64).sin()
-        };
-        for frame in 0..frames {
-            let t = 0.01 * frame as f64;
-            buffer.push(&model, &(0..model.coordinates().len()).map(|c| value(c, t)).collect::<Vec<f64>>()).unwrap();
-        }
-        let newest = TailSmoother::new(smoother, 100.0, frames).unwrap();
-        let whole = TailSmoother { settles: None, ..newest.clone() };
-        let first = frames - newest.settles(7).unwrap();
-        let range = FrameRange { first, stride: 2, count: (frames - first) / 2 };
-        let of = |smoother: &TailSmoother| {
-            let tail = smoother.smooth(&model, &buffer, first, &mut Findings::default()).unwrap();
-            smoother.motion(&tail, range)
-        };
-        let (found, expected) = (of(&newest), of(&whole));
-        assert_eq!(found.grid, expected.grid);
-        for (found, expected) in found.columns.iter().flatten().zip(expected.columns.iter().flatten()) {
-            // The last: of accelerations up to 70 rad/s².
-            for ((found, expected), tolerance) in found.iter().zip(expected).zip([2e-5, 1e-3, 2e-2]) {
-                let apart = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                assert!(apart < tolerance, "{apart} of at most {tolerance}");
-            }
-        }
-    }
-
-    #[test]
-    fn low_frequencies_settle_late_and_splines_never() {
-        let settles =
-            |smoother: Smoother, window: usize| TailSmoother::new(smoother, 100.0, window).unwrap().settles(0);
-        let at = |cutoff_hz: f64| Smoother::Butterworth(LowPass { cutoff_hz, order: 3 });
-        assert_eq!(settles(at(6.0), 251), Some(69));
-        assert_eq!(settles(at(3.0), 251), Some(118));
-        assert_eq!(settles(at(0.5), 251), None);
-        assert_eq!(settles(Smoother::Off, 251), Some(NEIGHBOURS));
-        assert_eq!(settles(Smoother::Spline, 251), None);
-    }
 }

@@ -2,7 +2,7 @@
 
 mod found_file;
 mod manifest;
-mod participants;
+pub(crate) mod participants;
 mod plan;
 
 pub use found_file::{FoundFile, Wanted};

@@ -202,7 +202,8 @@ impl Measure {
     }
 
     /// A reason, if the value is beyond the limits. `message` gets the limit of good data.
-    pub(super) fn reason(self, value: f64, message: impl FnOnce(f64) -> String) -> Option<QualityReason> {
+    #[doc(hidden)] // for tests
+    pub fn reason(self, value: f64, message: impl FnOnce(f64) -> String) -> Option<QualityReason> {
         let (state, limit) = self.limits().judge(value)?;
         Some(QualityReason {
             measure: self,

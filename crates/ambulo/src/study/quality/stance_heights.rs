@@ -40,19 +40,22 @@ pub(in crate::study) struct StanceHeights {
 
 /// A stance relative to the others of the foot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct StanceHeight {
-    pub(super) side: Side,
+pub struct StanceHeight {
+    pub side: Side,
     /// Middle of the stance [s].
-    pub(super) at_s: f64,
+    pub at_s: f64,
     /// Height of the sole above its median [m].
-    pub(super) above_m: f64,
+    pub above_m: f64,
 }
 
 /// Heights over the middle of a stance.
-struct Middle {
-    at_s: f64,
-    sole_m: f64,
-    pelvis_m: f64,
+pub struct Middle {
+    /// Time of the middle [s].
+    pub at_s: f64,
+    /// Of the sole [m].
+    pub sole_m: f64,
+    /// Of the pelvis [m].
+    pub pelvis_m: f64,
 }
 
 impl StanceHeights {
@@ -92,7 +95,7 @@ fn middle_half(fall: &Footfall) -> Option<[f64; 2]> {
 }
 
 /// The stances of a foot on a level floor, relative to all of its stances.
-fn compared(side: Side, middles: &[Middle]) -> Vec<StanceHeight> {
+pub fn compared(side: Side, middles: &[Middle]) -> Vec<StanceHeight> {
     let usual = |of: fn(&Middle) -> f64| median(middles.iter().map(of)).filter(|_| middles.len() >= FEWEST);
     let (Some(sole_m), Some(pelvis_m)) = (usual(|middle| middle.sole_m), usual(|middle| middle.pelvis_m)) else {
         return Vec::new();
@@ -130,34 +133,5 @@ impl<'a> Heights<'a> {
         let frames = frame(from_s)..(frame(to_s) + 1).min(grid.frames);
         let of = |heights: &[f64]| median(heights.get(frames.clone())?.iter().copied()).filter(|m| m.is_finite());
         Some(Middle { at_s: 0.5 * (from_s + to_s), sole_m: of(&self.soles[side])?, pelvis_m: of(&self.pelvis)? })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Heights of soles and pelvis at the stances of a foot [m], and what is reported.
-    fn above_m(heights: &[[f64; 2]]) -> Vec<f64> {
-        let middle = |[sole_m, pelvis_m]: &[f64; 2]| Middle { at_s: 0.0, sole_m: *sole_m, pelvis_m: *pelvis_m };
-        let middles: Vec<Middle> = heights.iter().map(middle).collect();
-        compared(Side::Right, &middles).iter().map(|stance| (1e6 * stance.above_m).round() / 1e6).collect()
-    }
-
-    #[test]
-    fn a_stance_is_compared_with_the_others_of_its_foot() {
-        assert_eq!(above_m(&[[0.02, 1.0], [0.02, 1.005], [-0.02, 0.995]]), [0.0, 0.0, -0.04]);
-    }
-
-    #[test]
-    fn stances_at_which_the_pelvis_is_higher_or_lower_are_not_judged() {
-        assert_eq!(above_m(&[[0.0, 1.0], [0.0, 1.0], [0.0, 1.0], [0.04, 1.03], [-0.17, 0.83]]), [0.0, 0.0, 0.0]);
-        let ramp: Vec<[f64; 2]> = (0..5).map(|step| [0.1 * f64::from(step), 1.0 + 0.1 * f64::from(step)]).collect();
-        assert_eq!(above_m(&ramp), [0.0]);
-    }
-
-    #[test]
-    fn of_two_stances_nothing_is_said() {
-        assert_eq!(above_m(&[[0.0, 1.0], [-0.04, 1.0]]), [0.0; 0]);
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// A pattern.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Pattern {
+pub struct Pattern {
     text: String,
     parts: Vec<Part>,
 }
@@ -25,7 +25,8 @@ impl fmt::Display for Pattern {
 }
 
 impl Pattern {
-    pub(super) fn new(text: &str) -> Pattern {
+    /// Reads a pattern; any text is one.
+    pub fn new(text: &str) -> Pattern {
         let (mut parts, mut rest) = (Vec::new(), text);
         while let Some(letter) = rest.chars().next() {
             let known = [("**/", Part::Folders), ("**", Part::Path), ("*", Part::Name), ("?", Part::AnyLetter)];
@@ -40,7 +41,7 @@ impl Pattern {
 
     /// Whether a whole path fits. All places of the pattern that the letters so far can have reached are followed together, so that no pattern
     /// takes longer than its length times that of the path.
-    pub(super) fn matches(&self, path: &str) -> bool {
+    pub fn matches(&self, path: &str) -> bool {
         let mut reached = vec![false; self.parts.len() + 1];
         self.reach(&mut reached, 0);
         for letter in path.chars() {
@@ -72,41 +73,5 @@ impl Pattern {
         while !std::mem::replace(&mut reached[place], true) && self.parts.get(place).is_some_and(may_be_empty) {
             place += 1;
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Pattern;
-
-    #[test]
-    fn a_star_stays_in_its_folder_and_two_stars_do_not() {
-        for (pattern, path, fits) in [
-            ("a.c3d", "a.c3d", true),
-            ("a.c3d", "ab.c3d", false),
-            ("*.c3d", "walk 1.c3d", true),
-            ("*.c3d", "x/walk.c3d", false),
-            ("x/*", "x/walk.c3d", true),
-            ("x/*", "x/y/walk.c3d", false),
-            ("x/**", "x/y/walk.c3d", true),
-            ("**/*.c3d", "walk.c3d", true),
-            ("**/*.c3d", "x/y/walk.c3d", true),
-            ("**/y/*.c3d", "x/y/walk.c3d", true),
-            ("**/y/*.c3d", "xy/walk.c3d", false),
-            ("walk?.c3d", "walk7.c3d", true),
-            ("walk?.c3d", "walk.c3d", false),
-            ("w*k*", "walk", true),
-            ("\u{e4}*", "\u{e4}b", true),
-            ("", "", true),
-            ("", "a", false),
-        ] {
-            assert_eq!(Pattern::new(pattern).matches(path), fits, "{pattern} {path}");
-        }
-    }
-
-    #[test]
-    fn no_pattern_takes_long() {
-        assert!(!Pattern::new(&"*a".repeat(2000)).matches(&"a".repeat(1000)));
-        assert!(Pattern::new(&"*".repeat(3001)).matches("a"));
     }
 }
