@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn the_page_is_that_of_the_recorded_outcomes() {
-        let page = std::fs::read_to_string(workspace::root().join("docs/measured/OPTIMAL_PEERS.md")).unwrap();
+        let page = fs::read_to_string(workspace::root().join("docs/measured/OPTIMAL_PEERS.md")).unwrap();
         let (_, written) = page.split_once("\n\n").unwrap();
         let rendered = page::text(&workspace::recorded(OUTCOMES).unwrap()).unwrap();
         assert!(written == rendered, "hint: run `cargo xtask measured OPTIMAL_PEERS`");
