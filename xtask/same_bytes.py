@@ -12,6 +12,8 @@ Compared are exit codes, names and bytes of all files, and standard output. Left
 - messages: standard error is not compared. Where other bytes differ, words are left out and the rest is compared
   again: of JSON all but the texts under WORDS, of a page its data, of Markdown and printed text the numbers. Such
   files are listed as reworded, and are no failure;
+- the commit in the version of the program, which `ambulo batch` writes, and SHA-256 in Parquet, because the id of a
+  trial is made from that version;
 - what EXPECTED lists, each with its reason.
 
 The exit code is 0 if nothing else differs.
@@ -44,6 +46,7 @@ DURATIONS = [re.compile(r"[\d.]+ us each"), re.compile(r"found \d+ on one core")
 WORDS = {"message", "hint", "why", "warnings", "error", "reason", "note"}
 # Keys of JSON with durations: of a run, and of that claim.
 TIMES = {"timing_ms", "drawn_frames_per_s", "steps_per_s", "times_real_time_at_1000_hz", "times_the_paper"}
+SHA256 = re.compile(rb"[0-9a-f]{64}")
 # Files of durations.
 TIMED = {"timings.json"}
 
@@ -342,6 +345,7 @@ MADE = {"stream": write_frames, "bids": write_bids, "others": write_short_files}
 class Ran:
     """What one program did in a case."""
 
+    version: bytes
     folder: Path
     codes: list[int]
     printed: list[bytes]
@@ -353,7 +357,8 @@ def run_case(program: Path, name: str, folder: Path) -> Ran:
     folder.mkdir(parents=True)
     for link, target in [("data", DATA), ("repo", HERE)]:
         (folder / link).symlink_to(target)
-    ran = Ran(folder, [], [], [])
+    version = subprocess.run([program, "--version"], capture_output=True, check=True).stdout
+    ran = Ran(version.strip().removeprefix(b"ambulo "), folder, [], [], [])
     environment = {**os.environ, "BROWSER": "none"}
     for number, command in enumerate(CASES[name]):
         if number == 1 and name in MADE:
@@ -365,7 +370,7 @@ def run_case(program: Path, name: str, folder: Path) -> Ran:
                 started, cwd=folder, env=environment, stdin=stdin, capture_output=True, timeout=TIME_LIMIT_S
             )
         ran.codes.append(done.returncode)
-        ran.printed.append(done.stdout)
+        ran.printed.append(done.stdout.replace(ran.version, b"VERSION"))
         if b"panicked" in done.stderr or done.returncode not in (0, 1, 2):
             last = done.stderr.decode(errors="replace")[-400:]
             ran.panics.append(f"`ambulo {command}` ended with {done.returncode}: {last}")
@@ -374,10 +379,15 @@ def run_case(program: Path, name: str, folder: Path) -> Ran:
     return ran
 
 
-def files_of(folder: Path) -> dict[str, bytes]:
-    """All files below a folder, without durations."""
-    paths = [path for path in sorted(folder.rglob("*")) if path.is_file() and path.name not in TIMED]
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
+def files_of(ran: Ran) -> dict[str, bytes]:
+    """All files of a case, without durations and without the version."""
+    paths = [path for path in sorted(ran.folder.rglob("*")) if path.is_file() and path.name not in TIMED]
+
+    def content(path: Path) -> bytes:
+        found = path.read_bytes().replace(ran.version, b"VERSION")
+        return SHA256.sub(b"SHA256", found) if path.suffix == ".parquet" else found
+
+    return {path.relative_to(ran.folder).as_posix(): content(path) for path in paths}
 
 
 def without(value: object, keys: set[str]) -> object:
@@ -472,7 +482,7 @@ def differences(name: str, old: Ran, new: Ran) -> list[tuple[str, str, str]]:
             found.append(("differs", f"code {i + 1}", f"{old.codes[i]}, now {new.codes[i]}: ambulo {command}"))
         if difference := compared("stdout", old.printed[i], new.printed[i]):
             found.append((difference[0], f"stdout {i + 1}", f"{difference[1]}: ambulo {command}"))
-    before, after = files_of(old.folder), files_of(new.folder)
+    before, after = files_of(old), files_of(new)
     found += [("differs", file, "is no longer written") for file in before.keys() - after.keys()]
     found += [("differs", file, "is new") for file in after.keys() - before.keys()]
     for file in before.keys() & after.keys():
@@ -490,7 +500,7 @@ def judge(name: str, programs: tuple[Path, Path], scratch: Path) -> tuple[list[t
         done.folder.parent.mkdir(exist_ok=True)
         shutil.move(scratch / "run" / name, done.folder)
         ran.append(done)
-    return differences(name, *ran), ran[0].codes, len(files_of(ran[0].folder))
+    return differences(name, *ran), ran[0].codes, len(files_of(ran[0]))
 
 
 def report(outcomes: dict[str, tuple[list[tuple[str, str, str]], list[int], int]]) -> bool:
