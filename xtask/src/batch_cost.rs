@@ -9,7 +9,7 @@
 //! | sheet     | core-hours and bytes of 70 h and 288 h of motion: the figures above, multiplied                                |
 //! | `--kills` | 10,000 trials in one run that is killed ten times at random times and continued: the bytes are those of a run without interruption |
 
-use crate::sweep::{release_program, seeded};
+use crate::sweep::{optimised_program, seeded};
 use crate::workspace;
 use std::collections::BTreeMap;
 use std::fs;
@@ -48,7 +48,7 @@ pub(crate) fn run(options: &[String]) -> Result<(), String> {
         [only] if only == "--kills" => true,
         _ => return Err(format!("found `{}`; expected no option, or --kills", options.join(" "))),
     };
-    let program = release_program()?;
+    let program = optimised_program()?;
     let folder = workspace::target().join("batch-cost");
     let _ = fs::remove_dir_all(&folder);
     let sets = Sets::new(&folder)?;

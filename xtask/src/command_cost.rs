@@ -1,10 +1,10 @@
 //! Processor time of the `ambulo` command against an earlier revision, and the time until it starts: `cargo xtask command-cost`.
 //!
-//! Both programs are built in release, and run in turn on the same recordings in the same minute, so that the state of the machine counts for both.
+//! Both programs are optimised in full, and run in turn on the same recordings in the same minute, so that the state of the machine counts for both.
 //! Time is that in user mode of all threads, of [`RUNS`] runs together. The earlier revision wrote its page in every run.
 
 use crate::build_time::children_cpu_s;
-use crate::sweep::release_program;
+use crate::sweep::optimised_program;
 use crate::workspace::{self, Revision};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,7 +37,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         [option, revision] if option == "--baseline" => revision,
         _ => return Err("usage: cargo xtask command-cost [--baseline REV]".to_owned()),
     };
-    let ours = release_program()?;
+    let ours = optimised_program()?;
     let theirs = baseline_program(revision)?;
     let folder = std::env::temp_dir().join(format!("ambulo-command-cost-{}", std::process::id()));
     let measured = cases()?.iter().try_for_each(|case| compare(case, &ours, &theirs, revision, &folder));

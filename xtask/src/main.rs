@@ -1,7 +1,7 @@
 //! Automation of the workspace: `cargo xtask <command>`.
 //!
 //! This crate has no dependencies, so its commands start at once. Commands that need the library are in the crate
-//! `xtask-measure`, which is built in release and started from here.
+//! `xtask-measure`, which is built with optimisation and started from here.
 
 mod batch_cost;
 mod build_time;
@@ -165,10 +165,11 @@ fn main() -> ExitCode {
     }
 }
 
-/// Builds `xtask-measure` in release and runs one of its commands. A page that it writes gets its first line.
+/// Builds `xtask-measure` with optimisation and runs one of its commands. A page that it writes gets its first line.
 fn measure(words: &[String]) -> Result<(), String> {
     let mut command = workspace::cargo();
-    command.args(["run", "--quiet", "--release", "--locked", "--package", "xtask-measure", "--"]).args(words);
+    command.args(["run", "--quiet", "--profile", workspace::OPTIMISED, "--locked", "--package", "xtask-measure", "--"]);
+    command.args(words);
     let status = command.status().map_err(|e| format!("cargo: cannot start: {e}"))?;
     // A page is written even if what it reports misses a requirement.
     if words.iter().any(|word| word == "--write") {

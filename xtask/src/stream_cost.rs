@@ -11,7 +11,7 @@
 //! The latency of frame k is the time from sending frame k + d until its result is here, where d is the delay in frames. It contains both ways
 //! through the system and the scheduling of three threads.
 
-use crate::sweep::release_program;
+use crate::sweep::optimised_program;
 use crate::workspace;
 use std::fmt::Write as _;
 use std::fs;
@@ -47,7 +47,7 @@ struct Options {
 #[expect(clippy::print_stdout, reason = "the figures are the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let options = options(words)?;
-    let program = release_program()?;
+    let program = optimised_program()?;
     let walk = Walk::new(&program)?;
     println!("{} coordinates in a frame, {RATE_HZ} Hz, lines of JSON over TCP", walk.coordinates);
     println!("{}", paced(&program, &walk, (options.seconds * RATE_HZ as f64) as usize)?);

@@ -35,7 +35,7 @@ const TIMED: &str = "timings.json";
 #[expect(clippy::print_stdout, reason = "counts and failures are the command's result")]
 pub(crate) fn run() -> Result<(), String> {
     let scratch = Scratch::new()?;
-    let program = release_program()?;
+    let program = optimised_program()?;
     let mut failures = Vec::new();
     let mut files = below(&workspace::root().join("examples"))?;
     files.extend(below(&workspace::root().join("crates/ambulo-paper/data/scenes"))?);
@@ -49,7 +49,7 @@ pub(crate) fn run() -> Result<(), String> {
     let examples = library_examples()?;
     for [package, example] in &examples {
         let mut command = workspace::cargo();
-        command.args(["run", "--quiet", "--release", "--locked", "--package", package, "--example", example]);
+        command.args(["run", "--quiet", "--profile", workspace::OPTIMISED, "--locked", "--package", package, "--example", example]);
         command.stdout(Stdio::null());
         failures.extend(failure(command, &[0])?);
     }
@@ -87,15 +87,15 @@ impl Drop for Scratch {
     }
 }
 
-/// Builds the `ambulo` command in release and returns its path.
-pub(crate) fn release_program() -> Result<PathBuf, String> {
+/// Builds the `ambulo` command with the optimisation of benchmarks and returns its path.
+pub(crate) fn optimised_program() -> Result<PathBuf, String> {
     let mut build = workspace::cargo();
-    build.args(["build", "--quiet", "--release", "--locked", "--bin", "ambulo"]);
+    build.args(["build", "--quiet", "--profile", workspace::OPTIMISED, "--locked", "--bin", "ambulo"]);
     let status = build.status().map_err(|e| format!("cargo: cannot start: {e}"))?;
     if !status.success() {
         return Err(format!("the `ambulo` command did not build ({status}), see above"));
     }
-    Ok(workspace::target().join("release").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX)))
+    Ok(workspace::target().join(workspace::OPTIMISED).join(format!("ambulo{}", std::env::consts::EXE_SUFFIX)))
 }
 
 /// Package and name of each program in `crates/*/examples`.

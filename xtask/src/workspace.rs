@@ -21,6 +21,9 @@ pub(crate) fn cargo() -> Command {
     command
 }
 
+/// The profile of benchmarks, with its folder of the same name: all of the science is optimised.
+pub(crate) const OPTIMISED: &str = "measure";
+
 /// The folder that cargo builds into: this program is in `<target>/<profile>`.
 pub(crate) fn target() -> PathBuf {
     let here = std::env::current_exe().unwrap_or_default();

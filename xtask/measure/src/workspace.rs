@@ -116,15 +116,15 @@ pub(crate) fn target() -> PathBuf {
     here.parent().and_then(Path::parent).map_or_else(|| root().join("target"), Path::to_path_buf)
 }
 
-/// Builds the `ambulo` command in release and returns its path.
+/// Builds the `ambulo` command with the optimisation of benchmarks and returns its path.
 pub(crate) fn build_program() -> Result<PathBuf, String> {
     let mut build = cargo();
-    build.args(["build", "--quiet", "--release", "--locked", "--package", "ambulo-cli"]);
+    build.args(["build", "--quiet", "--profile", "measure", "--locked", "--package", "ambulo-cli"]);
     let status = build.status().map_err(|e| format!("cargo: cannot start: {e}"))?;
     if !status.success() {
         return Err(format!("ambulo-cli did not build ({status}), see above"));
     }
-    let program = target().join("release").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX));
+    let program = target().join("measure").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX));
     if program.is_file() { Ok(program) } else { Err(format!("{}: missing after the build", program.display())) }
 }
 
