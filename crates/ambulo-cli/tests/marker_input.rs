@@ -106,7 +106,7 @@ fn unknown_marker_names_are_listed_with_the_required_ones() {
     });
     forces(&bench, "walk.c3d", &["--static", "mystery.c3d"]).refused(&[&["error: mystery.c3d"], &words[..]].concat());
     let markers = |markers: &str| forces(&bench, "walk.c3d", &[&STILL[..], &["--markers", markers]].concat());
-    markers("helen").refused(&["--markers: no marker set is named `helen`", "plug-in-gait", "a TOML file"]);
+    markers("helen").refused(&["marker set: no marker set is named `helen`", "plug-in-gait", "a TOML file"]);
     markers("none.toml").refused(&["none.toml: there is no such file", "hint: "]);
     bench.write("broken.toml", "name = \"mine\"\n[[marker]\n");
     markers("broken.toml").refused(&["broken.toml: line 2: this is not TOML", "docs/MARKERS.md"]);

@@ -141,7 +141,7 @@ fn a_set_up_of_inverse_dynamics_is_the_command_with_its_files_and_settings() {
     // An option replaces what the set-up states.
     forces(&bench, &["--setup", "setups/id.xml", "--cutoff", "10", "--to", "1.2", "-o", "other"]).done();
     assert_ne!(bench.text("options/moments.sto"), bench.text("other/moments.sto"));
-    assert_found(&bench, "other", "setup.replaced", "--cutoff 10 replaces 6 of the set-up");
+    assert_found(&bench, "other", "setup.replaced", "cut-off 10 replaces 6 of the set-up");
     assert_found(&bench, "other", "setup.replaced", "end 1.2 replaces 1.5 of the set-up");
     // Without loads nothing acts but gravity: the whole weight is residual.
     bench.write("setups/id.xml", dynamics("<colour>blue</colour>"));

@@ -3,8 +3,7 @@
 use super::error::{At, Field, JobError};
 use super::files::{ending, read_table};
 use super::model_file::read_model;
-use super::reading::Reading;
-use super::{Job, bids, ground_table, size};
+use super::{Job, Reading, bids, ground_table, size};
 use crate::model::Model;
 use crate::motion::{Motion, coordinates_from_bids, coordinates_from_table};
 use crate::study::Source;

@@ -2,9 +2,8 @@
 
 use super::error::{At, Field, JobError};
 use super::files::{Files, note_remarks, read as read_file, read_table};
-use super::reading::Reading;
 use super::values::FootColumns;
-use super::{ForceFiles, Job};
+use super::{ForceFiles, Job, Reading};
 use crate::study::{ForceTable, GroundSettings, MeasuredForces};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use std::path::{Path, PathBuf};

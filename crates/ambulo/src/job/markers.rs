@@ -1,14 +1,12 @@
 //! Reads markers (`.c3d`, `.trc`) or poses of segments (`.c3d`, `.mvnx`), with a standing trial or a model.
 
 use super::error::{At, Field, JobError};
-use super::files::{Files, ending, note_remarks, read as read_file, table};
+use super::files::{ending, read as read_file};
+use super::laboratory::read_laboratory_file;
 use super::model_file::read_model;
-use super::reading::Reading;
 use super::values::PlateFoot;
-use super::{Job, bids, ground_table, size};
-use crate::findings::Findings;
+use super::{Job, Reading, ground_table, size};
 use crate::model::marker_set::MarkerSet;
-use crate::motion::markers_from_bids;
 use crate::study::{
     LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, StandingTrial, standing_trial,
 };
@@ -46,49 +44,6 @@ pub(super) fn body(job: &Job, reading: &mut Reading<'_>) -> Result<MarkerBody, J
         height_m: job.size.height_m,
         set: job.markers.as_deref().map(|set| read_set(set, reading)).transpose()?,
     })
-}
-
-/// Reads a `.c3d`, a `.trc`, a `.mvnx`, a `.csv` or a BIDS motion.
-pub(super) fn read_laboratory_file(
-    path: &Path,
-    files: &mut dyn Files,
-    findings: &mut Findings,
-) -> Result<LaboratoryFile, JobError> {
-    if ending(path) == "tsv" {
-        return read_bids(path, files, findings);
-    }
-    laboratory_file(read_file(files, path)?, path, findings)
-}
-
-/// Reads the tracked points of a BIDS motion.
-fn read_bids(path: &Path, files: &mut dyn Files, findings: &mut Findings) -> Result<LaboratoryFile, JobError> {
-    let shown = path.display().to_string();
-    let bids = bids::read_bids(files, path)?;
-    let markers = markers_from_bids(&bids.motion, bids.rate_hz, &shown, findings).at(shown)?;
-    Ok(LaboratoryFile::of_markers(markers))
-}
-
-/// The recording in the content of a `.c3d`, a `.trc`, a `.mvnx` or a `.csv` of this name.
-///
-/// # Errors
-/// A file that is no such recording.
-pub fn laboratory_file(bytes: Vec<u8>, path: &Path, findings: &mut Findings) -> Result<LaboratoryFile, JobError> {
-    let shown = path.display().to_string();
-    if ending(path) == "csv" {
-        let (table, remarks) = table(path, &bytes)?;
-        note_remarks(&shown, &remarks, findings);
-        return LaboratoryFile::from_table(&table, &shown, findings).at(shown);
-    }
-    let read = match ending(path).as_str() {
-        "c3d" => LaboratoryFile::from_c3d(bytes, &shown, findings),
-        "trc" => LaboratoryFile::from_trc(bytes, &shown, findings),
-        "mvnx" => LaboratoryFile::from_mvnx(bytes, &shown, findings),
-        _ => {
-            let what = "expected markers (.c3d, .trc or .csv) or segments (.c3d, .mvnx)";
-            return Err(JobError::new(&[], what).within(shown));
-        }
-    };
-    read.at(shown)
 }
 
 /// Rejects fields that contradict each other or have no effect with a model.

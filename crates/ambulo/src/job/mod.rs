@@ -35,6 +35,7 @@ mod error;
 mod files;
 mod ground_table;
 mod kind;
+mod laboratory;
 mod markers;
 mod model_file;
 mod read_once;
@@ -54,7 +55,7 @@ pub mod visit;
 pub use bids::{BidsFiles, bids_files_beside, read_bids};
 pub use error::{Field, FileError, JobError};
 pub use files::{Files, ending, table};
-pub use markers::laboratory_file;
+pub use laboratory::laboratory_file;
 pub use model_file::model;
 pub use reading::{ReadJob, Reader};
 pub use settings::Processing;
@@ -64,9 +65,11 @@ pub use values::{
 };
 
 use crate::analysis::Subject;
+use crate::findings::Findings;
 use crate::model::anthropometry::SegmentTable;
-use crate::study::{AddedMass, StatedSize};
+use crate::study::{AddedMass, StatedSize, TrackedTasks};
 use read_once::{Models, StandingTrials};
+use setup::Setups;
 use std::path::{Path, PathBuf};
 
 /// A request for the forces of a recording. Files are named; [`Job::read`] reads them.
@@ -149,6 +152,20 @@ impl Shared {
     pub fn with_body(&self, body: Option<Subject>) -> Shared {
         Shared { body, ..self.clone() }
     }
+}
+
+/// Collected while the files are read.
+struct Reading<'a> {
+    files: &'a mut dyn Files,
+    standing_trials: StandingTrials,
+    models: Models,
+    findings: &'a mut Findings,
+    progress: &'a mut dyn FnMut(&'static str),
+    read: Vec<PathBuf>,
+    ground: Option<PathBuf>,
+    setups: Setups,
+    /// Weights of the fit of markers that a set-up states.
+    tracked: Option<TrackedTasks>,
 }
 
 impl Default for Job {

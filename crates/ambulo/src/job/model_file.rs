@@ -1,9 +1,9 @@
 //! Reads the model of a job.
 
+use super::Reading;
 use super::error::{At, JobError};
 use super::files::{Files, note_remarks, read};
 use super::read_once::ModelFiles;
-use super::reading::Reading;
 use super::setup::Setups;
 use crate::findings::Findings;
 use crate::model::{Model, from_osim};

@@ -2,7 +2,7 @@
 
 use super::error::JobError;
 use super::files::Files;
-use super::markers::read_laboratory_file;
+use super::laboratory::read_laboratory_file;
 use crate::findings::Findings;
 use crate::model::Model;
 use crate::study::StandingTrial;

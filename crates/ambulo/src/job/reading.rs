@@ -3,12 +3,11 @@
 use super::error::{Field, JobError};
 use super::files::{Files, read_table};
 use super::kind::RecordingKind;
-use super::read_once::{Models, StandingTrials};
 use super::setup::Setups;
-use super::{Job, Shared, coordinates, markers, sensors, settings, setup, skeleton, study_error, subject};
+use super::{Job, Reading, Shared, coordinates, markers, sensors, settings, setup, skeleton, study_error, subject};
 use crate::analysis::Stage;
 use crate::findings::Findings;
-use crate::study::{self, MarkerBody, Outcome, Recording, Settings, Source, TrackedTasks};
+use crate::study::{self, MarkerBody, Outcome, Recording, Settings, Source};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -37,20 +36,6 @@ pub struct Reader<'a> {
     pub findings: &'a mut Findings,
     /// Called with a word when a part of the files has been read.
     pub progress: &'a mut dyn FnMut(&'static str),
-}
-
-/// Collected while the files are read.
-pub(super) struct Reading<'a> {
-    pub(super) files: &'a mut dyn Files,
-    pub(super) standing_trials: StandingTrials,
-    pub(super) models: Models,
-    pub(super) findings: &'a mut Findings,
-    pub(super) progress: &'a mut dyn FnMut(&'static str),
-    pub(super) read: Vec<PathBuf>,
-    pub(super) ground: Option<PathBuf>,
-    pub(super) setups: Setups,
-    /// Weights of the fit of markers that a set-up states.
-    pub(super) tracked: Option<TrackedTasks>,
 }
 
 impl Job {

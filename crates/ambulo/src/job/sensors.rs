@@ -3,8 +3,7 @@
 use super::error::{At, Field, JobError};
 use super::files::{Files, read as read_file};
 use super::model_file::read_document;
-use super::reading::Reading;
-use super::{Job, ground_table, size};
+use super::{Job, Reading, ground_table, size};
 use crate::findings::Code;
 use crate::kinematics::sensor_fit::{SensorAxes, SensorHeading};
 use crate::model::anthropometry::Build;

@@ -2,10 +2,9 @@
 
 use super::error::{At, Field, JobError};
 use super::files::{ending, read as read_file, read_table as read_table_of};
-use super::reading::Reading;
 use super::setup_values::{fill, replaced};
 use super::values::{Cutoff, EarthTurn, ForceCutoff, HeadingAxis, ModelChoice};
-use super::{Job, markers};
+use super::{Job, Reading, markers};
 use crate::findings::{Code, Findings};
 use crate::model::Model;
 use crate::study::{

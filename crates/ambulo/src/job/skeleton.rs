@@ -1,9 +1,8 @@
 //! Reads a skeleton in motion (`.bvh`), or a motion of the SMPL family (`.npz`), for the built-in body. Neither has forces or a mass.
 
-use super::Job;
 use super::error::{At, Field, JobError};
 use super::files::{ending, note_remarks, read as read_file};
-use super::reading::Reading;
+use super::{Job, Reading};
 use crate::model::anthropometry::Build;
 use crate::motion::skeleton::{SkeletonRecording, skeleton_from_bvh};
 use crate::motion::{SmplBody, SmplError, SmplMotion};

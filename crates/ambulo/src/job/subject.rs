@@ -2,8 +2,7 @@
 
 use super::error::{At, Field, JobError};
 use super::files::Files;
-use super::reading::Reading;
-use super::{Job, markers, size};
+use super::{Job, Reading, markers, size};
 use crate::motion::B3dTrial;
 use crate::study::Source;
 use ambulo_formats::b3d::{Header, LENGTH_BYTES};

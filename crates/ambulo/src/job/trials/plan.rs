@@ -20,7 +20,7 @@ use super::participants::Participants;
 use crate::findings::Findings;
 use crate::job::error::{At, Field, JobError};
 use crate::job::files::{Files, read};
-use crate::job::markers::read_laboratory_file;
+use crate::job::laboratory::read_laboratory_file;
 use crate::job::read_header;
 use crate::study::{StatedSize, StatedTrial, TrialList};
 use std::collections::{BTreeMap, BTreeSet};
