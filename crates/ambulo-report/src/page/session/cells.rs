@@ -39,7 +39,7 @@ fn rounded(x: f64, digits: usize) -> String {
 
 /// Mean of several numbers, with the standard deviation if there are at least two.
 pub(super) fn mean_cell(values: &[f64], digits: usize, range: Option<[f64; 2]>) -> Cell {
-    let mut cell = number(Some(mean(values)), digits, range);
+    let mut cell = number((!values.is_empty()).then(|| mean(values)), digits, range);
     if let Some(sd) = sample_deviation(values) {
         cell.text += &format!(" ± {sd:.digits$}");
     }
