@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::path::Path;
 
 fn example(name: &str) -> Vec<u8> {
-    let folders = ["../../examples", "../ambulo/data/scenes"];
+    let folders = ["../../examples", "../ambulo-paper/data/scenes"];
     let files = folders.map(|folder| Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join(name));
     std::fs::read(files.iter().find(|file| file.is_file()).unwrap()).unwrap()
 }

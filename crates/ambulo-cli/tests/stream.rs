@@ -319,7 +319,7 @@ fn what_cannot_be_streamed_is_refused_by_name() {
         |words: &[&str], expected: &[&str]| bench.run(&[&["stream", "figure.osim"], words].concat()).refused(expected);
     refused(&["--rate", "5"], &["frame rate of 5 Hz", "20 to 2000 Hz"]);
     refused(&["--rate", "100", "--delay", "2000"], &["a delay of 2 s"]);
-    refused(&["--rate", "100", "--input", "tcp:203.0.113.7:5005"], &["no address of this computer"]);
+    refused(&["--rate", "100", "--input", "tcp:203.0.113.7:5005"], &["is not an address of this computer"]);
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = listener.local_addr().unwrap().port();
     refused(&["--rate", "100", "--input", &format!("tcp:{port}")], &["in use by another program"]);

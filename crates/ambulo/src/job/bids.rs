@@ -1,4 +1,4 @@
-//! Reads the three files of a BIDS motion: `*_motion.tsv`, and beside it `*_channels.tsv` and `*_motion.json`.
+//! Reads the three files of a BIDS motion: `*_motion.tsv`, and next to it `*_channels.tsv` and `*_motion.json`.
 
 use super::error::{At, Field, JobError};
 use super::files::{Files, last, read};
@@ -19,7 +19,7 @@ pub struct BidsFiles {
     pub beside: Vec<PathBuf>,
 }
 
-/// Paths of the `_channels.tsv` and `_motion.json` that describe the motion at a path; `None` if its name is not that of a motion.
+/// Paths of the `_channels.tsv` and `_motion.json` that describe the motion at a path; `None` if it is not named like a motion.
 #[must_use]
 pub fn bids_files_beside(path: &Path) -> Option<[PathBuf; 2]> {
     let name = last(path);
@@ -38,8 +38,8 @@ pub fn read_bids(files: &mut dyn Files, path: &Path) -> Result<BidsFiles, JobErr
         return Err(JobError::new(&[Field::Recording], format!("{what} {MOTION}")).within(shown));
     };
     let motion = read(files, path)?;
-    let of_channels =
-        read(files, &channels).map_err(|error| error.within("the columns of a BIDS motion are described beside it"))?;
+    let of_channels = files::read_input(caller, &channels)
+        read(files, &channels).map_err(|error| error.within("the columns of a BIDS motion are described in a file next to it"))?;
     let motion = BidsMotion::read(&motion, &of_channels).at(format!("{shown} with {}", channels.display()))?;
     let mut beside = vec![channels];
     let mut rate_hz = None;

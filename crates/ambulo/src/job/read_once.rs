@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Values that are kept. Trials of a person follow each other, and several threads may be at several persons.
 const MOST: usize = 8;
 
-/// What was read, by what it was read from.
+/// Content of a file, by kind.
 #[derive(Debug)]
 pub(super) struct ReadOnce<K, V>(Arc<Mutex<Vec<Known<K, V>>>>);
 
@@ -21,7 +21,7 @@ pub(super) type StandingTrials = ReadOnce<PathBuf, StandingTrial>;
 /// Models by their files.
 pub(super) type Models = ReadOnce<ModelFiles, Model>;
 
-/// What a model is read from.
+/// Source of a model.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct ModelFiles {
     pub(super) path: PathBuf,

@@ -16,7 +16,7 @@ use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::OrientationTable;
 use std::path::Path;
 
-/// Whether a storage file holds quaternions. A file that cannot be read is none.
+/// Whether a storage file contains quaternions. A file that cannot be read is none.
 pub(super) fn is_recording(path: &Path, files: &mut dyn Files) -> bool {
     files.read(path).is_ok_and(|bytes| OrientationTable::is_stated(&bytes))
 }

@@ -101,7 +101,7 @@ impl Setups {
         Ok(setups)
     }
 
-    /// Whether markers are fitted as a set-up says.
+    /// Whether markers are fitted as a set-up states.
     pub(super) fn has_markers(&self) -> bool {
         self.scale.is_some() || self.kinematics.is_some()
     }

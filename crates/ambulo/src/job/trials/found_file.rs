@@ -67,7 +67,7 @@ impl FoundFile {
         WITH_FORCES.into_iter().chain(OF_MOTION)
     }
 
-    /// Whether the name is that of the motion of a BIDS data set.
+    /// Whether a file with this name is the motion of a BIDS data set.
     pub(super) fn is_bids_motion(&self) -> bool {
         bids_files_beside(&self.path).is_some()
     }

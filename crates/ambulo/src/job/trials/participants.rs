@@ -1,4 +1,4 @@
-//! Masses and statures of the people of a BIDS data set: the columns `weight` and `height` of `participants.tsv`.
+//! Masses and statures of the participants of a BIDS data set: the columns `weight` and `height` of `participants.tsv`.
 //!
 //! BIDS recommends these columns and leaves their units to `participants.json`. A column whose unit is not stated there is not read: a height of 180
 //! can only be centimetres, but a weight of 70 may be pounds.
@@ -26,7 +26,7 @@ pub type Size = [Option<f64>; 2];
 const COLUMNS: [(&str, &[(&str, f64)]); 2] =
     [("weight", &[("kg", 1.0), ("g", 1e-3)]), ("height", &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3)])];
 
-/// The sizes of the people of a data set, by their names.
+/// The sizes of the participants of a data set, by name.
 #[derive(Debug, Default)]
 pub(super) struct Participants {
     /// Files that were read.
@@ -35,7 +35,7 @@ pub(super) struct Participants {
 }
 
 impl Participants {
-    /// Reads the sizes of the people of a data set. Without `participants.tsv` or without `participants.json` there are none.
+    /// Reads the sizes of the participants of a data set. Without `participants.tsv` or without `participants.json` there are none.
     pub(super) fn of(root: &Path, files: &mut dyn Files) -> Result<Participants, JobError> {
         let [table, description] = [TABLE, DESCRIPTION].map(|name| root.join(name));
         if !files.has(&table) || !files.has(&description) {

@@ -4,14 +4,14 @@
 //! |---|---|
 //! | `.c3d` with force plates | a trial |
 //! | any recording of motion, where force plates are not asked for ([`Wanted`]) | a trial |
-//! | `.c3d` without plates, `.trc`, `.mot`, `.sto` with a table of ground forces beside it | a trial |
+//! | `.c3d` without plates, `.trc`, `.mot`, `.sto` with a table of ground forces next to it | a trial |
 //! | `_motion.tsv` of a BIDS data set, of the person `sub-...` | a trial, where force plates are not asked for |
 //! | `.c3d`, `.trc`, `_motion.tsv` in which the person stands still | the standing trial of the trials in its folder |
 //! | `.mot`, `.sto` with a word of [`FORCES`] in its name | a table of ground forces |
 //! | `.b3d` | a person with trials |
 //! | the only `.osim` of a folder | the model of the `.trc`, `.mot` and `.sto` in it |
 //!
-//! A table of ground forces lies beside a recording if both have the same words in their names, apart from [`FORCES`] and [`RECORDINGS`]. A
+//! A table of ground forces lies next to a recording if both have the same words in their names, apart from [`FORCES`] and [`RECORDINGS`]. A
 //! recording with the words of another one of its folder is the same trial in another form, and only the first form is judged.
 
 use super::TrialFiles;
@@ -47,7 +47,7 @@ pub struct PlannedTrial {
     pub kind: Option<String>,
     /// Its files.
     pub files: TrialFiles,
-    /// What the laboratory states about it.
+    /// Statements of the laboratory about it.
     pub stated: StatedTrial,
     /// Why it cannot be read.
     pub broken: Option<String>,
@@ -66,12 +66,12 @@ pub struct Plan {
     pub standing: Vec<String>,
 }
 
-/// What a recording is by its content.
+/// Kind of a recording, by its content.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Content {
     /// With force plates.
     Plates,
-    /// The person stands still.
+    /// Standing still.
     Still,
     /// Without forces.
     Motion,
@@ -84,7 +84,7 @@ impl Content {
     fn without_forces(&self) -> String {
         match self {
             Content::Broken(reason) => reason.clone(),
-            _ => "no measured ground forces: no force plates, and no table of forces beside it".to_owned(),
+            _ => "no measured ground forces: no force plates, and no table of forces next to it".to_owned(),
         }
     }
 }
@@ -168,7 +168,7 @@ impl<'a> Listing<'a> {
             return Content::Motion;
         }
         match read_laboratory_file(&file.path, files, &mut Findings::default()) {
-            // A motion of BIDS may have coordinates instead of markers; its error is that of the computation.
+            // A motion of BIDS may have coordinates instead of markers; the computation then reports the error.
             Err(_) if file.is_bids_motion() => Content::Motion,
             Err(error) => Content::Broken(error.text()),
             Ok(recording) if recording.is_still() => Content::Still,
@@ -238,7 +238,7 @@ impl Plan {
         }
     }
 
-    /// Gives trials without a stated size that of their person in a data set.
+    /// Gives trials without a stated size the size of their person in a data set.
     fn take_sizes(&mut self, people: Participants) {
         self.fill_sizes(|trial| people.size(&trial.person));
         self.read.extend(people.read);
@@ -356,7 +356,7 @@ fn own_words(file: &FoundFile) -> BTreeSet<String> {
     words(file).filter(|word| !FORCES.contains(&word.as_str()) && !RECORDINGS.contains(&word.as_str())).collect()
 }
 
-/// What lies beside each other.
+/// Files that belong together.
 struct Folders<'a> {
     /// Name of the folder of all trials.
     root: &'a str,
@@ -452,7 +452,7 @@ impl<'a> Folders<'a> {
         }
     }
 
-    /// The only model beside a recording that is not a C3D.
+    /// The only model next to a recording that is not a C3D.
     fn model_of(&self, file: &FoundFile) -> Option<PathBuf> {
         match self.models.get(file.folder.as_str()).map(Vec::as_slice) {
             Some([only]) if file.ending() != "c3d" => Some(only.path.clone()),
