@@ -19,7 +19,7 @@ fn folder() -> PathBuf {
 /// A scene of `examples/`, or one of the library's own.
 fn path_of(name: &str) -> PathBuf {
     let own = folder().join(name);
-    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes").join(name);
+    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ambulo-paper/data/scenes").join(name);
     if own.is_file() { own } else { library }
 }
 
