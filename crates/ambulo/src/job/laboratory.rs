@@ -1,11 +1,11 @@
 //! Reads what a laboratory recorded: markers (`.c3d`, `.trc`, `.csv`, BIDS) or poses of segments (`.c3d`, `.mvnx`).
 
-use super::bids;
 use super::error::{At, JobError};
 use super::files::{Files, ending, note_remarks, read, table};
+use super::{Reading, bids};
 use crate::findings::Findings;
 use crate::motion::markers_from_bids;
-use crate::study::LaboratoryFile;
+use crate::study::{LaboratoryFile, standing_trial};
 use std::path::Path;
 
 /// Reads a `.c3d`, a `.trc`, a `.mvnx`, a `.csv` or a BIDS motion.
@@ -49,4 +49,11 @@ pub fn laboratory_file(bytes: Vec<u8>, path: &Path, findings: &mut Findings) -> 
         }
     };
     recording.at(shown)
+}
+
+/// Reads a standing trial that no other job shares.
+pub(super) fn read_standing_trial(path: &Path, reading: &mut Reading<'_>) -> Result<LaboratoryFile, JobError> {
+    reading.read.push(path.to_owned());
+    let Reading { files, findings, .. } = reading;
+    standing_trial(findings, |findings| read_laboratory_file(path, *files, findings))
 }

@@ -7,9 +7,7 @@ use super::model_file::read_model;
 use super::values::PlateFoot;
 use super::{Job, Reading, ground_table, size};
 use crate::model::marker_set::MarkerSet;
-use crate::study::{
-    LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, StandingTrial, standing_trial,
-};
+use crate::study::{MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, StandingTrial, standing_trial};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -84,12 +82,6 @@ fn shared_standing_trial(path: &Path, reading: &mut Reading<'_>) -> Result<Arc<S
     reading.read.push(path.to_owned());
     let Reading { files, findings, standing_trials, .. } = reading;
     standing_trial(findings, |findings| standing_trials.read(path, *files, findings))
-}
-
-pub(super) fn read_standing_trial(path: &Path, reading: &mut Reading<'_>) -> Result<LaboratoryFile, JobError> {
-    reading.read.push(path.to_owned());
-    let Reading { files, findings, .. } = reading;
-    standing_trial(findings, |findings| read_laboratory_file(path, *files, findings))
 }
 
 /// A marker set by its name, or from a file.

@@ -2,9 +2,10 @@
 
 use super::error::{At, Field, JobError};
 use super::files::{ending, read as read_file, read_table as read_table_of};
+use super::laboratory::read_standing_trial;
 use super::setup_values::{fill, replaced};
 use super::values::{Cutoff, EarthTurn, ForceCutoff, HeadingAxis, ModelChoice};
-use super::{Job, Reading, markers};
+use super::{Job, Reading};
 use crate::findings::{Code, Findings};
 use crate::model::Model;
 use crate::study::{
@@ -357,7 +358,7 @@ impl Setups {
             scaling_of_setup(&scale.setup, model, coordinates.as_ref(), reading.findings).in_file(&scale.path)?;
         let scaler = scale.setup.scaler.as_ref().filter(|scaler| !scaler.measurements.is_empty());
         let measured = scale.file(scaler.and_then(|scaler| scaler.marker_file.as_ref()));
-        let measured = measured.map(|path| markers::read_standing_trial(&path, reading)).transpose()?;
+        let measured = measured.map(|path| read_standing_trial(&path, reading)).transpose()?;
         let measured = measured.map(|LaboratoryFile { recording, .. }| recording);
         Ok(Some(Box::new(ModelProtocol { scaling: Some(scaling), measured })))
     }

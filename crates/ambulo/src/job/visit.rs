@@ -24,6 +24,9 @@ pub struct VisitRun {
     pub body: Option<Subject>,
 }
 
+/// Computes some trials of a visit, in any order; the results are in the order of the argument.
+pub type ComputeRuns<'a, R> = dyn FnMut(&[VisitRun]) -> Vec<Result<R, String>> + 'a;
+
 /// A visit whose trials were computed: each with one body, or with the reason why not.
 pub struct ComputedVisit<R> {
     /// The trials, in their order.
@@ -51,14 +54,11 @@ pub fn of_all_trials(mut job: Job) -> Job {
     job
 }
 
-/// Computes some runs of a visit, in any order, and returns their results in the order of its argument.
-pub type Runner<'a, R> = dyn FnMut(&[VisitRun]) -> Vec<Result<R, String>> + 'a;
-
-/// Computes the trials of a visit. `run` computes some of them, in any order, and returns their results in the order of its argument.
+/// Computes the trials of a visit.
 pub fn compute<R: AsRef<Outcome>>(
     root: &Path,
     trials: &[&PlannedTrial],
-    run: &mut Runner<R>,
+    run: &mut ComputeRuns<'_, R>,
 ) -> ComputedVisit<R> {
     let alone: Vec<VisitRun> = (0..trials.len()).map(|trial| VisitRun { trial, ..VisitRun::default() }).collect();
     let runs = run(&alone);
@@ -101,7 +101,7 @@ fn again_with_one_body<R: AsRef<Outcome>>(
     first: usize,
     runs: Vec<Result<R, String>>,
     trials: &[&PlannedTrial],
-    run: &mut Runner<R>,
+    run: &mut ComputeRuns<'_, R>,
 ) -> Vec<Result<R, String>> {
     let mass_kg = median_mass(&runs);
     let of_first = VisitRun { trial: first, mass_kg, body: None };
