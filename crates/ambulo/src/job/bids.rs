@@ -38,8 +38,8 @@ pub fn read_bids(files: &mut dyn Files, path: &Path) -> Result<BidsFiles, JobErr
         return Err(JobError::new(&[Field::Recording], format!("{what} {MOTION}")).within(shown));
     };
     let motion = read(files, path)?;
-    let of_channels = files::read_input(caller, &channels)
-        read(files, &channels).map_err(|error| error.within("the columns of a BIDS motion are described in a file next to it"))?;
+    let of_channels = read(files, &channels)
+        .map_err(|error| error.within("the columns of a BIDS motion are described in a file next to it"))?;
     let motion = BidsMotion::read(&motion, &of_channels).at(format!("{shown} with {}", channels.display()))?;
     let mut beside = vec![channels];
     let mut rate_hz = None;
