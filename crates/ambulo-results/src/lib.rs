@@ -36,7 +36,7 @@ pub use files::{BodyFileError, OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use keep::Keep;
 pub use outcome::outcome_tables;
-pub use prediction_files::{deviation_columns, prediction_files};
+pub use prediction_files::deviation_columns;
 #[cfg(feature = "schema")]
 pub use run_summary::summary_schema;
 pub use run_summary::{RunSummary, summary_json};
@@ -59,7 +59,7 @@ pub use tables::ground_columns;
 pub use timings::Timings;
 pub use tracking_summary::TrackingSummary;
 pub use units::{is_storage, unit_of};
-pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, SolverStage, WalkPredictionSummary, WalkSummary};
+pub use walk_summary::{PaceChangeSummary, PelvisPath, Size, WalkPredictionSummary, WalkSummary};
 pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
 
 /// For the tests of this crate.

@@ -44,7 +44,7 @@ pub struct WalkSummary {
     /// Residual moment at the root of the planned motion [N.m]; `null` in paper mode.
     pub lacking_moment_nm: Option<Size>,
     /// Progress of the solver by stage; `null` in paper mode.
-    pub solver: Option<Vec<SolverStage>>,
+    pub(crate) solver: Option<Vec<SolverStage>>,
     /// Conditions and effort of a predicted walk; `null` in the other modes.
     #[serde(default)]
     pub prediction: Option<WalkPredictionSummary>,
@@ -172,7 +172,7 @@ pub struct PelvisPath {
 /// One stage of the solver.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct SolverStage {
+pub(crate) struct SolverStage {
     /// Steps taken.
     pub iterations: usize,
     /// Sum of squares at the start.
