@@ -15,8 +15,8 @@
 //! Pinned by: tests/physical_walk.rs.
 
 use super::linear::Impedance;
-use crate::model::{CoordinateId, Model};
 use crate::engine::Motor;
+use crate::model::{CoordinateId, Model};
 
 /// A figure whose pelvis is lower than this share of its first height has fallen.
 const FALLEN: f64 = 0.7;

@@ -22,10 +22,10 @@ use super::phase::{Phase, Sensed};
 use super::plan::PlannedStep;
 use super::settings::{Balance, ControlError, ControlSettings};
 use super::walk_plan::WalkPlan;
+use crate::engine::Motor;
 use crate::model::anthropometry::Human;
 use crate::model::{CoordinateId, Movement, Side};
 use crate::optimal::StrengthCurve;
-use crate::engine::Motor;
 use nalgebra::DVector;
 use std::collections::VecDeque;
 

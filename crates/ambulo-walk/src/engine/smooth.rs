@@ -26,8 +26,8 @@ use super::state::{RowKey, WorldState, rates};
 use super::workspace::Equations;
 use super::world::{Figure, TreeJoint, World};
 use crate::dynamics::{
-    BodyTerms, Constraint, GraphWorkspace, Link, LinkError, Six, SolverSettings, parents_first,
-    project_displacements, solve_graph,
+    BodyTerms, Constraint, GraphWorkspace, Link, LinkError, Six, SolverSettings, parents_first, project_displacements,
+    solve_graph,
 };
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::spatial::{Pose, Twist, Vec3, rotation, rotation_vector};

@@ -13,7 +13,7 @@ pub struct Effort {
     /// The coordinate with the force τ.
     pub coordinate: CoordinateId,
     /// Passive forces of tissue.
-    pub tissue: Vec<Exponential>,
+    pub(crate) tissue: Vec<Exponential>,
     /// Stiffness k [N.m/rad or N/m].
     pub stiffness: f64,
     /// Damping d [N.m.s/rad or N.s/m].
@@ -24,7 +24,7 @@ pub struct Effort {
 
 /// A passive force that grows exponentially with coordinates: s exp(c + Σ aᵢ qᵢ).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Exponential {
+pub(crate) struct Exponential {
     /// Force s, with its sign [N.m or N].
     pub scale: f64,
     /// Exponent c of zero coordinates.

@@ -24,7 +24,9 @@ mod search;
 pub use gain::{Gain, GainError};
 pub use outcome::TrialOutcome;
 pub use problem::{TuningProblem, TuningProblemError};
-pub use push::{Push, PushSettings, PushUse};
+pub use push::PushSettings;
+#[doc(hidden)]
+pub use push::{Push, PushUse};
 pub use search::{Task, Tuning, Validated};
 
 #[cfg(test)]
