@@ -35,7 +35,9 @@ mod moving;
 mod muscles;
 
 pub use assumptions::{Assumption, Sensitivity, assumptions, sensitivities};
-pub use claim::{Claim, ClaimKind, Judgement, Numbers, number, tally};
+#[doc(hidden)]
+pub use claim::ClaimKind;
+pub use claim::{Claim, Judgement, Numbers, number, tally};
 pub use corrected::CorrectedMode;
 pub use error::ReproductionError;
 pub use evidence::{CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope};
@@ -46,10 +48,13 @@ pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk, paper_walk_with};
 pub use moving::{MovingFigure, MovingHead, MovingStick, moving_figure};
 pub use muscles::{MuscleRow, PHASES, muscle_table};
 pub use paper_human::{HEIGHT, MASS, paper_human};
+#[doc(hidden)]
 pub use paper_settings::PaperSettings;
 pub use shares::{OpenValues, StoredShares, judged_of_the_paper, read_shares, shares_csv, stored_shares};
 pub use statements::{claims, judgements};
-pub use steady::{IMPACT_MARGIN_S, POINTS, STEADY_CYCLES, Steady};
+#[doc(hidden)]
+pub use steady::Steady;
+pub use steady::{IMPACT_MARGIN_S, POINTS, STEADY_CYCLES};
 
 /// For the tests of this crate.
 #[doc(hidden)]

@@ -71,7 +71,7 @@ impl<'a> Steady<'a> {
 
     /// The same, starting at another phase [cycles], 0 to below 1; one cycle fewer unless the phase is 0.
     #[must_use]
-    pub fn cycles_from(&self, series: &[f64], phase: f64) -> Vec<Vec<f64>> {
+    pub(crate) fn cycles_from(&self, series: &[f64], phase: f64) -> Vec<Vec<f64>> {
         let count = if phase > 0.0 { STEADY_CYCLES - 1 } else { STEADY_CYCLES };
         let start = |cycle: usize| self.start_s() + (cycle as f64 + phase) * self.run.cycle_s;
         (0..count).map(|cycle| self.cycle(series, start(cycle))).collect()

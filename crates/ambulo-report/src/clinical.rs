@@ -172,13 +172,13 @@ impl ClinicalQuantity {
 
     /// Column of a side in `clinical.csv`: `knee_flexion_r`, `knee_flexion_moment_r`.
     #[must_use]
-    pub fn clinical_column(&self, side: Side) -> String {
+    pub(crate) fn clinical_column(&self, side: Side) -> String {
         format!("{}_{}", self.id.strip_suffix("_angle").unwrap_or(self.id), side.letter())
     }
 
     /// Whether a name in `cycles.csv` belongs to this quantity.
     #[must_use]
-    pub fn has_column(&self, name: &str) -> bool {
+    pub(crate) fn has_column(&self, name: &str) -> bool {
         self.columns.values().any(|column| column == name)
     }
 }

@@ -31,14 +31,16 @@ pub use exchange::{
     standing_recording, table_of_markers, trc_of_markers,
 };
 pub use figure_files::{figure_files, outcome_figures};
-pub use figures::{CycleFigures, FigureError, Mark, SceneCurves, gait_figure, paper_figure};
+#[doc(hidden)]
+pub use figures::CycleFigures;
+pub use figures::{FigureError, Mark, SceneCurves, gait_figure};
 pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;
 pub use scene_shapes::scene_shapes;
 pub use session::{
-    ComparedSession, ComputedTrial, ExcludedSummary, GroupCurve, ProfileSummary, ReferenceGroup, ReferenceGroupError,
-    ReferenceSummary, RepresentativeSummary, SESSION_FORMAT, SESSION_PAGE, Session, SessionFacts, SessionSummary,
-    SessionTrial, Spread, TrialSummary, VariableSummary, session_from_files,
+    ComparedSession, ComputedTrial, ExcludedSummary, ProfileSummary, ReferenceGroup, ReferenceGroupError,
+    RepresentativeSummary, SESSION_FORMAT, SESSION_PAGE, Session, SessionFacts, SessionSummary, SessionTrial, Spread,
+    TrialSummary, session_from_files,
 };
 pub use stage::quaternion;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};

@@ -9,7 +9,7 @@ const STYLE: &str = include_str!("../data/report/style.json");
 /// A colour on light and on dark background, as `#RRGGBB`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Color {
+pub(crate) struct Color {
     /// On white.
     pub color: String,
     /// On dark ground.
@@ -31,7 +31,7 @@ pub struct Line {
 /// The grey of normative bands.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Fill {
+pub(crate) struct Fill {
     /// On white.
     pub color: String,
     /// On dark ground.
@@ -43,8 +43,7 @@ pub struct Fill {
 /// Widths of lines [pt].
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the names are sufficient")]
-pub struct LineWidths {
+pub(crate) struct LineWidths {
     pub mean: f64,
     pub cycle: f64,
     pub zero: f64,
@@ -57,8 +56,7 @@ pub struct LineWidths {
 /// Letters: family and sizes [pt].
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the names are sufficient")]
-pub struct Font {
+pub(crate) struct Font {
     pub family: String,
     pub title_pt: f64,
     pub panel_pt: f64,
@@ -70,7 +68,7 @@ pub struct Font {
 /// Widths of figures [mm].
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Widths {
+pub(crate) struct Widths {
     /// Of one column of a journal.
     pub one_column: f64,
     /// Of two columns.
@@ -87,25 +85,25 @@ pub struct Style {
     pub right: Line,
     pub left: Line,
     /// Normative bands.
-    pub band: Fill,
+    pub(crate) band: Fill,
     /// Opacity of bands of uncertainty, which have the colour of their line.
     pub uncertainty_opacity: f64,
-    pub infeasible: Color,
+    pub(crate) infeasible: Color,
     /// Measured forces shown with a prediction.
-    pub measured: Color,
-    pub text: Color,
+    pub(crate) measured: Color,
+    pub(crate) text: Color,
     /// Axes, notes, zero lines.
-    pub quiet: Color,
-    pub grid: Color,
+    pub(crate) quiet: Color,
+    pub(crate) grid: Color,
     /// The background.
-    pub paper: Color,
+    pub(crate) paper: Color,
     /// One line per session if several are compared.
     pub sessions: Vec<Line>,
-    pub lines_pt: LineWidths,
+    pub(crate) lines_pt: LineWidths,
     /// Opacity of the line of a single cycle.
     pub cycle_opacity: f64,
-    pub font: Font,
-    pub widths_mm: Widths,
+    pub(crate) font: Font,
+    pub(crate) widths_mm: Widths,
 }
 
 impl Style {

@@ -105,7 +105,7 @@ impl<'a> OutputFile<'a> {
 
     /// A table as an OpenSim storage file, made when it is needed.
     #[must_use]
-    pub fn storage_by(
+    pub(crate) fn storage_by(
         name: impl Into<String>,
         make: impl Fn() -> Result<TableRows<'a>, Error> + Send + Sync + 'a,
     ) -> OutputFile<'a> {

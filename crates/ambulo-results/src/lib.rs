@@ -38,7 +38,7 @@ pub use files::{BodyFileError, OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use keep::Keep;
 pub use outcome::outcome_tables;
-pub use prediction_files::{deviation_columns, prediction_files};
+pub use prediction_files::deviation_columns;
 #[cfg(feature = "schema")]
 pub use run_summary::summary_schema;
 pub use run_summary::{RunSummary, summary_json};

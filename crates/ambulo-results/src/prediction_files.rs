@@ -11,7 +11,7 @@ use ambulo::spatial::Vec3;
 /// `grf_sd.mot` and, with force plates, `grf_measured.mot`, at the instants of `kinematics.mot`, as far as `keep` includes them.
 /// `analysis` is the one with the predicted forces, `measured` the one with those of the plates.
 #[must_use]
-pub fn prediction_files<'a>(
+pub(crate) fn prediction_files<'a>(
     model: &'a Model,
     analysis: &'a Analysis,
     prediction: &'a Prediction,

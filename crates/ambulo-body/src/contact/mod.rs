@@ -15,7 +15,9 @@ mod compliant;
 mod cone;
 
 pub use broad_phase::candidate_pairs;
-pub use compliant::{ContactSlopes, FrictionCurve, HuntCrossley, HuntCrossleyError, Onset};
+#[doc(hidden)]
+pub use compliant::FrictionCurve;
+pub use compliant::{ContactSlopes, HuntCrossley, HuntCrossleyError, Onset};
 pub use cone::{ConeProjection, project_onto_cone};
 pub use detect::{ContactPoint, contacts};
 pub use shape::{Outline, Shape, ShapeError};

@@ -39,17 +39,22 @@ pub use block::{BodyTerms, Six};
 pub use constraint::{ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
 #[doc(hidden)]
 pub use constraint::{relative_slide, relative_turn};
+#[doc(hidden)]
 pub use elimination::{EliminationWorkspace, Offsets};
 #[doc(hidden)]
+pub use elimination_order::Elimination;
+#[doc(hidden)]
 pub use elimination_order::parents_first;
-pub use elimination_order::{Elimination, Link, LinkError, LinkTerms};
+pub use elimination_order::{Link, LinkError, LinkTerms};
 #[doc(hidden)]
 pub use inverse::each_root_reaction;
 pub use inverse::{
     BodyLoad, Forces, FrameForces, JointReaction, LoadSeries, ReactionReader, Workspace, inverse, inverse_frame,
     inverse_frames, inverse_with_residual, project_wrenches,
 };
-pub use inverse_derivatives::{CurvedJointError, InverseDerivatives, inverse_derivatives};
+#[doc(hidden)]
+pub use inverse_derivatives::InverseDerivatives;
+pub use inverse_derivatives::{CurvedJointError, inverse_derivatives};
 #[doc(hidden)]
 pub use inverse_derivatives::{DerivativeKernel, Spatial};
 pub use joint_powers::JointPowers;

@@ -24,7 +24,9 @@ mod side;
 mod simm_spline;
 
 pub use anatomy::{Anatomy, Movement};
-pub use bushing::{Bushing, BushingEnd, Resistance};
+pub use bushing::Bushing;
+#[doc(hidden)]
+pub use bushing::{BushingEnd, Resistance};
 pub use by_side::BySide;
 pub use export::{ExportError, to_osim};
 pub use function::Function;

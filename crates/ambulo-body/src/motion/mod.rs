@@ -33,7 +33,9 @@ mod subject_parameters;
 mod time_grid;
 
 pub use b3d_trial::{B3dError, B3dTrial, reasons as missing_force_reasons};
-pub use bids::{BidsError, coordinates_from_bids, is_bids_markers, markers_from_bids};
+#[doc(hidden)]
+pub use bids::BidsError;
+pub use bids::{coordinates_from_bids, is_bids_markers, markers_from_bids};
 pub use curves::{CoordinateCurves, CurveError, RecordedTable};
 pub use device_recording::{DeviceRecording, device_from_table};
 pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
@@ -50,11 +52,15 @@ pub use marker_table::{is_marker_table, markers_from_table};
 pub use real_points::are_markers;
 pub use recorded_motion::{RecordedMotion, RecordedMotionError, motion_from_c3d};
 pub use recording::{Motion, MotionError};
+#[doc(hidden)]
+pub use segment_poses::PosedSegment;
 pub(crate) use segment_poses::posed_segment;
 pub use segment_poses::{
-    PosedSegment, SegmentPoseError, SegmentPoses, events_from_mvnx, segment_poses_from_c3d, segment_poses_from_mvnx,
+    SegmentPoseError, SegmentPoses, events_from_mvnx, segment_poses_from_c3d, segment_poses_from_mvnx,
 };
-pub use sensor_recording::{SensorPath, SensorRecording, sensors_from_table};
+#[doc(hidden)]
+pub use sensor_recording::SensorPath;
+pub use sensor_recording::{SensorRecording, sensors_from_table};
 #[doc(hidden)]
 pub use smooth::check_range;
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};

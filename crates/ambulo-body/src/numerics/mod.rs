@@ -33,17 +33,24 @@ pub use cardinal_spline::{OVERLAP, quintic_splines};
 pub use cma::Cma;
 pub(crate) use dense::DenseLu;
 pub use harmonics::Harmonics;
-pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
+#[doc(hidden)]
+pub use least_squares::Residuals;
+pub use least_squares::{NormalEquations, Progress, minimise};
 #[doc(hidden)]
 pub use matrix_product::product;
-pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
+#[doc(hidden)]
+pub use natural_spline::SplineError;
+pub use natural_spline::{NaturalSpline, SplineDegree};
 pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
 pub use random::Random;
 #[doc(hidden)]
 pub use shown::Shown;
 pub use spline_fitter::{Smoothing, SplineFitter};
 pub use statistics::{correlation, extremes, finite_mean, mean, median, range, rms, sample_deviation};
-pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};
+pub use uniform_spline::SPLINES_AT_ONCE;
+#[doc(hidden)]
+pub use uniform_spline::UniformSplines;
+#[doc(hidden)]
 pub use whittaker::Whittaker;
 
 /// Reads a number that files write as `null` where it is not one.

@@ -171,7 +171,7 @@ impl Parameters {
     }
 
     /// Sets a group: replaces the one with the same name, or appends it.
-    pub fn set_group(&mut self, group: Group) {
+    pub(crate) fn set_group(&mut self, group: Group) {
         let name = group.name.clone();
         *self.group_or_new(&name) = group;
     }

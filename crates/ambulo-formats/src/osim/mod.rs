@@ -20,7 +20,9 @@ pub use bushing::OsimBushing;
 pub use constraint::OsimConstraint;
 pub use function::{Knots, OsimFunction};
 pub use joint::{OsimAxis, OsimCoordinate, OsimJoint, OsimJointKind};
-pub use marker_set::{OsimMarkerSet, OsimSetMarker};
+pub use marker_set::OsimMarkerSet;
+#[doc(hidden)]
+pub use marker_set::OsimSetMarker;
 
 use crate::error::{Error, Remark, quoted};
 use crate::xml;

@@ -18,8 +18,12 @@ mod tasks;
 pub use inverse_dynamics::InverseDynamicsSetup;
 pub use inverse_kinematics::InverseKinematicsSetup;
 pub use scale::{ManualScale, MeasuredSegment, Measurement, PlacerSetup, ScaleSetup, ScalerSetup, ScalingMethod};
-pub use sensors::{HeadingSensor, SensorKinematicsSetup, SensorPlacerSetup};
-pub use tasks::{CoordinateTarget, CoordinateTask, FitTasks, MarkerTask};
+#[doc(hidden)]
+pub use sensors::HeadingSensor;
+pub use sensors::{SensorKinematicsSetup, SensorPlacerSetup};
+#[doc(hidden)]
+pub use tasks::MarkerTask;
+pub use tasks::{CoordinateTarget, CoordinateTask, FitTasks};
 
 use crate::error::{Error, Remark};
 use crate::xml;

@@ -14,15 +14,16 @@ mod svg;
 mod time_figures;
 
 pub use chart::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, PALE};
+#[doc(hidden)]
 pub use cycle_figures::CycleFigures;
 pub use gait_figure::gait_figure;
 pub(crate) use moving_picture::moving_picture;
-pub use paper_figure::paper_figure;
+pub(crate) use paper_figure::paper_figure;
 pub use scene_figures::SceneCurves;
 pub(crate) use session_panels::{
     LineLook, PanelArea, PanelLine, ProfileBars, ProfileFigure, SessionFigure, SessionPanel, SessionSample,
 };
-pub use time_figures::{PredictedMotion, prediction_figure, residual_figure};
+pub(crate) use time_figures::{PredictedMotion, prediction_figure, residual_figure};
 
 use ambulo::model::Side;
 

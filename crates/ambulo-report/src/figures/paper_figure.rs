@@ -17,7 +17,7 @@ const COLORS: usize = 5;
 ///
 /// # Errors
 /// A style that cannot be read.
-pub fn paper_figure(figure: &PaperFigure) -> Result<String, FigureError> {
+pub(crate) fn paper_figure(figure: &PaperFigure) -> Result<String, FigureError> {
     let count = figure.panels.len();
     let to_scale = figure.panels.iter().any(|panel| panel.to_scale);
     let chart = Chart {

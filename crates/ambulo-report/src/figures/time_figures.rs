@@ -44,7 +44,11 @@ struct Panel<'a> {
 ///
 /// # Errors
 /// A style that cannot be read.
-pub fn residual_figure(model: &Model, analysis: &Analysis, caption: &str) -> Result<Option<String>, FigureError> {
+pub(crate) fn residual_figure(
+    model: &Model,
+    analysis: &Analysis,
+    caption: &str,
+) -> Result<Option<String>, FigureError> {
     let style = style().map_err(|e| FigureError { name: "quality.svg", reason: e.to_string() })?;
     let sizes = residual_sizes(model, &analysis.forces);
     if analysis.ground.bodies.is_empty() || sizes.len() < 2 {
@@ -86,7 +90,7 @@ pub fn residual_figure(model: &Model, analysis: &Analysis, caption: &str) -> Res
 
 /// A motion with predicted forces.
 #[derive(Clone, Copy)]
-pub struct PredictedMotion<'a> {
+pub(crate) struct PredictedMotion<'a> {
     /// The analysis with predicted forces.
     pub analysis: &'a Analysis,
     /// The prediction.
@@ -99,7 +103,7 @@ pub struct PredictedMotion<'a> {
 ///
 /// # Errors
 /// A style that cannot be read.
-pub fn prediction_figure(
+pub(crate) fn prediction_figure(
     model: &Model,
     predicted: PredictedMotion<'_>,
     caption: &str,

@@ -35,7 +35,7 @@ impl Block {
 
     /// The block as base64 text.
     #[must_use]
-    pub fn encode(&self) -> String {
+    pub(crate) fn encode(&self) -> String {
         let mut last = 0_u16;
         let differences: Vec<[u8; 2]> = self
             .numbers

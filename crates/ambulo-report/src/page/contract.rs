@@ -43,7 +43,7 @@ pub struct Series {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
-pub enum PageSide {
+pub(crate) enum PageSide {
     /// Right: blue, solid lines.
     R,
     /// Left: vermilion, dashed lines.
@@ -57,23 +57,23 @@ pub struct Session {
     /// A short name: the name of the recording.
     pub name: String,
     /// Whether the data can be used; nothing for scenes.
-    pub data: Option<DataQuality>,
+    pub(crate) data: Option<DataQuality>,
     /// Summary at the top of the page; nothing for scenes.
-    pub glance: Option<Glance>,
+    pub(crate) glance: Option<Glance>,
     /// Subject, mass, height, speed, model, filter, source of the forces, ... in the order to be shown.
-    pub header: Vec<Fact>,
+    pub(crate) header: Vec<Fact>,
     /// Where the ground forces come from.
-    pub source: PageSource,
+    pub(crate) source: PageSource,
     /// The instants of all series over time.
-    pub time: TimeAxis,
+    pub(crate) time: TimeAxis,
     /// Foot strikes and foot offs.
-    pub events: Vec<PageEvent>,
+    pub(crate) events: Vec<PageEvent>,
     /// The whole cycles that curves were cut into.
-    pub cycles: Vec<PageCycle>,
+    pub(crate) cycles: Vec<PageCycle>,
     /// Grids of panels, in the order to be shown.
     pub groups: Vec<Group>,
     /// The state machines of a synthetic walk, parents before children; empty for recordings and scenes.
-    pub machines: Vec<PageMachine>,
+    pub(crate) machines: Vec<PageMachine>,
     /// Time and distance, extracted values, symmetry.
     pub tables: Vec<Table>,
     /// How far the numbers can be trusted.
@@ -89,7 +89,7 @@ pub struct Session {
 /// Whether recording, body and forces fit together.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct DataQuality {
+pub(crate) struct DataQuality {
     /// The answer.
     pub state: PageQuality,
     /// The strongest reasons, a sentence each.
@@ -99,7 +99,7 @@ pub struct DataQuality {
 /// A recording or walk at a glance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Glance {
+pub(crate) struct Glance {
     /// Recording, person, source of the ground forces, speed, cadence, step length and asymmetry.
     pub facts: Vec<Fact>,
     /// The curves with the largest differences from the normative curves, one sentence each, the largest first.
@@ -112,7 +112,7 @@ pub struct Glance {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
-pub enum PageQuality {
+pub(crate) enum PageQuality {
     /// No measure is beyond its limit.
     Good,
     /// Results may be wrong in parts.
@@ -124,7 +124,7 @@ pub enum PageQuality {
 /// A line of the header.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Fact {
+pub(crate) struct Fact {
     /// Name: `Body mass`.
     pub label: String,
     /// Value with its unit: `72.8 kg`.
@@ -137,7 +137,7 @@ pub struct Fact {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
-pub enum PageSource {
+pub(crate) enum PageSource {
     /// By force plates.
     Measured,
     /// From the motion.
@@ -151,7 +151,7 @@ pub enum PageSource {
 /// Evenly spaced instants [s].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct TimeAxis {
+pub(crate) struct TimeAxis {
     /// The first.
     pub start_s: f64,
     /// Distance of neighbours.
@@ -163,7 +163,7 @@ pub struct TimeAxis {
 /// A foot strike or foot off.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PageEvent {
+pub(crate) struct PageEvent {
     /// Whose foot.
     pub side: PageSide,
     /// Strike, or else foot off.
@@ -175,7 +175,7 @@ pub struct PageEvent {
 /// A state machine and its states over time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PageMachine {
+pub(crate) struct PageMachine {
     /// Its name: `left knee`.
     pub name: String,
     /// Names of its states, sorted.
@@ -187,7 +187,7 @@ pub struct PageMachine {
 /// A period of time in which a machine is in one state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PagePeriod {
+pub(crate) struct PagePeriod {
     /// Place in `states`.
     pub state: usize,
     /// From [s].
@@ -199,7 +199,7 @@ pub struct PagePeriod {
 /// A gait cycle: strike to next strike of the same foot.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PageCycle {
+pub(crate) struct PageCycle {
     /// Whose foot.
     pub side: PageSide,
     /// Number of the cycle of this foot, from 1.
@@ -243,15 +243,15 @@ pub struct Panel {
     /// The other direction.
     pub negative: String,
     /// Every cycle: 101 values from 0 to 100 %.
-    pub cycles: Vec<CycleCurve>,
+    pub(crate) cycles: Vec<CycleCurve>,
     /// Mean over the cycles of a side.
-    pub means: Vec<MeanCurve>,
+    pub(crate) means: Vec<MeanCurve>,
     /// Normative mean and deviation at this speed.
     pub band: Option<Band>,
     /// The same over time.
-    pub traces: Vec<Trace>,
+    pub(crate) traces: Vec<Trace>,
     /// Parts that are not feasible, over time; those of the panel's own quantity only.
-    pub red: Vec<RedSpan>,
+    pub(crate) red: Vec<RedSpan>,
     /// Why there is nothing to be seen, instead of an empty box.
     pub empty: Option<String>,
 }
@@ -259,7 +259,7 @@ pub struct Panel {
 /// A curve of one cycle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct CycleCurve {
+pub(crate) struct CycleCurve {
     /// Whose cycle.
     pub side: PageSide,
     /// Number of the cycle, as in `cycles` of the session.
@@ -273,7 +273,7 @@ pub struct CycleCurve {
 /// The mean over the cycles of a side.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct MeanCurve {
+pub(crate) struct MeanCurve {
     /// Whose cycles.
     pub side: PageSide,
     /// How many.
@@ -301,7 +301,7 @@ pub struct Band {
 /// A series over time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Trace {
+pub(crate) struct Trace {
     /// Name: `right`, `plates, left`, `limit`.
     pub name: String,
     /// Whose side.
@@ -320,7 +320,7 @@ pub struct Trace {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
-pub enum Role {
+pub(crate) enum Role {
     /// Quantity of the panel.
     Main,
     /// Measured curve next to a prediction: black or white, thin.
@@ -382,7 +382,7 @@ pub struct Quality {
     /// Marker errors, plates and feet, agreement by component, changes made, ...
     pub tables: Vec<Table>,
     /// Warnings and notes.
-    pub findings: Vec<PageFinding>,
+    pub(crate) findings: Vec<PageFinding>,
     /// Assumptions, in sentences.
     pub assumptions: Vec<String>,
 }
@@ -404,7 +404,7 @@ pub struct Judged {
 /// A remark of the program.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PageFinding {
+pub(crate) struct PageFinding {
     /// `ground.predicted`.
     pub code: String,
     /// `note` or `warning`.
@@ -419,7 +419,7 @@ pub struct PageFinding {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "snake_case"))]
-pub enum PageVerdict {
+pub(crate) enum PageVerdict {
     /// Enough of the motion was judged and no check failed.
     Feasible,
     /// A check failed.
@@ -443,11 +443,11 @@ impl From<VerdictState> for PageVerdict {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Feasibility {
     /// The verdict.
-    pub state: PageVerdict,
+    pub(crate) state: PageVerdict,
     /// The verdict in a sentence.
     pub sentence: String,
     /// Reasons why the motion is infeasible.
-    pub red: Vec<RedSpan>,
+    pub(crate) red: Vec<RedSpan>,
     /// How near to its limit every kind of check comes.
     pub closest: Table,
 }
@@ -455,7 +455,7 @@ pub struct Feasibility {
 /// A time in which a motion is not feasible.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct RedSpan {
+pub(crate) struct RedSpan {
     /// From [s].
     pub from_s: f64,
     /// To [s].
@@ -475,17 +475,17 @@ pub struct RedSpan {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct View {
     /// The bodies that move.
-    pub bodies: Vec<ViewBody>,
+    pub(crate) bodies: Vec<ViewBody>,
     /// Fixed obstacles of a scene, in world axes.
-    pub fixed: Vec<ViewShape>,
+    pub(crate) fixed: Vec<ViewShape>,
     /// Force plates.
-    pub plates: Vec<ViewPlate>,
+    pub(crate) plates: Vec<ViewPlate>,
     /// Forces of the ground on the feet, with their points.
-    pub forces: Vec<ViewForce>,
+    pub(crate) forces: Vec<ViewForce>,
     /// Joint moments.
-    pub torques: Vec<ViewTorque>,
+    pub(crate) torques: Vec<ViewTorque>,
     /// Points of the soles.
-    pub contacts: Vec<ViewContact>,
+    pub(crate) contacts: Vec<ViewContact>,
     /// Height of the floor [m]; a grid is drawn there.
     pub floor_m: f64,
     /// Weight of the figure [N], for the length of the arrows.
@@ -495,7 +495,7 @@ pub struct View {
 /// A body with its shape and its path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ViewBody {
+pub(crate) struct ViewBody {
     /// Name in the model.
     pub name: String,
     /// Whose side.
@@ -512,7 +512,7 @@ pub struct ViewBody {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(tag = "kind", rename_all = "lowercase"))]
-pub enum ViewShape {
+pub(crate) enum ViewShape {
     /// A cylinder with round ends; a sphere if both ends are the same.
     Capsule {
         /// One end.
@@ -543,7 +543,7 @@ pub enum ViewShape {
 /// A force plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ViewPlate {
+pub(crate) struct ViewPlate {
     /// Its name.
     pub name: String,
     /// Its corners in the world [m], in turn.
@@ -553,7 +553,7 @@ pub struct ViewPlate {
 /// A force of the ground on a foot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ViewForce {
+pub(crate) struct ViewForce {
     /// `right`, `right, plates`.
     pub name: String,
     /// Whose side.
@@ -569,7 +569,7 @@ pub struct ViewForce {
 /// A joint moment about an axis of a body.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ViewTorque {
+pub(crate) struct ViewTorque {
     /// `right knee`.
     pub name: String,
     /// Whose side.
@@ -589,7 +589,7 @@ pub struct ViewTorque {
 /// A point of a sole.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ViewContact {
+pub(crate) struct ViewContact {
     /// Place in `bodies`.
     pub body: usize,
     /// In this body's axes [m].
@@ -601,7 +601,7 @@ pub struct ViewContact {
 /// Page of a motion that is arriving; indices refer to the values of a [`LiveFrame`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LivePage {
+pub(crate) struct LivePage {
     /// Frame rate [Hz].
     pub rate_hz: f64,
     /// Time from a frame to its results [ms].
@@ -615,7 +615,7 @@ pub struct LivePage {
 /// Places of a ground force.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LiveForce {
+pub(crate) struct LiveForce {
     /// The force, world [N]: x, y, z.
     pub force: [usize; 3],
     /// Its centre of pressure, world [m].
@@ -625,7 +625,7 @@ pub struct LiveForce {
 /// A panel of a motion that is arriving.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LivePanel {
+pub(crate) struct LivePanel {
     /// `Knee moment`.
     pub title: String,
     /// Unit of the values.
@@ -637,7 +637,7 @@ pub struct LivePanel {
 /// A curve of a motion that is arriving.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LiveCurve {
+pub(crate) struct LiveCurve {
     /// Whose side.
     pub side: PageSide,
     /// Place of its value.

@@ -20,10 +20,10 @@ mod summary;
 mod tables;
 mod trial;
 
-pub use reference_group::{GroupCurve, ReferenceGroup, ReferenceGroupError};
+pub use reference_group::{ReferenceGroup, ReferenceGroupError};
+pub(crate) use summary::VariableSummary;
 pub use summary::{
-    ExcludedSummary, ProfileSummary, ReferenceSummary, RepresentativeSummary, SESSION_FORMAT, SessionSummary, Spread,
-    TrialSummary, VariableSummary,
+    ExcludedSummary, ProfileSummary, RepresentativeSummary, SESSION_FORMAT, SessionSummary, Spread, TrialSummary,
 };
 pub use tables::session_from_files;
 pub use trial::{ComputedTrial, SessionTrial};

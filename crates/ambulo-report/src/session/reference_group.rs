@@ -42,7 +42,7 @@ pub struct ReferenceGroup {
     /// Convention of the angles of pelvis and hips.
     pub convention: Convention,
     /// Curves over the gait cycle by quantity.
-    pub curves: BTreeMap<String, GroupCurve>,
+    pub(crate) curves: BTreeMap<String, GroupCurve>,
     /// Times and distances by quantity, in the units of `times_and_distances.csv`.
     pub times: BTreeMap<String, Spread>,
 }
@@ -50,7 +50,7 @@ pub struct ReferenceGroup {
 /// A quantity of a group.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct GroupCurve {
+pub(crate) struct GroupCurve {
     /// Unit.
     pub unit: String,
     /// Number of subjects.

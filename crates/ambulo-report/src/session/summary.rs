@@ -89,7 +89,7 @@ pub struct RepresentativeSummary {
 
 /// The reference group of a session.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct ReferenceSummary {
+pub(crate) struct ReferenceSummary {
     /// The group in a sentence.
     pub words: String,
     /// Number of subjects, if it is known.
@@ -100,7 +100,7 @@ pub struct ReferenceSummary {
 
 /// One angle of the movement analysis profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct VariableSummary {
+pub(crate) struct VariableSummary {
     /// The angle.
     pub quantity: String,
     /// Gait variable score of the right cycles [deg].
@@ -123,7 +123,7 @@ pub struct ProfileSummary {
     /// The score to expect of a person of the reference group [deg].
     pub expected: Option<f64>,
     /// The angles.
-    pub variables: Vec<VariableSummary>,
+    pub(crate) variables: Vec<VariableSummary>,
 }
 
 /// `summary.json` of a session.
@@ -172,7 +172,7 @@ pub struct SessionSummary {
     /// Over the strides of the cycles that count.
     pub times_and_distances: WalkingSummary,
     /// The reference group of the session; `null` if there is none.
-    pub reference: Option<ReferenceSummary>,
+    pub(crate) reference: Option<ReferenceSummary>,
     /// Why it is not compared.
     pub no_reference: Option<String>,
     /// Movement analysis profile.

@@ -17,7 +17,9 @@ mod adjustment;
 mod changing;
 
 pub use adjustment::{Adjustment, CorrectionReport, Magnitude};
-pub use changing::{ChangingWalk, make_changing_walk};
+#[doc(hidden)]
+pub use changing::ChangingWalk;
+pub use changing::make_changing_walk;
 pub use settings::{ConsistentWalkError, ConsistentWalkSettings};
 pub(super) use walk::soft_ground;
 pub use walk::{ConsistentWalk, make_consistent_walk};

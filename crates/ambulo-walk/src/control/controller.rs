@@ -150,7 +150,7 @@ impl WalkController {
     ///
     /// # Errors
     /// Movements that are not found; those of [`WalkController::with_movements`].
-    pub fn with_standing(
+    pub(crate) fn with_standing(
         self,
         human: &Human,
         walk: &Solution,
@@ -161,7 +161,7 @@ impl WalkController {
         self.with_movements(human, walk, &movements, step, settings)
     }
 
-    /// As [`WalkController::with_standing`], with movements that were found before.
+    /// As `WalkController::with_standing`, with movements that were found before.
     ///
     /// # Errors
     /// A walk that is not the slowest one, movements of another walk, balance without feedback of the whole state,
@@ -194,7 +194,7 @@ impl WalkController {
 
     /// Starts in standing, if it can stand.
     #[must_use]
-    pub fn starting_at_rest(mut self) -> WalkController {
+    pub(crate) fn starting_at_rest(mut self) -> WalkController {
         if self.plan.standing.is_some() {
             (self.phase.at.stage, self.phase.stands) = (Stage::Standing, true);
             self.plan.speed = self.plan.paces[0].speed;
@@ -204,7 +204,7 @@ impl WalkController {
 
     /// Starts at a phase of the cycle (0 to 1), in which the feet are as planned.
     #[must_use]
-    pub fn starting_at(mut self, phase: f64) -> WalkController {
+    pub(crate) fn starting_at(mut self, phase: f64) -> WalkController {
         self.phase.at.share = phase.rem_euclid(1.0);
         self
     }

@@ -17,7 +17,7 @@
 //!
 //! The figure is planar, or has three dimensions ([`crate::optimal::OptimalWalk`]). Its legs pass through each other. Several plans make one
 //! controller whose speed can be changed on the way ([`WalkController::joined`]); it can stop, stand and walk off
-//! ([`WalkController::with_standing`]).
+//! (`WalkController::with_standing`).
 //!
 //! Sources: the discrete periodic Riccati equation as in Bittanti, Colaneri, De Nicolao 1991 (unverified; derived here); phase reset at foot strike
 //! as in Aoi, Tsuchiya 2005 (unverified). docs/PHYSICAL_WALK.md has results and limits.
@@ -45,7 +45,10 @@ pub use controller::WalkController;
 pub use fall::Fall;
 pub use physical::PhysicalWalk;
 pub(crate) use schedule::ScheduledController;
+#[doc(hidden)]
 pub use schedule::SpeedSchedule;
-pub use settings::{Balance, ControlError, ControlSettings, FootPlacement, TorqueCurves, TrackingCosts};
+#[doc(hidden)]
+pub use settings::ControlError;
+pub use settings::{Balance, ControlSettings, FootPlacement, TorqueCurves, TrackingCosts};
 pub use walk_recorder::FigureWalk;
 pub(crate) use walk_recorder::{FigureRecorder, Live, LiveTargets};

@@ -80,10 +80,14 @@ pub use projection::largest_joint_error;
 pub use samples::Samples;
 pub use signal::Signal;
 pub use start::start;
-pub use state::{RowKey, WorldState};
+#[doc(hidden)]
+pub use state::RowKey;
+pub use state::WorldState;
 pub use step::{accelerations, step};
 pub use workspace::{Integrator, StepSettings, StepWorkspace};
 pub use world::{
-    Closure, ContactLaw, Figure, Follows, ImpactLaw, JointCoordinate, JointDrive, Material, Motor, Obstacle,
-    ObstaclePath, Owner, RigidBody, Spring, Surface, TreeJoint, World,
+    Closure, Figure, Follows, ImpactLaw, JointCoordinate, Material, Motor, Obstacle, Owner, RigidBody, Spring, Surface,
+    TreeJoint, World,
 };
+#[doc(hidden)]
+pub use world::{ContactLaw, JointDrive, ObstaclePath};

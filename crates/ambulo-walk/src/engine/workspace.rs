@@ -184,7 +184,7 @@ impl StepWorkspace {
     /// Closures with forces that the motion of the last step does not determine, because their rows repeat others. Their
     /// forces are the least-squares ones.
     #[must_use]
-    pub fn undetermined_closures(&mut self) -> Vec<usize> {
+    pub(crate) fn undetermined_closures(&mut self) -> Vec<usize> {
         let rows = undetermined_rows(&self.equations.assembly.graph, &mut self.solver);
         let groups = self.equations.assembly.keys.iter().zip(&self.equations.assembly.graph.groups);
         let repeats = |group: &ConstraintGroup| rows.iter().any(|row| group.rows.contains(row));

@@ -333,7 +333,7 @@ impl Figure {
 impl World {
     /// Index of the joint that carries each body.
     #[must_use]
-    pub fn joint_of_body(&self) -> Vec<Option<usize>> {
+    pub(crate) fn joint_of_body(&self) -> Vec<Option<usize>> {
         let mut joints = vec![None; self.bodies.len()];
         for (number, joint) in self.joints.iter().enumerate() {
             joints[joint.child] = Some(number);

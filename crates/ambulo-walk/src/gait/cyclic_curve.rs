@@ -48,7 +48,7 @@ pub struct Knot {
 impl Knot {
     /// The knot with slope, curvature and distance from the neutral angle of the joint multiplied by a factor.
     #[must_use]
-    pub fn scaled_about(&self, neutral: f64, factor: f64) -> Knot {
+    pub(crate) fn scaled_about(&self, neutral: f64, factor: f64) -> Knot {
         Knot {
             angle: self.angle.plus(-neutral).scaled(factor).plus(neutral),
             slope: self.slope.scaled(factor),
@@ -87,7 +87,7 @@ impl CyclicCurve {
 
     /// The curve with each knot replaced by the result of a function.
     #[must_use]
-    pub fn mapped(&self, image: impl FnMut(&Knot) -> Knot) -> CyclicCurve {
+    pub(crate) fn mapped(&self, image: impl FnMut(&Knot) -> Knot) -> CyclicCurve {
         CyclicCurve { knots: self.knots.iter().map(image).collect() }
     }
 

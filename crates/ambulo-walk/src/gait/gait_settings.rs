@@ -285,7 +285,7 @@ impl Gait {
 
     /// Whether a transition of a machine reads what only a simulation knows, such as the loads on the feet.
     #[must_use]
-    pub fn machines_read_simulation(&self) -> bool {
+    pub(crate) fn machines_read_simulation(&self) -> bool {
         let mut conditions = self.machines.iter().flat_map(|machine| &machine.transitions);
         conditions.any(|transition| transition.when.reads_simulation())
     }
@@ -305,7 +305,7 @@ impl Gait {
 
     /// Whether joint angles are the normative curves at the speed of the gait, without a change of curve, joint or step; the pace may differ.
     #[must_use]
-    pub fn follows_people(&self) -> bool {
+    pub(crate) fn follows_people(&self) -> bool {
         let pace = Pace { length_scale: 1.0, cadence_scale: 1.0, ..self.pace };
         let pace_changes = self.pace_changes.clone();
         *self == Gait { pace, pace_changes, ..Gait::new(&self.name, Style::Knots) }

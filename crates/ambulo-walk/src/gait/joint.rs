@@ -44,7 +44,7 @@ impl LegJoint {
     /// Accepted angles [rad]; angles outside are probably typing errors. The range has a margin around the passive ranges of adults in
     /// textbooks (hip -30°..120°, knee -10°..150°, ankle -50°..30°; unverified).
     #[must_use]
-    pub fn plausible(self) -> [f64; 2] {
+    pub(crate) fn plausible(self) -> [f64; 2] {
         match self {
             LegJoint::Hip => [-45.0, 130.0],
             LegJoint::Knee => [-15.0, 160.0],
@@ -126,7 +126,7 @@ impl WalkPart {
 
     /// Accepted angles [rad]: those of the joints of a leg, and half a turn for the others.
     #[must_use]
-    pub fn plausible(self) -> [f64; 2] {
+    pub(crate) fn plausible(self) -> [f64; 2] {
         match self {
             WalkPart::Leg(_, joint) => joint.plausible(),
             _ => [-std::f64::consts::PI, std::f64::consts::PI],

@@ -56,7 +56,7 @@ impl LegCurves {
 /// Duration of stance against duration of the cycle, both in leg times √(L/g): linear, as found by Nilsson, Thorstensson,
 /// Halbertsma 1985 (abstract).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SupportLaw {
+pub(crate) struct SupportLaw {
     /// Increase of stance per increase of the cycle.
     pub slope: f64,
     /// Stance extrapolated to a cycle of zero duration, negative [leg times].
@@ -66,7 +66,7 @@ pub struct SupportLaw {
 impl SupportLaw {
     /// Foot off as a share of the cycle, limited to 0.52 (a walk has double support) and 0.8.
     #[must_use]
-    pub fn share(&self, cycle_in_leg_times: f64) -> f64 {
+    pub(crate) fn share(&self, cycle_in_leg_times: f64) -> f64 {
         (self.slope + self.offset / cycle_in_leg_times).clamp(0.52, 0.8)
     }
 }
@@ -83,7 +83,7 @@ pub struct Laws {
     /// Forward lean of the trunk.
     pub trunk_lean: Wave,
     /// Duration of stance.
-    pub support: SupportLaw,
+    pub(crate) support: SupportLaw,
 }
 
 impl Laws {

@@ -56,16 +56,23 @@ pub use gait_settings::{Gait, JointChange, KnotChange, Pace, Pelvis, Speed, Styl
 pub use ground_force::GroundForceLaws;
 pub use jet::Jet;
 pub use joint::{LegJoint, STANDING_TILT, WalkPart};
+#[doc(hidden)]
 pub use joint_moments::{JointMomentLaws, JointMoments};
-pub use laws::{Laws, LegCurves, SupportLaw};
+pub use laws::{Laws, LegCurves};
+#[doc(hidden)]
 pub use other_planes::{OtherPlaneLaws, OtherPlanes};
 pub use pace_plan::{Clock, PaceChange};
 pub use quintic::{End, quintic};
-pub use speed_law::{GRAVITY, SpeedLaw, SpeedRange};
+#[doc(hidden)]
+pub use speed_law::SpeedLaw;
+pub use speed_law::{GRAVITY, SpeedRange};
 pub(crate) use stride::FREE_SPEED;
 pub use stride::{
     ADULT_EXPONENT, CHILD_EXPONENT, EXPONENT_1997, REFERENCE_LEG, StrideLaw, WALKING_SPEEDS, walking_speeds,
 };
+#[doc(hidden)]
 pub use sub_cycle::SubCycle;
-pub use walk::{LegAngles, PaceRamp, Phases, Walk, WalkPosture};
-pub use wave::{Harmonic, Wave};
+#[doc(hidden)]
+pub use walk::WalkPosture;
+pub use walk::{LegAngles, PaceRamp, Phases, Walk};
+pub use wave::Wave;

@@ -40,7 +40,7 @@ pub struct PaceChange {
 impl PaceChange {
     /// Whether the figure stands still after the change.
     #[must_use]
-    pub fn is_halt(&self) -> bool {
+    pub(crate) fn is_halt(&self) -> bool {
         self.speed == Some(0.0)
     }
 }
@@ -121,7 +121,7 @@ impl Clock {
 
     /// Cycles of the foot of a side; the left foot is half a cycle behind.
     #[must_use]
-    pub fn phase_of(&self, side: Side) -> Jet {
+    pub(crate) fn phase_of(&self, side: Side) -> Jet {
         match side {
             Side::Right => self.phase,
             Side::Left => self.phase + 0.5,
@@ -159,7 +159,7 @@ impl PacePlan {
         &self.law
     }
 
-    /// [`StrideLaw::cycle_rate`].
+    /// `StrideLaw::cycle_rate`.
     pub(super) fn cycle_rate(&self, law_speed: Jet) -> Jet {
         let is_initial = law_speed == Jet::constant(self.initial.law_speed);
         if is_initial { self.initial_rate } else { self.law.cycle_rate(law_speed) }

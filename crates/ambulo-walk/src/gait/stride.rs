@@ -55,19 +55,19 @@ pub struct StrideLaw {
 impl StrideLaw {
     /// The speed whose dimensionless speed is 1 [m/s].
     #[must_use]
-    pub fn unit_speed(&self) -> f64 {
+    pub(crate) fn unit_speed(&self) -> f64 {
         (GRAVITY * self.leg_length).sqrt()
     }
 
     /// Leg time √(L/g) [s].
     #[must_use]
-    pub fn leg_time(&self) -> f64 {
+    pub(crate) fn leg_time(&self) -> f64 {
         (self.leg_length / GRAVITY).sqrt()
     }
 
     /// Cycles per second at a law speed; both steps of a cycle take the same time.
     #[must_use]
-    pub fn cycle_rate(&self, law_speed: Jet) -> Jet {
+    pub(crate) fn cycle_rate(&self, law_speed: Jet) -> Jet {
         (law_speed * (1.0 / FREE_SPEED)).power(self.exponent)
             * (0.5 * FREE_CADENCE * self.cadence_scale / self.leg_time())
     }
@@ -93,14 +93,14 @@ impl StrideLaw {
 
     /// The law speed at which a step frequency [steps/s] is the preferred one; `None` if frequency does not follow speed (b = 0).
     #[must_use]
-    pub fn law_speed_of_frequency(&self, frequency: f64) -> Option<f64> {
+    pub(crate) fn law_speed_of_frequency(&self, frequency: f64) -> Option<f64> {
         let ratio = frequency * self.leg_time() / FREE_CADENCE;
         (self.exponent > 0.0).then(|| FREE_SPEED * powf(ratio, 1.0 / self.exponent))
     }
 
     /// The law speed at which a step length [m] is the preferred one.
     #[must_use]
-    pub fn law_speed_of_step(&self, step_length: f64) -> f64 {
+    pub(crate) fn law_speed_of_step(&self, step_length: f64) -> f64 {
         let ratio = step_length / self.leg_length * FREE_CADENCE / FREE_SPEED;
         FREE_SPEED * powf(ratio, 1.0 / (1.0 - self.exponent))
     }

@@ -165,26 +165,26 @@ impl Walk {
 
     /// Whether every cycle is like the others: the pace never changes, and the gait has no machines.
     #[must_use]
-    pub fn is_steady(&self) -> bool {
+    pub(crate) fn is_steady(&self) -> bool {
         self.plan.is_constant() && self.gait.machines.is_empty()
     }
 
     /// The same walk with another time at which the machines of the gait begin [s]; before it the curves of the gait are followed.
     #[must_use]
-    pub fn with_machines_from(mut self, begin_s: f64) -> Walk {
+    pub(crate) fn with_machines_from(mut self, begin_s: f64) -> Walk {
         self.machines_begin_s = begin_s;
         self
     }
 
     /// Time at which the machines of the gait begin [s].
     #[must_use]
-    pub fn machines_begin_s(&self) -> f64 {
+    pub(crate) fn machines_begin_s(&self) -> f64 {
         self.machines_begin_s
     }
 
     /// End of the last change of pace [s].
     #[must_use]
-    pub fn last_change_s(&self) -> Option<f64> {
+    pub(crate) fn last_change_s(&self) -> Option<f64> {
         self.plan.end_s()
     }
 
@@ -205,7 +205,7 @@ impl Walk {
     /// The last change of [`Walk::pace_ramps`] that has begun at a time [s], and how much of it the angles have taken, 0 to 1; `None`
     /// before the first change.
     #[must_use]
-    pub fn change_progress(&self, time_s: f64) -> Option<(usize, Jet)> {
+    pub(crate) fn change_progress(&self, time_s: f64) -> Option<(usize, Jet)> {
         self.plan.progress(time_s)
     }
 
@@ -382,7 +382,7 @@ impl Walk {
 
     /// The angle [rad] of a part at a clock.
     #[must_use]
-    pub fn part_angle(&self, part: WalkPart, clock: &Clock) -> Jet {
+    pub(crate) fn part_angle(&self, part: WalkPart, clock: &Clock) -> Jet {
         let (phase, speed) = (clock.phase_of(part.side()), self.curve_speed(clock));
         match part {
             WalkPart::Leg(side, joint) => self.leg_angle(side, joint, self.laws.legs.of(joint).at(phase, speed), clock),
@@ -420,7 +420,7 @@ impl Walk {
 
     /// The angle of a part in upright standing [rad].
     #[must_use]
-    pub fn upright_angle(&self, part: WalkPart) -> f64 {
+    pub(crate) fn upright_angle(&self, part: WalkPart) -> f64 {
         match part {
             WalkPart::Leg(_, LegJoint::Hip) => LegJoint::Hip.neutral() - STANDING_TILT + self.standing_tilt(),
             WalkPart::Pelvis => self.standing_tilt(),

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 /// A harmonic of a wave.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Harmonic {
+pub(crate) struct Harmonic {
     /// Periods per cycle.
     pub order: usize,
     /// Factor of the cosine [rad].
@@ -27,7 +27,7 @@ pub struct Wave {
     /// Mean over the cycle [rad].
     pub mean: SpeedLaw,
     /// Harmonics.
-    pub harmonics: Vec<Harmonic>,
+    pub(crate) harmonics: Vec<Harmonic>,
 }
 
 impl Wave {

@@ -41,13 +41,15 @@ mod track;
 pub(crate) mod walk;
 
 pub use conditions::{Device, Load, LoadPlace, WalkConditions};
-pub use effort::{Effort, Exponential};
+pub use effort::Effort;
 pub use error::{LARGEST_BETWEEN, OptimalWalkError, Overload};
 pub use find::OptimalWalk;
 pub use forward::Drift;
 pub use layout::Span;
 pub(crate) use layout::mirror;
-pub use movement::{Key, MovementError, MovementProblem, MovementSettings};
+#[doc(hidden)]
+pub use movement::MovementError;
+pub use movement::{Key, MovementProblem, MovementSettings};
 pub use muscles::{EffortCosts, WORK_PRICES};
 pub use near::NEAR_STAGES;
 pub use objective::{Bound, Quantity, Term};
@@ -59,4 +61,5 @@ pub use solve::{Continuation, NO_ROOT_FORCE};
 pub use standing::{StandingError, StandingMovements};
 pub use strength::{ECCENTRIC, Hill, StrengthCurve};
 pub use track::{FootGuide, TRACK_STAGES, TrackError, TrackProblem, TrackSettings, TrackedFoot, TrackedMotion};
-pub use walk::{FINE_STAGES, Passage, PassageEnd, SPATIAL_STAGES, STAGES, WalkCosts, WalkProblem, soles_with_width};
+pub use walk::{FINE_STAGES, SPATIAL_STAGES, STAGES, WalkCosts, WalkProblem, soles_with_width};
+pub(crate) use walk::{Passage, PassageEnd};

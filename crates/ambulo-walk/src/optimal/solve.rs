@@ -69,7 +69,7 @@ impl Problem {
     ///
     /// # Errors
     /// As [`Problem::solve`].
-    pub fn solve_keeping(
+    pub(crate) fn solve_keeping(
         &self,
         guess: &[f64],
         stages: &[Continuation],

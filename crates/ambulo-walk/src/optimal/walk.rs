@@ -3,7 +3,7 @@
 pub(crate) mod passage;
 mod targets;
 
-pub use passage::{Passage, PassageEnd};
+pub(crate) use passage::{Passage, PassageEnd};
 
 use super::layout::Span;
 use super::objective::{Bound, Quantity, Term};
@@ -130,7 +130,7 @@ impl WalkCosts {
     /// For a figure in the sagittal plane whose pace changes. Toes must be slower still, or the last swing of some halts folds them by more than 100°.
     /// From 1.2 to 1.6 m/s within two steps, soles slip by at most 2 mm.
     #[must_use]
-    pub fn change_of_pace() -> WalkCosts {
+    pub(crate) fn change_of_pace() -> WalkCosts {
         WalkCosts {
             knots: 24,
             per_knot: 4,
@@ -311,7 +311,7 @@ impl WalkProblem {
     ///
     /// # Errors
     /// As [`WalkProblem::solve`].
-    pub fn solve_coarse_first(&self, stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
+    pub(crate) fn solve_coarse_first(&self, stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
         let exact = stages.iter().position(|stage| stage.updates > 0).unwrap_or_default();
         let (coarse, fine) = stages.split_at(exact.saturating_sub(1));
         if coarse.is_empty() || !self.problem.instants_per_knot.is_multiple_of(2) {

@@ -160,7 +160,7 @@ pub(super) fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings
 }
 
 /// Gives figures whose motion before the start is known the velocities of half a time step earlier, where velocities are those of the middle of a
-/// step ([`crate::walking::Walker::moving_as`]).
+/// step (`Walker::moving_as`).
 fn start_half_a_step_earlier(state: &mut WorldState, figures: &[PlacedFigure], settings: &StepSettings) {
     if settings.integrator != Integrator::Impulse {
         return;

@@ -42,27 +42,45 @@ mod uniform;
 
 pub use crate::control::FigureWalk;
 pub use crate::toml_reader::{Place, TomlError as SceneError};
+#[doc(hidden)]
 pub use body::BodyEntry;
 pub use build::{Scene, SceneSettings};
+#[doc(hidden)]
 pub use built_entry::{
     ArmEntry, BuiltCoordinate, BuiltFigure, ControlEntry, FigureWalkMode, GaitSource, WalkEntry, WalkTracking,
 };
-pub use closure::{Anchor, ClosureEntry};
+pub use closure::Anchor;
+#[doc(hidden)]
+pub use closure::ClosureEntry;
 pub use controlled::ControlledFigure;
-pub use coordinate::{CoordinateEntry, DriveEntry, Limits, MotorEntry};
+pub use coordinate::Limits;
+#[doc(hidden)]
+pub use coordinate::{CoordinateEntry, DriveEntry, MotorEntry};
+#[doc(hidden)]
 pub use event::{EventAction, EventEntry};
+#[doc(hidden)]
 pub use figure::{DrivenCoordinates, FigureEntry, RootMotion, SphereEntry};
-pub use file::{IgnoredPair, SceneFile};
+#[doc(hidden)]
+pub use file::IgnoredPair;
+pub use file::SceneFile;
+#[doc(hidden)]
 pub use function::TimeFunction;
+#[doc(hidden)]
 pub use joint::JointEntry;
+#[doc(hidden)]
 pub use joint_axes::{JointAxes, MotionKind};
+#[doc(hidden)]
 pub use material::{MaterialEntry, MaterialLaw};
 pub use motion_recorder::{FigureMotion, ObstacleForces};
+#[doc(hidden)]
 pub use names::{Attachment, ContactPartner};
+#[doc(hidden)]
 pub use obstacle::{ObstacleEntry, ObstacleMotion, ObstacleShape};
 pub use output::{Outputs, Plot};
 pub use recorder::FigureRecord;
 pub use run::{RunError, RunStatistics, SceneFrame};
 pub use saved::{ResumeError, SavedState};
+#[doc(hidden)]
 pub use shape::{ShapeEntry, Solid};
+#[doc(hidden)]
 pub use sources::ReadFile;

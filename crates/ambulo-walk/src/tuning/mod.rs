@@ -24,5 +24,7 @@ mod search;
 pub use gain::{Gain, GainError};
 pub use outcome::TrialOutcome;
 pub use problem::{TuningProblem, TuningProblemError};
-pub use push::{Push, PushSettings, PushUse};
+pub use push::PushSettings;
+#[doc(hidden)]
+pub use push::{Push, PushUse};
 pub use search::{Task, Tuning, Validated};

@@ -22,7 +22,7 @@ pub struct FootRecord {
     /// which has its own friction.
     pub at_limit: Vec<bool>,
     /// The part of the reaction that acts on the toes, if they are a separate body.
-    pub toes: Option<ToeRecord>,
+    pub(crate) toes: Option<ToeRecord>,
     /// Largest load of a point in the row that is being filled, and the sum of all [N].
     heaviest: f64,
     pressing: f64,
@@ -30,7 +30,7 @@ pub struct FootRecord {
 
 /// Ground reaction on the toes of one foot, one entry per row.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ToeRecord {
+pub(crate) struct ToeRecord {
     /// The body of the toes.
     pub body: BodyId,
     /// Force on the toes [N].
@@ -119,7 +119,7 @@ impl FootRecord {
 
     /// The reaction as a force plate would record it. The free moment is zero because contact points transmit no moment.
     #[must_use]
-    pub fn as_recording(&self, name: &str, times: Vec<f64>) -> ForceRecording {
+    pub(crate) fn as_recording(&self, name: &str, times: Vec<f64>) -> ForceRecording {
         let rows = self.force.len();
         let nowhere = Vec3::repeat(f64::NAN);
         let point = (0..rows).map(|row| if self.loaded(row) { self.point[row] } else { nowhere });

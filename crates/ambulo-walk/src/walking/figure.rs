@@ -110,7 +110,7 @@ impl Walker {
 
     /// Moves the whole figure so that its mid-hip is at a position [m] and moves with a velocity [m/s].
     #[must_use]
-    pub fn starting_at(mut self, mid_hip: Vec3, velocity: Vec3) -> Walker {
+    pub(crate) fn starting_at(mut self, mid_hip: Vec3, velocity: Vec3) -> Walker {
         let joint = &self.world.joints[0];
         let root = &self.world.bodies[joint.child];
         let to_hip = root.pose.rotation * joint.child_from_joint.translation;
@@ -128,7 +128,7 @@ impl Walker {
     /// The simulator stores velocities at the middle of a time step, so the walk starts with velocities of half a step earlier. Otherwise the
     /// first step has half of the change of velocity, and its joint forces lack half of the forces of inertia.
     #[must_use]
-    pub fn moving_as(mut self, [q, qd, qdd]: &[Vec<f64>; 3]) -> Walker {
+    pub(crate) fn moving_as(mut self, [q, qd, qdd]: &[Vec<f64>; 3]) -> Walker {
         let motions = body_motion(&self.model, Posture { q, qd, qdd });
         self.accelerations = motions.iter().map(|motion| motion.acceleration).collect();
         self

@@ -17,13 +17,18 @@ mod run;
 pub(crate) mod slip;
 mod torques;
 
-pub use feet::{FootRecord, ToeRecord};
+pub use feet::FootRecord;
 pub use figure::{GroundContact, Shoes, Walker, WalkingError};
 pub(super) use figure::{half_a_step_earlier, sole_material};
+pub(crate) use recording::ExcerptRows;
 pub(super) use recording::loads;
-pub use recording::{Excerpt, ExcerptRows, FootImpact, WalkRecording};
-pub use run::{Release, Released, WatchedTargets};
-pub use signals::{GaitTargets, gait_signals};
+pub use recording::{FootImpact, WalkRecording};
+pub use run::Released;
+#[doc(hidden)]
+pub use run::{Release, WatchedTargets};
+#[doc(hidden)]
+pub use signals::GaitTargets;
+pub use signals::gait_signals;
 pub use slip::StanceSlip;
 pub(super) use slip::worst_slip;
 pub use torques::{HARMONICS, TorqueSeries};

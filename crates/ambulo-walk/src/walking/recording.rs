@@ -90,7 +90,7 @@ impl WalkRecording {
 
 /// The rows of an excerpt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ExcerptRows {
+pub(crate) struct ExcerptRows {
     /// The first row; the excerpt's time is zero there.
     pub first: usize,
     /// Rows from one frame of the motion to the next; forces keep all rows.
@@ -102,20 +102,20 @@ pub struct ExcerptRows {
 impl ExcerptRows {
     /// The row of frame n.
     #[must_use]
-    pub fn row(&self, n: usize) -> usize {
+    pub(crate) fn row(&self, n: usize) -> usize {
         self.first + self.every * n
     }
 
     /// All rows from the first frame to the last.
     #[must_use]
-    pub fn all(&self) -> Range<usize> {
+    pub(crate) fn all(&self) -> Range<usize> {
         self.first..self.row(self.frames.saturating_sub(1)) + 1
     }
 }
 
 /// A part of a walk: complete motion, and the loads on each body of the feet.
 #[derive(Debug, Clone)]
-pub struct Excerpt {
+pub(crate) struct Excerpt {
     /// Every coordinate with rate and acceleration.
     pub trajectory: Trajectory,
     /// Ground reactions on feet and toes, as force and moment about the world's origin.
@@ -129,7 +129,7 @@ impl WalkRecording {
     ///
     /// # Errors
     /// None for a recording: its numbers are finite.
-    pub fn excerpt(&self, rows: ExcerptRows) -> Result<Excerpt, TrajectoryError> {
+    pub(crate) fn excerpt(&self, rows: ExcerptRows) -> Result<Excerpt, TrajectoryError> {
         let grid = self.grid();
         let every = rows.every.max(1);
         let there = grid.frames.saturating_sub(rows.first).div_ceil(every);

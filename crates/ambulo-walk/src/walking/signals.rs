@@ -93,7 +93,7 @@ impl GaitTargets {
     }
 
     /// Targets at a time [s] with the loads that the feet have.
-    pub fn step_with(&mut self, time_s: f64, loaded: BySide<bool>) {
+    pub(crate) fn step_with(&mut self, time_s: f64, loaded: BySide<bool>) {
         let posture = self.machine.step_with(time_s, loaded);
         self.write(&posture, time_s);
     }

@@ -218,7 +218,7 @@ pub struct ComparedStance {
     pub side: Side,
     /// From foot strike to foot off [s].
     pub span_s: [f64; 2],
-    /// Descent of the mass centre at its strike ([`strike_descents`]).
+    /// Descent of the mass centre at its strike (`strike_descents`).
     pub strike_descent: f64,
     /// The frames in which the plate was loaded.
     pub samples: Vec<ComparedSample>,

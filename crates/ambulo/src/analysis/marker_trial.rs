@@ -247,7 +247,7 @@ impl BodyInMotion {
 
     /// The longest time without a gap in any fitted coordinate: start and end [s]. `None` if there is none, or if no coordinate has a gap.
     #[must_use]
-    pub fn longest_without_gap_s(&self) -> Option<[f64; 2]> {
+    pub(crate) fn longest_without_gap_s(&self) -> Option<[f64; 2]> {
         let motion = &self.fit.motion;
         let is_known = |i: &usize| motion.columns.iter().flatten().all(|column| column[*i].is_finite());
         let frames: Vec<usize> = (0..motion.times.len()).collect();

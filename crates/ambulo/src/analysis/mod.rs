@@ -30,29 +30,39 @@ pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle, over_cycle_of};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts_from_force, events};
 pub use foot_progression::foot_progression;
+#[doc(hidden)]
+pub use ground_agreement::ComparedSample;
 pub use ground_agreement::{
-    BandAgreement, CenterAgreement, ComparedAnalyses, ComparedSample, ComparedStance, FootAgreement, ForceAgreement,
-    GroundAgreement, MomentAgreement, PlateCoverage, compared_stances, ground_agreement,
+    BandAgreement, CenterAgreement, ComparedAnalyses, ComparedStance, FootAgreement, ForceAgreement, GroundAgreement,
+    MomentAgreement, PlateCoverage, compared_stances, ground_agreement,
 };
+#[doc(hidden)]
 pub use known_bodies::KnownBodies;
 pub use laboratory_recording::LaboratoryRecording;
+#[doc(hidden)]
+pub use marker_trial::MarkerTrial;
 pub(crate) use marker_trial::fit_body_to_markers;
-pub use marker_trial::{BodyInMotion, MarkerTrial, body_in_motion};
+pub use marker_trial::{BodyInMotion, body_in_motion};
 pub use peaks::{Peak, peak};
+pub use predicted::analyse_predicted_trajectory;
 pub(crate) use predicted::predict_and_analyse;
-pub use predicted::{PredictedAnalysis, PredictionInput, analyse_predicted_trajectory};
-pub use prediction_checks::{
-    CheckSettings, CheckedPrediction, PlateMass, PredictionCheck, PredictionChecks, Weighing, prediction_checks,
-};
+#[doc(hidden)]
+pub use predicted::{PredictedAnalysis, PredictionInput};
+#[doc(hidden)]
+pub use prediction_checks::{CheckSettings, CheckedPrediction, PlateMass};
+pub use prediction_checks::{PredictionCheck, PredictionChecks, prediction_checks};
 pub(crate) use progress::Progress;
 pub use progress::{Stage, Stopped};
-pub use recording::{
-    Analysis, AnalysisError, AnalysisSettings, ForceSource, Mass, MassSource, analyse, analyse_trajectory,
-};
+pub use recording::{Analysis, AnalysisError, Mass, MassSource, analyse, analyse_trajectory};
+#[doc(hidden)]
+pub use recording::{AnalysisSettings, ForceSource};
 pub(crate) use recording::{analyse_measured, analyse_with_progress, recorded_trajectory};
-pub use residual::{Residual, residual, residual_sizes, residual_within};
-pub use residual_reduction::{Adjustable, reduce_residual};
-pub use subject::{BodySource, MarkerTrialError, ModelProtocol, Subject};
+pub use residual::{Residual, residual, residual_sizes};
+pub use residual_reduction::Adjustable;
+pub(crate) use residual_reduction::reduce_residual;
+#[doc(hidden)]
+pub use subject::{BodySource, Subject};
+pub use subject::{MarkerTrialError, ModelProtocol};
 pub use times_and_distances::{
     Stride, StrideQuantity, StrideStatistics, TimesAndDistances, symmetry_index, times_and_distances,
 };

@@ -48,7 +48,7 @@ impl AnalysisSettings {
 pub struct Analysis {
     /// The motion that was used.
     pub trajectory: Trajectory,
-    /// Whether it differs from the recorded one, so that motion and forces agree ([`super::reduce_residual`], [`super::track`]).
+    /// Whether it differs from the recorded one, so that motion and forces agree (`reduce_residual`, [`super::track`]).
     pub adjusted: bool,
     /// The ground forces at the times of the trajectory.
     pub ground: GroundForces,

@@ -43,7 +43,7 @@ fn sizes(model: &Model, forces: &Forces, frames: Range<usize>) -> impl Iterator<
 
 /// The residual over some of the frames, such as the instrumented window.
 #[must_use]
-pub fn residual_within(model: &Model, forces: &Forces, frames: Range<usize>) -> Option<Residual> {
+pub(crate) fn residual_within(model: &Model, forces: &Forces, frames: Range<usize>) -> Option<Residual> {
     let frames = frames.start..frames.end.min(forces.reactions.first()?.len());
     if frames.is_empty() {
         return None;

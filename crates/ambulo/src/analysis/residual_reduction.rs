@@ -34,7 +34,7 @@ const FILTER_REACH_PERIODS: f64 = 0.5;
 ///
 /// # Errors
 /// A motion without forces, a window that is too short: see [`ResidualReductionError`].
-pub fn reduce_residual(
+pub(crate) fn reduce_residual(
     model: &Model,
     analysis: Analysis,
     settings: &AnalysisSettings,

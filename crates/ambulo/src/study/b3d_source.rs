@@ -48,7 +48,7 @@ impl Source {
     ///
     /// # Errors
     /// No marker is visible.
-    pub fn of_b3d_markers(
+    pub(crate) fn of_b3d_markers(
         trial: &B3dTrial<'_>,
         body: MarkerBody,
         window: Window,

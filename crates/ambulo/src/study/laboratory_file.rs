@@ -62,7 +62,7 @@ impl LaboratoryFile {
     /// Whether the person stands, sits or lies still: three quarters of the markers stay within 5 cm of their mean position. Markers alone
     /// decide, so that a standing trial is found before there is a body.
     #[must_use]
-    pub fn is_still(&self) -> bool {
+    pub(crate) fn is_still(&self) -> bool {
         let spread_m = |path: &MarkerPath| {
             let seen = || path.positions.iter().filter(|position| position.iter().all(|x| x.is_finite()));
             let count = seen().count().max(1) as f64;

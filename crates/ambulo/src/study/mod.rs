@@ -43,24 +43,31 @@ pub mod validation;
 mod weighing;
 
 pub use crate::analysis::{ModelProtocol, Stage, Stopped};
+#[doc(hidden)]
 pub use b3d_source::B3dSourceError;
 pub use error::{Input, StudyError};
 pub use force_filter::ForceFilter;
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
-pub use mass::{BodyMass, MassEstimate, MassState, MassWitness};
-pub use opensim_setup::{
-    SetupError, TrackedTasks, exclude_bushings, report_forces_of_model, scaling_of_setup, standing_sensors_of,
-};
+#[doc(hidden)]
+pub use mass::MassEstimate;
+pub use mass::{BodyMass, MassState, MassWitness};
+pub use opensim_setup::exclude_bushings;
+pub(crate) use opensim_setup::{TrackedTasks, report_forces_of_model, scaling_of_setup, standing_sensors_of};
 pub use origin::{ForceOrigin, TrackedMarkers, Tracking};
 pub use outcome::{Outcome, PredictedGround, Processing, TrackedGround};
 pub use personal::{CalibrationError, personal_errors};
-pub use quality::{Measure, Quality, QualityLimits, QualityReason, QualityState};
+#[doc(hidden)]
+pub use quality::{Measure, QualityLimits, QualityReason};
+pub use quality::{Quality, QualityState};
 pub use run::{run, run_observed};
 pub use settings::{GroundSettings, Settings};
 pub use size::StatedSize;
+pub(crate) use source::PlateUse;
 pub use source::{
-    AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse,
-    Recording, SensorBody, SensorSource, Source,
+    AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, Recording, Source,
 };
+#[doc(hidden)]
+pub use source::{SensorBody, SensorSource};
 pub use standing_trial::StandingTrial;
+#[doc(hidden)]
 pub use trial_list::{StatedTrial, TrialList};

@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 /// Why a set-up cannot be followed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum SetupError {
+pub(crate) enum SetupError {
     /// A task without the values that it follows.
     #[error(
         "the task of the coordinate `{coordinate}` (line {line}) takes its values from a file, {found}; expected a <coordinate_file> with a column of this name"
@@ -39,7 +39,7 @@ pub enum SetupError {
 
 /// Weights of markers and coordinates, for the settings of a fit.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct TrackedTasks {
+pub(crate) struct TrackedTasks {
     /// Weights of the markers of the model, by name; 0 for those without a task. Empty if no marker has a task: then all have weight 1.
     pub weights: BTreeMap<String, f64>,
     /// Coordinates that are held near values.
@@ -51,7 +51,7 @@ impl TrackedTasks {
     ///
     /// # Errors
     /// Tasks that follow a column that is not there.
-    pub fn of_setup(
+    pub(crate) fn of_setup(
         tasks: &FitTasks,
         model: &Model,
         coordinates: Option<&Table>,
@@ -98,8 +98,8 @@ fn samples(model: &Model, motion: Option<&Motion>, coordinate: &str, line: usize
 /// The scaling of a set-up, for a model. `coordinates` is the table of the file of coordinates of the placement.
 ///
 /// # Errors
-/// As [`TrackedTasks::of_setup`].
-pub fn scaling_of_setup(
+/// As `TrackedTasks::of_setup`.
+pub(crate) fn scaling_of_setup(
     setup: &ScaleSetup,
     model: &Model,
     coordinates: Option<&Table>,
@@ -151,7 +151,7 @@ fn distances(measurement: &Measurement) -> DistanceMeasurement {
 /// The standing posture that the sensors of a model show, for the sensors of a recording; `None` if none of them is in the model. OpenSim's
 /// IMUPlacer writes a sensor as an offset frame on its body.
 #[must_use]
-pub fn standing_sensors_of(
+pub(crate) fn standing_sensors_of(
     document: &OsimModel,
     model: &Model,
     recording: &SensorRecording,
@@ -180,7 +180,7 @@ fn excludes_all(setup: &InverseDynamicsSetup) -> bool {
 }
 
 /// Reports that forces of the model other than bushings are never applied, unless the set-up excludes them all.
-pub fn report_forces_of_model(setup: &InverseDynamicsSetup, findings: &mut Findings) {
+pub(crate) fn report_forces_of_model(setup: &InverseDynamicsSetup, findings: &mut Findings) {
     if !excludes_all(setup) {
         let excluded = match &setup.forces_to_exclude[..] {
             [] => "none, and OpenSim applies all of them".to_owned(),

@@ -165,12 +165,12 @@ pub struct PlateAssignment {
     /// The plate, counted from 0.
     pub plate: usize,
     /// Its use.
-    pub used: PlateUse,
+    pub(crate) used: PlateUse,
 }
 
 /// The feet that were on a force plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PlateUse {
+pub(crate) enum PlateUse {
     /// One foot.
     Foot(Side),
     /// Nobody; what it measured is left out.

@@ -44,7 +44,7 @@ impl SegmentTable {
 
     /// Whether the trunk is one segment, without a separate pelvis.
     #[must_use]
-    pub fn is_undivided(self) -> bool {
+    pub(crate) fn is_undivided(self) -> bool {
         self.proportions().lengths.lumbar.is_none()
     }
 

@@ -45,7 +45,7 @@ impl Segment {
 
     /// Whether there is one per side.
     #[must_use]
-    pub fn is_paired(self) -> bool {
+    pub(crate) fn is_paired(self) -> bool {
         !matches!(self, Segment::Pelvis | Segment::Torso)
     }
 

@@ -33,7 +33,9 @@ mod upright_posture;
 
 pub use error::SkeletonError;
 pub use joint_paths::joint_paths;
-pub use rig::{PostureChange, Rig, RigDifferences, RigLimits, RiggedMotion};
+#[doc(hidden)]
+pub use rig::RiggedMotion;
+pub use rig::{PostureChange, Rig, RigDifferences, RigLimits};
 
 use crate::findings::{Code, Findings};
 use crate::motion::{MarkerPath, MarkerRecording};

@@ -125,7 +125,7 @@ impl Condition {
 
     /// Whether the condition reads what only a simulation knows: loads on the feet, angles, signals.
     #[must_use]
-    pub fn reads_simulation(&self) -> bool {
+    pub(crate) fn reads_simulation(&self) -> bool {
         match self {
             Condition::Foot(..) | Condition::Angle(..) | Condition::Signal(..) => true,
             Condition::Not(inner) => inner.reads_simulation(),

@@ -132,7 +132,7 @@ impl<'a> MachineInputs<'a> {
 
     /// Whether a machine was in a state that is marked as done.
     #[must_use]
-    pub fn is_done(&self, machine: &str) -> bool {
+    pub(crate) fn is_done(&self, machine: &str) -> bool {
         self.number(machine).is_some_and(|number| self.tree.states[number][self.tree.before[number].state].done)
     }
 
@@ -183,7 +183,7 @@ pub struct Machine {
 
 /// When a machine runs. While it does not, it is in its first state.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Gate {
+pub(crate) struct Gate {
     /// Another machine and its state; `None` for a machine that runs from the time at which machines begin.
     pub during: Option<(String, String)>,
     /// Whether it goes on in the state in which it was interrupted.
@@ -284,7 +284,7 @@ impl Machine {
 
     /// A machine that runs at some times only. Its first state is that of rest, the second the one in which it starts.
     #[must_use]
-    pub fn with_gate(mut self, gate: Gate) -> Machine {
+    pub(crate) fn with_gate(mut self, gate: Gate) -> Machine {
         self.gate = Some(gate);
         self
     }

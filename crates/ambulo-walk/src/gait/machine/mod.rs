@@ -14,12 +14,19 @@ mod state_table;
 mod state_trace;
 mod walking;
 
-pub use condition::{Comparison, Condition, ConditionError, FootEvent};
-pub use definition::{ChildOutputs, Gate, Machine, MachineInputs, Sensed, Span, State, Transition};
-pub use machine_file::ReadColumn;
+#[doc(hidden)]
+pub use condition::Condition;
+pub use condition::{Comparison, ConditionError, FootEvent};
+pub use definition::Span;
+#[doc(hidden)]
+pub use definition::{ChildOutputs, Machine, MachineInputs, Sensed, State, Transition};
+pub(crate) use machine_file::ReadColumn;
 pub(super) use machine_file::read_machines;
+#[doc(hidden)]
 pub use running_machine::RunningMachine;
-pub use settings::{Activity, Driven, MachineSettings, PASSAGE_S, StateSettings, TransitionSettings};
+pub use settings::{Activity, Driven, MachineSettings, PASSAGE_S};
 pub use state_table::{ChangeTable, StateRow, state_rows, state_table};
-pub use state_trace::{StateChange, StatePeriod, StateTrace, StateWatch};
+#[doc(hidden)]
+pub use state_trace::StateWatch;
+pub use state_trace::{StateChange, StatePeriod, StateTrace};
 pub use walking::{WalkMachine, planned, repeats, walking_machine};

@@ -79,7 +79,7 @@ impl RunningMachine {
 
     /// Whether a machine has entered its state in the last step.
     #[must_use]
-    pub fn has_changed(&self, machine: usize) -> bool {
+    pub(crate) fn has_changed(&self, machine: usize) -> bool {
         self.after[machine].state != self.before[machine].state
     }
 

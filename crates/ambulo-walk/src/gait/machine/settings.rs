@@ -19,9 +19,9 @@ pub struct MachineSettings {
     /// Whether it goes on in its last state when it runs again; otherwise it restarts in its first state.
     pub resumes: bool,
     /// States; it starts in the first one.
-    pub states: Vec<StateSettings>,
+    pub(crate) states: Vec<StateSettings>,
     /// Transitions, in the order in which they are tested.
-    pub transitions: Vec<TransitionSettings>,
+    pub(crate) transitions: Vec<TransitionSettings>,
 }
 
 impl MachineSettings {
@@ -61,14 +61,14 @@ pub enum Driven {
 impl Driven {
     /// Whether it is a joint.
     #[must_use]
-    pub fn moves_a_joint(&self) -> bool {
+    pub(crate) fn moves_a_joint(&self) -> bool {
         matches!(self, Driven::Part(_) | Driven::Coordinate(_))
     }
 }
 
 /// A state of a machine.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StateSettings {
+pub(crate) struct StateSettings {
     /// Name.
     pub name: String,
     /// Activity of the machine in this state.
@@ -113,7 +113,7 @@ pub enum Activity {
 
 /// A change from one state to another.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TransitionSettings {
+pub(crate) struct TransitionSettings {
     /// Index of the state that is left.
     pub from: usize,
     /// Index of the state that is entered.

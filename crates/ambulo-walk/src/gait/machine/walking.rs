@@ -287,7 +287,7 @@ impl WalkMachine {
     }
 
     /// The same with the loads that the feet have.
-    pub fn step_with(&mut self, time_s: f64, loaded: BySide<bool>) -> WalkPosture {
+    pub(crate) fn step_with(&mut self, time_s: f64, loaded: BySide<bool>) -> WalkPosture {
         let clock = self.walk.clock(time_s);
         let phases = self.walk.phases(&clock);
         self.step_to(time_s, &clock, phases, loaded)
@@ -324,12 +324,12 @@ impl WalkMachine {
 
     /// State of the figure that the machines read in the last step.
     #[must_use]
-    pub fn sensed(&self) -> &Sensed {
+    pub(crate) fn sensed(&self) -> &Sensed {
         &self.sensed
     }
 
     /// State of the figure for the next step: the caller may set angles and signals.
-    pub fn sensed_mut(&mut self) -> &mut Sensed {
+    pub(crate) fn sensed_mut(&mut self) -> &mut Sensed {
         &mut self.sensed
     }
 

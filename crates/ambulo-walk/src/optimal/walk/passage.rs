@@ -40,7 +40,7 @@ const STANDING: (f64, usize) = (0.4, 8);
 
 /// A motion that repeats, before or after a passage.
 #[derive(Debug, Clone, Copy)]
-pub struct PassageEnd<'a> {
+pub(crate) struct PassageEnd<'a> {
     /// Its problem, whose first guess is the gait.
     pub problem: &'a WalkProblem,
     /// Its motion.
@@ -51,7 +51,7 @@ pub struct PassageEnd<'a> {
 
 /// A part of a walk that does not repeat.
 #[derive(Debug, Clone, Copy)]
-pub struct Passage<'a> {
+pub(crate) struct Passage<'a> {
     /// Number of the change of pace in the walk.
     pub change: usize,
     /// Start in the time of the walk [s].
@@ -87,7 +87,7 @@ impl WalkProblem {
     ///
     /// # Errors
     /// Does not fail: a test reads the built-in laws.
-    pub fn passage(
+    pub(crate) fn passage(
         human: &Human,
         soles: &[ContactSphere],
         shoes: HuntCrossley,

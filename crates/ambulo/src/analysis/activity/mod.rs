@@ -113,13 +113,13 @@ impl ActivityKind {
     /// Whether predicted ground forces of this activity were compared with force plates (docs/measured/VALIDATION.md; of standing in
     /// tests/standing_ground.rs).
     #[must_use]
-    pub fn has_validated_prediction(self) -> bool {
+    pub(crate) fn has_validated_prediction(self) -> bool {
         matches!(self, ActivityKind::Walk | ActivityKind::Run | ActivityKind::Turn | ActivityKind::Stand)
     }
 
     /// Whether at least one foot is on the ground at all times. Running and jumping have flights; an unknown activity may have some.
     #[must_use]
-    pub fn keeps_a_foot_down(self) -> bool {
+    pub(crate) fn keeps_a_foot_down(self) -> bool {
         !matches!(self, ActivityKind::Run | ActivityKind::Jump | ActivityKind::Other)
     }
 }

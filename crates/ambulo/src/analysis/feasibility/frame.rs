@@ -128,13 +128,13 @@ impl FeasibilityLimits {
 
     /// Whether a coordinate is checked: a free rotation other than those of the root.
     #[must_use]
-    pub fn covers(&self, id: CoordinateId) -> bool {
+    pub(crate) fn covers(&self, id: CoordinateId) -> bool {
         self.coordinates[id.index()].is_judged
     }
 
     /// Whether the strength of a coordinate is known.
     #[must_use]
-    pub fn has_strength(&self, id: CoordinateId) -> bool {
+    pub(crate) fn has_strength(&self, id: CoordinateId) -> bool {
         self.coordinates[id.index()].strength.is_some()
     }
 

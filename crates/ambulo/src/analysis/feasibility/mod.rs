@@ -16,9 +16,12 @@ pub(crate) mod spans;
 mod thresholds;
 mod verdict;
 
-pub use frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_frame, least_load_n};
+#[doc(hidden)]
+pub use frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame};
+pub use frame::{check_frame, least_load_n};
 pub use judgement::check;
 pub(crate) use judgement::inner_frames;
+#[doc(hidden)]
 pub use motion_and_forces::{MotionAndForces, PredictedForces};
 pub use person::Person;
 pub use thresholds::Thresholds;

@@ -149,7 +149,7 @@ impl Thresholds {
 
     /// Whether a check is made.
     #[must_use]
-    pub fn judges(&self, check: Check) -> bool {
+    pub(crate) fn judges(&self, check: Check) -> bool {
         !self.skip.contains(&check)
     }
 }

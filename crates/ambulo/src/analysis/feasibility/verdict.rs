@@ -171,7 +171,7 @@ pub struct FitOfForces {
 impl Verdict {
     /// Adds what further checks of predicted forces found: forces that cannot act through the feet. Something else may support the
     /// person, so the verdict is undecided, and reasons that come from these forces are dropped.
-    pub fn add_unsupported(&mut self, found: &[Reason]) {
+    pub(crate) fn add_unsupported(&mut self, found: &[Reason]) {
         let Some(first) = found.first() else { return };
         let is_explained = |check| !matches!(check, Check::Range | Check::Pull);
         self.set_aside(is_explained, undecided_by_other_support(&first.message));

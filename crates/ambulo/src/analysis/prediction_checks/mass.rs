@@ -21,12 +21,12 @@ pub struct PlateMass {
     /// Mass [kg].
     pub kg: f64,
     /// How it was measured.
-    pub by: Weighing,
+    pub(crate) by: Weighing,
 }
 
 /// How force plates measured the body mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Weighing {
+pub(crate) enum Weighing {
     /// During an instrumented window: the model's mass times the mean measured vertical force over the one that the motion needs.
     Walking {
         /// Duration of the window [s].

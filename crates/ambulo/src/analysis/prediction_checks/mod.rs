@@ -45,7 +45,8 @@ use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model};
 use judgement::Judgement;
 use low_pass::low_passed;
-pub use mass::{PlateMass, Weighing};
+#[doc(hidden)]
+pub use mass::PlateMass;
 use record::Record;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

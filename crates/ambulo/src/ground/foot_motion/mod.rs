@@ -102,7 +102,7 @@ pub fn foot_motion(markers: &MarkerRecording, findings: &mut Findings) -> FootMo
 
 /// [`foot_motion`] with known landmarks.
 #[must_use]
-pub fn foot_motion_of_landmarks(
+pub(crate) fn foot_motion_of_landmarks(
     markers: &MarkerRecording,
     landmarks: &Landmarks,
     findings: &mut Findings,

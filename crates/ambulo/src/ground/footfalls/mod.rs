@@ -63,6 +63,7 @@ use crate::model::{BySide, Model, Side};
 use crate::motion::{Event, EventKind};
 use crate::spatial::Vec3;
 use belt::Belt;
+#[doc(hidden)]
 pub use instants::OffSpeed;
 use instants::Search;
 pub(super) use signals::{SignalFrame, Signals};

@@ -15,7 +15,7 @@ pub(super) const OVER_EDGE_M: f64 = 0.02;
 const ON_PLATE_M: [f64; 2] = [-0.08, 0.14];
 
 /// Markers, the feet that they belong to, and the events that were detected from them.
-pub struct FeetInMotion<'a> {
+pub(crate) struct FeetInMotion<'a> {
     /// The markers.
     pub markers: &'a MarkerRecording,
     /// Which of them are on the feet.

@@ -17,7 +17,7 @@ mod events;
 mod feet;
 mod windows;
 
-pub use feet::FeetInMotion;
+pub(crate) use feet::FeetInMotion;
 
 use super::foot_motion::FootMotion;
 use crate::findings::{Code, Findings, word};
@@ -85,12 +85,12 @@ pub struct FeetOnPlates {
     /// Instrumented windows: times when the whole load of both feet was measured [s], the longest first.
     pub windows: Vec<[f64; 2]>,
     /// Stances on plates that show no load in the whole trial.
-    pub silent: Vec<SilentStance>,
+    pub(crate) silent: Vec<SilentStance>,
 }
 
 /// A foot that stands on a plate without a load: the plate was off, or its signal is of another trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SilentStance {
+pub(crate) struct SilentStance {
     /// Index of the plate.
     pub plate: usize,
     /// The foot.
@@ -115,7 +115,7 @@ pub fn feet_on_plates(
 
 /// [`feet_on_plates`] with known landmarks.
 #[must_use]
-pub fn feet_in_motion_on_plates(
+pub(crate) fn feet_in_motion_on_plates(
     feet: &FeetInMotion<'_>,
     plates: &[PlateRecording],
     assigned: &[(usize, Side)],

@@ -46,12 +46,11 @@ pub use personal::{OtherPerson, PersonalErrors};
 pub use prescribed::Prescribed;
 use samples::EstimateInputs;
 use stance_curves::StanceCurves;
-pub use stance_errors::{
-    Ends, ErrorSample, ErrorsByDescent, KNOTS, REPEATS, StanceCurve, StanceErrors, outwards_sign, trusted,
-};
+pub(crate) use stance_errors::outwards_sign;
+pub use stance_errors::{Ends, ErrorSample, ErrorsByDescent, KNOTS, REPEATS, StanceCurve, StanceErrors, trusted};
 use stances::{BodyScale, stances};
 use std::ops::Range;
-pub use strike_descent::strike_descents;
+pub(crate) use strike_descent::strike_descents;
 pub use total::total_wrench;
 use unilateral::enforce_unilateral_contact;
 

@@ -58,7 +58,7 @@ pub struct ErrorSample {
     pub error: f64,
     /// Its weight.
     pub weight: f64,
-    /// Descent of the mass centre at the strike of its stance ([`strike_descents`](super::strike_descents)).
+    /// Descent of the mass centre at the strike of its stance (`strike_descents`).
     pub descent: f64,
 }
 
@@ -170,7 +170,7 @@ impl StanceErrors {
 pub struct ErrorsByDescent {
     /// In a usual strike.
     pub usual: StanceErrors,
-    /// Change of the force forward and up for each unit of the descent ([`strike_descents`](super::strike_descents)) [body weights].
+    /// Change of the force forward and up for each unit of the descent (`strike_descents`) [body weights].
     pub by_descent: [StanceCurve; 2],
 }
 
@@ -185,6 +185,6 @@ impl ErrorsByDescent {
 
 /// 1 for the right foot, -1 for the left one.
 #[must_use]
-pub fn outwards_sign(side: Side) -> f64 {
+pub(crate) fn outwards_sign(side: Side) -> f64 {
     if side == Side::Right { 1.0 } else { -1.0 }
 }

@@ -70,7 +70,7 @@ impl CenterVelocity<'_> {
 /// How much more than usual the mass centre descends at the strike of each stance, from 0 (as usual) to 0.85, negative if it descends less; 0
 /// where the recording does not show the strike. The formula is at the top of `strike_descent.rs`.
 #[must_use]
-pub fn strike_descents(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls) -> Vec<f64> {
+pub(crate) fn strike_descents(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls) -> Vec<f64> {
     let masses: Vec<f64> = model.bodies().iter().map(|body| body.inertia.mass()).collect();
     let whole: f64 = masses.iter().sum();
     let mut velocity = Vec::with_capacity(trajectory.grid().frames);

@@ -33,7 +33,9 @@ use crate::motion::filter::LowPass;
 use crate::motion::gaps::LONGEST_GAP_S;
 use crate::motion::{Smoother, TimeGrid};
 pub use error::StreamError;
-pub use frame::{FootLoad, LoadDeviation, StreamFrame};
+#[doc(hidden)]
+pub use frame::LoadDeviation;
+pub use frame::{FootLoad, StreamFrame};
 use frame_buffer::FrameBuffer;
 use settled::{SettledFrames, body_frames, window};
 use step_timing::StepTiming;

@@ -22,6 +22,7 @@ use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
 use crate::motion::{Jumps, Motion, Smoother, jumps};
 use crate::spatial::Vec3;
+#[doc(hidden)]
 pub use measure::{Measure, QualityLimits};
 use serde::{Deserialize, Serialize};
 pub(super) use stance_heights::StanceHeights;
