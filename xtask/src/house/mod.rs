@@ -7,6 +7,7 @@ mod columns;
 mod imports;
 mod items;
 mod source;
+mod surface;
 pub(crate) mod tokens;
 
 use crate::workspace::{self, Revision};
@@ -15,6 +16,7 @@ use items::{Function, Reach};
 use source::{Crate, File};
 use std::fs;
 use std::path::Path;
+use surface::{MOST_UNNAMED_FUNCTIONS, MOST_UNNAMED_TYPES, Public};
 use tokens::Token;
 
 /// Longest function that is allowed.
@@ -42,6 +44,8 @@ struct House {
     private_functions: usize,
     /// Private functions that are called once, with their place.
     called_once: Vec<String>,
+    public_types: Public,
+    public_functions: Public,
     /// Files of each circle.
     circles: Vec<String>,
     /// Test files that no test program contains.
@@ -92,6 +96,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     print_list("lines over 120 columns (--list: all of them)", &now.long_lines[..shown]);
     if listed {
         print_list("private functions called once", &now.called_once);
+        print_list("public types that no other crate names", &now.public_types.unnamed);
+        print_list("public functions that no other crate names", &now.public_functions.unnamed);
     }
     now.judge()
 }
@@ -117,9 +123,11 @@ fn wrap(workspace: &Path) -> Result<(), String> {
 impl House {
     fn measure(workspace: &Path) -> Result<House, String> {
         let mut house = House::default();
-        for one in source::crates(workspace)? {
-            house.add(&one);
+        let crates = source::crates(workspace)?;
+        for one in &crates {
+            house.add(one);
         }
+        [house.public_types, house.public_functions] = surface::public(&crates, &source::users(workspace)?);
         house.function_lines.sort_unstable();
         house.forgotten_tests = source::forgotten_tests(workspace)?;
         for file in source::all(workspace)? {
@@ -191,16 +199,17 @@ impl House {
                 self.long_lines.len()
             ));
         }
-        if long == 0 && circles == 0 {
-            return Ok(());
+        if long > 0 || circles > 0 {
+            return Err(format!(
+                "{long} functions have more than {LONGEST_FUNCTION} lines (allowed: 0), {circles} circles of files (allowed: 0)\nhint: the lists above name them; divide the functions, or move what two files share into a third"
+            ));
         }
-        Err(format!(
-            "{long} functions have more than {LONGEST_FUNCTION} lines (allowed: 0), {circles} circles of files (allowed: 0)\nhint: the lists above name them; divide the functions, or move what two files share into a third"
-        ))
+        self.public_types.judge("types", MOST_UNNAMED_TYPES)?;
+        self.public_functions.judge("functions", MOST_UNNAMED_FUNCTIONS)
     }
 
     /// The names and values of the table's rows.
-    fn rows(&self) -> [(&'static str, usize); 15] {
+    fn rows(&self) -> [(&'static str, usize); 17] {
         let share = |share: f64| {
             let last = self.function_lines.len().saturating_sub(1);
             self.function_lines.get((last as f64 * share).round() as usize).copied().unwrap_or(0)
@@ -217,6 +226,8 @@ impl House {
             ("function lines, p90", share(0.9)),
             ("function lines, longest", share(1.0)),
             ("functions over 60 lines", self.long_functions.len()),
+            ("public types that no other crate names [%]", self.public_types.unnamed_percent()),
+            ("public functions that no other crate names [%]", self.public_functions.unnamed_percent()),
             ("private functions", self.private_functions),
             ("private functions called once", self.called_once.len()),
             ("circles of files", self.circles.len()),
@@ -262,8 +273,8 @@ fn table(now: &House, before: Option<(&str, &House)>) -> String {
     let mut line = |cells: [&str; 4]| {
         let [name, was, is, change] = cells;
         let row = match before {
-            Some(_) => format!("{name:<30} {was:>12} {is:>10} {change:>10}"),
-            None => format!("{name:<30} {is:>10}"),
+            Some(_) => format!("{name:<46} {was:>12} {is:>10} {change:>10}"),
+            None => format!("{name:<46} {is:>10}"),
         };
         text.push_str(row.trim_end());
         text.push('\n');
@@ -322,6 +333,9 @@ mod tests {
         let [mut now, mut before] = [House::default(), House::default()];
         (now.lines, before.lines) = (90, 100);
         let text = table(&now, Some(("v1", &before)));
-        assert!(text.contains("lines                                   100         90        -10"), "{text}");
+        assert!(
+            text.contains("lines                                                   100         90        -10"),
+            "{text}"
+        );
     }
 }

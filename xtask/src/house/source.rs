@@ -53,6 +53,39 @@ pub(super) fn all(workspace: &Path) -> Result<Vec<File>, String> {
     Ok(files)
 }
 
+/// Rust source that uses the crates: the automation, the fuzz targets, the examples, and code in the documents.
+pub(super) fn users(workspace: &Path) -> Result<Vec<String>, String> {
+    let mut files = Vec::new();
+    for folder in ["xtask", "fuzz", "examples"] {
+        collect(workspace, &workspace.join(folder), &mut files)?;
+    }
+    let mut texts: Vec<String> = files.into_iter().map(|file| file.text).collect();
+    let mut documents = vec![workspace.join("README.md")];
+    for folder in ["docs", "docs/tutorials"] {
+        documents.extend(entries(&workspace.join(folder))?);
+    }
+    for document in documents.iter().filter(|path| path.extension().is_some_and(|ending| ending == "md")) {
+        let text = fs::read_to_string(document).map_err(|e| format!("{}: cannot read: {e}", document.display()))?;
+        texts.push(rust_code(&text));
+    }
+    Ok(texts)
+}
+
+/// Rust code of a document: its blocks marked `rust`.
+pub(super) fn rust_code(document: &str) -> String {
+    let mut is_rust = false;
+    let mut code = String::new();
+    for line in document.lines() {
+        if let Some(language) = line.trim_start().strip_prefix("```") {
+            is_rust = !is_rust && language.starts_with("rust");
+        } else if is_rust {
+            code.push_str(line);
+            code.push('\n');
+        }
+    }
+    code
+}
+
 /// Files of `crates/*/tests` that neither `tests/main.rs` nor `Cargo.toml` names.
 pub(super) fn forgotten_tests(workspace: &Path) -> Result<Vec<String>, String> {
     let mut forgotten = Vec::new();

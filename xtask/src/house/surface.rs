@@ -1,0 +1,251 @@
+//! Public types and functions, and which of them no other crate names.
+//!
+//! Public is what a user of a crate can reach: an item with `pub` in public modules, or re-exported from them, and the
+//! methods with `pub` of such types. Nothing behind `#[doc(hidden)]` counts, so neither does a module `internals` for
+//! tests. An item is named if its identifier occurs in the source of another product crate, in `xtask`, `fuzz` or
+//! `examples`, or in Rust code of the documents; tests do not count. Identifiers are compared as words: a method shares
+//! its name with all methods of that name.
+
+use super::source::{Crate, File};
+use super::tokens::{Kind, Token, closing, head_end, tokens, without_tests};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Largest part of the public functions that no other crate names [%].
+pub(super) const MOST_UNNAMED_FUNCTIONS: usize = 10;
+/// Largest part of the public types that no other crate names [%]. The goal is 10; errors and parts of results are the
+/// rest.
+pub(super) const MOST_UNNAMED_TYPES: usize = 15;
+
+/// Public items of one kind.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(super) struct Public {
+    pub(super) count: usize,
+    /// Those that no other crate names, with their place.
+    pub(super) unnamed: Vec<String>,
+}
+
+impl Public {
+    /// The part that no other crate names [%].
+    pub(super) fn unnamed_percent(&self) -> usize {
+        (100 * self.unnamed.len() + self.count / 2) / self.count.max(1)
+    }
+
+    /// An error if the part that no other crate names is above the limit.
+    pub(super) fn judge(&self, what: &str, most_percent: usize) -> Result<(), String> {
+        let unnamed = self.unnamed.len();
+        if 100 * unnamed <= most_percent * self.count {
+            return Ok(());
+        }
+        Err(format!(
+            "no other crate names {unnamed} of {} public {what} (allowed: {most_percent} %)\n\
+             hint: `cargo xtask house --list` names them; make them `pub(crate)`",
+            self.count
+        ))
+    }
+}
+
+/// Public types and functions of all crates. `others` is Rust source outside of the crates.
+pub(super) fn public(crates: &[Crate], others: &[String]) -> [Public; 2] {
+    let all: Vec<Vec<Vec<Token<'_>>>> = crates.iter().map(product_tokens).collect();
+    let words: Vec<BTreeSet<&str>> = all.iter().map(|files| words(files.iter().flatten())).collect();
+    let others: Vec<Vec<Token<'_>>> = others.iter().map(|text| without_tests(&tokens(text))).collect();
+    let words_of_others = self::words(others.iter().flatten());
+    let mut found = [Public::default(), Public::default()];
+    for (own, (one, files)) in crates.iter().zip(&all).enumerate() {
+        let elsewhere = |name: &str| {
+            let in_crates = words.iter().enumerate().any(|(i, words)| i != own && words.contains(name));
+            in_crates || words_of_others.contains(name)
+        };
+        for item in public_items(&one.files, files) {
+            let public = &mut found[usize::from(item.is_function)];
+            public.count += 1;
+            if !elsewhere(item.name) {
+                let path = &one.files[item.file].path;
+                public.unnamed.push(format!("crates/{}/src/{path}:{} {}", one.name, item.line, item.name));
+            }
+        }
+    }
+    found
+}
+
+fn product_tokens(one: &Crate) -> Vec<Vec<Token<'_>>> {
+    one.files.iter().map(|file| without_tests(&tokens(&file.text))).collect()
+}
+
+fn words<'a, 't: 'a>(tokens: impl Iterator<Item = &'a Token<'t>>) -> BTreeSet<&'t str> {
+    tokens.filter(|token| token.kind == Kind::Word).map(|token| token.text).collect()
+}
+
+/// A type, a function or a method with `pub`.
+struct Item<'t> {
+    name: &'t str,
+    is_function: bool,
+    /// The type of a method.
+    owner: Option<&'t str>,
+    file: usize,
+    line: usize,
+}
+
+/// The items of a crate that its users can reach.
+fn public_items<'t>(files: &'t [File], tokens: &[Vec<Token<'t>>]) -> Vec<Item<'t>> {
+    let (mut items, mut exported, mut children) = (Vec::new(), BTreeSet::new(), BTreeMap::new());
+    for (i, tokens) in tokens.iter().enumerate() {
+        let read = read(i, tokens);
+        items.extend(read.items);
+        exported.extend(read.exported);
+        children.insert(files[i].module(), read.children);
+    }
+    let is_open: Vec<bool> = files
+        .iter()
+        .map(|file| {
+            let path = file.module();
+            let is_public = |k: usize| children.get(&path[..k]).is_some_and(|children| children.contains(path[k]));
+            (0..path.len()).all(is_public)
+        })
+        .collect();
+    let is_reached = |item: &Item<'t>| is_open[item.file] || exported.contains(item.name);
+    let (free, methods): (Vec<_>, Vec<_>) = items.into_iter().partition(|item| item.owner.is_none());
+    let free: Vec<Item<'t>> = free.into_iter().filter(is_reached).collect();
+    let types: BTreeSet<&str> = free.iter().filter(|item| !item.is_function).map(|item| item.name).collect();
+    let methods = methods.into_iter().filter(|method| method.owner.is_some_and(|owner| types.contains(owner)));
+    methods.chain(free).collect()
+}
+
+/// What a file makes public.
+#[derive(Default)]
+struct Read<'t> {
+    items: Vec<Item<'t>>,
+    /// Names that `pub use` exports.
+    exported: BTreeSet<&'t str>,
+    /// Modules with `pub mod` or `pub use module::*`.
+    children: BTreeSet<&'t str>,
+}
+
+/// Reads what a file makes public, without what is `#[doc(hidden)]`.
+fn read<'t>(file: usize, tokens: &[Token<'t>]) -> Read<'t> {
+    let mut read = Read::default();
+    let owners = owners(tokens);
+    let mut i = 0;
+    while i < tokens.len() {
+        let at = i;
+        i += 1;
+        if !tokens[at].is("pub") {
+            continue;
+        }
+        let is_qualifier = |token: &Token<'_>| {
+            token.kind == Kind::Literal || ["const", "async", "unsafe", "extern"].iter().any(|word| token.is(word))
+        };
+        let Some(keyword) = (at + 1..tokens.len()).find(|&k| !is_qualifier(&tokens[k])) else { break };
+        let end = head_end(tokens, keyword);
+        if is_hidden(tokens, at) {
+            let is_module = tokens[keyword].is("mod") && tokens.get(end).is_some_and(|sign| sign.is("{"));
+            i = if is_module { closing(tokens, end) } else { keyword };
+            continue;
+        }
+        let Some(name) = tokens.get(keyword + 1) else { break };
+        match tokens[keyword].text {
+            "use" => read_use(&tokens[keyword + 1..], &mut read),
+            "mod" => _ = read.children.insert(name.text),
+            word @ ("fn" | "struct" | "enum" | "trait" | "union") => {
+                let owner = owners.iter().find(|(from, to, _)| *from < at && at < *to).map(|(_, _, owner)| *owner);
+                read.items.push(Item { name: name.text, is_function: word == "fn", owner, file, line: name.line });
+            }
+            _ => {}
+        }
+    }
+    read
+}
+
+/// Takes the names of a re-export that begins after its `use`.
+fn read_use<'t>(tokens: &[Token<'t>], read: &mut Read<'t>) {
+    let end = tokens.iter().position(|token| token.is(";")).unwrap_or(tokens.len());
+    for (i, token) in tokens[..end].iter().enumerate() {
+        let follows = |k: usize, sign: &str| tokens.get(i + k).is_some_and(|token| token.is(sign));
+        if token.kind == Kind::Word && !follows(1, "::") {
+            read.exported.insert(token.text);
+        } else if follows(1, "::") && follows(2, "*") {
+            read.children.insert(token.text);
+        }
+    }
+}
+
+/// Whether an attribute of the item at `at` is `#[doc(hidden)]`.
+fn is_hidden(tokens: &[Token<'_>], at: usize) -> bool {
+    let mut end = at;
+    while end > 0 && tokens[end - 1].is("]") {
+        let Some(open) = (0..end).rev().find(|&k| tokens[k].is("[") && closing(tokens, k) == end - 1) else { break };
+        if tokens[open..end].iter().any(|token| token.is("hidden")) {
+            return true;
+        }
+        end = open.saturating_sub(1);
+    }
+    false
+}
+
+/// Token ranges of the bodies of inherent `impl`, with the type.
+fn owners<'t>(tokens: &[Token<'t>]) -> Vec<(usize, usize, &'t str)> {
+    let mut blocks = Vec::new();
+    for i in (0..tokens.len()).filter(|&i| tokens[i].is("impl")) {
+        let begins_item = i == 0 || ["}", ";", "]", "{"].iter().any(|before| tokens[i - 1].is(before));
+        let open = head_end(tokens, i);
+        let mut depth = 0_usize;
+        let owner = tokens[i + 1..open.max(i + 1)].iter().find(|token| {
+            match token.text {
+                "<" => depth += 1,
+                ">" => depth = depth.saturating_sub(1),
+                _ => return depth == 0 && token.kind == Kind::Word,
+            }
+            false
+        });
+        if let Some(owner) = owner.filter(|_| begins_item && open < tokens.len()) {
+            blocks.push((open, closing(tokens, open), owner.text));
+        }
+    }
+    blocks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::source::rust_code;
+    use super::*;
+
+    fn file(path: &str, text: &str) -> File {
+        File { path: path.to_owned(), text: text.to_owned() }
+    }
+
+    #[test]
+    fn public_is_what_users_reach_and_named_is_what_others_write() {
+        let body = Crate {
+            name: "body".to_owned(),
+            files: vec![
+                file(
+                    "lib.rs",
+                    "pub mod a; mod b; pub use b::{Leg, step}; \
+                     #[doc(hidden)] pub mod internals { pub use crate::b::Toe; }",
+                ),
+                file(
+                    "a.rs",
+                    "pub struct Arm<T>(T); impl<T: Copy> Arm<T> { pub const fn bend(&self) {} \
+                     pub(crate) fn raise(&self) {} #[doc(hidden)] #[must_use] pub fn turn(&self) {} }",
+                ),
+                file(
+                    "b.rs",
+                    "pub enum Leg { Left } pub struct Toe; impl Toe { pub fn bend(&self) {} } \
+                     pub fn step() {} pub(crate) struct Heel;",
+                ),
+            ],
+        };
+        let walk = Crate { name: "walk".to_owned(), files: vec![file("lib.rs", "fn f(leg: Leg) { \"Arm\" } // bend")] };
+        let [types, functions] = public(&[body, walk], &[rust_code("step\n```rust\nx.bend()\n```\nArm\n")]);
+        assert_eq!((types.count, functions.count), (2, 2));
+        assert_eq!(types.unnamed, ["crates/body/src/a.rs:1 Arm"]);
+        assert_eq!(functions.unnamed, ["crates/body/src/b.rs:1 step"]);
+        assert_eq!(types.unnamed_percent(), 50);
+        assert!(types.judge("types", 50).is_ok());
+        assert!(
+            types
+                .judge("types", 49)
+                .is_err_and(|message| message.starts_with("no other crate names 1 of 2 public types"))
+        );
+    }
+}
