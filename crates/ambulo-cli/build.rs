@@ -9,18 +9,21 @@ fn main() {
     // A source archive without git has none.
     let commit = commit().map_or_else(String::new, |commit| format!(" ({commit})"));
     println!("cargo::rustc-env=AMBULO_VERSION={}{commit}", env!("CARGO_PKG_VERSION"));
-    // Otherwise the system writes each of the 35,000 addresses in the program whenever it starts, which takes as long as all the rest of a start.
+    // Otherwise the system writes each of the 35,000 addresses in the program whenever it starts, which takes as long
+    // as all the rest of a start.
     let target = ["CARGO_CFG_TARGET_OS", "CARGO_CFG_TARGET_ENV"].map(|name| env::var(name).unwrap_or_default());
     if target == ["linux", "gnu"] {
         println!("cargo::rustc-link-arg-bin=ambulo=-no-pie");
     }
 }
 
-/// The commit of this source tree, asked for again when it changes; `None` without git, or inside the repository of something else.
+/// The commit of this source tree, asked for again when it changes; `None` without git, or inside the repository of
+/// something else.
 fn commit() -> Option<String> {
     git(&["ls-files", "--error-unmatch", "build.rs"])?;
     for name in ["HEAD", "logs/HEAD"] {
-        // In a second worktree they are not in `.git`. Cargo would run this program every time for a file that does not exist.
+        // In a second worktree they are not in `.git`. Cargo would run this program every time for a file that does not
+        // exist.
         let file = git(&["rev-parse", "--git-path", name])?;
         if Path::new(&file).is_file() {
             println!("cargo::rerun-if-changed={file}");

@@ -1,7 +1,8 @@
 //! What `ambulo batch` costs: `cargo xtask batch-cost [--kills]`.
 //!
-//! The trials are copies of one recording with its standing trial (`biomechzoo-HC032A` of the data folder: 291 points, of which 52 are markers, two force
-//! plates), of which 1.3 s are computed, 131 frames. Processor time and memory are those that Linux counts for the command.
+//! The trials are copies of one recording with its standing trial (`biomechzoo-HC032A` of the data folder: 291 points,
+//! of which 52 are markers, two force plates), of which 1.3 s are computed, 131 frames. Processor time and memory are
+//! those that Linux counts for the command.
 //!
 //! | part      | printed                                                                                                       |
 //! |-----------|---------------------------------------------------------------------------------------------------------------|
@@ -65,7 +66,8 @@ pub(crate) fn run(options: &[String]) -> Result<(), String> {
     println!("two threads      {:.2} times as many trials per second as one thread", one.wall_s / two.wall_s);
     println!("peak memory      {:.0} MB with 100 trials, {:.0} MB with 1,000", hundred.peak_mb, one.peak_mb);
     println!(
-        "written          {per_trial_bytes:.0} bytes per trial in files of its own; less where several trials share them"
+        "written          {per_trial_bytes:.0} bytes per trial in files of its own; less where several trials share \
+         them"
     );
     for hours in HOURS {
         let trials = hours * 3600.0 / DURATION_S;
@@ -174,7 +176,8 @@ fn killed(program: &Path, sets: &Sets, folder: &Path) -> Result<String, String> 
         return Err("a batch that was killed and continued has other bytes than one without interruption".to_owned());
     }
     Ok(format!(
-        "kills            {KILLED_TRIALS} trials, {interrupted} of {KILLS} runs killed before their end: the same bytes as without interruption"
+        "kills            {KILLED_TRIALS} trials, {interrupted} of {KILLS} runs killed before their end: the same \
+         bytes as without interruption"
     ))
 }
 

@@ -1,7 +1,7 @@
 //! Time of a cold release build of the `ambulo` command: `cargo xtask build-time [--baseline REV]`.
 //!
-//! Builds into an empty temporary folder, dependencies included, with their sources downloaded before. CPU time is that of
-//! cargo and all its compilers, so it can be compared on a machine that does other work as well; wall time cannot.
+//! Builds into an empty temporary folder, dependencies included, with their sources downloaded before. CPU time is that
+//! of cargo and all its compilers, so it can be compared on a machine that does other work as well; wall time cannot.
 
 use crate::workspace::{self, Revision};
 use std::fs;

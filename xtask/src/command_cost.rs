@@ -1,7 +1,9 @@
-//! Processor time of the `ambulo` command against an earlier revision, and the time until it starts: `cargo xtask command-cost`.
+//! Processor time of the `ambulo` command against an earlier revision, and the time until it starts:
+//! `cargo xtask command-cost`.
 //!
-//! Both programs are optimised in full, and run in turn on the same recordings in the same minute, so that the state of the machine counts for both.
-//! Time is that in user mode of all threads, of [`RUNS`] runs together. The earlier revision wrote its page in every run.
+//! Both programs are optimised in full, and run in turn on the same recordings in the same minute, so that the state of
+//! the machine counts for both. Time is that in user mode of all threads, of [`RUNS`] runs together. The earlier
+//! revision wrote its page in every run.
 
 use crate::build_time::children_cpu_s;
 use crate::sweep::optimised_program;
@@ -17,7 +19,8 @@ const BASELINE: &str = "dbe756e";
 const RUNS: usize = 40;
 /// Starts of a program that does nothing.
 const STARTS: usize = 400;
-/// Goals: share of the earlier time without the page and with it, on each recording; start beyond a program that does nothing [ms].
+/// Goals: share of the earlier time without the page and with it, on each recording; start beyond a program that does
+/// nothing [ms].
 const GAIT2392: (f64, f64) = (0.3, 0.4);
 const LABORATORY: (f64, f64) = (0.5, 0.5);
 const START_MS: f64 = 1.0;
@@ -47,7 +50,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let (own, nothing) = (start_ms(&ours, &["--version"])?, start_ms(Path::new("/bin/true"), &[])?);
     let beyond = own - nothing;
     println!(
-        "start of `ambulo --version`: {own:.2} ms, /bin/true {nothing:.2} ms, beyond it {beyond:.2} ms, asked at most {START_MS}: {}",
+        "start of `ambulo --version`: {own:.2} ms, /bin/true {nothing:.2} ms, beyond it {beyond:.2} ms, asked at most \
+         {START_MS}: {}",
         verdict(beyond, START_MS)
     );
     Ok(())

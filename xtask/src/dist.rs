@@ -1,8 +1,9 @@
 //! Archives of the `ambulo` command for users: `cargo xtask dist [--target TARGET].. [--runner PROGRAM] [--tag TAG]`.
 //!
-//! Builds the command in the profile `dist`, packs it with its licences and the list of its components (`packaging/archive.py`) into
-//! `target/archives`, and tries the archive (`packaging/trial.py`) if this machine can run it. Python packs: its standard library has
-//! archives, hashes and JSON, so this program needs no dependency for them.
+//! Builds the command in the profile `dist`, packs it with its licences and the list of its components
+//! (`packaging/archive.py`) into `target/archives`, and tries the archive (`packaging/trial.py`) if this machine can
+//! run it. Python packs: its standard library has archives, hashes and JSON, so this program needs no dependency for
+//! them.
 
 use crate::python::interpreter;
 use crate::workspace;
@@ -82,7 +83,8 @@ fn request(words: &[String]) -> Result<Request, String> {
 fn check_tag(tag: &str, version: &str, changes: &str) -> Result<(), String> {
     if tag != format!("v{version}") {
         return Err(format!(
-            "the tag is `{tag}`; expected `v{version}`, the version in Cargo.toml\nhint: tag the commit that sets the version"
+            "the tag is `{tag}`; expected `v{version}`, the version in Cargo.toml\nhint: tag the commit that sets the \
+             version"
         ));
     }
     let heading = format!("## {version}");
@@ -138,7 +140,8 @@ fn build(target: &Target) -> Result<PathBuf, String> {
     finish(&mut command).map_err(|error| match target.linker {
         Linker::Own => format!("{error}\nhint: `rustup target add {}` installs the target", target.triple),
         Linker::Zig { .. } => format!(
-            "{error}\nhint: `rustup target add {}` installs the target, `pip install -r packaging/requirements.txt` the linker",
+            "{error}\nhint: `rustup target add {}` installs the target, `pip install -r packaging/requirements.txt` \
+             the linker",
             target.triple
         ),
     })?;

@@ -67,7 +67,8 @@ fn every_file_of_the_methods_exists() {
     assert!(missing.is_empty(), "files that do not exist: {missing:?}");
 }
 
-/// Scenes in `examples/` and those that the library contains, and programs in `crates/*/examples/`, as paths from the root.
+/// Scenes in `examples/` and those that the library contains, and programs in `crates/*/examples/`, as paths from the
+/// root.
 fn example_files() -> Vec<String> {
     let root = workspace::root();
     let mut folders = vec![root.join("examples"), root.join("crates/ambulo-paper/data/scenes")];

@@ -167,7 +167,8 @@ impl Page {
         }
         let name = self.name;
         Err(format!(
-            "{FOLDER}/{name}.md is out of date\n  found:    {first}\n  expected: {}{version} at commit ...; do not edit.\n\
+            "{FOLDER}/{name}.md is out of date\n  found:    {first}\n  expected: {}{version} at commit ...; do not \
+             edit.\n\
              \x20 hint: run `cargo xtask measured {name}`, then read and commit the page",
             self.beginning()
         ))

@@ -1,9 +1,10 @@
 //! The Python package: `cargo xtask python`, with `--profile NAME`, `--with PROGRAM`, `--measure` or `--free-threaded`.
 //!
-//! Without an option it makes a wheel from the module that `cargo test` has compiled, installs it into a bare virtual environment, checks that it
-//! needs nothing but NumPy, and runs the tests of `crates/ambulo-py/tests` and stubtest; with `--with` in the environment of another Python.
-//! `--measure` builds the wheel for users with maturin, compresses it again as a release does, and prints its size and its times. `--free-threaded` compiles the module for free-threaded
-//! Python, which need not be installed.
+//! Without an option it makes a wheel from the module that `cargo test` has compiled, installs it into a bare virtual
+//! environment, checks that it needs nothing but NumPy, and runs the tests of `crates/ambulo-py/tests` and stubtest;
+//! with `--with` in the environment of another Python. `--measure` builds the wheel for users with maturin, compresses
+//! it again as a release does, and prints its size and its times. `--free-threaded` compiles the module for
+//! free-threaded Python, which need not be installed.
 
 use crate::workspace;
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
@@ -17,7 +18,9 @@ const MATURIN: &str = "maturin==1.16.0";
 const FREE_THREADED: &str =
     "implementation=CPython\nversion=3.14\nshared=true\npointer_width=64\nbuild_flags=Py_GIL_DISABLED\n";
 /// Prints the commands of the package and the packages that are installed, in an environment without anything else.
-const BARE: &str = "import ambulo, importlib.metadata as m; names = sorted({d.name for d in m.distributions()} - {'pip', 'setuptools'}); assert names == ['ambulo', 'numpy'], names; print(ambulo.__version__, 'installed with', names)";
+const BARE: &str = "import ambulo, importlib.metadata as m; names = sorted({d.name for d in m.distributions()} - \
+    {'pip', 'setuptools'}); assert names == ['ambulo', 'numpy'], names; print(ambulo.__version__, 'installed with', \
+    names)";
 
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     match words {
@@ -42,7 +45,8 @@ fn test(program: &str, profile: &str) -> Result<(), String> {
     let module = workspace::target().join(profile).join("deps").join(format!("{DLL_PREFIX}_ambulo{DLL_SUFFIX}"));
     if !module.is_file() {
         return Err(format!(
-            "{}: there is no such file; expected the compiled module\nhint: `cargo test --package ambulo-py --no-run` compiles it",
+            "{}: there is no such file; expected the compiled module\nhint: `cargo test --package ambulo-py --no-run` \
+             compiles it",
             module.display()
         ));
     }
@@ -90,7 +94,8 @@ fn measure() -> Result<(), String> {
     environment.python(&package, &["bench/measure.py", &wheel])
 }
 
-/// Compiles the module for free-threaded Python; it is not run. PyO3 reads what it needs to know from a file, so that no such Python is needed.
+/// Compiles the module for free-threaded Python; it is not run. PyO3 reads what it needs to know from a file, so that
+/// no such Python is needed.
 fn free_threaded() -> Result<(), String> {
     let folder = workspace::target().join("free-threaded");
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;

@@ -1,6 +1,7 @@
 //! `cargo xtask same-bytes OLD NEW`: compares every byte that two versions of the `ambulo` command write.
 //!
-//! `xtask/same_bytes.py` compares: Python's standard library reads JSON and the inputs that are made for the comparison.
+//! `xtask/same_bytes.py` compares: Python's standard library reads JSON and the inputs that are made for the
+//! comparison.
 
 use crate::{python, workspace};
 use std::process::Command;

@@ -1,15 +1,16 @@
 //! What `ambulo stream` costs from end to end: `cargo xtask stream-cost [--seconds S] [--hours H]`.
 //!
-//! The motion is a recorded walk (`opensim-rajagopal-walk` of the data folder: 41 markers, fitted by `ambulo forces`, 200 Hz), repeated forwards and
-//! backwards without a jump. The command runs as another process and waits on a TCP port of this computer; frames and results are lines of JSON.
+//! The motion is a recorded walk (`opensim-rajagopal-walk` of the data folder: 41 markers, fitted by `ambulo forces`,
+//! 200 Hz), repeated forwards and backwards without a jump. The command runs as another process and waits on a TCP port
+//! of this computer; frames and results are lines of JSON.
 //!
 //! | part      | printed                                                                                                     |
 //! |-----------|-------------------------------------------------------------------------------------------------------------|
 //! | paced     | frames in real time: how much later than the chosen delay each result arrives; processor time per frame     |
 //! | `--hours` | so many hours of motion as fast as they are taken: resident memory every ten minutes of motion              |
 //!
-//! The latency of frame k is the time from sending frame k + d until its result is here, where d is the delay in frames. It contains both ways
-//! through the system and the scheduling of three threads.
+//! The latency of frame k is the time from sending frame k + d until its result is here, where d is the delay in
+//! frames. It contains both ways through the system and the scheduling of three threads.
 
 use crate::sweep::optimised_program;
 use crate::workspace;
@@ -266,7 +267,8 @@ fn report(latencies_ms: &mut [f64], cost_ms: f64, memory_kb: [f64; 2]) -> String
     );
     let _ = write!(
         text,
-        "\nprocessor time            {cost_ms:.2} ms per frame after the first {} s; required at most {REQUIRED_COST_MS} ms: {}",
+        "\nprocessor time            {cost_ms:.2} ms per frame after the first {} s; required at most \
+         {REQUIRED_COST_MS} ms: {}",
         WARM_FRAMES / RATE_HZ,
         met(cost_ms, REQUIRED_COST_MS)
     );
@@ -313,7 +315,8 @@ fn unpaced(program: &Path, walk: &Walk, frames: usize) -> Result<String, String>
             let minutes = results / (60 * RATE_HZ);
             let _ = write!(
                 text,
-                "\n                          {:.0} kB after {minutes} min of motion, {cost_ms:.2} ms of processor time per frame, {speed:.1} times real time",
+                "\n                          {:.0} kB after {minutes} min of motion, {cost_ms:.2} ms of processor time \
+                 per frame, {speed:.1} times real time",
                 server.memory_kb()
             );
         }

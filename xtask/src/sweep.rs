@@ -49,7 +49,17 @@ pub(crate) fn run() -> Result<(), String> {
     let examples = library_examples()?;
     for [package, example] in &examples {
         let mut command = workspace::cargo();
-        command.args(["run", "--quiet", "--profile", workspace::OPTIMISED, "--locked", "--package", package, "--example", example]);
+        command.args([
+            "run",
+            "--quiet",
+            "--profile",
+            workspace::OPTIMISED,
+            "--locked",
+            "--package",
+            package,
+            "--example",
+            example,
+        ]);
         command.stdout(Stdio::null());
         failures.extend(failure(command, &[0])?);
     }
@@ -175,7 +185,8 @@ fn kills(program: &Path, scratch: &Path) -> Result<Vec<String>, String> {
     }
     let [old, new, torn] = counts;
     println!(
-        "kills: {KILLS}, of which {old} left all old files, {new} all new files, {torn} a torn or mixed folder or a lost file"
+        "kills: {KILLS}, of which {old} left all old files, {new} all new files, {torn} a torn or mixed folder or a \
+         lost file"
     );
     Ok(failures)
 }

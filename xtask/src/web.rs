@@ -1,8 +1,10 @@
 //! The page that computes in the browser, and the documents: `cargo xtask web [--test | --site | --family]`.
 //!
-//! Builds the `ambulo` command for WebAssembly with WASI and the page around it into `target/page`, ready for any static host, and prints the size
-//! of its files. With `--test`, tests it in Chromium and Firefox (`web/tests/page.test.ts`) and compares its results with those of the command. With `--site`, adds the API documentation of the
-//! crates. With `--family`, solves the walks between which its sliders interpolate (`web/family/walks.json`).
+//! Builds the `ambulo` command for WebAssembly with WASI and the page around it into `target/page`, ready for any
+//! static host, and prints the size of its files. With `--test`, tests it in Chromium and Firefox
+//! (`web/tests/page.test.ts`) and compares its results with those of the command. With `--site`, adds the API
+//! documentation of the crates. With `--family`, solves the walks between which its sliders interpolate
+//! (`web/family/walks.json`).
 
 use crate::workspace;
 use std::fs;
@@ -61,7 +63,8 @@ pub(crate) fn has_target() -> bool {
     output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir())
 }
 
-/// Tests the page in the browsers that are there, of which Chromium must be one; the command that it is compared with is built as for other tests.
+/// Tests the page in the browsers that are there, of which Chromium must be one; the command that it is compared with
+/// is built as for other tests.
 #[expect(clippy::print_stdout, reason = "says which browsers are tested")]
 fn test(site: &Path) -> Result<(), String> {
     finish(workspace::cargo().args(["build", "--locked", "--package", "ambulo-cli"]))?;

@@ -35,7 +35,8 @@ pub(crate) fn debug_program() -> PathBuf {
     target().join("debug").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX))
 }
 
-/// Unpacks a revision (a commit, a tag or a branch) into a folder. Its files are as old as the unpacking, so that cargo compiles them.
+/// Unpacks a revision (a commit, a tag or a branch) into a folder. Its files are as old as the unpacking, so that cargo
+/// compiles them.
 pub(crate) fn unpack(name: &str, folder: &Path) -> Result<(), String> {
     let mut archive = Command::new("git");
     archive.current_dir(root()).args(["archive", "--format=tar", name]).stdout(Stdio::piped());

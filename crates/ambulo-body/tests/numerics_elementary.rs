@@ -210,7 +210,8 @@ fn values_agree_with_the_library_of_the_platform() {
     }
 }
 
-/// Another platform, compiler or version of `libm` that changes one bit of one value changes this number (FNV-1a of all bits).
+/// Another platform, compiler or version of `libm` that changes one bit of one value changes this number (FNV-1a of all
+/// bits).
 #[test]
 fn the_bits_of_all_functions_are_the_same_on_every_platform() {
     let mut checksum = 0xcbf2_9ce4_8422_2325_u64;

@@ -13,7 +13,8 @@ pub fn install() {
 
 fn message(panic: &str) -> String {
     format!(
-        "error: this is a bug in ambulo {}: {panic}\n  hint: report it at {}/issues with this message, the command that you typed and, if possible, its input files",
+        "error: this is a bug in ambulo {}: {panic}\n  hint: report it at {}/issues with this message, the command \
+         that you typed and, if possible, its input files",
         env!("AMBULO_VERSION"),
         env!("CARGO_PKG_REPOSITORY"),
     )

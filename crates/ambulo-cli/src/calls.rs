@@ -1,5 +1,5 @@
-//! The verbs as functions that return their results, for bindings to other languages. A recording is computed by a [`Job`]; other options are
-//! stated by the names that the command has for them.
+//! The verbs as functions that return their results, for bindings to other languages. A recording is computed by a
+//! [`Job`]; other options are stated by the names that the command has for them.
 
 use crate::args::{Command, Options, Outputs, PrintArgs, TrialWords};
 use crate::caller::Caller;
@@ -25,7 +25,8 @@ pub fn forces(job: &Job, outputs: Outputs, caller: &Caller) -> Result<Results, F
     })
 }
 
-/// The calibration of a person, in the form of the file that `ambulo calibrate` writes. `of_all` is the job of all trials.
+/// The calibration of a person, in the form of the file that `ambulo calibrate` writes. `of_all` is the job of all
+/// trials.
 ///
 /// # Errors
 /// Those of the command.
@@ -82,7 +83,8 @@ pub fn validate(options: &Options, caller: &Caller) -> Result<Results, Failure> 
     })
 }
 
-/// Computes what `ambulo batch` computes with these options and this job of every trial, and returns the folder of its tables.
+/// Computes what `ambulo batch` computes with these options and this job of every trial, and returns the folder of its
+/// tables.
 ///
 /// # Errors
 /// Those of the command; a batch that the caller stopped.
@@ -97,7 +99,8 @@ pub fn batch(options: &Options, of_all: Job, outputs: Outputs, caller: &Caller) 
     })
 }
 
-/// Computes what `ambulo session` computes with these options and this job of every trial, and returns the results in its folder.
+/// Computes what `ambulo session` computes with these options and this job of every trial, and returns the results in
+/// its folder.
 ///
 /// # Errors
 /// Those of the command; a session that the caller stopped.

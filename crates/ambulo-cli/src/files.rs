@@ -25,7 +25,8 @@ impl fmt::Display for NoSuchFile {
         let NoSuchFile(shown) = self;
         write!(
             f,
-            "{shown}: there is no such file. hint: check the path; it is relative to the folder in which you typed the command, or to the file that names it"
+            "{shown}: there is no such file. hint: check the path; it is relative to the folder in which you typed the \
+             command, or to the file that names it"
         )
     }
 }

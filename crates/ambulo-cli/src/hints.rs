@@ -27,7 +27,8 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::ResidualLarge => RANGE,
         Code::LoadsGuessed => "`--right`, `--left` or `--loads` choose other columns",
         Code::LoadsUnderOtherFoot => {
-            "`--grf` alone, without `--loads`, `--right` and `--left`, assigns loads without a side by their centre of pressure"
+            "`--grf` alone, without `--loads`, `--right` and `--left`, assigns loads without a side by their centre of \
+             pressure"
         }
         Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
@@ -92,7 +93,8 @@ fn option(field: Field) -> &'static str {
         Field::From => "`--from T`",
         Field::To => "`--to T`",
         Field::Ground => {
-            "`--predict`, `--track` and `--no-ground` choose the ground forces; `--predict` needs no motion that feet can make"
+            "`--predict`, `--track` and `--no-ground` choose the ground forces; `--predict` needs no motion that feet \
+             can make"
         }
         Field::Cutoff => "`--cutoff HZ|off`",
         Field::Order => "`--order N`",
@@ -121,7 +123,10 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
 
 fn of_walk(error: &SyntheticError) -> Option<&'static str> {
     matches!(error, SyntheticError::Optimal(OptimalWalkError::NotConverged { .. } | OptimalWalkError::Ripple { .. }))
-        .then_some("with one of `--speed`, `--cadence` and `--step-length` the others have their usual values; `--planar` walks in the sagittal plane, without slope, load or weakness")
+        .then_some(
+            "with one of `--speed`, `--cadence` and `--step-length` the others have their usual values; \
+            `--planar` walks in the sagittal plane, without slope, load or weakness",
+        )
 }
 
 fn of_study(error: &StudyError) -> Option<&'static str> {
@@ -196,7 +201,8 @@ fn of_skeleton(error: &SkeletonError) -> Option<&'static str> {
 
 fn of_results(error: &ResultsError) -> Option<&'static str> {
     matches!(error, ResultsError::Missing { .. }).then_some(
-        "the run may have left it out (`--keep`); `--keep tables` writes all that a page needs, `--keep report` the page itself",
+        "the run may have left it out (`--keep`); `--keep tables` writes all that a page needs, `--keep report` the \
+         page itself",
     )
 }
 

@@ -1,8 +1,8 @@
 //! The `ambulo` command: reads files, calls the library, writes files and messages.
 //!
-//! [`command`] is the whole command. [`forces`], [`walk`], [`simulate`], [`sweep`], [`validate`] and [`calibrate`] compute the same as the
-//! verbs of these names and return the results instead of writing them, for bindings to other languages; [`open`] reads a
-//! folder again.
+//! [`command`] is the whole command. [`forces`], [`walk`], [`simulate`], [`sweep`], [`validate`] and [`calibrate`]
+//! compute the same as the verbs of these names and return the results instead of writing them, for bindings to other
+//! languages; [`open`] reads a folder again.
 
 #![cfg_attr(
     test,
@@ -77,7 +77,8 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Prints help, or what the parser of the command line refused. Returns the exit code.
 fn refuse(refused: &clap::Error) -> u8 {
-    // Help goes to standard output, errors to standard error; where neither can be written to, the exit code is all there is.
+    // Help goes to standard output, errors to standard error; where neither can be written to, the exit code is all
+    // there is.
     let _ = refused.print();
     u8::try_from(refused.exit_code()).unwrap_or(2)
 }

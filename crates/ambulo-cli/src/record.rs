@@ -1,7 +1,8 @@
 //! The record of a run in its `summary.json`: the id of the run and the SHA-256 of every other file but `timings.json`,
 //! as `sha256sum` prints it.
 //!
-//! The id is made from version, command, options and the content of all inputs, so the same run has the same id everywhere and always.
+//! The id is made from version, command, options and the content of all inputs, so the same run has the same id
+//! everywhere and always.
 
 use crate::caller::Caller;
 use ambulo_results::{SUMMARY, TIMINGS, Timings};
@@ -49,12 +50,13 @@ impl Record {
             bail!("{shown}: another run replaced these results while they were read. hint: try again");
         }
         bail!(
-            "{shown}: these files belong to two runs: {name} is not the file that {SUMMARY} of run {run} records; it was changed, or another run wrote it. hint: run the command that wrote this folder again, with --force"
+            "{shown}: these files belong to two runs: {name} is not the file that {SUMMARY} of run {run} records; it \
+             was changed, or another run wrote it. hint: run the command that wrote this folder again, with --force"
         )
     }
 
-    /// Checks all recorded files of the folder itself that exist, except the one named. Subfolders have pictures and inputs, which no
-    /// command takes for results.
+    /// Checks all recorded files of the folder itself that exist, except the one named. Subfolders have pictures and
+    /// inputs, which no command takes for results.
     pub(crate) fn check_all_but(&self, folder: &Path, except: &str) -> Result<()> {
         let names = self.files.keys().filter(|name| *name != except && !name.contains('/'));
         for (name, path) in names.map(|name| (name, folder.join(name))).filter(|(_, path)| path.exists()) {
@@ -65,7 +67,8 @@ impl Record {
     }
 }
 
-/// The id of a run: `options` are the command with all its options but those that only choose the folder and the printout.
+/// The id of a run: `options` are the command with all its options but those that only choose the folder and the
+/// printout.
 pub(crate) fn run_id(options: &str, inputs: &[PathBuf], caller: &Caller) -> Result<String> {
     let mut text = format!("{}\n{options}\n", env!("CARGO_PKG_VERSION"));
     for input in inputs {

@@ -1,4 +1,5 @@
-//! Replaces the results in a folder as a whole: after a kill at any moment, or on a full disk, the old or the new results are complete.
+//! Replaces the results in a folder as a whole: after a kill at any moment, or on a full disk, the old or the new
+//! results are complete.
 //!
 //! | step | change | after a kill, the next command |
 //! |---|---|---|
@@ -8,12 +9,14 @@
 //! | 4 | the new files are moved to `DIR`, each by a rename, `summary.json` last | finishes |
 //! | 5 | the manifest is removed, then `.ambulo-new` | finishes |
 //!
-//! Steps 3 to 5 can be repeated: what is already removed or moved is left out. A lock ([`FolderLock`]) keeps other commands out. Only files that the
-//! old `summary.json` records with their present content are replaced, and the `timings.json` of the same run, which is
-//! not recorded because durations differ between equal runs; any other file needs `--force`, and an input is never replaced.
-//! The folder itself is never replaced, so it may be a mount point or `.`.
+//! Steps 3 to 5 can be repeated: what is already removed or moved is left out. A lock ([`FolderLock`]) keeps other
+//! commands out. Only files that the old `summary.json` records with their present content are replaced, and the
+//! `timings.json` of the same run, which is not recorded because durations differ between equal runs; any other file
+//! needs `--force`, and an input is never replaced. The folder itself is never replaced, so it may be a mount point or
+//! `.`.
 //!
-//! Tests: every step interrupted, also while an interrupted run is finished (below); kills, a full disk and two runs at once (tests/folders.rs).
+//! Tests: every step interrupted, also while an interrupted run is finished (below); kills, a full disk and two runs at
+//! once (tests/folders.rs).
 
 use crate::args::Existing;
 use crate::folder_lock::FolderLock;
@@ -61,7 +64,8 @@ impl ResultTarget {
         }
         let Some(lock) = FolderLock::take(folder)? else {
             bail!(
-                "{shown}: another ambulo command is writing to this folder; expected one at a time. hint: wait until it has ended, or choose another folder with -o"
+                "{shown}: another ambulo command is writing to this folder; expected one at a time. hint: wait until \
+                 it has ended, or choose another folder with -o"
             );
         };
         settle(&Disk, folder)?;
@@ -116,7 +120,8 @@ impl ResultTarget {
         let summary = self.folder.join(SUMMARY);
         if record.is_none() && self.existing == Existing::Kept && summary.symlink_metadata().is_ok() {
             bail!(
-                "{}: this file does not record the files of a run, so it may be yours or that of an earlier version. hint: choose another folder with -o; --force replaces files that have the name of a result",
+                "{}: this file does not record the files of a run, so it may be yours or that of an earlier version. \
+                 hint: choose another folder with -o; --force replaces files that have the name of a result",
                 summary.display()
             );
         }
@@ -175,7 +180,8 @@ pub(crate) fn recover(folder: &Path) -> Result<()> {
     match settled {
         // Until the new results are complete, the old ones are.
         Err(error) if is_complete() => Err(error.context(format!(
-            "{shown}: an interrupted run has left new results in {NEW}, which must be moved to their places by a command that may write here"
+            "{shown}: an interrupted run has left new results in {NEW}, which must be moved to their places by a \
+             command that may write here"
         ))),
         _ => Ok(()),
     }

@@ -481,11 +481,16 @@ fn sources_without_a_trial_and_options_of_a_batch_after_the_dashes_are_refused()
 #[test]
 fn a_list_of_trials_names_their_files() {
     let bench = set("batch_list");
-    bench.write("list.csv", "file,model,person\nset/person 0/walk.mot,set/person 0/figure.osim,Ann\nset/person 3/walk.mot,set/person 3/figure.osim,\n");
+    bench.write(
+        "list.csv",
+        "file,model,person\nset/person 0/walk.mot,set/person 0/figure.osim,Ann\nset/person \
+        3/walk.mot,set/person 3/figure.osim,\n",
+    );
     bench.run(&["batch", "list.csv", "-o", "csv", "--quiet"]).done();
     bench.write(
         "list.jsonl",
-        "{\"file\": \"set/person 0/walk.mot\", \"model\": \"set/person 0/figure.osim\", \"person\": \"Ann\"}\n\n{\"file\": \"set/person 3/walk.mot\", \"model\": \"set/person 3/figure.osim\"}\n",
+        "{\"file\": \"set/person 0/walk.mot\", \"model\": \"set/person 0/figure.osim\", \
+         \"person\": \"Ann\"}\n\n{\"file\": \"set/person 3/walk.mot\", \"model\": \"set/person 3/figure.osim\"}\n",
     );
     bench.run(&["batch", "list.jsonl", "-o", "jsonl", "--quiet"]).done();
     assert!(tables(&bench, "csv") == tables(&bench, "jsonl"), "both lists name the same trials");

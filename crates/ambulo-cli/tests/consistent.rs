@@ -1,4 +1,5 @@
-//! `ambulo forces --consistent`: files and messages of residual reduction; the written motion agrees with the written forces.
+//! `ambulo forces --consistent`: files and messages of residual reduction; the written motion agrees with the written
+//! forces.
 
 use crate::workbench::Workbench;
 use serde_json::Value;
@@ -74,7 +75,8 @@ fn the_written_motion_agrees_with_the_forces_and_is_labelled_as_changed() {
     ];
     let (again, _) = forces(&bench, &again, "again");
     let (plain_left, left) = (number(&plain, "/residual/force_rms_bw"), number(&again, "/residual/force_rms_bw"));
-    // The table has zeros where a foot carries less than 20 N (2.7 % of this weight), and accelerations at its ends are guessed.
+    // The table has zeros where a foot carries less than 20 N (2.7 % of this weight), and accelerations at its ends are
+    // guessed.
     assert!(left < 0.02 && left < 0.5 * plain_left, "{plain_left} -> {left}");
 }
 

@@ -179,8 +179,9 @@ fn a_skeleton_that_is_not_that_of_the_result_is_refused() {
 #[test]
 fn laboratory_files_give_the_forces_of_the_synthetic_walk() {
     let bench = with_demo("laboratory");
-    // Markers on a body made to measure, and plates, against the figure's own moments, which are not filtered. The default of 6 Hz would take
-    // 6 N.m rms from the hip, of a range of 131, most of it at foot strike; 10 Hz leave 1.6 to 2.1 N.m at all joints.
+    // Markers on a body made to measure, and plates, against the figure's own moments, which are not filtered. The
+    // default of 6 Hz would take 6 N.m rms from the hip, of a range of 131, most of it at foot strike; 10 Hz leave 1.6
+    // to 2.1 N.m at all joints.
     let standing = ["--static", "demo/input/standing.c3d", "--cutoff", "10", "--force-cutoff", "10"];
     bench.run(&[&["forces", "demo/input/walk.c3d", "-o", "out", "--quiet"][..], &standing].concat()).done();
     let range = ["--from", "0.5", "--to", "3.8"];
@@ -209,7 +210,8 @@ fn a_skeleton_gives_the_angles_that_it_was_written_from() {
         summary["findings"].as_array().unwrap().iter().map(|f| f["code"].as_str().unwrap()).collect();
     assert!(codes.contains(&"bvh.low_trust"), "{codes:?}");
     // Degrees. A filter of 6 Hz takes half a degree from the ankle.
-    let columns = "hip_flexion_r,knee_angle_r,ankle_angle_r,hip_flexion_l,knee_angle_l,ankle_angle_l,pelvis_tilt,arm_flex_r,elbow_flex_r";
+    let columns = "hip_flexion_r,knee_angle_r,ankle_angle_r,hip_flexion_l,knee_angle_l,ankle_angle_l,pelvis_tilt,\
+        arm_flex_r,elbow_flex_r";
     let files = ["compare", "out/kinematics.mot", "demo/kinematics.mot", "--columns", columns, "--limit", "1"];
     bench.run(&[&files[..], &["--from", "0.5", "--to", "3.8"]].concat()).done();
 }
@@ -281,7 +283,8 @@ fn plates_become_ground_reactions_by_foot() {
     bench.run(&["convert", "demo/input/walk.c3d", "grf.mot"]).done();
     let (loads, _) = ExternalLoads::read(&bench.read("grf.xml")).unwrap();
     assert_eq!(loads.datafile.as_deref(), Some("grf.mot"));
-    // Against what the figure was walked with, in the same axes; the plates were sampled on straight lines between frames.
+    // Against what the figure was walked with, in the same axes; the plates were sampled on straight lines between
+    // frames.
     let columns = "ground_force_r_vy,ground_force_l_vy,ground_force_r_vx,ground_force_l_vx";
     let files = ["compare", "grf.mot", "demo/grf.mot", "--columns", columns, "--limit", "2"];
     bench.run(&[&files[..], &["--from", "0.5", "--to", "3.8"]].concat()).done();
@@ -367,8 +370,8 @@ fn converted_forces_agree_with_their_recording() {
         summary["findings"].as_array().unwrap().iter().map(|f| f["code"].as_str().unwrap()).collect();
     assert!(codes.contains(&"loads.world_axes"), "{codes:?}");
     let columns = "hip_flexion_r_moment,knee_angle_r_moment,ankle_angle_r_moment,hip_adduction_r_moment";
-    // A table is zero where a foot carries less than 20 N. At the hip, 0.9 m higher, that is at most 18 N.m in the frame after a foot off, one of
-    // 109 frames: 1.7 N.m rms.
+    // A table is zero where a foot carries less than 20 N. At the hip, 0.9 m higher, that is at most 18 N.m in the
+    // frame after a foot off, one of 109 frames: 1.7 N.m rms.
     bench.run(&["compare", "table/moments.sto", "plates/moments.sto", "--columns", columns, "--limit", "0.6"]).done();
 }
 
@@ -407,7 +410,8 @@ fn mass_events_and_moments_of_the_synthetic_walk_are_recovered_over_the_whole_re
         ["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
     bench.run(&[&run[..], &["--force-cutoff", "same", "-o", "out", "--quiet"]].concat()).done();
     bench.run(&[&run[..], &["--cutoff", "off", "--force-cutoff", "off", "-o", "raw", "--quiet"]].concat()).done();
-    // N.m rms: without a filter 1.1 at the hip, 0.4 at the knee, 1.8 at the ankle; the filter of 6 Hz takes the rest from the figure's own.
+    // N.m rms: without a filter 1.1 at the hip, 0.4 at the knee, 1.8 at the ankle; the filter of 6 Hz takes the rest
+    // from the figure's own.
     for (joint, limit, raw_limit) in
         [("hip_flexion", "4.5", "1.5"), ("knee_angle", "4.5", "0.8"), ("ankle_angle", "3.5", "2.2")]
     {
@@ -448,7 +452,8 @@ fn the_command_that_info_suggests_works() {
     assert!(text.contains(next), "{text}");
     let run = ["forces", "walk.trc", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
     bench.run(&[&run[..], &["--grf", "grf.mot", "-o", "out", "--quiet"]].concat()).done();
-    // Without measured forces they are predicted; this figure does not sway over its feet, so the verdict may be infeasible.
+    // Without measured forces they are predicted; this figure does not sway over its feet, so the verdict may be
+    // infeasible.
     bench.run(&[&run[..], &["-o", "predicted", "--quiet"]].concat()).infeasible();
     // The standing figure has both feet on one plate.
     let (_, text) = info(&bench, "demo/input/standing.c3d");

@@ -1,4 +1,5 @@
-//! Result folders: all or nothing after a kill, on a full disk and with two runs at once; files of others stay; mixtures are refused.
+//! Result folders: all or nothing after a kill, on a full disk and with two runs at once; files of others stay;
+//! mixtures are refused.
 //!
 //! The unit tests of `replacement.rs` stop a run after every single change; here the program itself is killed.
 

@@ -9,7 +9,8 @@
 //! | PHYSICAL_WALK | harmonics of the torques of the plan |
 //! | REPRODUCTION | all claims but the clock (called from `reproduce.rs`) |
 //!
-//! A number that moved is an error of the change, or the page is out of date: `cargo xtask measured PAGE` writes it again.
+//! A number that moved is an error of the change, or the page is out of date: `cargo xtask measured PAGE` writes it
+//! again.
 
 use crate::shared_data;
 use crate::workbench::Workbench;

@@ -1,4 +1,5 @@
-//! Files of motion sets through the command: subjects of AddBiomechanics made from the demo's walk, and motions of the SMPL family.
+//! Files of motion sets through the command: subjects of AddBiomechanics made from the demo's walk, and motions of the
+//! SMPL family.
 
 use crate::workbench::Workbench;
 use ambulo::findings::Findings;
@@ -108,7 +109,8 @@ fn trials_of_a_subject_are_listed_and_computed_one_by_one_or_all() {
     let listed = bench.run(&["info", "subject.b3d"]).done().stdout;
     for line in [
         "1 walk/1: 200 frames, 1.990 s at 100 Hz, over ground, 1 passes, ground force in 200 frames",
-        "2 no plates: 200 frames, 1.990 s at 100 Hz, over ground, 1 passes, ground force in 0 frames (no force plate 200)",
+        "2 no plates: 200 frames, 1.990 s at 100 Hz, over ground, 1 passes, ground force in 0 frames (no force plate \
+         200)",
     ] {
         assert!(listed.contains(line), "{listed}");
     }

@@ -1,8 +1,8 @@
 //! The files of `ambulo forces` are equal, byte for byte, to those written from `study::run`.
 //!
-//! Each recording goes once through the command and once through the library, from the same bytes. `report.html` is left out: it is written
-//! from the other files. In `summary.json`, `timing_ms` (the command's clock), `input` (names of files), `run_id` and `files` (hashes of the
-//! files written) are left out.
+//! Each recording goes once through the command and once through the library, from the same bytes. `report.html` is
+//! left out: it is written from the other files. In `summary.json`, `timing_ms` (the command's clock), `input` (names
+//! of files), `run_id` and `files` (hashes of the files written) are left out.
 
 use crate::shared_data;
 use crate::workbench::Workbench;

@@ -7,8 +7,8 @@ use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use std::sync::OnceLock;
 
-/// A folder with the files of a laboratory that works with OpenSim: a model without markers (`bare.osim`), its markers (`markers.xml`), and
-/// the files that `demo` writes.
+/// A folder with the files of a laboratory that works with OpenSim: a model without markers (`bare.osim`), its markers
+/// (`markers.xml`), and the files that `demo` writes.
 fn laboratory(name: &str) -> Workbench {
     static DEMO: OnceLock<Workbench> = OnceLock::new();
     let made = DEMO.get_or_init(|| {
@@ -37,7 +37,8 @@ fn marker_set(model: &OsimModel) -> String {
     };
     let markers: String = model.markers.iter().map(marker).collect();
     format!(
-        "<OpenSimDocument Version=\"30000\"><MarkerSet name=\"set\"><objects>\n{markers}</objects></MarkerSet></OpenSimDocument>"
+        "<OpenSimDocument Version=\"30000\"><MarkerSet \
+         name=\"set\"><objects>\n{markers}</objects></MarkerSet></OpenSimDocument>"
     )
 }
 
@@ -89,20 +90,25 @@ fn dynamics(more: &str) -> String {
     format!(
         "<OpenSimDocument Version=\"30000\"><InverseDynamicsTool name=\"walk\"><model_file>../figure.osim</model_file>\
          <time_range> 0.5 1.5 </time_range><coordinates_file>..\\walk.mot</coordinates_file>\
-         <lowpass_cutoff_frequency_for_coordinates>6</lowpass_cutoff_frequency_for_coordinates>{more}</InverseDynamicsTool></OpenSimDocument>"
+         <lowpass_cutoff_frequency_for_coordinates>6</lowpass_cutoff_frequency_for_coordinates>\
+         {more}</InverseDynamicsTool></OpenSimDocument>"
     )
 }
 
 fn kinematics(more: &str) -> String {
     format!(
-        "<InverseKinematicsTool name=\"walk\"><model_file>../figure.osim</model_file><marker_file>../walk.trc</marker_file>{more}</InverseKinematicsTool>"
+        "<InverseKinematicsTool \
+         name=\"walk\"><model_file>../figure.osim</model_file><marker_file>../walk.trc</marker_file>\
+         {more}</InverseKinematicsTool>"
     )
 }
 
 const LOADS: &str =
     "<external_loads_file>../walk_grf.xml</external_loads_file><forces_to_exclude>ALL</forces_to_exclude>";
-const SCALE: &str = "<ScaleTool name=\"s\"><mass>70</mass><GenericModelMaker><model_file>../figure.osim</model_file></GenericModelMaker>\
-    <ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer><marker_file>../standing.c3d</marker_file></MarkerPlacer></ScaleTool>";
+const SCALE: &str = "<ScaleTool \
+    name=\"s\"><mass>70</mass><GenericModelMaker><model_file>../figure.osim</model_file></GenericModelMaker>\
+    <ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer><marker_file>../standing.c3d</marker_file>\
+    </MarkerPlacer></ScaleTool>";
 
 fn laboratory_with_setups(name: &str) -> Workbench {
     let bench = laboratory(name);
@@ -133,7 +139,8 @@ fn a_set_up_of_inverse_dynamics_is_the_command_with_its_files_and_settings() {
     forces(&bench, &[&by_options[..], &["--cutoff", "6", "--force-cutoff", "off", "-o", "options"]].concat()).done();
     // The set-up excludes all forces of the model, also a strap between thigh and shank.
     let strap = "<ForceSet><objects><BushingForce name=\"strap\"><socket_frame1>/bodyset/femur_r</socket_frame1>\
-        <socket_frame2>/bodyset/tibia_r</socket_frame2><rotational_stiffness>50 50 50</rotational_stiffness></BushingForce></objects></ForceSet></Model>";
+        <socket_frame2>/bodyset/tibia_r</socket_frame2><rotational_stiffness>50 50 \
+        50</rotational_stiffness></BushingForce></objects></ForceSet></Model>";
     bench.edit("figure.osim", "</Model>", strap);
     forces(&bench, &["--setup", "setups/id.xml", "-o", "setup"]).done();
     assert_eq!(bench.text("options/moments.sto"), bench.text("setup/moments.sto"));
@@ -157,7 +164,8 @@ fn a_set_up_of_inverse_dynamics_is_the_command_with_its_files_and_settings() {
 #[test]
 fn inverse_kinematics_and_dynamics_are_one_run() {
     let bench = laboratory_with_setups("setup_ik_id");
-    // The points of the demo are joint centres like keypoints, which are fitted together unless a set-up asks for OpenSim's fit.
+    // The points of the demo are joint centres like keypoints, which are fitted together unless a set-up asks for
+    // OpenSim's fit.
     let by_options = ["walk.trc", "--model", "figure.osim", "--fit", "frames", "--loads", "walk_grf.xml"];
     let range = ["--from", "0.5", "--to", "1.5", "--cutoff", "6", "--force-cutoff", "off", "-o", "options"];
     forces(&bench, &[&by_options[..], &range].concat()).done();
@@ -166,7 +174,8 @@ fn inverse_kinematics_and_dynamics_are_one_run() {
     assert!(difference(&options, &setup, "knee_angle_r_moment") < 0.05);
     assert_found(&bench, "setup", "setup.unused", "walk.mot was not read; the coordinates are those of the markers");
     // A knee that is held straight by a task.
-    let task = "<IKTaskSet><objects><IKCoordinateTask name=\"knee_angle_r\"><weight>1000</weight><value_type>manual_value</value_type>\
+    let task = "<IKTaskSet><objects><IKCoordinateTask \
+        name=\"knee_angle_r\"><weight>1000</weight><value_type>manual_value</value_type>\
         <value>0</value></IKCoordinateTask></objects></IKTaskSet>";
     // In a separate file, as in the tutorials of OpenSim 2, whose file of coordinates was needed by no task.
     bench.write("setups/tasks.xml", format!("<OpenSimDocument Version=\"20302\">{task}</OpenSimDocument>"));
@@ -287,8 +296,9 @@ fn assert_agrees(name: &str, recordings: &str, allowed_deg: f64) {
             largest = [largest[0].max(of_angle), largest[1].max(of_moment)];
         }
     }
-    // Masses and places follow from the same formulas, markers and angles from minima of the same cost. The times of the Gait2392 recording are
-    // rounded to milliseconds, and OpenSim's filter resamples them to another grid: some tenths of N.m.
+    // Masses and places follow from the same formulas, markers and angles from minima of the same cost. The times of
+    // the Gait2392 recording are rounded to milliseconds, and OpenSim's filter resamples them to another grid: some
+    // tenths of N.m.
     assert!(worst[0] < 1e-8 && worst[1] < 1e-8 && worst[2] < 1e-5, "{worst:?}");
     assert!(largest[0] < allowed_deg && largest[1] < 0.5, "{largest:?}");
 }

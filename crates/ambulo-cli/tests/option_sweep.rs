@@ -1,10 +1,12 @@
-//! Every numeric option of every verb with extreme values: an error, or results with finite numbers; no panic, no signal, no run without end,
-//! at most 1 GB of memory.
+//! Every numeric option of every verb with extreme values: an error, or results with finite numbers; no panic, no
+//! signal, no run without end, at most 1 GB of memory.
 //!
-//! Most values are refused while the words are parsed. That is tried here, with the parser of the program; the program itself runs with the rest.
+//! Most values are refused while the words are parsed. That is tried here, with the parser of the program; the program
+//! itself runs with the rest.
 //!
-//! The options come from the definition of the command line, so that a new one is tested as well. A third of the values is tried by default,
-//! chosen by a fixed hash; all of them if `AMBULO_SWEEP=all` is set, as by `cargo xtask check --full`.
+//! The options come from the definition of the command line, so that a new one is tested as well. A third of the values
+//! is tried by default, chosen by a fixed hash; all of them if `AMBULO_SWEEP=all` is set, as by
+//! `cargo xtask check --full`.
 
 use crate::workbench::{Run, Workbench};
 use ambulo_cli::internals;
@@ -98,7 +100,8 @@ fn options(verb: &str) -> Vec<(String, String)> {
     verb.get_arguments().filter(|option| takes_a_number(option)).map(named).collect()
 }
 
-/// A run that succeeds, to which one option is added: words, and pairs of option and value that the added option replaces.
+/// A run that succeeds, to which one option is added: words, and pairs of option and value that the added option
+/// replaces.
 struct Base {
     words: &'static [&'static str],
     options: &'static [(&'static str, &'static str)],
@@ -107,7 +110,8 @@ struct Base {
 }
 
 impl Base {
-    /// Runs the command, with one option added if it is given, and checks the run. None if the words are refused before anything is run.
+    /// Runs the command, with one option added if it is given, and checks the run. None if the words are refused before
+    /// anything is run.
     fn run(&self, bench: &Workbench, added: Option<(&str, &str)>) -> Option<Run> {
         let others = self.options.iter().filter(|(name, _)| added.is_none_or(|(option, _)| option != *name));
         let options = others.copied().chain(added).map(|(name, value)| format!("--{name}={value}"));
@@ -221,9 +225,9 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     for name in ["model", "output", "figure", "filter", "json"] {
         assert!(names("forces").iter().all(|known| known != name), "{name}");
     }
-    // A verb with its first numeric option needs a sweep below; numbers of `tune` are tried in tune.rs, because an accepted one takes seconds, those
-    // of `calibrate` are some of `forces`, those of `validate` too, apart from the number of threads (validate.rs);
-    // those of `batch` and `session` are counts (batch.rs, session.rs).
+    // A verb with its first numeric option needs a sweep below; numbers of `tune` are tried in tune.rs, because an
+    // accepted one takes seconds, those of `calibrate` are some of `forces`, those of `validate` too, apart from the
+    // number of threads (validate.rs); those of `batch` and `session` are counts (batch.rs, session.rs).
     let command = command_line();
     let verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
@@ -249,7 +253,8 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     assert_eq!(names("session"), ["jobs"]);
 }
 
-/// Where options are described late, clap takes the description of a group of options for that of the subcommand, if the group has one.
+/// Where options are described late, clap takes the description of a group of options for that of the subcommand, if
+/// the group has one.
 #[test]
 fn each_subcommand_keeps_its_own_description() {
     let [described_late, described] = [internals::command_line(), command_line()];

@@ -1,5 +1,5 @@
-//! Measured forces: plates of a C3D, assigned by the user or ignored, and the resulting cycles and mass; force tables with any names of
-//! their columns; loads on the wrong foot; the filter of the forces.
+//! Measured forces: plates of a C3D, assigned by the user or ignored, and the resulting cycles and mass; force tables
+//! with any names of their columns; loads on the wrong foot; the filter of the forces.
 
 use crate::workbench::{RAW, Workbench};
 use serde_json::Value;
@@ -59,7 +59,8 @@ fn cycles_begin_with_a_foot_strike_on_a_plate_and_may_end_with_one_from_the_moti
     assert!((two["mass_kg"].as_f64().unwrap() - 75.0).abs() < 0.1, "{}", two["mass_kg"]);
     let strikes = rows(&bench, "events.csv").into_iter().filter(|row| row[1] == "strike").count();
     assert!(strikes >= 7, "the file's own list goes on: {strikes}");
-    // Single support of either foot with the double support between: from the left foot's off to the right foot's next strike.
+    // Single support of either foot with the double support between: from the left foot's off to the right foot's next
+    // strike.
     let window = two["subject"]["instrumented_windows_s"][0].as_array().unwrap();
     let (from, to) = (window[0].as_f64().unwrap(), window[1].as_f64().unwrap());
     assert!((from - 1.436).abs() < 0.03 && (to - 2.409).abs() < 0.03, "{from} to {to}");

@@ -125,8 +125,8 @@ fn predicted_forces_can_be_read_as_measured_forces() {
     ran(bench.run(&[&MOTION[..], &RAW[..2], &["-o", "first"]].concat()));
     let again = ["--loads", "first/external_loads.xml", "--cutoff", "off", "--force-cutoff", "off", "-o", "second"];
     ran(bench.run(&[&MOTION[..], &again].concat()));
-    // Below 20 N a foot has zeros in the file: two frames at each of a dozen strikes and offs among 291, 20 N at most and a lever of at
-    // most a metre, make an RMS of 20 sqrt(24 / 291) = 5.7 N or N.m.
+    // Below 20 N a foot has zeros in the file: two frames at each of a dozen strikes and offs among 291, 20 N at most
+    // and a lever of at most a metre, make an RMS of 20 sqrt(24 / 291) = 5.7 N or N.m.
     let compare = |other: &str| bench.run(&["compare", "first/moments.sto", other, "--limit", "5.7"]);
     let same = compare("second/moments.sto");
     assert_eq!(same.code, Some(0), "{}", same.stdout);

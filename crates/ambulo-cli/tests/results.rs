@@ -175,8 +175,8 @@ fn the_written_ground_forces_give_the_same_moments_when_fed_back() {
             let lost: f64 = ["r", "l"].iter().filter(|s| small(s)).map(|s| vertical(s)[frame].abs()).sum();
             small_loads += usize::from(lost > 0.0);
             // Centre of pressure and free moment carry the wrench to rounding (1e-13 of 1000 N.m about the origin).
-            // Below 20 N a side the file contains zeros: what is lost acts at an arm of at most 1.3 m, hips to floor and a
-            // step, and its horizontal part is at most half of it.
+            // Below 20 N a side the file contains zeros: what is lost acts at an arm of at most 1.3 m, hips to floor
+            // and a step, and its horizontal part is at most half of it.
             let allowed = 1e-9 + 1.5 * lost * 1.3;
             let difference = (a[frame] - b[frame]).abs();
             assert!(difference <= allowed, "{name}, frame {frame}: {difference}, {lost} N were lost");

@@ -1,5 +1,5 @@
-//! Poses of segments in a C3D or a `.mvnx`: results with and without force plates in the same file, agreement with the motion that they were made
-//! from, and what `info` states.
+//! Poses of segments in a C3D or a `.mvnx`: results with and without force plates in the same file, agreement with the
+//! motion that they were made from, and what `info` states.
 
 use crate::workbench::Workbench;
 use ambulo::findings::Findings;
@@ -29,7 +29,8 @@ const LABELS: [(&str, &str); 14] = [
     ("l_larm_4X4", "forearm_l"),
 ];
 
-/// The poses of the demo's walk, in the axes of its laboratory (x right, y forward, z up), which are those of the segments too.
+/// The poses of the demo's walk, in the axes of its laboratory (x right, y forward, z up), which are those of the
+/// segments too.
 fn rotations(model: &Model, table: &Table) -> Vec<Rotation> {
     let motion = coordinates_from_table(model, table, "walk.mot", &mut Findings::default()).unwrap();
     let ours_from_theirs = Mat3::from_columns(&[Vec3::z(), Vec3::x(), Vec3::y()]);
@@ -51,7 +52,8 @@ fn rotations(model: &Model, table: &Table) -> Vec<Rotation> {
     rotations
 }
 
-/// A folder with the demo and two files made from its walk: `plates.c3d` with poses and force plates, `poses.c3d` with poses alone.
+/// A folder with the demo and two files made from its walk: `plates.c3d` with poses and force plates, `poses.c3d` with
+/// poses alone.
 fn demo(name: &str) -> Workbench {
     let bench = Workbench::empty(name);
     bench.run(&["demo", "-o", "demo", "--quiet"]).done();
@@ -100,7 +102,8 @@ fn poses_give_the_moments_of_the_walk_that_they_were_made_from() {
     for column in ["hip_flexion_r_moment", "knee_angle_l_moment", "ankle_angle_r_moment"] {
         let [measured, predicted] = ["plates", "poses"].map(|folder| difference(&bench, folder, column));
         println!("{column}: {measured:.2} N.m with plates, {predicted:.2} N.m without");
-        // The filters at 6 Hz: the demo's moments have none. Predicted double support is a maximum a posteriori estimate.
+        // The filters at 6 Hz: the demo's moments have none. Predicted double support is a maximum a posteriori
+        // estimate.
         assert!(measured < 8.0 && predicted < 25.0, "{column}: {measured} {predicted}");
     }
 }

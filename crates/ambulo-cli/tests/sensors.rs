@@ -106,7 +106,8 @@ fn set_ups(bench: &Workbench) {
     );
     let kinematics = format!(
         "<OpenSimDocument Version=\"40000\"><IMUInverseKinematicsTool><model_file>calibrated.osim</model_file>{earth}\
-         <orientations_file>../walking.sto</orientations_file><time_range>-Inf Inf</time_range></IMUInverseKinematicsTool></OpenSimDocument>"
+         <orientations_file>../walking.sto</orientations_file><time_range>-Inf \
+         Inf</time_range></IMUInverseKinematicsTool></OpenSimDocument>"
     );
     std::fs::create_dir(bench.folder.join("setups")).unwrap();
     bench.write("setups/placer.xml", placer);
@@ -130,12 +131,14 @@ fn set_ups(bench: &Workbench) {
         .refused(&["walking.sto", "these are orientations of sensors; the set-up needs markers"]);
 }
 
-/// Inverse kinematics alone uses the sensors of its model, which another program placed; their heading is that of the model.
+/// Inverse kinematics alone uses the sensors of its model, which another program placed; their heading is that of the
+/// model.
 fn placed_sensors(bench: &Workbench) {
     let mut model = bench.text("demo/input/figure.osim");
     for body in BODIES {
         let frame = format!(
-            "<Body name=\"{body}\"><components><PhysicalOffsetFrame name=\"{body}_imu\"><socket_parent>..</socket_parent>\
+            "<Body name=\"{body}\"><components><PhysicalOffsetFrame \
+             name=\"{body}_imu\"><socket_parent>..</socket_parent>\
              <orientation>0 0 0</orientation></PhysicalOffsetFrame></components>"
         );
         assert!(model.contains(&format!("<Body name=\"{body}\">")), "{body}");

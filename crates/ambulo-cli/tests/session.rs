@@ -230,7 +230,11 @@ fn what_is_no_visit_of_one_person_is_refused_and_nothing_is_lost() {
     // Of the same bytes they would be one recording.
     bench.edit_rows("two/Ben/walk0.mot", |rows| rows[..rows.len() - 1].to_vec());
     bench.run(&["session", "two"]).refused(&["2 persons (Ann, Ben)", "person = \"NAME\""]);
-    bench.write("two/trials.toml", "[[trial]]\nfiles = \"**\"\nperson = \"Ann\"\n[[trial]]\nfiles = \"Ben/*\"\nmass = 20\n[[trial]]\nfiles = \"Ann/*\"\nmass = 60\n");
+    bench.write(
+        "two/trials.toml",
+        "[[trial]]\nfiles = \"**\"\nperson = \"Ann\"\n[[trial]]\nfiles = \"Ben/*\"\nmass = \
+        20\n[[trial]]\nfiles = \"Ann/*\"\nmass = 60\n",
+    );
     bench.run(&["session", "two"]).refused(&["`mass` from 20 to 60 kg", "one number"]);
     bench.run(&["session", "two/Ann", "--", "--cutof", "8"]).refused(&["after `--`", "--cutof"]);
     bench.run(&["session", "two/Ann", "--", "-o", "there"]).refused(&["after `--`", "before"]);

@@ -394,7 +394,8 @@ fn the_markers_of_a_c3d_from_another_process_have_the_forces_of_the_batch() {
     a_frame_that_cannot_be_fitted_ends_no_stream(&recording, &streamed);
 }
 
-/// One bad frame costs itself: a frame of hidden markers, at zero or null, and one in which the whole body is elsewhere.
+/// One bad frame costs itself: a frame of hidden markers, at zero or null, and one in which the whole body is
+/// elsewhere.
 fn a_frame_that_cannot_be_fitted_ends_no_stream(
     recording: &MarkerRecording,
     streamed: &dyn Fn(Vec<String>) -> (Vec<Value>, String),

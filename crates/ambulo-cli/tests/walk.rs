@@ -189,14 +189,22 @@ fn machines_of_a_gait_file_drive_the_walk_and_their_states_are_written() {
     let lifted = run.lines().filter(|line| line.contains("lifted  ") && line.ends_with("left foot is down")).count();
     assert!(lifted >= 3, "{run}");
     assert!(run.contains("the results begin") && run.contains("left contact"), "{run}");
-    bench.write("nod.toml", "[[machine]]\nname = \"nod\"\ndrives = \"trunk\"\nstate = [{ name = \"on\", activity = \"recording\", file = \"none.sto\", column = \"x\" }]\n");
+    bench.write(
+        "nod.toml",
+        "[[machine]]\nname = \"nod\"\ndrives = \"trunk\"\nstate = [{ name = \"on\", \
+        activity = \"recording\", file = \"none.sto\", column = \"x\" }]\n",
+    );
     bench.run(&["walk", "--gait", "nod.toml", "-o", "nod"]).refused(&[
         "nod.toml",
         "line 4, `machine[1].state[1].file`",
         "none.sto",
     ]);
     // Errors that depend on the figure name the file too.
-    bench.write("wrist.toml", "[[machine]]\nname = \"w\"\ndrives = \"wrist_flex_r\"\nstate = [{ name = \"on\", activity = \"constant\", angle_deg = 3 }]\n");
+    bench.write(
+        "wrist.toml",
+        "[[machine]]\nname = \"w\"\ndrives = \"wrist_flex_r\"\nstate = [{ name = \"on\", \
+        activity = \"constant\", angle_deg = 3 }]\n",
+    );
     bench
         .run(&["walk", "--gait", "wrist.toml", "-o", "wrist"])
         .refused(&["wrist.toml", "the machine `w` drives the coordinate `wrist_flex_r`"]);
@@ -214,7 +222,11 @@ fn machines_of_a_gait_file_drive_the_walk_and_their_states_are_written() {
         "jump.sto",
         format!("nod\nversion=1\nnRows=40\nnColumns=2\ninDegrees=yes\nendheader\ntime\tlean\n{rows}"),
     );
-    bench.write("jump.toml", "[[machine]]\nname = \"nod\"\ndrives = \"trunk\"\nstate = [{ name = \"on\", activity = \"recording\", file = \"jump.sto\", column = \"lean\" }]\n");
+    bench.write(
+        "jump.toml",
+        "[[machine]]\nname = \"nod\"\ndrives = \"trunk\"\nstate = [{ name = \"on\", \
+        activity = \"recording\", file = \"jump.sto\", column = \"lean\" }]\n",
+    );
     bench.run(&["walk", "--gait", "jump.toml", "-o", "nod"]).refused(&[
         "line 4, `machine[1].state[1].file`",
         "jump.sto",
@@ -271,14 +283,15 @@ fn the_demo_needs_no_input_and_its_walk_can_be_read_as_a_recording() {
     bench.run(&[&model[..], &["--loads", "demo/input/walk_grf.xml", "-o", "again"], &RAW].concat()).done();
     let (made, read) = (bench.table("demo/moments.sto"), bench.table("again/moments.sto"));
     let frames = made.rows();
-    // A foot that is loaded by less than the threshold has a force in the walk and none in the table: frames next to a strike or an off.
+    // A foot that is loaded by less than the threshold has a force in the walk and none in the table: frames next to a
+    // strike or an off.
     let table = bench.table("demo/grf.mot");
     let vertical = ["r", "l"].map(|side| table.column(&format!("ground_force_{side}_vy")).unwrap());
     let changes = |i: usize| vertical.iter().any(|force| (i - 1..=i + 1).any(|k| (force[k] > 0.0) != (force[i] > 0.0)));
     let compared: Vec<usize> = (10..frames - 10).filter(|i| !changes(*i)).collect();
     assert!(compared.len() * 10 > frames * 8, "{} of {frames} frames", compared.len());
-    // The recording's accelerations are those of its samples: exact in between, not at its ends; and a plate measures the whole foot, so
-    // the moment at the toe joint is lost.
+    // The recording's accelerations are those of its samples: exact in between, not at its ends; and a plate measures
+    // the whole foot, so the moment at the toe joint is lost.
     for name in ["hip_flexion_r_moment", "knee_angle_l_moment", "ankle_angle_r_moment", "lumbar_extension_moment"] {
         let (a, b) = (made.column(name).unwrap(), read.column(name).unwrap());
         let differences: Vec<f64> = compared.iter().map(|i| (a[*i] - b[*i]).powi(2)).collect();

@@ -6,9 +6,9 @@
 //! knee     n/a        JNTANG  RightKnee      deg
 //! ```
 //!
-//! `*_motion.tsv` has no heading; `n/a` is a missing value. The frame rate is in `*_motion.json` (`SamplingFrequency`), or in the column
-//! `sampling_frequency` of the channels. A channel with the type LATENCY has the time of each frame [s].
-//! Source: bids-specification.readthedocs.io, Motion (from memory, unverified), and files written by motionbids.
+//! `*_motion.tsv` has no heading; `n/a` is a missing value. The frame rate is in `*_motion.json` (`SamplingFrequency`),
+//! or in the column `sampling_frequency` of the channels. A channel with the type LATENCY has the time of each frame
+//! [s]. Source: bids-specification.readthedocs.io, Motion (from memory, unverified), and files written by motionbids.
 //! Pinned by: tests/bids_motions.rs
 
 use crate::error::{Error, quoted};

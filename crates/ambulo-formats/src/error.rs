@@ -78,7 +78,8 @@ pub enum Error {
     },
     /// A table of results has a number that is not finite, so that it is not written.
     #[error(
-        "{table}: column `{column}`, row {row}: found {found}; expected a finite number. hint: a number of the recording or a setting is far outside of the usual range"
+        "{table}: column `{column}`, row {row}: found {found}; expected a finite number. hint: a number of the \
+         recording or a setting is far outside of the usual range"
     )]
     NotFinite {
         /// Name of the file.

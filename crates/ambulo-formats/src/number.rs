@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 /// Writes numbers in the forms of the standard library: the shortest text that reads back as the same bits.
 ///
-/// Of two shortest texts that are equally near, the one with an even last digit is written, as Python does; the standard library writes the
-/// larger. So `1248465378177203.25` becomes `1248465378177203.2`.
+/// Of two shortest texts that are equally near, the one with an even last digit is written, as Python does; the
+/// standard library writes the larger. So `1248465378177203.25` becomes `1248465378177203.2`.
 ///
 /// ```
 /// use ambulo_formats::number::NumberText;
@@ -23,7 +23,8 @@ pub struct NumberText {
 }
 
 impl NumberText {
-    /// The text of a number in the form of `{:?}`, with a decimal point, and with an exponent for very large and small ones. Valid until the next one.
+    /// The text of a number in the form of `{:?}`, with a decimal point, and with an exponent for very large and small
+    /// ones. Valid until the next one.
     pub fn of(&mut self, number: f64) -> &str {
         if has_no_exponent(number) {
             return self.digits.format_finite(number);
@@ -34,7 +35,8 @@ impl NumberText {
         &self.text
     }
 
-    /// The text of a number in the form of `{}`: a whole number has no point, and no number has an exponent. Valid until the next one.
+    /// The text of a number in the form of `{}`: a whole number has no point, and no number has an exponent. Valid
+    /// until the next one.
     pub fn plain(&mut self, number: f64) -> &str {
         if has_no_exponent(number) {
             let text = self.digits.format_finite(number);

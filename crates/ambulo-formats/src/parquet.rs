@@ -1,7 +1,8 @@
-//! Tables of Apache Parquet: columns of numbers and texts, each value possibly missing, with texts that describe the file.
+//! Tables of Apache Parquet: columns of numbers and texts, each value possibly missing, with texts that describe the
+//! file.
 //!
-//! One row group, Snappy compression, no nested columns: DuckDB, polars, pandas, pyarrow and Spark read it. The same table always gives the same
-//! bytes.
+//! One row group, Snappy compression, no nested columns: DuckDB, polars, pandas, pyarrow and Spark read it. The same
+//! table always gives the same bytes.
 //!
 //! Source: Apache Parquet Format 2.x, <https://parquet.apache.org/docs/file-format/> (unverified).
 //! Pinned by: the tests below; tests of the command, which other readers repeat
@@ -230,7 +231,8 @@ impl ParquetTable {
 }
 
 impl ColumnValues {
-    /// Adds the values of a group of rows. Columns are read whole, not row by row: readers of rows are a large part of the crate.
+    /// Adds the values of a group of rows. Columns are read whole, not row by row: readers of rows are a large part of
+    /// the crate.
     fn extend(&mut self, reader: ColumnReader, rows: usize) -> Result<(), ParquetError> {
         match (self, reader) {
             (ColumnValues::Text(values), ColumnReader::ByteArrayColumnReader(reader)) => {

@@ -4,8 +4,8 @@ use crate::shared_data::data;
 use ambulo_formats::c3d::{C3d, Processor, Storage};
 use std::path::Path;
 
-/// What ezc3d 1.7.2 (PyPI) reads: points, frames, channels, points that were seen, sum of absolute coordinates of those,
-/// sum of absolute samples. `np.isfinite`, `np.nansum(abs(points[:3]))`, `abs(analogs).sum()`.
+/// What ezc3d 1.7.2 (PyPI) reads: points, frames, channels, points that were seen, sum of absolute coordinates of
+/// those, sum of absolute samples. `np.isfinite`, `np.nansum(abs(points[:3]))`, `abs(analogs).sum()`.
 type Row = (&'static str, usize, usize, usize, usize, f64, f64);
 #[rustfmt::skip]
 const EZC3D: [Row; 19] = [
@@ -195,7 +195,8 @@ fn a_parameter_section_that_was_written_over_is_refused_with_its_place() {
     let bytes = std::fs::read(folder.join("c3d-format-variants/bad_parameter_section.c3d")).unwrap();
     assert_eq!(
         C3d::read(&bytes).unwrap_err().to_string(),
-        "byte 5771: found a parameter's name with unprintable characters, `\\x00\\x11\\x1e\\x00\\x00\\x00\\x00\\x00\\x00`; \
+        "byte 5771: found a parameter's name with unprintable characters, \
+         `\\x00\\x11\\x1e\\x00\\x00\\x00\\x00\\x00\\x00`; \
          expected letters and digits; the parameter section is damaged or was overwritten"
     );
 }

@@ -93,7 +93,8 @@ fn a_section_outside_of_the_file_is_named_and_left_out() {
         let (read, remarks) = C3d::read(&with_parameter("DATA_START", block)).unwrap();
         assert!(read.rotations.is_empty() && read.points.len() == 1);
         let wanted = format!(
-            "ROTATION:USED is 2, but ROTATION:DATA_START is {shown}, which is no block of the file; the rotations were not read"
+            "ROTATION:USED is 2, but ROTATION:DATA_START is {shown}, which is no block of the file; the rotations were \
+             not read"
         );
         assert!(remarks.iter().any(|remark| remark.message == wanted), "{remarks:?}");
     }
@@ -142,7 +143,8 @@ fn poses_that_do_not_fit_the_frames_are_not_written() {
     let mut record = sample();
     record.rotations[1].matrices.pop();
     let error = record.write().unwrap_err().to_string();
-    let wanted = "not a valid record: found [5, 6] matrices and reliabilities of segment `l_shank_4X4`; expected 6 of each, 2 for each frame";
+    let wanted = "not a valid record: found [5, 6] matrices and reliabilities of segment `l_shank_4X4`; expected 6 of \
+        each, 2 for each frame";
     assert_eq!(error, wanted);
     let record = C3d { rotation_rate_hz: 75.0, ..sample() };
     let error = record.write().unwrap_err().to_string();

@@ -7,8 +7,8 @@ use ambulo_formats::c3d::{
 };
 use proptest::prelude::*;
 
-/// All of a record but its parameters, to the bit: `Debug` prints every digit, and not-a-number as itself. Only the sign
-/// of zero is dropped, which neither VAX nor integers have.
+/// All of a record but its parameters, to the bit: `Debug` prints every digit, and not-a-number as itself. Only the
+/// sign of zero is dropped, which neither VAX nor integers have.
 fn content(record: &C3d) -> String {
     let mut record = record.clone();
     record.parameters = Parameters::default();

@@ -88,7 +88,8 @@ fn what_is_not_read_is_remarked() {
         remarks,
         [
             "line 9: <ExternalForce> `right` has no point columns; OpenSim lets the force act at the body's origin",
-            "line 9: <ExternalForce> `right` names its own data source `other.sto`, which was not read; <datafile> was used"
+            "line 9: <ExternalForce> `right` names its own data source `other.sto`, which was not read; <datafile> was \
+             used"
         ]
     );
     let (_, remarks) = read(&OLD.replace("ground_force_v", "").replace(" walk_grf.mot ", "Unassigned"));

@@ -144,7 +144,8 @@ fn a_hundred_megabytes_of_garbage_are_refused() {
         [b"HIERARCHY\nROOT a{OFFSET 0 0 0\n".to_vec(), b"End Site{OFFSET 0 0 0}\n".repeat(4 << 20)].concat(),
     ];
     for garbage in kinds {
-        // A tenth of a second to half a second each; a reader whose time grows with the square of the size would take hours.
+        // A tenth of a second to half a second each; a reader whose time grows with the square of the size would take
+        // hours.
         assert!(Bvh::read(&garbage).is_err());
     }
 }

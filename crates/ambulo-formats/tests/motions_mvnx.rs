@@ -146,7 +146,8 @@ fn poses_that_do_not_belong_to_the_segments_are_refused_with_frame_and_line() {
     let text = refused("<position>0 0 0.87", "<position>0 0 0.87 5");
     assert!(text.contains("<position>: found 10 numbers in frame 1; expected 9: x y z for each"), "{text}");
     let text = refused("1 0 0 0 0.707107 0 0.707107 0", "1 0 0 0 0 0 0 0");
-    let wanted = "found the quaternion 0 0 0 0 of length 0.000 for `RightUpperLeg` in frame 0; expected a rotation: w x y z of length 1";
+    let wanted = "found the quaternion 0 0 0 0 of length 0.000 for `RightUpperLeg` in frame 0; expected a rotation: w \
+        x y z of length 1";
     assert!(text.contains(wanted), "{text}");
     let text = refused("1 0 0 0 0.707107 0 0.707107 0", "1 0 0 0 nan 0 0 0");
     assert!(text.contains("found `nan`; expected finite numbers"), "{text}");

@@ -45,7 +45,8 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
     #[test]
-    fn any_number_is_written_in_the_form_of_the_standard_library(bits in any::<u64>(), near_one in -1e3..1e3_f64, large in 1e14..1e16_f64) {
+    fn any_number_is_written_in_the_form_of_the_standard_library(bits in any::<u64>(), near_one in -1e3..1e3_f64,
+        large in 1e14..1e16_f64) {
         check(f64::from_bits(bits));
         check(near_one);
         // Numbers with few bits after the point have ties.

@@ -18,18 +18,31 @@ fn document() -> String {
     let (mut bodies, mut all) = (String::new(), String::new());
     for (i, (kind, count)) in joints.into_iter().enumerate() {
         bodies += &format!(
-            "<Body name=\"b&amp;{i}\"><mass>{}</mass><mass_center>0.1 -0.25 1e-3</mass_center><inertia>0.3 0.2 0.1 0.01 -0.02 0</inertia></Body>",
+            "<Body name=\"b&amp;{i}\"><mass>{}</mass><mass_center>0.1 -0.25 1e-3</mass_center><inertia>0.3 0.2 0.1 \
+             0.01 -0.02 0</inertia></Body>",
             0.1 + i as f64 / 3.0
         );
         let parent = if i == 0 { "/ground".to_owned() } else { format!("/bodyset/b&amp;{}", i - 1) };
         let coordinates: String = (0..count)
-            .map(|k| format!("<Coordinate name=\"q{i}_{k}\"><default_value>0.{k}</default_value><range>-1.5 2.25</range><locked>{}</locked></Coordinate>", k == 1))
+            .map(|k| {
+                format!(
+                    "<Coordinate name=\"q{i}_{k}\"><default_value>0.{k}</default_value><range>-1.5 \
+                2.25</range><locked>{}</locked></Coordinate>",
+                    k == 1
+                )
+            })
             .collect();
         let axis = |content: &str| format!("<TransformAxis>{content}</TransformAxis>");
         let still = "<axis>0 0 1</axis><Constant><value>0.125</value></Constant>";
         let transform = [
-            axis("<coordinates>q8_0</coordinates><axis>0 0.6 0.8</axis><LinearFunction><coefficients>-1 0.1</coefficients></LinearFunction>"),
-            axis("<coordinates>q8_1</coordinates><axis>1 0 0</axis><PolynomialFunction><coefficients>2 0 1</coefficients></PolynomialFunction>"),
+            axis(
+                "<coordinates>q8_0</coordinates><axis>0 0.6 0.8</axis><LinearFunction><coefficients>-1 \
+                0.1</coefficients></LinearFunction>",
+            ),
+            axis(
+                "<coordinates>q8_1</coordinates><axis>1 0 0</axis><PolynomialFunction><coefficients>2 0 \
+                1</coefficients></PolynomialFunction>",
+            ),
             axis(still),
             axis(still),
             axis(still),
@@ -42,16 +55,21 @@ fn document() -> String {
             String::new()
         };
         all += &format!(
-            "<{kind} name=\"j{i}\"><socket_parent_frame>p</socket_parent_frame><socket_child_frame>c</socket_child_frame>\
+            "<{kind} \
+             name=\"j{i}\"><socket_parent_frame>p</socket_parent_frame><socket_child_frame>c</socket_child_frame>\
              <coordinates>{coordinates}</coordinates><frames>\
-             <PhysicalOffsetFrame name=\"p\"><socket_parent>{parent}</socket_parent><translation>0 {i} 0.1</translation><orientation>0.3 -0.7 2.1</orientation></PhysicalOffsetFrame>\
-             <PhysicalOffsetFrame name=\"c\"><socket_parent>/bodyset/b&amp;{i}</socket_parent><translation>0 0 0</translation><orientation>0 0 0</orientation></PhysicalOffsetFrame>\
+             <PhysicalOffsetFrame name=\"p\"><socket_parent>{parent}</socket_parent><translation>0 {i} \
+             0.1</translation><orientation>0.3 -0.7 2.1</orientation></PhysicalOffsetFrame>\
+             <PhysicalOffsetFrame name=\"c\"><socket_parent>/bodyset/b&amp;{i}</socket_parent><translation>0 0 \
+             0</translation><orientation>0 0 0</orientation></PhysicalOffsetFrame>\
              </frames>{transform}</{kind}>"
         );
     }
     format!(
-        "<OpenSimDocument Version=\"40000\"><Model name=\"all &lt;joints&gt;\"><gravity>0 -1.62 0</gravity><BodySet><objects>{bodies}</objects></BodySet>\
-         <JointSet><objects>{all}</objects></JointSet><MarkerSet><objects><Marker name=\"m\"><socket_parent_frame>/bodyset/b&amp;2</socket_parent_frame>\
+        "<OpenSimDocument Version=\"40000\"><Model name=\"all &lt;joints&gt;\"><gravity>0 -1.62 \
+         0</gravity><BodySet><objects>{bodies}</objects></BodySet>\
+         <JointSet><objects>{all}</objects></JointSet><MarkerSet><objects><Marker \
+         name=\"m\"><socket_parent_frame>/bodyset/b&amp;2</socket_parent_frame>\
          <location>1 2 3</location></Marker></objects></MarkerSet></Model></OpenSimDocument>"
     )
 }

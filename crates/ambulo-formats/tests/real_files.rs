@@ -1,4 +1,5 @@
-//! The recordings listed below are read, with the counts that their README states. Skipped where the data are not there.
+//! The recordings listed below are read, with the counts that their README states. Skipped where the data are not
+//! there.
 
 use crate::shared_data::data;
 use ambulo_formats::bvh::Bvh;

@@ -61,8 +61,10 @@ fn case_white_space_and_line_ends_make_no_difference() {
 
 #[test]
 fn several_roots_joints_without_channels_and_several_end_sites_are_read() {
-    let text = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 0\nEnd Site\n{\nOFFSET 1 0 0\n}\nEnd Site\n{\nOFFSET 2 0 0\n}\n}\n\
-        ROOT b\n{\nOFFSET 0 0 0\nJOINT c\n{\nCHANNELS 1 Xrotation\nOFFSET 1 2 3\n}\n}\nMOTION\nFrames: 1\nFrame Time: 1\n7\n";
+    let text = "HIERARCHY\nROOT \
+        a\n{\nOFFSET 0 0 0\nCHANNELS 0\nEnd Site\n{\nOFFSET 1 0 0\n}\nEnd Site\n{\nOFFSET 2 0 0\n}\n}\n\
+        ROOT b\n{\nOFFSET 0 0 0\nJOINT c\n{\nCHANNELS 1 Xrotation\nOFFSET 1 2 3\n}\n}\nMOTION\nFrames: 1\nFrame Time: \
+        1\n7\n";
     let (bvh, remarks) = read(text);
     assert_eq!(remarks, Vec::<String>::new());
     let parents: Vec<_> = bvh.joints().iter().map(|joint| joint.parent).collect();

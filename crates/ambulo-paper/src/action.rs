@@ -1,5 +1,5 @@
-//! Claims about what the figure does with its torques: it moves forward, the ground does not pull, torques above a threshold give a
-//! warning, and muscle groups act differently in different gaits.
+//! Claims about what the figure does with its torques: it moves forward, the ground does not pull, torques above a
+//! threshold give a warning, and muscle groups act differently in different gaits.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::convergence::JOINTS;
@@ -30,7 +30,8 @@ pub(super) const FORWARD: Statement = Statement {
         let others: Vec<String> =
             paper.iter().map(|(name, x)| format!("{} {x:.2}", name.trim_end_matches("_progress_share"))).collect();
         let note = format!(
-            "passes if the mean forward speed in the standard gait is that of the gait within {:.0} %; as a share of the speed of the gait: {}",
+            "passes if the mean forward speed in the standard gait is that of the gait within {:.0} %; as a share of \
+             the speed of the gait: {}",
             100.0 * AS_ASKED,
             others.join(", ")
         );
@@ -59,7 +60,8 @@ pub(super) const NO_PULL: Statement = Statement {
     judge: |paper, _| {
         let (least, lifts) = (number(paper, "least_vertical_force_bw"), number(paper, "lifts_a_step"));
         let note = format!(
-            "passes if no vertical force is below zero and the feet leave the ground; the least force is {least:.1e} body weights, with \
+            "passes if no vertical force is below zero and the feet leave the ground; the least force is {least:.1e} \
+             body weights, with \
              {lifts:.1} lifts per step"
         );
         (least >= -1e-9 && lifts > 0.0, note)
@@ -90,7 +92,8 @@ pub(super) const WARNING: Statement = Statement {
         let of = |numbers: &Numbers| number(numbers, "largest_torque_nm_kg");
         let other = corrected.map_or("not run".to_owned(), |numbers| format!("{:.2}", of(numbers)));
         let note = format!(
-            "passes if the largest torque of the standard gait is above {THRESHOLD_NM_KG} N.m/kg, the largest of people who walk; {:.1} (above \
+            "passes if the largest torque of the standard gait is above {THRESHOLD_NM_KG} N.m/kg, the largest of \
+             people who walk; {:.1} (above \
              for up to {:.0} % of the time at one joint); the corrected motion is not judged: {other}",
             of(paper),
             100.0 * number(paper, "share_of_time_above_threshold")
@@ -129,8 +132,10 @@ pub(super) const MUSCLES: Statement = Statement {
     judge: |paper, _| {
         let difference = number(paper, "largest_difference_of_extensor_share");
         let note = format!(
-            "passes if at one joint the share of one muscle group in the work differs by more than {DIFFERENT} between two gaits; \
-             {difference:.2}. Work is concentric (energy is generated) or eccentric (negative: energy is absorbed), per cycle and kg; the \
+            "passes if at one joint the share of one muscle group in the work differs by more than {DIFFERENT} between \
+             two gaits; \
+             {difference:.2}. Work is concentric (energy is generated) or eccentric (negative: energy is absorbed), \
+             per cycle and kg; the \
              peak is the instant of the largest torque of the group. These are net moments without impacts"
         );
         (difference > DIFFERENT, note)

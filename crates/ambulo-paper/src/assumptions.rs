@@ -181,8 +181,11 @@ fn about_step_heights() -> Vec<Assumption> {
         ),
         with(
             "recipe of the gaits",
-            "`standard`: 1.5 m/s at 1.0 s; `long`: 1.2 times its steps at 1.0 s; `short`: 0.62 times its steps at 0.62 s; `goose`: its steps 1.5 times as high at 0.82 s; `parade` (ours, not the paper's): 0.7 times its steps at 1.67 s, knees times 0.2, hip flexion times 2 and 10 % earlier",
-            "periods from section 4.5; lengths and heights as in the rows above; straight knees are no step height, so `parade` is no gait of the paper",
+            "`standard`: 1.5 m/s at 1.0 s; `long`: 1.2 times its steps at 1.0 s; `short`: 0.62 times its steps at 0.62 \
+             s; `goose`: its steps 1.5 times as high at 0.82 s; `parade` (ours, not the paper's): 0.7 times its steps \
+             at 1.67 s, knees times 0.2, hip flexion times 2 and 10 % earlier",
+            "periods from section 4.5; lengths and heights as in the rows above; straight knees are no step height, so \
+             `parade` is no gait of the paper",
             vec![("`goose` walked as `parade`, at its own period", PaperSettings { straight_goose: true, ..taken })],
         ),
         with(
@@ -220,8 +223,8 @@ fn about_the_ground() -> Vec<Assumption> {
     ]
 }
 
-/// Simulates the walks and judges the claims again with each of the other values, one after the other. If a walk cannot be simulated with
-/// a value, [`Sensitivity::outcome`] has the reason.
+/// Simulates the walks and judges the claims again with each of the other values, one after the other. If a walk cannot
+/// be simulated with a value, [`Sensitivity::outcome`] has the reason.
 ///
 /// # Errors
 /// None is known.

@@ -42,8 +42,10 @@ pub(super) const SHOES: Statement = Statement {
         });
         let other = corrected.map_or("not run".to_owned(), table);
         let note = format!(
-            "passes if soft shoes lessen flight, landings per step and the largest force, and the corrected motion lessens all three in both kinds \
-             of shoes; flight, landings per step and largest force in body weights with the paper's motion: {}; with the corrected motion: \
+            "passes if soft shoes lessen flight, landings per step and the largest force, and the corrected motion \
+             lessens all three in both kinds \
+             of shoes; flight, landings per step and largest force in body weights with the paper's motion: {}; with \
+             the corrected motion: \
              {other}. Soft shoes give back part of the energy that a rigid impact takes away",
             table(paper)
         );
@@ -74,7 +76,8 @@ pub(super) const SPEED: Statement = Statement {
         let frames = number(paper, "drawn_frames_per_s");
         let note = if frames > 0.0 {
             format!(
-                "passes above {PAPER_RATE_HZ:.0} drawn frames per second, which is real time; found {frames:.0} on one core, each of them {:.0} \
+                "passes above {PAPER_RATE_HZ:.0} drawn frames per second, which is real time; found {frames:.0} on one \
+                 core, each of them {:.0} \
                  time steps of 1 ms, recording included. It holds by the progress of computers",
                 super::evidence::RATE_HZ / PAPER_RATE_HZ
             )

@@ -67,27 +67,34 @@ impl Claim {
     pub fn mechanics(&self) -> &'static str {
         match self.id {
             "c1" => {
-                "the forward speed is that of the stance hip, which the driven angles move on over the foot: it stops only where they stop, and \
+                "the forward speed is that of the stance hip, which the driven angles move on over the foot: it stops \
+                 only where they stop, and \
                  the joint curves of walking do not"
             }
             "c2" => {
-                "the torque holds the trunk upright against forces at the friction limit, and is not only what the changes of speed need"
+                "the torque holds the trunk upright against forces at the friction limit, and is not only what the \
+                 changes of speed need"
             }
             "c3" => {
-                "the period is one second by definition, which is 120 steps a minute, faster than people's normal walking"
+                "the period is one second by definition, which is 120 steps a minute, faster than people's normal \
+                 walking"
             }
             "e1" => {
-                "with a held trunk and driven joints the height of the hips is given, so the vertical force follows the acceleration of the \
+                "with a held trunk and driven joints the height of the hips is given, so the vertical force follows \
+                 the acceleration of the \
                  curves; a rigid sole takes up the descent in an instant and not in a first peak of the force"
             }
             "e3" => {
-                "the impact cancels the whole velocity of the point, so nothing rebounds; a foot leaves the ground when the driven leg lifts it"
+                "the impact cancels the whole velocity of the point, so nothing rebounds; a foot leaves the ground \
+                 when the driven leg lifts it"
             }
             "g1" | "g2" | "g3" | "j" => {
-                "accelerations are proportional to step length over period squared, and a low swing touches the rigid ground, which stops the leg"
+                "accelerations are proportional to step length over period squared, and a low swing touches the rigid \
+                 ground, which stops the leg"
             }
             "i" => {
-                "soft soles store and give back energy that a rigid impact takes away, so the foot lands and lifts more often"
+                "soft soles store and give back energy that a rigid impact takes away, so the foot lands and lifts \
+                 more often"
             }
             _ => "not known",
         }

@@ -1,9 +1,9 @@
-//! Claim (a): "The shape of the resulting plots converged to a solution when we increased the sampling rate." Claim (b): "All the torques
-//! [...] have a one second period, and only slight differences appear between two periods."
+//! Claim (a): "The shape of the resulting plots converged to a solution when we increased the sampling rate." Claim
+//! (b): "All the torques [...] have a one second period, and only slight differences appear between two periods."
 //!
-//! Convergence has two measures relative to a walk at 8 kHz, over one steady cycle: the torque at the instants of the coarser walk, except
-//! for 20 ms around the impacts of both walks; and the integral of the torque since the start of that cycle, impacts included. Both are root
-//! mean squares in percent of the range over the cycle.
+//! Convergence has two measures relative to a walk at 8 kHz, over one steady cycle: the torque at the instants of the
+//! coarser walk, except for 20 ms around the impacts of both walks; and the integral of the torque since the start of
+//! that cycle, impacts included. Both are root mean squares in percent of the range over the cycle.
 
 use ambulo_body::numerics::elementary::ln;
 
@@ -79,7 +79,8 @@ fn judge(paper: &Numbers, what: &str) -> (bool, String) {
     let pass = falls && errors[RATES_HZ.len() - 1] < 2.0;
     let (first, last) = (errors[0], errors[RATES_HZ.len() - 1]);
     let note = format!(
-        "passes if the distance from a walk at 8 kHz decreases from rate to rate and is below 2 % at the highest rate; the mean of hip, \
+        "passes if the distance from a walk at 8 kHz decreases from rate to rate and is below 2 % at the highest rate; \
+         the mean of hip, \
          knee and ankle is {first:.1} % at 30 Hz and {last:.1} % at 1000 Hz, of order {:.2} in the time step",
         number(paper, "order")
     );
@@ -137,7 +138,8 @@ pub(super) const PERIOD: Statement = Statement {
         let worst = worst.fold(0.0, f64::max);
         let pass = worst < SLIGHT_PERCENT && (number(paper, "period_s") - 1.0).abs() < 1e-9;
         let note = format!(
-            "passes if consecutive cycles after the start differ by less than {SLIGHT_PERCENT} % of the range (root mean square, except for \
+            "passes if consecutive cycles after the start differ by less than {SLIGHT_PERCENT} % of the range (root \
+             mean square, except for \
              20 ms around impacts); the largest difference of hip, knee and ankle is {worst:.3} %"
         );
         (pass, note)

@@ -1,7 +1,8 @@
 //! The corrected mode: the same gaits on the same figure, without residual forces.
 //!
-//! Differences from the paper's mode: joint curves whose knots have velocity and acceleration, a moving pelvis and trunk, a toe joint, soft
-//! shoes, and a dynamically consistent motion ([`ambulo_walk::consistent_walk`]): its forces come from the ground alone.
+//! Differences from the paper's mode: joint curves whose knots have velocity and acceleration, a moving pelvis and
+//! trunk, a toe joint, soft shoes, and a dynamically consistent motion ([`ambulo_walk::consistent_walk`]): its forces
+//! come from the ground alone.
 
 use super::error::ReproductionError;
 use super::mode::{Footwear, Run, TrialSettings};

@@ -34,7 +34,8 @@ pub enum Scope {
 /// All walks of one mode.
 #[derive(Debug)]
 pub struct Evidence {
-    /// The standard gait at [`RATES_HZ`], then at [`REFERENCE_HZ`]. Empty if the scope is brief, as are the masses and frictions below.
+    /// The standard gait at [`RATES_HZ`], then at [`REFERENCE_HZ`]. Empty if the scope is brief, as are the masses and
+    /// frictions below.
     pub rates: Vec<Run>,
     /// [`GAITS`].
     pub gaits: Vec<Run>,

@@ -100,7 +100,8 @@ fn cycle_panel(title: String, y_label: &'static str, series: Vec<PaperSeries>) -
     PaperPanel { title, x_label: "gait cycle (%)", y_label, to_scale: false, series }
 }
 
-/// Figure 2: the knee angle by the quintics of the paper, their bounds, and the measured curve that the bounds are from.
+/// Figure 2: the knee angle by the quintics of the paper, their bounds, and the measured curve that the bounds are
+/// from.
 fn quintics() -> PaperFigure {
     let (mut series, mut findings) = (Vec::new(), Findings::default());
     let standard = Gait::named("standard");

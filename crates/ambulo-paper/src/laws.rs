@@ -1,4 +1,5 @@
-//! Claims about the kinematic model of section 2: smooth sub-cycles, speed as step length times frequency, changes of speed.
+//! Claims about the kinematic model of section 2: smooth sub-cycles, speed as step length times frequency, changes of
+//! speed.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{GAITS, Scope};
@@ -9,8 +10,8 @@ use ambulo_walk::gait::{CyclicCurve, Gait, GaitError, Jet, LegAngles, Pace, Pace
 
 /// Distance from an instant at which both sides of it are compared [s].
 const BESIDE_S: f64 = 1e-6;
-/// A difference across this distance that is no jump, as a share of the largest acceleration. A continuous acceleration changes by its
-/// rate times 2 µs: up to 1e-4 of its largest value within a sub-cycle of 0.1 s.
+/// A difference across this distance that is no jump, as a share of the largest acceleration. A continuous acceleration
+/// changes by its rate times 2 µs: up to 1e-4 of its largest value within a sub-cycle of 0.1 s.
 const NO_JUMP: f64 = 1e-3;
 /// Instants at which the sign of the angular velocity is tested in each sub-cycle.
 const INSTANTS: usize = 100;
@@ -40,7 +41,8 @@ pub(super) const SMOOTH: Statement = Statement {
         let (jump, turns) =
             (number(paper, "largest_jump_of_acceleration_share"), number(paper, "sub_cycles_that_turn"));
         let note = format!(
-            "passes if, in the four gaits, no acceleration of hip, knee and ankle changes by more than {NO_JUMP} of its largest value within \
+            "passes if, in the four gaits, no acceleration of hip, knee and ankle changes by more than {NO_JUMP} of \
+             its largest value within \
              {} µs about a bound, and no sub-cycle both flexes and extends; found {jump:.1e} and {turns:.0}",
             2.0e6 * BESIDE_S
         );
@@ -66,7 +68,8 @@ pub(super) const SPEED_LAW: Statement = Statement {
     judge: |paper, _| {
         let (share, off) = (number(paper, "share_of_step_length"), number(paper, "departure_from_product"));
         let note = format!(
-            "passes if the speed of walks at 1.0 and 1.6 m/s is this product within 1e-9 ({off:.0e}), and if more than half of the increase \
+            "passes if the speed of walks at 1.0 and 1.6 m/s is this product within 1e-9 ({off:.0e}), and if more than \
+             half of the increase \
              comes from the step length (in logarithms); {:.0} %, as the exponent of the cadence is assumed",
             100.0 * share
         );
@@ -85,8 +88,10 @@ pub(super) const CHANGE: Statement = Statement {
         let (off, jump) =
             (number(paper, "difference_after_the_change_deg"), number(paper, "jump_of_acceleration_share"));
         let note = format!(
-            "passes if, after a change from 1.2 to 1.6 m/s in one second, hip, knee and ankle have at every phase the angles of a walk at \
-             1.6 m/s within {EQUAL_DEG} deg ({off:.0e}), and no acceleration jumps at either end of the change ({jump:.0e})"
+            "passes if, after a change from 1.2 to 1.6 m/s in one second, hip, knee and ankle have at every phase the \
+             angles of a walk at \
+             1.6 m/s within {EQUAL_DEG} deg ({off:.0e}), and no acceleration jumps at either end of the change \
+             ({jump:.0e})"
         );
         (off < EQUAL_DEG && jump < NO_JUMP, note)
     },
@@ -102,7 +107,8 @@ fn at_speed(speed: f64, pace_changes: Vec<PaceChange>) -> Result<Walk, GaitError
     walk_of(&Gait { pace, pace_changes, ..Gait::new("speed", Style::Paper1997) })
 }
 
-/// The largest jump of an acceleration at a bound as a share of its largest value, and the number of sub-cycles with both signs.
+/// The largest jump of an acceleration at a bound as a share of its largest value, and the number of sub-cycles with
+/// both signs.
 fn smoothness(walk: &Walk) -> (f64, usize) {
     let (legs, speed) = (walk.legs(), walk.curve_speed(&walk.clock(0.0)).value);
     let curves: [&CyclicCurve; 3] = [&legs.hip, &legs.knee, &legs.ankle];

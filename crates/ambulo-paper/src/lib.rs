@@ -1,8 +1,8 @@
 //! Recomputes the paper of 1997 and judges its claims.
 //!
-//! Faure, Debunne, Cani, Multon 1997, "Dynamic analysis of human walking". A [`Mode`] simulates walks of the paper's figure. [`Evidence`] has
-//! all walks that the claims need, and [`claims`] judges them. [`paper_walk`] is the mode of the paper; [`CorrectedMode`] is evaluated by the
-//! same measures for comparison.
+//! Faure, Debunne, Cani, Multon 1997, "Dynamic analysis of human walking". A [`Mode`] simulates walks of the paper's
+//! figure. [`Evidence`] has all walks that the claims need, and [`claims`] judges them. [`paper_walk`] is the mode of
+//! the paper; [`CorrectedMode`] is evaluated by the same measures for comparison.
 
 mod corrected;
 mod error;

@@ -30,8 +30,10 @@ pub(super) const EXACTLY: Statement = Statement {
     judge: |paper, _| {
         let worst = number(paper, "departure_60_kg").max(number(paper, "departure_100_kg"));
         let note = format!(
-            "passes if all torques at 60 and 100 kg are equal to those at 80 kg times the ratio of the masses, within {EXACT:e} of the largest, \
-             with the same lengths and radii, rigid soles and a prescribed motion, where the mass only sets the unit of force; found \
+            "passes if all torques at 60 and 100 kg are equal to those at 80 kg times the ratio of the masses, within \
+             {EXACT:e} of the largest, \
+             with the same lengths and radii, rigid soles and a prescribed motion, where the mass only sets the unit \
+             of force; found \
              {worst:.1e}"
         );
         (worst < EXACT, note)
@@ -65,9 +67,12 @@ pub(super) const NEARLY: Statement = Statement {
         };
         let worst = most("dense", "swing");
         let note = format!(
-            "passes if, with the same density and therefore other radii of segments and soles, the hip torque in swing, scaled by the mass, \
-             differs by more than rounding and by less than 20 % of its root mean square: at most {worst:.2} % (in stance {:.2} %). With the \
-             same lengths and radii there is no difference (f1); the paper does not say which radii grew with the mass. In soft shoes of \
+            "passes if, with the same density and therefore other radii of segments and soles, the hip torque in \
+             swing, scaled by the mass, \
+             differs by more than rounding and by less than 20 % of its root mean square: at most {worst:.2} % (in \
+             stance {:.2} %). With the \
+             same lengths and radii there is no difference (f1); the paper does not say which radii grew with the \
+             mass. In soft shoes of \
              constant stiffness, which the paper did not use: {:.1} % (in stance {:.1} %)",
             most("dense", "stance"),
             most("soft", "swing"),

@@ -58,9 +58,9 @@ pub struct Run {
 /// A mode: simulates a walk with given settings.
 pub type Mode<'a> = dyn FnMut(&TrialSettings<'_>) -> Result<Run, ReproductionError> + 'a;
 
-/// Simulates a walk as in the paper: joints driven by the gait, the trunk held upright, the root free to slide, rigid contacts whose impacts
-/// cancel the whole velocity of the point, Coulomb friction. Values that the paper does not give are those of
-/// [`PaperSettings::default`].
+/// Simulates a walk as in the paper: joints driven by the gait, the trunk held upright, the root free to slide, rigid
+/// contacts whose impacts cancel the whole velocity of the point, Coulomb friction. Values that the paper does not give
+/// are those of [`PaperSettings::default`].
 ///
 /// # Errors
 /// A gait that is not possible for the figure, or a walk that cannot be simulated.
@@ -73,8 +73,8 @@ pub fn paper_walk(trial: &TrialSettings<'_>) -> Result<Run, ReproductionError> {
 /// # Errors
 /// A gait that is not possible for the figure, or a walk that cannot be simulated.
 pub fn paper_walk_with(settings: &PaperSettings, trial: &TrialSettings<'_>) -> Result<Run, ReproductionError> {
-    // Warnings are discarded: some claims need speeds outside of the data of the gait, and the recording counts time steps whose contacts
-    // were not solved.
+    // Warnings are discarded: some claims need speeds outside of the data of the gait, and the recording counts time
+    // steps whose contacts were not solved.
     let mut findings = Findings::default();
     let human = settings.figure(trial.human)?;
     let walk = Walk::new(&settings.gait(trial.gait), human.dimensions.leg_length, &mut findings)?;

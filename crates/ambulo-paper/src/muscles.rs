@@ -1,7 +1,7 @@
 //! The dominant muscle group by net joint moment, and whether it shortens or lengthens.
 //!
-//! Only net moments are known: if both groups act at once (co-contraction), each has a larger moment, and the moments of ligaments and joint
-//! stops are included.
+//! Only net moments are known: if both groups act at once (co-contraction), each has a larger moment, and the moments
+//! of ligaments and joint stops are included.
 
 use super::mode::Run;
 use super::steady::{STEADY_CYCLES, Steady};

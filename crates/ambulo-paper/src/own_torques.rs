@@ -1,7 +1,8 @@
-//! The proposal at the end of the paper: torque curves of few parameters that drive a physically simulated walk, which adapts to its surroundings.
+//! The proposal at the end of the paper: torque curves of few parameters that drive a physically simulated walk, which
+//! adapts to its surroundings.
 //!
-//! The paper's figure walks by its own torques ([`ambulo_walk::control`]) along its dynamically consistent walk. Its torque curves are a mean and five
-//! harmonics; feedback of its state is added.
+//! The paper's figure walks by its own torques ([`ambulo_walk::control`]) along its dynamically consistent walk. Its
+//! torque curves are a mean and five harmonics; feedback of its state is added.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::corrected::with_toes;
@@ -30,7 +31,8 @@ const SLOPE: f64 = 0.03;
 pub(super) const OWN_TORQUES: Statement = Statement {
     id: "o",
     kind: ClaimKind::Ours,
-    paper: "(proposed at the end of the paper) parameterised torque curves drive a physically simulated walk that adapts to its surroundings",
+    paper: "(proposed at the end of the paper) parameterised torque curves drive a physically simulated walk that \
+        adapts to its surroundings",
     headline: "steps_on_level_ground",
     scope: Scope::Full,
     measure: |_| {
@@ -40,8 +42,10 @@ pub(super) const OWN_TORQUES: Statement = Statement {
     judge: |paper, _| {
         let steps = ["steps_on_level_ground", "steps_after_a_push", "steps_uphill"].map(|name| number(paper, name));
         let note = format!(
-            "passes if the paper's figure, without anything that holds its trunk and with {HARMONICS} harmonics for each torque curve, walks {} steps on level ground, {} \
-             steps after a push of {PUSH_N} N for {} s and {} steps on ground that rises by {} %, with feedback of its state; found {}, {} and {} \
+            "passes if the paper's figure, without anything that holds its trunk and with {HARMONICS} harmonics for \
+             each torque curve, walks {} steps on level ground, {} \
+             steps after a push of {PUSH_N} N for {} s and {} steps on ground that rises by {} %, with feedback of its \
+             state; found {}, {} and {} \
              (docs/PHYSICAL_WALK.md)",
             STEPS[0],
             STEPS[1],

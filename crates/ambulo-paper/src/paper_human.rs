@@ -32,14 +32,15 @@ pub(super) fn rebuilt(human: &Human, height: f64) -> Result<Human, ReproductionE
     Ok(Build { height, ..human.build }.human()?)
 }
 
-/// The figure with the density that it has at [`MASS`]: segments of the same length, with other radii of segments and soles.
+/// The figure with the density that it has at [`MASS`]: segments of the same length, with other radii of segments and
+/// soles.
 pub(super) fn denser(human: &Human) -> Result<Human, ReproductionError> {
     let ratio = human.build.mass / MASS;
     Ok(with_soles(with_thickness(human, ratio)?, ratio.sqrt()))
 }
 
-/// Multiplies the cross-section of the cylinders by `ratio`: the moment of inertia grows by m Δ(r²)/4 about transverse axes and by
-/// m Δ(r²)/2 about the axis of the cylinder.
+/// Multiplies the cross-section of the cylinders by `ratio`: the moment of inertia grows by m Δ(r²)/4 about transverse
+/// axes and by m Δ(r²)/2 about the axis of the cylinder.
 pub(super) fn with_thickness(human: &Human, ratio: f64) -> Result<Human, ReproductionError> {
     let mut figure = human.clone();
     let bodies = figure.model.bodies().iter().map(|body| thicker(body, ratio)).collect::<Result<Vec<Body>, _>>()?;
@@ -59,8 +60,8 @@ pub(super) fn with_soles(mut human: Human, factor: f64) -> Human {
     human
 }
 
-/// The foot as a cylinder from the ankle to the tip of the toes, `reach` times the stature long: its spheres in front of the ankle move in
-/// proportion, and its mass centre to half the reach. The heel stays.
+/// The foot as a cylinder from the ankle to the tip of the toes, `reach` times the stature long: its spheres in front
+/// of the ankle move in proportion, and its mass centre to half the reach. The heel stays.
 pub(super) fn with_toe_reach(mut human: Human, reach: f64) -> Result<Human, ReproductionError> {
     let tip = human.soles.iter().map(|sole| sole.center.x + sole.radius).fold(0.0, f64::max);
     let length = reach * human.build.height;

@@ -26,7 +26,8 @@ pub struct PaperSettings {
     pub arm_swing: f64,
     /// Angle that is added to the flexion of both hips [rad].
     pub hip_offset: f64,
-    /// Interpolation of the joint curves; `None` for the value of the gait. It has no effect on gaits with changes of knots.
+    /// Interpolation of the joint curves; `None` for the value of the gait. It has no effect on gaits with changes of
+    /// knots.
     pub style: Option<Style>,
     /// Factor on the step length of all gaits.
     pub step_length: f64,

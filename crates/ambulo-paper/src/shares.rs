@@ -1,4 +1,5 @@
-//! How often claims hold over values that the paper does not give, sampled jointly, and the setting that meets most of them.
+//! How often claims hold over values that the paper does not give, sampled jointly, and the setting that meets most of
+//! them.
 //!
 //! The samples take minutes, so `cargo xtask claim-shares` stores the results in `data/shares.csv`.
 
@@ -36,7 +37,8 @@ pub const OPEN: [Open; 15] = [
     Open { name: "toes_at_the_foot_of_table_1", range: [0.0, 1.0] },
     Open { name: "arm_swing_factor", range: [0.0, 1.5] },
     Open { name: "hip_offset_deg", range: [-8.0, 8.0] },
-    // The paper describes its quintics, but not what Nilsson's bounds are: a quarter of the settings has the data's own velocities.
+    // The paper describes its quintics, but not what Nilsson's bounds are: a quarter of the settings has the data's own
+    // velocities.
     Open { name: "style_1997", range: [0.0, 2.0] },
     Open { name: "step_length_factor", range: [0.85, 1.15] },
     Open { name: "step_height_factor", range: [0.8, 2.0] },

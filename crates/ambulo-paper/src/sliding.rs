@@ -1,8 +1,9 @@
 //! Claim (d): "We could not prevent the character from sliding, even with a friction coefficient as high as 1."
 //!
-//! There are two causes. In single support the sole slips where the horizontal force exceeds the friction limit; more friction prevents this.
-//! In double support the figure, with prescribed joints and a held trunk, has two degrees of freedom for the four that two resting soles
-//! would fix: where the joint curves give the feet different speeds, one foot must slip with any friction.
+//! There are two causes. In single support the sole slips where the horizontal force exceeds the friction limit; more
+//! friction prevents this. In double support the figure, with prescribed joints and a held trunk, has two degrees of
+//! freedom for the four that two resting soles would fix: where the joint curves give the feet different speeds, one
+//! foot must slip with any friction.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, FRICTION, FRICTIONS, Scope};
@@ -33,7 +34,8 @@ pub(super) const SINGLE: Statement = Statement {
             format!("it does not end at any friction up to {:.0}", FRICTIONS[FRICTIONS.len() - 1])
         };
         let note = format!(
-            "passes if the foot in single support slips more than {:.0} mm per step at μ = {FRICTION}; it slips {slip:.1} mm and is at the \
+            "passes if the foot in single support slips more than {:.0} mm per step at μ = {FRICTION}; it slips \
+             {slip:.1} mm and is at the \
              friction limit for {:.0} % of single support; {ends}",
             1e3 * NO_SLIP_M,
             100.0 * number(paper, "share_at_limit_on_one_foot"),
@@ -55,7 +57,8 @@ pub(super) const FORCED: Statement = Statement {
         let own = if stands > 0.0 {
             format!("both feet are loaded for {:.1} % of the time", 100.0 * stands)
         } else {
-            "in the steady walk the feet are never loaded at the same time, so no slip is forced: a foot slips only at the friction limit"
+            "in the steady walk the feet are never loaded at the same time, so no slip is forced: a foot slips only at \
+             the friction limit"
                 .to_owned()
         };
         let better = corrected.map_or(String::new(), |numbers| {
@@ -66,7 +69,8 @@ pub(super) const FORCED: Statement = Statement {
             )
         });
         let note = format!(
-            "passes if in the double support of the gait the lowest points of the feet move more than {:.0} mm per step relative to each other: \
+            "passes if in the double support of the gait the lowest points of the feet move more than {:.0} mm per \
+             step relative to each other: \
              {rub:.1} mm, root mean square {:.2} m/s; their heights differ by {apart:.1} mm{better}; {own}",
             1e3 * NO_SLIP_M,
             number(paper, "feet_apart_in_speed_m_s"),

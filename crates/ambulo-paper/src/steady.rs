@@ -62,8 +62,8 @@ impl<'a> Steady<'a> {
         self.run.recording.impacts.iter().map(|impact| impact.time_s).filter(move |t| (start..end).contains(t))
     }
 
-    /// Values of a series at 0 to 100 % of each cycle, interpolated linearly between rows; the last cycle ends with the value of its last
-    /// row.
+    /// Values of a series at 0 to 100 % of each cycle, interpolated linearly between rows; the last cycle ends with the
+    /// value of its last row.
     #[must_use]
     pub fn cycles(&self, series: &[f64]) -> Vec<Vec<f64>> {
         self.cycles_from(series, 0.0)

@@ -43,7 +43,8 @@ fn torques_and_their_integrals_converge_as_the_rate_grows() {
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]) && errors[3] < finest, "{what}: {errors:?}");
         assert!(claim(id).pass, "{}", claim(id).note);
     }
-    // What impacts and forces add up to is of the first order, or nearly; torques jump where soles slip, at an instant known to a step.
+    // What impacts and forces add up to is of the first order, or nearly; torques jump where soles slip, at an instant
+    // known to a step.
     assert!((0.6..1.2).contains(&value("a2", "order")), "{}", value("a2", "order"));
 }
 

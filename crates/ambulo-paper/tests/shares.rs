@@ -1,4 +1,5 @@
-//! How often claims hold over values that the paper does not give, sampled jointly, and the setting that meets most of them.
+//! How often claims hold over values that the paper does not give, sampled jointly, and the setting that meets most of
+//! them.
 
 use ambulo_paper::internals::OPEN;
 use ambulo_paper::{OpenValues, shares_csv, stored_shares};

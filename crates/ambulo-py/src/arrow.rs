@@ -1,4 +1,5 @@
-//! Tables as streams of Arrow arrays, by the PyCapsule interface: pandas, polars, pyarrow and DuckDB read them, and none of them is imported here.
+//! Tables as streams of Arrow arrays, by the PyCapsule interface: pandas, polars, pyarrow and DuckDB read them, and
+//! none of them is imported here.
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchIterator, StringArray};

@@ -1,4 +1,5 @@
-//! The verbs of the command as functions. A recording is computed by a job; defaults, checks and messages are those of the command.
+//! The verbs of the command as functions. A recording is computed by a job; defaults, checks and messages are those of
+//! the command.
 
 use crate::failure::exception;
 use crate::request::{self, Request};
@@ -130,8 +131,8 @@ fn computed<T: Send + 'static>(
     computed.map_err(|failure| exception(py, failure))
 }
 
-/// Computes in a separate thread, without the lock of the interpreter. Ctrl-C raises `KeyboardInterrupt` at once; the computation ends after
-/// its present stage, and its result is dropped.
+/// Computes in a separate thread, without the lock of the interpreter. Ctrl-C raises `KeyboardInterrupt` at once; the
+/// computation ends after its present stage, and its result is dropped.
 fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     stop: Arc<AtomicBool>,

@@ -1,5 +1,5 @@
-//! `ambulo._ambulo`, the compiled part of the Python package: converts arguments, calls the library and the functions of the command, and
-//! converts results. It has no formulas and no defaults. The Python part is in `python/ambulo`.
+//! `ambulo._ambulo`, the compiled part of the Python package: converts arguments, calls the library and the functions
+//! of the command, and converts results. It has no formulas and no defaults. The Python part is in `python/ambulo`.
 
 mod arrays;
 mod arrow;

@@ -1,7 +1,8 @@
 //! A body, and computations on arrays.
 //!
-//! Arrays of motions have one row per frame and one column per coordinate of the model. They are copied into the trajectory in blocks of
-//! frames that stay in the processor's cache, so an array in Fortran order (columns are contiguous) is read fastest.
+//! Arrays of motions have one row per frame and one column per coordinate of the model. They are copied into the
+//! trajectory in blocks of frames that stay in the processor's cache, so an array in Fortran order (columns are
+//! contiguous) is read fastest.
 
 use crate::arrays::array_of;
 use crate::failure::{Listed, exception, listed, refused, warn};
@@ -152,8 +153,8 @@ impl Model {
     ///
     /// Notes
     /// -----
-    /// Newton-Euler equations in world axes; signs as OpenSim's InverseDynamicsSolver. Source: docs of `ambulo::dynamics::inverse`.
-    /// Other threads run meanwhile.
+    /// Newton-Euler equations in world axes; signs as OpenSim's InverseDynamicsSolver. Source: docs of
+    /// `ambulo::dynamics::inverse`. Other threads run meanwhile.
     #[pyo3(signature = (q, qd, qdd, loads=None, out=None))]
     fn inverse_dynamics<'py>(
         &self,
@@ -322,7 +323,8 @@ impl Model {
     ///
     /// Notes
     /// -----
-    /// An option that is not given has the default of ``ambulo forces``. Methods and sources: docs of `ambulo::motion::smooth`.
+    /// An option that is not given has the default of ``ambulo forces``. Methods and sources: docs of
+    /// `ambulo::motion::smooth`.
     #[pyo3(signature = (q, rate, filter=None, cutoff=None, order=None))]
     fn smooth<'py>(
         &self,
@@ -476,7 +478,8 @@ impl Model {
                 return Err(refused(
                     py,
                     format!(
-                        "{name}: found the shape {found:?}; expected ({frames}, {count}), one column per coordinate of the model `{name_of_model}`"
+                        "{name}: found the shape {found:?}; expected ({frames}, {count}), one column per coordinate of \
+                         the model `{name_of_model}`"
                     ),
                 ));
             }
@@ -497,7 +500,8 @@ impl Model {
                 return Err(refused(
                     py,
                     format!(
-                        "loads: `{name}`: found the shape {found:?}; expected ({frames}, 9): force [N], point [m], moment about the point [N.m]"
+                        "loads: `{name}`: found the shape {found:?}; expected ({frames}, 9): force [N], point [m], \
+                         moment about the point [N.m]"
                     ),
                 ));
             }

@@ -91,7 +91,8 @@ pub(crate) fn vectors<'py>(py: Python<'py>, rows: usize, series: &[&[Vec3]]) -> 
     numbers.into_pyarray(py).reshape([rows, series.len(), 3])
 }
 
-/// The content of a TRC file with these positions [m], an array (frames, markers, 3); not a number where a marker is missing.
+/// The content of a TRC file with these positions [m], an array (frames, markers, 3); not a number where a marker is
+/// missing.
 #[pyfunction]
 pub(crate) fn write_markers<'py>(
     py: Python<'py>,

@@ -1,4 +1,5 @@
-//! The tests of the package are in Python; `cargo xtask python` runs them with the module that this program's build has compiled.
+//! The tests of the package are in Python; `cargo xtask python` runs them with the module that this program's build has
+//! compiled.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 

@@ -62,8 +62,8 @@ pub struct BatchTrial {
     pub values: [f64; BATCH_QUANTITIES.len()],
 }
 
-/// The page of a batch. `source` names where the trials came from; `worst` are the trials that are not good and feasible, the worst first, each with
-/// the command that makes the page of the trial.
+/// The page of a batch. `source` names where the trials came from; `worst` are the trials that are not good and
+/// feasible, the worst first, each with the command that makes the page of the trial.
 ///
 /// # Errors
 /// A style that cannot be read.
@@ -172,7 +172,8 @@ fn distributions(trials: &[BatchTrial]) -> Section {
         let count = values.len().to_string();
         table.row([quantity.title.to_owned(), quantity.unit.to_owned(), count, lowest, low, middle, high, highest]);
     }
-    let note = "A trial has no value where it cannot have one, such as the distance of markers in a recording of joint angles.";
+    let note = "A trial has no value where it cannot have one, such as the distance of markers in a recording of joint \
+        angles.";
     Section { title: "Distributions", table, note: note.to_owned() }
 }
 

@@ -1,7 +1,7 @@
 //! Clinical quantities of page and figures, and their conversion from the numbers in the files.
 //!
-//! shown = factor x number in the file; the factor depends on sign, side and body mass. Signs: docs/CONVENTIONS.md, "Signs in panels"; a test
-//! reads every row of that table.
+//! shown = factor x number in the file; the factor depends on sign, side and body mass. Signs: docs/CONVENTIONS.md,
+//! "Signs in panels"; a test reads every row of that table.
 
 use ambulo::model::anatomy::Meaning;
 use ambulo::model::{BySide, CoordinateId, Model, Movement, Side};
@@ -205,8 +205,8 @@ pub(crate) fn wording(id: &str) -> Option<Wording> {
     Some(Wording { title: row.title, unit: row.group.unit(), directions: row.directions })
 }
 
-/// Whether numbers of a unit (`BW`, `deg`, `N.m`, ...) change by more than rounding and filters change a constant. Joints that are
-/// locked, and the sideways force of a body that moves in a plane, do not.
+/// Whether numbers of a unit (`BW`, `deg`, `N.m`, ...) change by more than rounding and filters change a constant.
+/// Joints that are locked, and the sideways force of a body that moves in a plane, do not.
 pub(crate) fn moves(unit: &str, values: &[f64]) -> bool {
     let least = if unit == "BW" { 1e-5 } else { 1e-3 };
     let finite = || values.iter().copied().filter(|x| x.is_finite());
@@ -318,21 +318,32 @@ const ROWS: &[Row] = &[
     row("knee_flexion_angle", "Knee flexion", ["flexion", "extension"], KINEMATICS, same(Movement::KneeFlexion)),
     row("knee_adduction_angle", "Knee adduction", ["varus", "valgus"], KINEMATICS, same(Movement::KneeAdduction)),
     row("knee_rotation_angle", "Knee rotation", ["internal", "external"], KINEMATICS, same(Movement::KneeRotation)),
-    row("ankle_dorsiflexion_angle", "Ankle dorsiflexion", ["dorsiflexion", "plantarflexion"], KINEMATICS, same(Movement::AnkleDorsiflexion)),
-    row("subtalar_angle", "Subtalar inversion", ["inversion", "eversion"], KINEMATICS, same(Movement::SubtalarInversion)),
+    row("ankle_dorsiflexion_angle", "Ankle dorsiflexion", ["dorsiflexion", "plantarflexion"], KINEMATICS,
+        same(Movement::AnkleDorsiflexion)),
+    row("subtalar_angle", "Subtalar inversion", ["inversion", "eversion"], KINEMATICS,
+        same(Movement::SubtalarInversion)),
     row("trunk_lean_angle", "Trunk lean, to pelvis", ["forward", "backward"], KINEMATICS, same(Movement::TrunkLean)),
-    row("trunk_obliquity_angle", "Trunk obliquity, to pelvis", ["up", "down"], KINEMATICS, own(Movement::TrunkObliquity)),
-    row("trunk_rotation_angle", "Trunk rotation, to pelvis", ["forward", "backward"], KINEMATICS, own(Movement::TrunkRotation)),
+    row("trunk_obliquity_angle", "Trunk obliquity, to pelvis", ["up", "down"], KINEMATICS,
+        own(Movement::TrunkObliquity)),
+    row("trunk_rotation_angle", "Trunk rotation, to pelvis", ["forward", "backward"], KINEMATICS,
+        own(Movement::TrunkRotation)),
     row("hip_flexion_moment", "Hip flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::HipFlexion)),
-    row("hip_adduction_moment", "Hip adduction moment", ["abductor", "adductor"], MOMENTS, against(Movement::HipAdduction)),
-    row("hip_rotation_moment", "Hip rotation moment", ["external rotator", "internal rotator"], MOMENTS, against(Movement::HipRotation)),
+    row("hip_adduction_moment", "Hip adduction moment", ["abductor", "adductor"], MOMENTS,
+        against(Movement::HipAdduction)),
+    row("hip_rotation_moment", "Hip rotation moment", ["external rotator", "internal rotator"], MOMENTS,
+        against(Movement::HipRotation)),
     row("knee_flexion_moment", "Knee flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::KneeFlexion)),
-    row("knee_adduction_moment", "Knee adduction moment", ["abductor", "adductor"], MOMENTS, against(Movement::KneeAdduction)),
-    row("ankle_dorsiflexion_moment", "Ankle moment", ["plantarflexor", "dorsiflexor"], MOMENTS, against(Movement::AnkleDorsiflexion)),
+    row("knee_adduction_moment", "Knee adduction moment", ["abductor", "adductor"], MOMENTS,
+        against(Movement::KneeAdduction)),
+    row("ankle_dorsiflexion_moment", "Ankle moment", ["plantarflexor", "dorsiflexor"], MOMENTS,
+        against(Movement::AnkleDorsiflexion)),
     row("hip_flexion_power", "Hip power", POWER, POWERS, same(Movement::HipFlexion)),
     row("knee_flexion_power", "Knee power", POWER, POWERS, same(Movement::KneeFlexion)),
     row("ankle_dorsiflexion_power", "Ankle power", POWER, POWERS, same(Movement::AnkleDorsiflexion)),
-    row("ground_force_vertical", "Vertical ground force", ["up", "down"], GROUND, Source::Ground("ground_force_vertical", [1.0, 1.0])),
-    row("ground_force_fore_aft", "Fore-aft ground force", ["forward", "backward"], GROUND, Source::Ground("ground_force_fore_aft", [1.0, 1.0])),
-    row("ground_force_lateral", "Sideways ground force", ["medial", "lateral"], GROUND, Source::Ground("ground_force_lateral", [-1.0, 1.0])),
+    row("ground_force_vertical", "Vertical ground force", ["up", "down"], GROUND,
+        Source::Ground("ground_force_vertical", [1.0, 1.0])),
+    row("ground_force_fore_aft", "Fore-aft ground force", ["forward", "backward"], GROUND,
+        Source::Ground("ground_force_fore_aft", [1.0, 1.0])),
+    row("ground_force_lateral", "Sideways ground force", ["medial", "lateral"], GROUND,
+        Source::Ground("ground_force_lateral", [-1.0, 1.0])),
 ];

@@ -11,8 +11,8 @@ use ambulo::model::{Model, Side};
 use ambulo::study::{Outcome, PredictedGround};
 use ambulo_results::{Convention, CycleRow, OutputFile, cycle_rows};
 
-/// `figures/quality.svg` and the figures of gait cycles, in which the reasons of a verdict are marked. Pelvis and hips have the given
-/// angles, otherwise the coordinates of the model.
+/// `figures/quality.svg` and the figures of gait cycles, in which the reasons of a verdict are marked. Pelvis and hips
+/// have the given angles, otherwise the coordinates of the model.
 ///
 /// # Errors
 /// A figure that could not be drawn.

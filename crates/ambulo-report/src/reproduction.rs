@@ -123,7 +123,8 @@ fn torques_toml<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -
     TorqueSeries::text(modes.flat_map(of_mode))
 }
 
-/// One row per claim and alternative value; a row without a claim means that no alternative was tried, or that no walk was possible with it.
+/// One row per claim and alternative value; a row without a claim means that no alternative was tried, or that no walk
+/// was possible with it.
 fn assumptions_csv(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
     let mut text = String::from("what,value,why,other,claim,headline,with_value,with_other,turns\n");
     for assumption in assumptions() {

@@ -30,49 +30,58 @@ const FIGURES: [Figure; 7] = [
     Figure {
         number: 1,
         caption: "Angular laws of the limbs and locomotion sub-cycles during human walking.",
-        says: "Each joint has its own sub-cycles: the knee extends in three phases (E1, E2, E3) and flexes in one (F); their times are linear in speed.",
+        says: "Each joint has its own sub-cycles: the knee extends in three phases (E1, E2, E3) and flexes in one (F); \
+            their times are linear in speed.",
         here: "Nilsson's tables are not available: the curves are laws fitted to published means of walking.",
         claims: &[],
     },
     Figure {
         number: 2,
         caption: "Approximation of the knee angle trajectory by 5-degree polynomial.",
-        says: "Between two bounds the angle is a polynomial of degree 5 with zero first and second derivatives at both bounds.",
+        says: "Between two bounds the angle is a polynomial of degree 5 with zero first and second derivatives at both \
+            bounds.",
         here: "The figure also shows the measured curve that defines the bounds.",
         claims: &["l1", "l2", "l3"],
     },
     Figure {
         number: 3,
         caption: "Snapshots of the motion, during a step.",
-        says: "A cycle of one second, which the paper calls a slow walk. The trunk keeps its angle to the ground; the driven legs move the body forwards.",
+        says: "A cycle of one second, which the paper calls a slow walk. The trunk keeps its angle to the ground; the \
+            driven legs move the body forwards.",
         here: "",
         claims: &["c1", "c3", "c4", "d1", "d2", "k"],
     },
     Figure {
         number: 4,
         caption: "Computed torques for the hip, the knee and the ankle of a leg during a step.",
-        says: "At 30 Hz the torques are rather continuous and have a period of one second. Hip and knee have a similar shape, the hip is larger, the ankle is lower. The torques are high: the paper estimates 576 N.m on average.",
+        says: "At 30 Hz the torques are rather continuous and have a period of one second. Hip and knee have a similar \
+            shape, the hip is larger, the ankle is lower. The torques are high: the paper estimates 576 N.m on \
+            average.",
         here: "Impulses of foot impacts are not part of the torques.",
         claims: &["a1", "a2", "b", "c2", "h1", "h2", "h3", "h4", "m2"],
     },
     Figure {
         number: 5,
         caption: "Action on the ground during the support phase. Measured (a) and computed (b) exhibit similarities.",
-        says: "The figure of 80 kg bounces when the foot hits the ground, and there is an unwanted flight phase; otherwise the force is quite similar to measured curves.",
-        here: "The measured curve is the mean of Schwartz, Rozumalski, Trost 2008 instead of the measurements cited in the paper.",
+        says: "The figure of 80 kg bounces when the foot hits the ground, and there is an unwanted flight phase; \
+            otherwise the force is quite similar to measured curves.",
+        here: "The measured curve is the mean of Schwartz, Rozumalski, Trost 2008 instead of the measurements cited in \
+            the paper.",
         claims: &["e1", "e2", "e3", "e4", "i"],
     },
     Figure {
         number: 6,
         caption: "Influence of the mass of the human figure on the hip torques.",
-        says: "Amplitudes change nearly in proportion to the weight, and the shape stays the same; in the swing phase the torques change slightly.",
+        says: "Amplitudes change nearly in proportion to the weight, and the shape stays the same; in the swing phase \
+            the torques change slightly.",
         here: "",
         claims: &["f1", "f2"],
     },
     Figure {
         number: 7,
         caption: "Comparison of the different gaits, here shown with the computed torque for the knee.",
-        says: "Standard, long (1 s), short (0.62 s) and goose steps (0.82 s) have the same global shape after time scaling; short steps have the lowest torques and the most regular velocity.",
+        says: "Standard, long (1 s), short (0.62 s) and goose steps (0.82 s) have the same global shape after time \
+            scaling; short steps have the lowest torques and the most regular velocity.",
         here: "",
         claims: &["g1", "g2", "g3", "j", "m1"],
     },
@@ -146,9 +155,12 @@ fn most_plausible(files: &[OutputFile<'_>]) -> String {
     let shares = stored_shares();
     let [held, judged] = shares.best_held;
     let mut html = format!(
-        "<p>Of {} settings of all values that the paper does not give and of those near the best, this one meets most claims: {held} of the \
-         {judged} claims of the paper that were judged with other settings. The figure of 1997 most likely was near it.</p>\n\
-         <div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\" class=\"number\">Value</th></tr></thead>\n<tbody>\n",
+        "<p>Of {} settings of all values that the paper does not give and of those near the best, this one meets most \
+         claims: {held} of the \
+         {judged} claims of the paper that were judged with other settings. The figure of 1997 most likely was near \
+         it.</p>\n\
+         <div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\" \
+         class=\"number\">Value</th></tr></thead>\n<tbody>\n",
         shares.settings
     );
     for (name, value) in shares.best.named() {
@@ -166,7 +178,8 @@ fn most_plausible(files: &[OutputFile<'_>]) -> String {
         let svg = svg.replacen("<svg ", &format!("<svg aria-label=\"Figure {number} with these values\" "), 1);
         let _ = writeln!(
             html,
-            "<section class=\"figure\" aria-label=\"Figure {number} with these values\">\n<h3>Figure {number} with these values</h3>\n\
+            "<section class=\"figure\" aria-label=\"Figure {number} with these values\">\n<h3>Figure {number} with \
+             these values</h3>\n\
              <div class=\"picture\">{svg}</div>\n</section>"
         );
     }
@@ -186,8 +199,10 @@ impl Figure {
         let own: String = claims.iter().filter(|claim| self.claims.contains(&claim.id)).map(line).collect();
         let list = if own.is_empty() { String::new() } else { format!("<ul>{own}</ul>") };
         format!(
-            "<section class=\"figure\" aria-label=\"Figure {number}\">\n<div>\n<h3>Figure {number}</h3>\n<p>{}</p>\n<p>{says}</p>{here}\n\
-             <p class=\"soft\">Numbers: figures/figure{number}.csv</p>\n</div>\n<div>{list}</div>\n<div class=\"picture\">{}</div>\n</section>\n",
+            "<section class=\"figure\" aria-label=\"Figure {number}\">\n<div>\n<h3>Figure \
+             {number}</h3>\n<p>{}</p>\n<p>{says}</p>{here}\n\
+             <p class=\"soft\">Numbers: figures/figure{number}.csv</p>\n</div>\n<div>{list}</div>\n<div \
+             class=\"picture\">{}</div>\n</section>\n",
             escaped(&format!("\u{201c}{caption}\u{201d}")),
             picture(files, *number),
         )
@@ -214,15 +229,20 @@ fn mark(claim: &Claim) -> &'static str {
 
 fn claim_table(claims: &[Claim]) -> String {
     let mut html = String::from(
-        "<div class=\"scroll\"><table>\n<caption>The names of the numbers include the units. All numbers are in claims.json.</caption>\n\
-         <thead><tr><th scope=\"col\">Claim</th><th scope=\"col\">Verdict</th><th scope=\"col\">Kind</th><th scope=\"col\">Share of settings</th><th scope=\"col\">Statement of the paper</th><th scope=\"col\">Number</th>\
-         <th scope=\"col\" class=\"number\">Paper's mode</th><th scope=\"col\" class=\"number\">Corrected</th></tr></thead>\n<tbody>\n",
+        "<div class=\"scroll\"><table>\n<caption>The names of the numbers include the units. All numbers are in \
+         claims.json.</caption>\n\
+         <thead><tr><th scope=\"col\">Claim</th><th scope=\"col\">Verdict</th><th scope=\"col\">Kind</th><th \
+         scope=\"col\">Share of settings</th><th scope=\"col\">Statement of the paper</th><th scope=\"col\">Number</th>\
+         <th scope=\"col\" class=\"number\">Paper's mode</th><th scope=\"col\" \
+         class=\"number\">Corrected</th></tr></thead>\n<tbody>\n",
     );
     for claim in claims {
         let corrected = claim.corrected.as_ref().map_or(f64::NAN, |numbers| number(numbers, claim.headline));
         let _ = writeln!(
             html,
-            "<tr id=\"{id}\"><th scope=\"row\">{id}</th><td>{}</td><td>{}</td><td>{}</td><td>{}<details><summary>reason and all numbers</summary><p>{}</p>{}</details></td>\
+            "<tr id=\"{id}\"><th \
+             scope=\"row\">{id}</th><td>{}</td><td>{}</td><td>{}</td><td>{}<details><summary>reason and all \
+             numbers</summary><p>{}</p>{}</details></td>\
              <td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
             mark(claim),
             claim.kind.words(),
@@ -241,7 +261,8 @@ fn claim_table(claims: &[Claim]) -> String {
 
 fn all_numbers(paper: &Numbers, corrected: Option<&Numbers>) -> String {
     let mut html = String::from(
-        "<table><thead><tr><th scope=\"col\">number</th><th scope=\"col\" class=\"number\">paper's mode</th><th scope=\"col\" class=\"number\">corrected</th></tr></thead><tbody>",
+        "<table><thead><tr><th scope=\"col\">number</th><th scope=\"col\" class=\"number\">paper's mode</th><th \
+         scope=\"col\" class=\"number\">corrected</th></tr></thead><tbody>",
     );
     for (name, value) in paper {
         let other = corrected.map_or(f64::NAN, |numbers| number(numbers, name));
@@ -259,7 +280,8 @@ fn all_numbers(paper: &Numbers, corrected: Option<&Numbers>) -> String {
 /// The assumptions, and the claims whose verdict changes with other values.
 fn assumption_table(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
     let mut html = String::from(
-        "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value</th><th scope=\"col\">Reason</th>\
+        "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value</th><th \
+         scope=\"col\">Reason</th>\
          <th scope=\"col\">Claims that change with other values</th></tr></thead>\n<tbody>\n",
     );
     for assumption in assumptions() {

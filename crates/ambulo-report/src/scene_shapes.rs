@@ -1,8 +1,8 @@
 //! `shapes.json` of a simulated scene: shapes of its bodies and obstacles (docs/OUTPUTS.md).
 //!
-//! Bodies have their contact surfaces; figures also get the shapes of a person. Other bodies also have sticks from their mass centre to
-//! their joints; a body without surface and joint is drawn as the box with its inertia: with mass m and principal moments I, the half sides obey
-//! h_x² = 3 (I_y + I_z - I_x) / (2 m), and so on.
+//! Bodies have their contact surfaces; figures also get the shapes of a person. Other bodies also have sticks from
+//! their mass centre to their joints; a body without surface and joint is drawn as the box with its inertia: with mass
+//! m and principal moments I, the half sides obey h_x² = 3 (I_y + I_z - I_x) / (2 m), and so on.
 
 use super::page::ViewShape;
 use super::stage::figure_shapes;
@@ -53,7 +53,8 @@ pub(super) struct BodyShapes {
 pub(super) struct ObstacleShapes {
     /// Name.
     pub(super) name: String,
-    /// Whether it moves: if so, `poses.csv` has its rows, and shapes and planes are in its own axes; otherwise they are in world axes.
+    /// Whether it moves: if so, `poses.csv` has its rows, and shapes and planes are in its own axes; otherwise they are
+    /// in world axes.
     pub(super) moves: bool,
     /// Shapes [m].
     pub(super) shapes: Vec<ViewShape>,

@@ -1,7 +1,8 @@
 //! Walks of a sweep over speeds, bodies and ground: tables, envelopes and a page.
 //!
-//! `sweep.csv` has one row per walk, side and percent of the gait cycle; `walks.csv` has one row per walk, with the extremes of its curves.
-//! Quantities, signs and units are those of `clinical.csv` (docs/OUTPUTS.md), and angular velocities [deg/s].
+//! `sweep.csv` has one row per walk, side and percent of the gait cycle; `walks.csv` has one row per walk, with the
+//! extremes of its curves. Quantities, signs and units are those of `clinical.csv` (docs/OUTPUTS.md), and angular
+//! velocities [deg/s].
 
 use super::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use super::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, FigureError, PALE};
@@ -107,8 +108,8 @@ impl Kind {
 }
 
 impl WalkCurves {
-    /// The first whole cycle of each foot of a computed walk. Moments, powers and ground forces are divided by `mass_kg`, the mass of the body
-    /// without a load.
+    /// The first whole cycle of each foot of a computed walk. Moments, powers and ground forces are divided by
+    /// `mass_kg`, the mass of the body without a load.
     #[must_use]
     pub fn of(
         outcome: &Outcome,
@@ -212,7 +213,8 @@ pub fn sweep_files(title: &str, walks: &[SweptWalk]) -> Result<Vec<OutputFile<'s
     Ok(files)
 }
 
-/// A row of panels: start of the names of its quantities, and the movement; empty where quantities have titles of their own.
+/// A row of panels: start of the names of its quantities, and the movement; empty where quantities have titles of their
+/// own.
 type Row = (&'static str, &'static str);
 
 /// Figures: file, heading, rows.

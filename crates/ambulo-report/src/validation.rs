@@ -1,7 +1,8 @@
 //! Predicted ground forces judged by force plates: tables, figures and a page.
 //!
-//! `stances.csv` has one row per stance and component, `means.csv` one per trial, person and kind of trial; `validation.md` and
-//! `validation.html` have the same tables for reading. Definitions and units: `ambulo::study::validation`.
+//! `stances.csv` has one row per stance and component, `means.csv` one per trial, person and kind of trial;
+//! `validation.md` and `validation.html` have the same tables for reading. Definitions and units:
+//! `ambulo::study::validation`.
 
 use super::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, FigureError, PALE};
 use super::html::{Document, code, escaped, html_table};
@@ -64,8 +65,8 @@ pub fn listed_section(listed: &[ListedTrial]) -> Section {
     Section { title: "Files of each trial", table, note: String::new() }
 }
 
-/// The files of a validation: `validation.html`, `validation.md`, `stances.csv`, `means.csv`. `title` states what was judged; `others` are
-/// recordings that are no trials, each with the reason.
+/// The files of a validation: `validation.html`, `validation.md`, `stances.csv`, `means.csv`. `title` states what was
+/// judged; `others` are recordings that are no trials, each with the reason.
 ///
 /// # Errors
 /// A style that cannot be read.
@@ -104,8 +105,10 @@ impl Report<'_> {
             _ => format!(" {doubtful} of them have doubtful data and {bad} bad data; they count in all means."),
         };
         format!(
-            "{} of {} trials were judged (persons: {}).{data} Every trial was predicted without its force plates: events and everything else \
-             from motion alone, the motion low-passed at 6 Hz, the plates at 20 Hz; body mass as stated, else as the plates show it. Rule in double \
+            "{} of {} trials were judged (persons: {}).{data} Every trial was predicted without its force plates: \
+             events and everything else \
+             from motion alone, the motion low-passed at 6 Hz, the plates at 20 Hz; body mass as stated, else as the \
+             plates show it. Rule in double \
              support: {rule}.",
             judged.len(),
             listed.len(),
@@ -143,7 +146,8 @@ impl Report<'_> {
         if self.listed.iter().all(|trial| trial.error.is_none()) {
             return "";
         }
-        "What an error asks for, such as the mass or the model, is a key of trials.toml: `mass = KG`, `model = \"FILE\"`."
+        "What an error asks for, such as the mass or the model, is a key of trials.toml: `mass = KG`, `model = \
+         \"FILE\"`."
     }
 
     fn markdown(&self) -> String {

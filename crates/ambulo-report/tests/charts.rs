@@ -1,4 +1,5 @@
-//! Charts: curves can be read back from the file, legends are drawn once if all panels share them, scales are equal if requested.
+//! Charts: curves can be read back from the file, legends are drawn once if all panels share them, scales are equal if
+//! requested.
 
 use crate::svg_reader::{Figure, curves};
 use ambulo_report::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};

@@ -68,7 +68,8 @@ fn clinical(files: &Files) -> Table {
     Table::read_csv(&files["clinical.csv"]).unwrap().0
 }
 
-/// Largest difference between the mean curves of a panel of `kinematics.svg` and a column of `clinical.csv` over the same cycles [deg].
+/// Largest difference between the mean curves of a panel of `kinematics.svg` and a column of `clinical.csv` over the
+/// same cycles [deg].
 #[track_caller]
 fn difference(outcome: &Outcome, convention: Convention, column: &str, panel: &str) -> f64 {
     let figures = outcome_figures(outcome, convention).unwrap();
@@ -150,7 +151,8 @@ fn the_clinical_convention_tilts_the_pelvis_and_flexes_the_hips_by_the_same() {
     };
     let [tilt, hip, knee] = ["pelvis_tilt_r", "hip_flexion_r", "knee_flexion_r"].map(offset);
     println!("tilt {tilt:+.1} deg, hip flexion {hip:+.1} deg");
-    // The sacral marker of this model is on the skin, above the posterior spines: its line is less steep than between spines.
+    // The sacral marker of this model is on the skin, above the posterior spines: its line is less steep than between
+    // spines.
     assert!((1.0..20.0).contains(&tilt) && (tilt - hip).abs() < 1.0 && knee.abs() < 1e-9);
     // Figures for papers show the same angles, and not those of the other convention.
     for (column, panel) in &PANELS[..2] {

@@ -1,4 +1,5 @@
-//! Every row of "Signs in panels" in docs/CONVENTIONS.md, against the signs of movements above it and the factors of the panels.
+//! Every row of "Signs in panels" in docs/CONVENTIONS.md, against the signs of movements above it and the factors of
+//! the panels.
 
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side};

@@ -1,7 +1,8 @@
-//! A knee that bends backward further than it flexes keeps its signs: in the panels, in the figures and in the 3-D view.
+//! A knee that bends backward further than it flexes keeps its signs: in the panels, in the figures and in the 3-D
+//! view.
 //!
-//! Gait2392 counts extension of the knee positive, Rajagopal's model flexion. The recording goes from 6 degrees of flexion to 10 degrees
-//! of hyperextension, so its largest angle is no flexion in either.
+//! Gait2392 counts extension of the knee positive, Rajagopal's model flexion. The recording goes from 6 degrees of
+//! flexion to 10 degrees of hyperextension, so its largest angle is no flexion in either.
 
 use crate::report_pages::{Files, Shown, analysed};
 use crate::svg_reader::Figure;

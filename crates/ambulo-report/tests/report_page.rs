@@ -21,7 +21,8 @@ fn curves(files: &Files) -> BTreeMap<(String, String, u64), Vec<f64>> {
     curves
 }
 
-/// How many numbers of the page differ from `factor` times those of the files by more than half a step of the 16-bit numbers.
+/// How many numbers of the page differ from `factor` times those of the files by more than half a step of the 16-bit
+/// numbers.
 fn compared(shown: &Shown, files: &Files) -> (usize, usize) {
     let curves = curves(files);
     let (mut same, mut different) = (0, 0);

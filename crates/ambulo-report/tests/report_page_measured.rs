@@ -58,18 +58,25 @@ fn a_prediction_alone_says_that_nothing_measured_it() {
 fn metrics_markers_and_plates_are_tables_of_quality() {
     let mut files = predicted();
     with_summary(&mut files, |summary| {
-        let component = json!({"rmse_bw": 0.0312, "rrmse": 0.041, "r": 0.991, "band": {"holds": 0.93, "half_width_over_rmse": 2.0}});
-        let center = json!({"samples": 60, "missing": 2, "fore_aft_mm": 12.4, "lateral_mm": 5.6, "fore_aft_weighted_mm": 11.0, "lateral_weighted_mm": 5.0});
-        summary["comparison"] = json!({"mass_kg": 75.0, "window_s": null, "feet": [{"side": "l", "stances_s": [[0.1, 0.8]], "samples": 70,
+        let component = json!({"rmse_bw": 0.0312, "rrmse": 0.041, "r": 0.991, "band": {"holds": 0.93,
+            "half_width_over_rmse": 2.0}});
+        let center = json!({"samples": 60, "missing": 2, "fore_aft_mm": 12.4, "lateral_mm": 5.6,
+            "fore_aft_weighted_mm": 11.0, "lateral_weighted_mm": 5.0});
+        summary["comparison"] = json!({"mass_kg": 75.0, "window_s": null, "feet": [{"side": "l", "stances_s": [[0.1,
+            0.8]], "samples": 70,
             "vertical": component, "fore_aft": component, "lateral": component,
-            "center_of_pressure": center}], "moments": [], "events": [{"kind": "strike", "pairs": 2, "missed": 1, "extra": 0,
+            "center_of_pressure": center}], "moments": [], "events": [{"kind": "strike", "pairs": 2, "missed": 1,
+                "extra": 0,
             "mean_absolute_ms": 14.0, "bias_ms": -3.0},
             {"kind": "off", "pairs": 0, "missed": 0, "extra": 0, "mean_absolute_ms": null, "bias_ms": null}]});
-        summary["subject"] = json!({"axes": "", "turn_deg": null, "marker_sets": [], "segments": [], "plate_corners_m": [],
-            "instrumented_windows_s": [], "events": [], "markers": {"rms_mm": 25.0, "frames_not_converged": 0, "errors": [
+        summary["subject"] = json!({"axes": "", "turn_deg": null, "marker_sets": [], "segments": [],
+            "plate_corners_m": [],
+            "instrumented_windows_s": [], "events": [], "markers": {"rms_mm": 25.0, "frames_not_converged": 0,
+                "errors": [
                 {"name": "LASI", "rms_mm": 4.0, "max_mm": 9.0, "frames_seen": 291, "frames_refused": 0},
                 {"name": "RASI", "rms_mm": 44.0, "max_mm": 60.0, "frames_seen": 250, "frames_refused": 3}]},
-            "plates": [{"plate": "plate 1", "side": "l", "start_s": 0.1, "end_s": 0.8, "peak_n": 700.0, "quality": "partial",
+            "plates": [{"plate": "plate 1", "side": "l", "start_s": 0.1, "end_s": 0.8, "peak_n": 700.0,
+                "quality": "partial",
                 "reason": "the toes stand beside it"}], "assumptions": ["arms hang"]});
     });
     let shown = Shown::of(&files);

@@ -20,12 +20,14 @@ fn a_verdict_on_part_of_the_motion_says_so() {
         let range = json!({"check": "range", "quantity": "hip_flexion_r", "at_s": 0.1, "value": 3.0, "limit": 9.0,
             "unit": "deg", "share": 0.3});
         summary["verdict"] = json!({"state": state, "judged_share": 1.0, "undecided": [], "reasons": [],
-            "closest": [range], "not_judged": [], "frames": 100, "frames_unmeasured": unmeasured, "frames_predicted": 0, "frames_predicted": 0, "mass_kg": 75.0, "height_m": 1.75});
+            "closest": [range], "not_judged": [], "frames": 100, "frames_unmeasured": unmeasured, "frames_predicted": 0,
+                "frames_predicted": 0, "mass_kg": 75.0, "height_m": 1.75});
         summary["residual"]["force_rms_bw"] = json!(residual_bw);
     };
     let feasible = "A person of 75.0 kg and 1.75 m could do this: all checks that could be made passed.";
     let part = "44 % of the time was not judged, because a foot may have been on ground whose force is not known";
-    let trust = "the residual force is 63 % of body weight: motion, forces and body are not consistent, so do not rely on the moments.";
+    let trust = "the residual force is 63 % of body weight: motion, forces and body are not consistent, so do not rely \
+        on the moments.";
     with_summary(&mut files, |summary| judge(summary, "feasible", 0, 0.05));
     assert_eq!(sentence(&Shown::of(&files)), feasible);
     for (unmeasured, residual_bw, ends) in [
@@ -66,7 +68,8 @@ fn without_ground_forces_there_is_no_verdict_on_the_whole_motion() {
         summary["ground"]["source"] = json!("none");
         summary["speed_m_s"] = Value::Null;
         summary["verdict"] = json!({"state": "not_judged", "judged_share": 0.0, "reasons": [],
-            "undecided": ["the ground forces are unknown"], "closest": [range], "not_judged": [], "frames": 100, "frames_unmeasured": 0, "frames_predicted": 0, "mass_kg": 75.0, "height_m": 1.75});
+            "undecided": ["the ground forces are unknown"], "closest": [range], "not_judged": [], "frames": 100,
+                "frames_unmeasured": 0, "frames_predicted": 0, "mass_kg": 75.0, "height_m": 1.75});
         summary["residual"]["force_rms_bw"] = json!(1.02);
     });
     let shown = Shown::of(&files);

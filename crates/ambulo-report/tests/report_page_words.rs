@@ -43,7 +43,8 @@ fn header_has(shown: &Shown, label: &str) -> bool {
 fn a_predicted_walk_says_what_it_was_asked_to_bear() {
     let size = json!({"rms": 0.0, "largest": 0.0});
     let walk = |conditions: Value| {
-        let mut prediction = json!({"slope_percent": 0.0, "load_kg": 0.0, "strength": {}, "devices": [], "step_width_m": null,
+        let mut prediction = json!({"slope_percent": 0.0, "load_kg": 0.0, "strength": {}, "devices": [],
+            "step_width_m": null,
             "metabolic_power_w_kg": 6.25, "cost_of_transport_j_kg_m": 5.0});
         for (key, value) in conditions.as_object().unwrap() {
             prediction[key] = value.clone();
@@ -126,7 +127,8 @@ fn the_header_shows_how_the_motion_was_processed() {
         summary["consistency"] = json!({"window_s": [0.1, 0.9], "residual_before": residual, "residual_after": residual,
             "feet_mm": {}, "mass_percent": 0.0, "trunk": "torso", "trunk_center_mm": [0.0, 0.0, 0.0], "iterations": 3,
             "converged": true, "changes": {"knee_angle_r": {"rms": 0.5, "max": 1.25, "unit": "deg"},
-            "pelvis_tilt": {"rms": 1.0, "max": 3.21, "unit": "deg"}, "pelvis_ty": {"rms": 2.0, "max": 7.0, "unit": "mm"}}});
+            "pelvis_tilt": {"rms": 1.0, "max": 3.21, "unit": "deg"}, "pelvis_ty": {"rms": 2.0, "max": 7.0,
+                "unit": "mm"}}});
         summary["subject"] = subject("lab z up, mm -> world y up, m", None);
         summary["requested_window_s"] = json!([0.1, 0.9]);
     });

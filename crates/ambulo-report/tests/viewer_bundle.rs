@@ -1,7 +1,7 @@
 //! The committed bundle of the report page belongs to its sources in `viewer/`.
 //!
-//! `viewer/build.mjs` writes a hash of all sources into the first line of `data/report/viewer.js`; here it is computed again, without
-//! npm. That the same sources give the same bytes is checked by `npm run check` in `viewer/`.
+//! `viewer/build.mjs` writes a hash of all sources into the first line of `data/report/viewer.js`; here it is computed
+//! again, without npm. That the same sources give the same bytes is checked by `npm run check` in `viewer/`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -55,7 +55,9 @@ fn the_bundle_is_built_from_these_sources() {
     let first = bundle.lines().next().unwrap_or_default();
     assert!(
         first.ends_with(&expected),
-        "crates/ambulo-report/data/report/viewer.js was not built from viewer/ as it is now\n  found:    {first}\n  expected: ... {expected}\n  hint: in viewer/ run `npm ci` and `npm run build`, then commit viewer.js and viewer.css"
+        "crates/ambulo-report/data/report/viewer.js was not built from viewer/ as it is now\n  found:    {first}\n  \
+         expected: ... {expected}\n  hint: in viewer/ run `npm ci` and `npm run build`, then commit viewer.js and \
+         viewer.css"
     );
 }
 

@@ -9,8 +9,8 @@ use std::fmt;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Convention {
-    /// Clinical convention: pelvic tilt is the angle between the ground and the line from the posterior to the anterior iliac
-    /// spines, and hip angles are relative to that pelvis.
+    /// Clinical convention: pelvic tilt is the angle between the ground and the line from the posterior to the anterior
+    /// iliac spines, and hip angles are relative to that pelvis.
     #[default]
     Clinical,
     /// The coordinates of the OpenSim model.

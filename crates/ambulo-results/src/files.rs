@@ -34,7 +34,8 @@ enum Content<'a> {
     Borrowed(&'a Content<'a>),
 }
 
-/// Makes a table. Other than the type of a closure, this allows a file to be used where one with a shorter life is asked for.
+/// Makes a table. Other than the type of a closure, this allows a file to be used where one with a shorter life is
+/// asked for.
 trait MakeTable {
     fn make(&self) -> Result<TableRows<'_>, Error>;
 }
@@ -241,8 +242,8 @@ fn check_cycle(rows: &[CycleRow]) -> Result<(), Error> {
     })
 }
 
-/// Tables of results have rows and finite numbers. Gaps, such as the centre of pressure of an unloaded foot, have been filled by zeros, or
-/// their cells are empty (docs/OUTPUTS.md).
+/// Tables of results have rows and finite numbers. Gaps, such as the centre of pressure of an unloaded foot, have been
+/// filled by zeros, or their cells are empty (docs/OUTPUTS.md).
 fn check_table(name: &str, table: &TableRows<'_>) -> Result<(), Error> {
     if table.rows() == 0 {
         return Err(Error::Record {
@@ -282,8 +283,8 @@ pub enum BodyFileError {
     Format(#[from] Error),
 }
 
-/// The tables of a run that `keep` includes. `device` is the generalised forces of a worn device: one column per coordinate [N.m or N], one
-/// entry per frame; the remaining forces of the body are written in addition to the total.
+/// The tables of a run that `keep` includes. `device` is the generalised forces of a worn device: one column per
+/// coordinate [N.m or N], one entry per frame; the remaining forces of the body are written in addition to the total.
 ///
 /// # Errors
 /// Numbers that are not finite.

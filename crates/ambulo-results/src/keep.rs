@@ -83,7 +83,8 @@ impl Keep {
         file == SUMMARY || is_listed(output) || !GROUPS.contains(&output) && is_listed("tables")
     }
 
-    /// The outputs that have to be computed for these ones: the page and the recording of a walk are made from the tables.
+    /// The outputs that have to be computed for these ones: the page and the recording of a walk are made from the
+    /// tables.
     #[must_use]
     pub fn needed(&self) -> Keep {
         let from_tables = self.includes(PAGE) || self.includes("input/");

@@ -8,8 +8,8 @@ use ambulo::ground::predict::{FootDeviation, Prediction};
 use ambulo::model::{Model, Side};
 use ambulo::spatial::Vec3;
 
-/// `grf_sd.mot` and, with force plates, `grf_measured.mot`, at the instants of `kinematics.mot`, as far as `keep` includes them.
-/// `analysis` is the one with the predicted forces, `measured` the one with those of the plates.
+/// `grf_sd.mot` and, with force plates, `grf_measured.mot`, at the instants of `kinematics.mot`, as far as `keep`
+/// includes them. `analysis` is the one with the predicted forces, `measured` the one with those of the plates.
 #[must_use]
 pub(crate) fn prediction_files<'a>(
     model: &'a Model,
@@ -30,7 +30,8 @@ pub(crate) fn prediction_files<'a>(
     files
 }
 
-/// `ground_force_{s}_vx_sd` .. `vz_sd` [N], `px_sd` .. `pz_sd` [m], `ground_torque_{s}_y_sd` [N.m]; zeros while a foot is unloaded.
+/// `ground_force_{s}_vx_sd` .. `vz_sd` [N], `px_sd` .. `pz_sd` [m], `ground_torque_{s}_y_sd` [N.m]; zeros while a foot
+/// is unloaded.
 #[must_use]
 pub fn deviation_columns(deviations: &[FootDeviation], frames: usize) -> Vec<(String, Vec<f64>)> {
     let mut columns = Vec::new();

@@ -24,8 +24,8 @@ impl RunSummary {
     /// Reads `summary.json`.
     ///
     /// # Errors
-    /// A message with what was found, what was expected and what to do, for text that is not JSON, keys that are missing or of the wrong type,
-    /// and numbers that are not valid results.
+    /// A message with what was found, what was expected and what to do, for text that is not JSON, keys that are
+    /// missing or of the wrong type, and numbers that are not valid results.
     pub fn from_json(text: &str) -> Result<RunSummary, String> {
         let value: Value = serde_json::from_str(text).map_err(|error| {
             format!("{error}. hint: the file is truncated or not JSON; run the command that wrote it again")

@@ -14,7 +14,8 @@ use std::collections::BTreeMap;
 pub struct SceneSummary {
     /// Version of the program.
     pub version: String,
-    /// Identifies the run: SHA-256 of version, options and the content of the input files. Empty until files are written.
+    /// Identifies the run: SHA-256 of version, options and the content of the input files. Empty until files are
+    /// written.
     #[serde(default)]
     pub run_id: String,
     /// SHA-256 of every other file of the run but `timings.json`, by name.

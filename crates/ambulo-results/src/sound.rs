@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-/// Larger than any result in any of our units. Larger numbers come from a broken file; 32-bit floats of animation files, and
-/// sums of squares, could not represent them.
+/// Larger than any result in any of our units. Larger numbers come from a broken file; 32-bit floats of animation
+/// files, and sums of squares, could not represent them.
 const LARGEST: f64 = 1e12;
 /// The expected range of a number, for messages.
 pub const EXPECTED: &str = "a finite number, at most 1e12 in size";

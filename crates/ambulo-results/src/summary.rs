@@ -25,7 +25,8 @@ use std::fmt;
 pub struct Summary {
     /// Version of the program.
     pub version: String,
-    /// Identifies the run: SHA-256 of version, options and the content of the input files. Empty until files are written.
+    /// Identifies the run: SHA-256 of version, options and the content of the input files. Empty until files are
+    /// written.
     #[serde(default)]
     pub run_id: String,
     /// SHA-256 of every other file of the run but `timings.json`, by name.
@@ -260,8 +261,8 @@ impl ForceUnit {
     }
 }
 
-/// The summary of a run. `input` names the input files; the source of the ground forces is taken from the outcome. The caller adds
-/// the synthetic walk and the convention of the angles.
+/// The summary of a run. `input` names the input files; the source of the ground forces is taken from the outcome. The
+/// caller adds the synthetic walk and the convention of the angles.
 #[must_use]
 pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> Summary {
     let Outcome { body: model, analysis, verdict, prediction, processing, .. } = outcome;

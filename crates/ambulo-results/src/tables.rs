@@ -112,7 +112,8 @@ pub(crate) fn ground(model: &Model, analysis: &Analysis) -> Result<TableRows<'st
     table("Ground Reactions", analysis, columns)
 }
 
-/// `ground_force_{s}_v`, `ground_force_{s}_p` and `ground_torque_{s}_` with x, y, z, for both sides; an unloaded foot has zeros.
+/// `ground_force_{s}_v`, `ground_force_{s}_p` and `ground_torque_{s}_` with x, y, z, for both sides; an unloaded foot
+/// has zeros.
 #[must_use]
 pub fn ground_columns(feet: &[(Side, impl Borrow<BodyForces>)], frames: usize) -> Vec<(String, Vec<f64>)> {
     let mut columns = Vec::new();

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TrackingSummary {
-    /// Residual forces at the root, root mean square over all frames, in body weights, or body weights times leg length for moments.
+    /// Residual forces at the root, root mean square over all frames, in body weights, or body weights times leg length
+    /// for moments.
     pub residual_rms: f64,
     /// The largest of them.
     pub residual_peak: f64,
@@ -18,7 +19,8 @@ pub struct TrackingSummary {
     pub root_rms_mm: f64,
     /// Steps of the solver.
     pub steps: usize,
-    /// How the forces of the prediction that it started from agree with force plates; `null` without a wholly measured stance.
+    /// How the forces of the prediction that it started from agree with force plates; `null` without a wholly measured
+    /// stance.
     pub predicted: Option<GroundAgreement>,
 }
 

@@ -9,7 +9,8 @@ pub fn is_storage(file: &str) -> bool {
     file.ends_with(".sto") || file.ends_with(".mot")
 }
 
-/// The unit of a column of a table: `deg`, `N.m`, `s`; empty if it has none or is not known. `model` is the body of the run.
+/// The unit of a column of a table: `deg`, `N.m`, `s`; empty if it has none or is not known. `model` is the body of the
+/// run.
 #[must_use]
 pub fn unit_of(file: &str, column: &str, model: Option<&Model>) -> &'static str {
     if column.eq_ignore_ascii_case("time") {
@@ -35,7 +36,8 @@ fn unit_of_coordinate(name: &str, model: &Model) -> &'static str {
     }
 }
 
-/// Force and moment have a letter for the kind before that of the axis: `_vx`, `_fx`, `_px`, `_mx`; the free moment is a torque.
+/// Force and moment have a letter for the kind before that of the axis: `_vx`, `_fx`, `_px`, `_mx`; the free moment is
+/// a torque.
 fn unit_of_load(column: &str) -> &'static str {
     let column = column.trim_end_matches("_sd");
     if column.starts_with("ground_torque") {

@@ -33,7 +33,8 @@ pub struct WalkSummary {
     /// Changes of pace on the way; empty for a walk at constant pace.
     #[serde(default)]
     pub pace_changes: Vec<PaceChangeSummary>,
-    /// Number of adjusted parameters; `null` in paper mode. This and the following lines on the correction are of the first pace.
+    /// Number of adjusted parameters; `null` in paper mode. This and the following lines on the correction are of the
+    /// first pace.
     pub parameters_adjusted: Option<usize>,
     /// Change of the angle of each coordinate [deg]; `null` in paper mode.
     pub adjustment_deg: Option<BTreeMap<String, Magnitude>>,
@@ -74,7 +75,8 @@ pub struct WalkSummary {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WalkPredictionSummary {
-    /// Slope of the ground [%], positive uphill. The axes of all results are those of the ground: x along the slope, y perpendicular to it.
+    /// Slope of the ground [%], positive uphill. The axes of all results are those of the ground: x along the slope, y
+    /// perpendicular to it.
     pub slope_percent: f64,
     /// Mass of the load [kg].
     pub load_kg: f64,
@@ -87,7 +89,8 @@ pub struct WalkPredictionSummary {
     pub devices: Vec<String>,
     /// Asked distance between the paths of both feet [m].
     pub step_width_m: Option<f64>,
-    /// Metabolic power per kilogram of the body without load, by a simple formula: positive joint work / 0.25 + negative joint work / 1.2 + 1.4 W/kg.
+    /// Metabolic power per kilogram of the body without load, by a simple formula: positive joint work / 0.25 +
+    /// negative joint work / 1.2 + 1.4 W/kg.
     pub metabolic_power_w_kg: f64,
     /// The same per distance [J/kg/m].
     pub cost_of_transport_j_kg_m: f64,
@@ -108,7 +111,8 @@ impl WalkPredictionSummary {
         }
     }
 
-    /// The conditions in words: slope, load, weak joints, devices, width of steps. Empty for level walking without any of them.
+    /// The conditions in words: slope, load, weak joints, devices, width of steps. Empty for level walking without any
+    /// of them.
     #[must_use]
     pub fn conditions(&self) -> Vec<String> {
         let uphill = if self.slope_percent > 0.0 { "uphill" } else { "downhill" };

@@ -86,8 +86,8 @@ impl WalkingSummary {
         self.quantities.iter().find(|known| known.quantity == quantity.word())
     }
 
-    /// `times_and_distances.csv`: `quantity,unit,side,mean,sd,strides` with side `r`, `l` or `both`; a cell is empty if its number is not
-    /// known.
+    /// `times_and_distances.csv`: `quantity,unit,side,mean,sd,strides` with side `r`, `l` or `both`; a cell is empty if
+    /// its number is not known.
     ///
     /// # Errors
     /// A number that is not finite.

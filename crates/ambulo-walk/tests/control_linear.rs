@@ -46,7 +46,8 @@ fn maps_of_the_second_half_of_a_cycle_are_mirror_images_of_those_of_the_first() 
     assert!(by_state < 1e-6 && by_input < 1e-6, "{by_state} {by_input}");
 }
 
-/// In the air, a torque e of one joint changes the rates by Δ with (M + h d + h² k) Δ = h e, and M Δ is what inverse dynamics says.
+/// In the air, a torque e of one joint changes the rates by Δ with (M + h d + h² k) Δ = h e, and M Δ is what inverse
+/// dynamics says.
 #[test]
 fn derivatives_by_torque_agree_with_inverse_dynamics() {
     let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };

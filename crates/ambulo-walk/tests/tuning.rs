@@ -40,8 +40,8 @@ fn gains_are_tuned_along_the_plan_of_a_scene() {
     println!("gains of other maps differ by {:.2e} of their size", (apart / size).sqrt());
     assert!(apart <= 5e-3_f64.powi(2) * size, "{found:?} instead of {expected:?}");
 
-    // The settings at the origin of the search are those of the scene with the digits that are written; others are within bounds and cost their
-    // distance.
+    // The settings at the origin of the search are those of the scene with the digits that are written; others are
+    // within bounds and cost their distance.
     let (same, outside) = problem.settings_at(&[0.0; 8]);
     let is_near = |gain: &Gain| (gain.value(&same) / gain.value(&figure.settings) - 1.0).abs() < 5e-4;
     assert!(gains.iter().all(is_near) && outside == 0.0, "{same:?} {outside}");

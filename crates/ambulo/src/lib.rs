@@ -24,8 +24,9 @@
 //! | a body, and what its motion should be like | [`optimal`] |
 //! | a scene of bodies, joints and contacts | [`simulation::scene`] |
 //!
-//! This crate opens no file, reads no clock, starts no thread and prints nothing: it takes bytes and numbers and returns values. What
-//! is unusual in the input is reported in [`findings::Findings`], which every function that needs it takes as an argument.
+//! This crate opens no file, reads no clock, starts no thread and prints nothing: it takes bytes and numbers and
+//! returns values. What is unusual in the input is reported in [`findings::Findings`], which every function that needs
+//! it takes as an argument.
 //!
 //! # Forces from a recording
 //!
@@ -72,8 +73,9 @@
 //!
 //! # Conventions
 //!
-//! SI units and radians; world x forward, y up, z to the right; body quantities at the centre of mass in world axes, angular part
-//! before linear; joint moments act from the parent on the child, with the sign of the model's own coordinate (docs/CONVENTIONS.md).
+//! SI units and radians; world x forward, y up, z to the right; body quantities at the centre of mass in world axes,
+//! angular part before linear; joint moments act from the parent on the child, with the sign of the model's own
+//! coordinate (docs/CONVENTIONS.md).
 
 #[doc(inline)]
 pub use ambulo_body::{

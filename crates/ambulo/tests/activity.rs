@@ -15,15 +15,16 @@ use std::f64::consts::TAU;
 const STEP_S: f64 = 0.01;
 pub(crate) const GRAVITY: f64 = 9.80665;
 
-/// Pelvis and both ankles in the sagittal plane [m], as a function of time: forward and up; heights of the ankles are above those of
-/// standing.
+/// Pelvis and both ankles in the sagittal plane [m], as a function of time: forward and up; heights of the ankles are
+/// above those of standing.
 pub(crate) type Places = fn(f64) -> [[f64; 2]; 3];
 
 pub(crate) fn man() -> Human {
     Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false }.human().unwrap()
 }
 
-/// Coordinates of a man whose hips and ankles are at these places; the soles of right and left foot slope down to the front by the pitches.
+/// Coordinates of a man whose hips and ankles are at these places; the soles of right and left foot slope down to the
+/// front by the pitches.
 fn posture(human: &Human, places: [[f64; 2]; 3], pitches: [f64; 2]) -> Vec<(String, f64)> {
     let d = &human.dimensions;
     let [pelvis, right, left] = places;

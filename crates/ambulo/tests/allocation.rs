@@ -1,5 +1,5 @@
-//! Nothing is allocated per frame after the first, and what a prediction and a stream hold is bounded: counted by an allocator of this
-//! process.
+//! Nothing is allocated per frame after the first, and what a prediction and a stream hold is bounded: counted by an
+//! allocator of this process.
 #![allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")]
 #![allow(
     clippy::unwrap_used,
@@ -248,7 +248,8 @@ fn a_prediction_holds_a_bounded_number_of_bytes_a_frame() {
     let ((few, of_few), (many, of_many)) = (held(&synthetic(2)), held(&synthetic(8)));
     let [result, most] = [0, 1].map(|i| (of_many[i] - of_few[i]) as f64 / (many - few) as f64);
     println!("a prediction: {result:.0} bytes a frame, {most:.0} while it is made ({few} and {many} frames)");
-    // Two feet of four vectors, a height, two vectors and a number each, and the total's six numbers make 48 + 2 * 160 = 368 bytes.
+    // Two feet of four vectors, a height, two vectors and a number each, and the total's six numbers make 48 + 2 *
+    // 160 = 368 bytes.
     assert!((300.0..800.0).contains(&result), "{result} bytes a frame");
     // Beside the result, places of the feet and the equations, in whose memory the inverse is made.
     assert!(most < 1400.0, "{most} bytes a frame");
@@ -271,7 +272,8 @@ fn a_stream_holds_no_more_the_longer_it_runs() {
             stream
         })
     };
-    // The walk begins again after 328 frames: a jump, at which feet seem to step more often. Both have it in all places of the window.
+    // The walk begins again after 328 frames: a jump, at which feet seem to step more often. Both have it in all places
+    // of the window.
     let (few, many) = (after(440), after(1760));
     println!("a stream holds {} bytes, {} during a push", few[0], few[1]);
     // Findings of the last window may differ by a message.
@@ -279,7 +281,8 @@ fn a_stream_holds_no_more_the_longer_it_runs() {
     assert!((many[1] as f64) < 1.2 * few[1] as f64, "{many:?} after {few:?}");
 }
 
-/// A recorded walk of Gait2392's subject, as markers; it runs forwards and backwards until it has this number of frames.
+/// A recorded walk of Gait2392's subject, as markers; it runs forwards and backwards until it has this number of
+/// frames.
 fn walked_to_and_fro(frames: usize) -> Option<MarkerSource> {
     let folder = shared_data::data()?.join("opensim-gait2392-subject01");
     let bytes = |name: &str| std::fs::read(folder.join(name)).unwrap();
@@ -302,7 +305,8 @@ fn walked_to_and_fro(frames: usize) -> Option<MarkerSource> {
     })
 }
 
-/// Bytes a frame that a study of two lengths holds at the end and at most, its source included, and allocations a frame.
+/// Bytes a frame that a study of two lengths holds at the end and at most, its source included, and allocations a
+/// frame.
 fn study_per_frame(source: impl Fn(usize) -> Option<Source>) -> Option<[f64; 3]> {
     let settings = Settings { ground: GroundSettings::Predicted, ..Settings::default() };
     let mut found = Vec::new();

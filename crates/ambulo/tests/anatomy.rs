@@ -1,4 +1,5 @@
-//! Anatomy of a model from its joints alone: published models and built-in figures, also renamed, mirrored, rotated and truncated.
+//! Anatomy of a model from its joints alone: published models and built-in figures, also renamed, mirrored, rotated and
+//! truncated.
 
 use crate::anatomy_models;
 use crate::anatomy_models::{change, mirrored, published, reframed, renamed, turned, without};
@@ -322,8 +323,9 @@ fn statures_and_soles_are_those_of_people() {
     }
 }
 
-/// Drillis and Contini 1966: the ankle is 3.9 % of the stature above the ground. Published models carry no soles, so theirs are below the
-/// ankle of the model by that share of the estimated stature, which also lengthens the leg: thigh and shank are 48 % of it.
+/// Drillis and Contini 1966: the ankle is 3.9 % of the stature above the ground. Published models carry no soles, so
+/// theirs are below the ankle of the model by that share of the estimated stature, which also lengthens the leg: thigh
+/// and shank are 48 % of it.
 #[test]
 fn soles_are_3_9_percent_of_the_stature_below_the_ankle() {
     for model in published() {

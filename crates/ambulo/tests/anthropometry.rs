@@ -77,8 +77,8 @@ fn a_standing_figure_touches_the_ground_with_all_spheres_and_reaches_its_height(
     }
 }
 
-/// Drillis and Contini 1966 as in Winter, figure 4.1. The feet of the paper and of de Leva are horizontal, their mass centre is half as
-/// high; Dempster's slopes down to the ball.
+/// Drillis and Contini 1966 as in Winter, figure 4.1. The feet of the paper and of de Leva are horizontal, their mass
+/// centre is half as high; Dempster's slopes down to the ball.
 #[test]
 fn the_ankle_is_3_9_percent_of_the_stature_high_and_the_mass_centre_of_the_foot_half_as_high() {
     for human in everyone() {
@@ -117,8 +117,8 @@ fn the_soles_end_where_the_foot_ends() {
 
 #[test]
 fn the_mass_centre_is_at_55_to_58_percent_of_the_height_and_half_a_percent_higher_in_the_paper() {
-    // Reaction boards give 55 to 57 %; the idealisations of the tables add a percent. The paper's table 1 has 61 % of the
-    // mass in head and trunk (Dempster 57.8): its mass centre is the highest.
+    // Reaction boards give 55 to 57 %; the idealisations of the tables add a percent. The paper's table 1 has 61 % of
+    // the mass in head and trunk (Dempster 57.8): its mass centre is the highest.
     for human in everyone() {
         let share = mass_center(&human.model).y / 1.78;
         let top = if human.build.table == SegmentTable::Faure1997 { 0.585 } else { 0.58 };

@@ -19,23 +19,31 @@ fn spine(turned: bool) -> Model {
     };
     let body = |name: &str, kg: f64| {
         format!(
-            "<Body name=\"{name}\"><mass>{kg}</mass><mass_center>0.03 0.1 0.02</mass_center><inertia>0.02 0.03 0.04 0.001 -0.002 0.003</inertia></Body>"
+            "<Body name=\"{name}\"><mass>{kg}</mass><mass_center>0.03 0.1 0.02</mass_center><inertia>0.02 0.03 0.04 \
+             0.001 -0.002 0.003</inertia></Body>"
         )
     };
     let marker = |name: &str, place: &str| {
         format!(
-            "<Marker name=\"{name}\"><socket_parent_frame>/bodyset/top</socket_parent_frame><location>{place}</location></Marker>"
+            "<Marker \
+             name=\"{name}\"><socket_parent_frame>/bodyset/top</socket_parent_frame><location>{place}</location>\
+             </Marker>"
         )
     };
     let text = format!(
-        "<OpenSimDocument Version=\"40500\"><Model name=\"spine\"><gravity>0 -9.81 0</gravity><BodySet><objects>{}{}</objects></BodySet><JointSet><objects>\
-         <PinJoint name=\"root\"><socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>/bodyset/base</socket_child_frame>\
+        "<OpenSimDocument Version=\"40500\"><Model name=\"spine\"><gravity>0 -9.81 \
+         0</gravity><BodySet><objects>{}{}</objects></BodySet><JointSet><objects>\
+         <PinJoint \
+         name=\"root\"><socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>\
+         /bodyset/base</socket_child_frame>\
          <coordinates><Coordinate name=\"r\"/></coordinates></PinJoint>\
-         <ConstantCurvatureJoint name=\"arc\"><socket_parent_frame>p</socket_parent_frame><socket_child_frame>c</socket_child_frame>\
+         <ConstantCurvatureJoint \
+         name=\"arc\"><socket_parent_frame>p</socket_parent_frame><socket_child_frame>c</socket_child_frame>\
          <coordinates><Coordinate name=\"a\"/><Coordinate name=\"b\"/><Coordinate name=\"c\"/></coordinates><frames>\
          <PhysicalOffsetFrame name=\"p\"><socket_parent>/bodyset/base</socket_parent>{}</PhysicalOffsetFrame>\
          <PhysicalOffsetFrame name=\"c\"><socket_parent>/bodyset/top</socket_parent>{}</PhysicalOffsetFrame></frames>\
-         <neutral_angle_x_z_y>{}</neutral_angle_x_z_y><length>{LENGTH}</length></ConstantCurvatureJoint></objects></JointSet>\
+         <neutral_angle_x_z_y>{}</neutral_angle_x_z_y><length>{LENGTH}</length></ConstantCurvatureJoint></objects>\
+         </JointSet>\
          <MarkerSet><objects>{}{}{}{}</objects></MarkerSet></Model></OpenSimDocument>",
         body("base", 3.0),
         body("top", 2.0),

@@ -10,8 +10,8 @@
 //! Which crate uses which is in their `Cargo.toml`.
 //!
 //! Code is read as words: comments and texts are blanked first, then every path that begins with `crate` or climbs to
-//! the crate's root with `super` is followed, through braces too. Code inside macros' arguments counts, test code as well.
-//! Not handled: paths that a macro glues together.
+//! the crate's root with `super` is followed, through braces too. Code inside macros' arguments counts, test code as
+//! well. Not handled: paths that a macro glues together.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -127,7 +127,8 @@ fn unknown_modules(rows: &[Row], sources: &[Source]) -> Vec<String> {
     found
 }
 
-/// Uses that the table allows of modules that do not stand above the user, in the same crate. Without them there is no circle.
+/// Uses that the table allows of modules that do not stand above the user, in the same crate. Without them there is no
+/// circle.
 fn upward_arrows(rows: &[Row]) -> Vec<String> {
     let mut found = Vec::new();
     for (number, row) in rows.iter().enumerate() {

@@ -1,5 +1,5 @@
-//! Trials of AddBiomechanics subjects, made from a recorded walk: the same results as from tables, missing ground forces, the order of
-//! coordinates, and refusals.
+//! Trials of AddBiomechanics subjects, made from a recorded walk: the same results as from tables, missing ground
+//! forces, the order of coordinates, and refusals.
 
 use crate::shared_data;
 use ambulo::findings::{Code, Findings};
@@ -20,7 +20,8 @@ use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use std::fs;
 
-/// The coordinates as nimblephysics orders them: each leg to its toes, then the other; no patella. The document has the toes last.
+/// The coordinates as nimblephysics orders them: each leg to its toes, then the other; no patella. The document has the
+/// toes last.
 const ORDER: [&str; 31] = [
     "pelvis_tilt",
     "pelvis_list",

@@ -1,4 +1,5 @@
-//! Bushings against OpenSim 4.6: generalised forces of random motions, recorded by `xtask/measure/peers/opensim_bushings.py`.
+//! Bushings against OpenSim 4.6: generalised forces of random motions, recorded by
+//! `xtask/measure/peers/opensim_bushings.py`.
 
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::findings::{Code, Findings};
@@ -108,16 +109,24 @@ fn bushings_are_named_and_read_back_from_what_is_written() {
     assert_eq!(again.bushings()[0].groups, ["orthosis"]);
 }
 
-/// The layout to 30500, against OpenSim 4.6 for the same document: force and moment of a bushing from ground to a body 0.5 m away.
+/// The layout to 30500, against OpenSim 4.6 for the same document: force and moment of a bushing from ground to a body
+/// 0.5 m away.
 #[test]
 fn bushings_of_old_documents_have_their_frames_by_location_and_orientation() {
-    let text = "<OpenSimDocument Version=\"30000\"><Model name=\"m\"><gravity>0 0 0</gravity><BodySet><objects><Body name=\"ground\"><mass>0</mass></Body>\
-        <Body name=\"b\"><mass>1</mass><mass_center>0 0 0</mass_center><inertia_xx>1</inertia_xx><inertia_yy>1</inertia_yy><inertia_zz>1</inertia_zz>\
-        <Joint><PinJoint name=\"j\"><parent_body>ground</parent_body><CoordinateSet><objects><Coordinate name=\"q\"/></objects></CoordinateSet>\
-        </PinJoint></Joint></Body></objects></BodySet><ForceSet><objects><BushingForce name=\"old\"><isDisabled>false</isDisabled>\
-        <body_1>ground</body_1><body_2>b</body_2><location_body_1>0.1 0.2 0.3</location_body_1><orientation_body_1>0.1 0 0</orientation_body_1>\
-        <location_body_2>0 0.5 0</location_body_2><orientation_body_2>0 0.2 0</orientation_body_2><rotational_stiffness>1 1 1</rotational_stiffness>\
-        <translational_stiffness>1 1 1</translational_stiffness></BushingForce></objects></ForceSet></Model></OpenSimDocument>";
+    let text = "<OpenSimDocument Version=\"30000\"><Model name=\"m\"><gravity>0 0 0</gravity><BodySet><objects><Body \
+        name=\"ground\"><mass>0</mass></Body>\
+        <Body name=\"b\"><mass>1</mass><mass_center>0 0 \
+        0</mass_center><inertia_xx>1</inertia_xx><inertia_yy>1</inertia_yy><inertia_zz>1</inertia_zz>\
+        <Joint><PinJoint name=\"j\"><parent_body>ground</parent_body><CoordinateSet><objects><Coordinate \
+        name=\"q\"/></objects></CoordinateSet>\
+        </PinJoint></Joint></Body></objects></BodySet><ForceSet><objects><BushingForce \
+        name=\"old\"><isDisabled>false</isDisabled>\
+        <body_1>ground</body_1><body_2>b</body_2><location_body_1>0.1 0.2 0.3</location_body_1><orientation_body_1>0.1 \
+        0 0</orientation_body_1>\
+        <location_body_2>0 0.5 0</location_body_2><orientation_body_2>0 0.2 \
+        0</orientation_body_2><rotational_stiffness>1 1 1</rotational_stiffness>\
+        <translational_stiffness>1 1 \
+        1</translational_stiffness></BushingForce></objects></ForceSet></Model></OpenSimDocument>";
     let read = |text: &str| OsimModel::read(text.as_bytes());
     let model = from_osim(&read(text).unwrap(), &mut Findings::default()).unwrap();
     let mut workspace = Workspace::new(&model);
@@ -151,7 +160,8 @@ fn a_spring_between_bodies_stores_the_work_that_it_takes() {
         let of_springs = tau(&model).iter().zip(tau(&free)).map(|(a, b)| a - b).collect::<Vec<f64>>();
         of_springs.iter().zip(&rate).map(|(tau, qd)| tau * qd).sum::<f64>()
     };
-    // Of the bushing from the cuff to the arm, the energy is known from its angles and places; here from the linear parts of both frames.
+    // Of the bushing from the cuff to the arm, the energy is known from its angles and places; here from the linear
+    // parts of both frames.
     let energy = |t: f64| {
         let place = at(t);
         let bodies = body_motion(&model, Posture { q: &place, qd: &rate, qdd: &none });

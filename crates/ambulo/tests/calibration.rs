@@ -47,8 +47,8 @@ fn sign(side: Side) -> f64 {
     if side == Side::Right { 1.0 } else { -1.0 }
 }
 
-/// Width and depth of the pelvis between markers whose hip centres are `HIP_WIDTH` apart by Harrington; hip centre relative to the
-/// point midway between the anterior spines, in axes through the spines.
+/// Width and depth of the pelvis between markers whose hip centres are `HIP_WIDTH` apart by Harrington; hip centre
+/// relative to the point midway between the anterior spines, in axes through the spines.
 fn pelvis() -> (f64, f64, Vec3) {
     let width = (0.5 * HIP_WIDTH - 0.0073) / 0.33;
     let depth = 0.16;

@@ -229,8 +229,9 @@ fn angles_of_opensim_recordings_on_the_built_in_body_are_those_of_opensim() {
 
 /// Compares hip, knee and ankle flexion with those of OpenSim; the sign of the knee may differ.
 ///
-/// In these OpenSim models the subtalar joint is locked or has another axis, and their marker errors are 13 and 19 mm instead of
-/// 5 mm: ankles differ by more than hips and knees. Two OpenSim fits of the first walk have r = 0.986 at the ankle.
+/// In these OpenSim models the subtalar joint is locked or has another axis, and their marker errors are 13 and 19 mm
+/// instead of 5 mm: ankles differ by more than hips and knees. Two OpenSim fits of the first walk have r = 0.986 at the
+/// ankle.
 fn compare_with_opensim(body: &Calibrated, fit: &MarkerFit, reference: &Table, knee: f64) {
     let times = reference.times().unwrap();
     for (ours, sign) in [("hip_flexion", 1.0), ("knee_angle", -1.0), ("ankle_angle", 1.0)] {

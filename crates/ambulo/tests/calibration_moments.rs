@@ -1,10 +1,11 @@
-//! Sagittal joint moments on the built-in body, from C3D files alone, compared with those of Plug-in-Gait in the same files: over the
-//! instrumented window without changes, and in stance with known differences of Plug-in-Gait removed.
+//! Sagittal joint moments on the built-in body, from C3D files alone, compared with those of Plug-in-Gait in the same
+//! files: over the instrumented window without changes, and in stance with known differences of Plug-in-Gait removed.
 //! docs/PLUG_IN_GAIT.md has the table.
 //!
-//! Three known differences are removed or avoided: Plug-in-Gait does not filter forces, so its curves get the same low-pass filter;
-//! in swing its moments are 1.4 times those of Newton's and Euler's equations for its own joint centres (so only stance is compared);
-//! and the left shank wand of the adult is 45 degrees off the knee axis, about which its knee moment is expressed (so it is rotated back).
+//! Three known differences are removed or avoided: Plug-in-Gait does not filter forces, so its curves get the same
+//! low-pass filter; in swing its moments are 1.4 times those of Newton's and Euler's equations for its own joint
+//! centres (so only stance is compared); and the left shank wand of the adult is 45 degrees off the knee axis, about
+//! which its knee moment is expressed (so it is rotated back).
 
 use crate::gait_files::{Subject, everyone, world_from_lab};
 use ambulo::analysis::{Analysis, AnalysisSettings, analyse};
@@ -95,7 +96,8 @@ impl Walked {
     }
 }
 
-/// Plug-in-Gait's moments about the three axes of the joint [N.m/kg] (N.mm/kg in the file, although its unit differs), low-pass filtered.
+/// Plug-in-Gait's moments about the three axes of the joint [N.m/kg] (N.mm/kg in the file, although its unit differs),
+/// low-pass filtered.
 fn reference(subject: &Subject, name: &str, side: Side) -> Vec<Vec3> {
     let name = format!("{}{name}", if side == Side::Right { "R" } else { "L" });
     let raw: Vec<Vec3> =

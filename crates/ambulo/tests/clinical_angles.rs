@@ -1,4 +1,5 @@
-//! Pelvic tilt and hip flexion as the clinic defines them, against the angles that Plug-in-Gait wrote into the same files.
+//! Pelvic tilt and hip flexion as the clinic defines them, against the angles that Plug-in-Gait wrote into the same
+//! files.
 //!
 //! The recordings are not part of the repository; without them these tests say `skipped` and pass. The figures stand in
 //! docs/PLUG_IN_GAIT.md.
@@ -19,9 +20,9 @@ use ambulo::model::marker_set::MarkerSet;
 use ambulo::model::{Model, Side};
 use ambulo::motion::{MarkerRecording, SmoothSettings, Smoother, Window, smooth};
 
-/// Largest mean difference from Plug-in-Gait's angles [deg]: pelvis and hip. The pelvis is that of the same markers, as far as the fit
-/// follows them. At the hip 1.9 to 4.5 degrees are left: Harrington's hip centre lies 8 to 18 mm behind Davis', which are 1 to 3 degrees
-/// of a thigh. The coordinates of the model are 11 and 7 to 10 degrees off.
+/// Largest mean difference from Plug-in-Gait's angles [deg]: pelvis and hip. The pelvis is that of the same markers, as
+/// far as the fit follows them. At the hip 1.9 to 4.5 degrees are left: Harrington's hip centre lies 8 to 18 mm behind
+/// Davis', which are 1 to 3 degrees of a thigh. The coordinates of the model are 11 and 7 to 10 degrees off.
 const MOST_DEG: [f64; 2] = [1.5, 5.5];
 
 struct Walked {

@@ -120,7 +120,8 @@ fn feet_in_stance_stay_in_place() {
 #[test]
 fn a_gait_whose_sides_differ_walks_a_whole_cycle_without_a_hand() {
     let human = human(75.0);
-    let limp = "base = \"free\"\n[[joint]]\njoint = \"left knee\"\nangle_deg = 8\n[[joint]]\njoint = \"left hip\"\nscale = 0.85\n";
+    let limp = "base = \"free\"\n[[joint]]\njoint = \"left knee\"\nangle_deg = 8\n[[joint]]\njoint = \"left \
+        hip\"\nscale = 0.85\n";
     let gait = Gait::from_toml(limp).unwrap();
     let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
     let settings = ConsistentWalkSettings::default();
@@ -154,7 +155,8 @@ fn cycles_repeat_and_sides_mirror_each_other() {
     for row in last {
         let before = (vertical(0, row) - vertical(0, row - period)).abs();
         let mirrored = (vertical(0, row) - vertical(1, row - half)).abs();
-        // Half a step of a millisecond lies between samples of both sides at strikes, where force rises by 20 weights a second.
+        // Half a step of a millisecond lies between samples of both sides at strikes, where force rises by 20 weights a
+        // second.
         assert!(before < 0.03 && mirrored < 0.03, "row {row}: {before}, {mirrored} body weights");
     }
 }

@@ -1,5 +1,5 @@
-//! Closing rows, bounds and contacts: laws checked row by row, redundancy against dense least squares, contradictions named,
-//! and what both methods cost.
+//! Closing rows, bounds and contacts: laws checked row by row, redundancy against dense least squares, contradictions
+//! named, and what both methods cost.
 
 use crate::common::graphs::{
     METHODS, PLANE, SPACE, add_contact, add_free, add_rows, box_inertia, box_on, corners, fresh, ladder,
@@ -133,7 +133,8 @@ fn lawful(method: Method, friction: f64, scenes: u64, max_iterations: usize) -> 
     iterations.sort_unstable();
     let at = |share: f64| iterations[((iterations.len() - 1) as f64 * share) as usize];
     let line = format!(
-        "{method:?}, friction up to {friction}: {} of {scenes} solved; tree solves: median {}, nine of ten {}, most {}; \
+        "{method:?}, friction up to {friction}: {} of {scenes} solved; tree solves: median {}, nine of ten {}, most \
+         {}; \
          largest departure {worst:.1e}",
         iterations.len(),
         at(0.5),

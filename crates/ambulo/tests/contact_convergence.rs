@@ -39,8 +39,9 @@ impl Count {
 /// Gaps below this count as closed [m].
 const CLOSED_M: f64 = 1e-10;
 
-/// The largest violation of the laws at the contacts of a step: the smallest change of force, as a share of the weight, or of
-/// velocity, as a share of that of free fall during the step, that would satisfy them. Collisions without restitution only.
+/// The largest violation of the laws at the contacts of a step: the smallest change of force, as a share of the weight,
+/// or of velocity, as a share of that of free fall during the step, that would satisfy them. Collisions without
+/// restitution only.
 fn violation(world: &World, [before, after]: [&WorldState; 2], contacts: &[ContactForce], step_s: f64) -> f64 {
     let gravity = world.gravity.norm();
     let (weight, fall) = (world.mass() * gravity, gravity * step_s);
@@ -119,8 +120,8 @@ fn a_box_of_almost_no_mass_on_a_slope_ends_in_an_error_or_a_step() {
 }
 
 const GRAVITY: f64 = 9.80665;
-/// Segments of a person of 75 kg: mass [kg], height of the mass centre above that of the joint above it [m], radius of gyration
-/// [m], stiffness of the joint above it [N.m/rad].
+/// Segments of a person of 75 kg: mass [kg], height of the mass centre above that of the joint above it [m], radius of
+/// gyration [m], stiffness of the joint above it [N.m/rad].
 const THIGH: [f64; 4] = [8.0, -0.18, 0.13, 600.0];
 const SHANK: [f64; 4] = [3.5, -0.19, 0.12, 400.0];
 const FOOT: [f64; 4] = [1.0, -0.06, 0.06, 300.0];
@@ -139,7 +140,8 @@ fn segment(name: &str, mass: f64, gyration: f64, at: Vec3) -> RigidBody {
     }
 }
 
-/// A person in upright stance on twelve spheres, y up: one trunk, two legs of three segments with springs in their joints.
+/// A person in upright stance on twelve spheres, y up: one trunk, two legs of three segments with springs in their
+/// joints.
 fn person(friction: f64) -> World {
     let mut world = World { gravity: Vec3::new(0.0, -GRAVITY, 0.0), ..World::default() };
     world.materials.push(Material { friction, ..Material::default() });
@@ -189,8 +191,8 @@ fn person(friction: f64) -> World {
     world
 }
 
-/// Residuals and violations of the laws for a person who is pushed at the trunk for 0.2 s after a second of standing; the largest
-/// number of contacts that slip at once, and the trunk's height at the end [m].
+/// Residuals and violations of the laws for a person who is pushed at the trunk for 0.2 s after a second of standing;
+/// the largest number of contacts that slip at once, and the trunk's height at the end [m].
 fn pushed_person(friction: f64, force: Vec3) -> (Count, Count, usize, f64) {
     let standing = person(friction);
     let mut pushed = standing.clone();

@@ -378,7 +378,8 @@ fn a_point_is_named_by_the_edges_or_the_face_that_touch() {
     let of_edges = one(&bar, upper(0.0), &bar, lower(0.0));
     assert_ne!(of_edges, one(&bar, upper(1.0), &bar, lower(0.0)));
     assert_ne!(of_edges, one(&bar, upper(0.0), &bar, lower(1.0)));
-    // A small block on another face of a large one, flat (the face of the first counts) or tilted (that of the large one).
+    // A small block on another face of a large one, flat (the face of the first counts) or tilted (that of the large
+    // one).
     let (large, small) = (Shape::cuboid(Vec3::repeat(0.5)).unwrap(), Shape::cuboid(Vec3::repeat(0.1)).unwrap());
     let turned = |turns: f64| Pose { rotation: quarter(Vec3::z(), turns), translation: Vec3::zeros() };
     let flat = Pose::at(Vec3::new(0.0, 0.599, 0.0));
@@ -555,7 +556,8 @@ fn a_peak_at_any_inner_point_of_the_grid_carries_a_plate() {
 #[test]
 fn the_length_of_a_capsule_touches_a_ridge_that_is_not_below_it() {
     let (radius, gap, reach) = (0.1, 0.04, 0.05);
-    // Perpendicular to the ridge and to the capsule, which rises to the ridge at 30 degrees and ends just past the nearest point.
+    // Perpendicular to the ridge and to the capsule, which rises to the ridge at 30 degrees and ends just past the
+    // nearest point.
     let (along, normal) = (Vec3::new(0.75_f64.sqrt(), 0.5, 0.0), Vec3::new(-0.5, 0.75_f64.sqrt(), 0.0));
     let rod = Shape::capsule(along * -0.3, along * 0.01, radius).unwrap();
     let nearest = Vec3::new(0.0, 1.0, 0.3);
@@ -846,7 +848,8 @@ fn no_overlap_no_force() {
 
 #[test]
 fn the_published_law_acts_before_the_surfaces_meet() {
-    // Simbody's `SmoothSphereHalfSpaceForceImpl::calcForce`, evaluated by hand: depth -2 mm, sinking at 0.1 m/s, slip 0.05 m/s.
+    // Simbody's `SmoothSphereHalfSpaceForceImpl::calcForce`, evaluated by hand: depth -2 mm, sinking at 0.1 m/s, slip
+    // 0.05 m/s.
     let law = HuntCrossley { onset: Onset::Published, ..HuntCrossley::MOCO_2D_GAIT };
     let k = 0.5 * 3_067_776.0_f64.powf(2.0 / 3.0);
     let hertz = 4.0 / 3.0 * k * (0.035 * k).sqrt() * (4e-6_f64 + 1e-5).sqrt().powf(1.5);
@@ -944,7 +947,8 @@ fn a_capsule_beside_an_edge_of_a_box_touches_it_at_both_ends() {
     }
 }
 
-/// Stiffness, dissipation, static, dynamic and viscous friction, transition velocity, as in the model files that their documentation names.
+/// Stiffness, dissipation, static, dynamic and viscous friction, transition velocity, as in the model files that their
+/// documentation names.
 #[test]
 fn published_laws_have_their_published_parameters() {
     for (law, expected) in [

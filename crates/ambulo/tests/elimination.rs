@@ -284,8 +284,8 @@ fn freed_as_in_the_model(case: &InMotion) -> ConstraintGraph {
     graph
 }
 
-/// The work of a joint's reaction per unit of motion along s: its generalised force. (Ball joints report the moment about
-/// their axes instead, which is not what their angles' rates multiply.)
+/// The work of a joint's reaction per unit of motion along s: its generalised force. (Ball joints report the moment
+/// about their axes instead, which is not what their angles' rates multiply.)
 fn effort(case: &InMotion, body: usize, s: &Six, generalized: f64) -> f64 {
     let JointReaction { center, wrench } = case.reactions[body];
     let moment = wrench.moment + (center - case.motion[body].center).cross(&wrench.force);
@@ -483,7 +483,8 @@ fn figures_beside_each_other_do_not_know_of_each_other() {
     assert_eq!(both.0[7..], b.0);
 }
 
-/// A four-bar linkage in the plane of x and z, hinged about y at four points; three bars, cut open at one of the joints.
+/// A four-bar linkage in the plane of x and z, hinged about y at four points; three bars, cut open at one of the
+/// joints.
 fn four_bar(cut: usize) -> ConstraintGraph {
     let corners = [Vec3::zeros(), Vec3::new(0.2, 0.0, 1.0), Vec3::new(1.3, 0.0, 1.2), Vec3::new(1.5, 0.0, 0.1)];
     let center = |bar: usize| 0.5 * (corners[bar] + corners[bar + 1]);

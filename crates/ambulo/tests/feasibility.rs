@@ -70,8 +70,8 @@ fn moments_decrease_with_shortening_speed_and_increase_while_muscles_are_stretch
                 assert!(factor(pair[0]) >= factor(pair[1]), "{name} at {} rad/s", pair[0]);
             }
             assert!(factor(40.0) >= 0.0 && factor(-40.0) < 1.4 && factor(-40.0) > 1.35, "{name}");
-            // The slope is continuous at rest: central and one-sided differences, both with an error of less than h/2 times a
-            // curvature of at most 2 s²/rad².
+            // The slope is continuous at rest: central and one-sided differences, both with an error of less than h/2
+            // times a curvature of at most 2 s²/rad².
             let h = 1e-5;
             let (before, after) = ((factor(0.0) - factor(-h)) / h, (factor(h) - factor(0.0)) / h);
             assert_near(before, after, 1e-4, name);
@@ -429,11 +429,13 @@ fn an_invalid_thresholds_file_is_rejected_with_line_and_key() {
         ("[friction]\navailable = -0.1\n", "line 2, `friction.available`: found -0.1; expected a number from 0 to 5"),
         (
             "[friction]\n\navailable = nan\n",
-            "line 3, `friction.available`: found nan; expected a number from 0 to 5. hint: numbers are finite and at most 1e15 in size",
+            "line 3, `friction.available`: found nan; expected a number from 0 to 5. hint: numbers are finite and at \
+             most 1e15 in size",
         ),
         (
             "[friction]\navailabel = 0.5\n",
-            "line 2, `friction.availabel`: unknown key; expected `available`, `least_load_bw`. hint: did you mean `available`?",
+            "line 2, `friction.availabel`: unknown key; expected `available`, `least_load_bw`. hint: did you mean \
+             `available`?",
         ),
         ("friction = 0.5\n", "line 1, `friction`: found 0.5; expected a table under the header [friction]"),
         ("[person]\nmass_kg = 1000\n", "line 2, `person.mass_kg`: found 1000; expected a number from 2 to 300"),
@@ -443,7 +445,8 @@ fn an_invalid_thresholds_file_is_rejected_with_line_and_key() {
         ),
         (
             "[[strength.table]]\ncoordinate = \"x\"\nangle_deg = [0, 10]\npositive_nm = [1]\nnegative_nm = [1, 2]\n",
-            "line 4, `strength.table[1].positive_nm`: found [1]; expected a list of 2 moments [N.m], zero or more, one per angle",
+            "line 4, `strength.table[1].positive_nm`: found [1]; expected a list of 2 moments [N.m], zero or more, one \
+             per angle",
         ),
     ] {
         assert_eq!(Thresholds::from_toml(text).unwrap_err().to_string(), message);
@@ -463,7 +466,8 @@ fn a_strength_table_of_the_user_is_used() {
     let mut standing = Standing::new();
     let lumbar = standing.set("lumbar_extension");
     standing.generalized[lumbar] = 150.0;
-    let text = "[[strength.table]]\ncoordinate = \"lumbar_extension\"\nangle_deg = [0]\npositive_nm = [100]\nnegative_nm = [50]\n";
+    let text = "[[strength.table]]\ncoordinate = \"lumbar_extension\"\nangle_deg = [0]\npositive_nm = \
+        [100]\nnegative_nm = [50]\n";
     let own = Thresholds::from_toml(text).unwrap();
     assert_eq!(standing.failed(), []);
     let (list, _) = standing.measure(&own);

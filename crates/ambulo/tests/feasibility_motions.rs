@@ -91,7 +91,8 @@ fn judged_with(
     (verdict, findings)
 }
 
-/// Ground forces `force(frame, side)` [N] under both feet, level with the mass centre, so that a person at rest is in balance.
+/// Ground forces `force(frame, side)` [N] under both feet, level with the mass centre, so that a person at rest is in
+/// balance.
 fn on_both_feet(human: &Human, frames: usize, force: impl Fn(usize, Side) -> Vec3) -> GroundForces {
     beside_both_feet(human, frames, 0.0, force)
 }
@@ -210,7 +211,8 @@ fn a_reason_has_times_worst_value_and_message_and_short_violations_are_noise() {
     }
     assert_eq!(
         verdict.reasons[0].message,
-        "the right foot needs a coefficient of friction of 0.25; 0.10 is available (from 2.300 to 2.490 s, worst at 2.400 s)"
+        "the right foot needs a coefficient of friction of 0.25; 0.10 is available (from 2.300 to 2.490 s, worst at \
+         2.400 s)"
     );
     // With a smaller limit of time the short one is detected too.
     let (verdict, _) = judged(push, &Thresholds { shortest_s: 0.0, ..thresholds });
@@ -273,7 +275,8 @@ fn frames_without_measured_forces_are_judged_on_predicted_ones() {
     assert_eq!((verdict.state, verdict.frames_unmeasured, verdict.frames_predicted), (VerdictState::Feasible, 20, 20));
     assert_near(verdict.judged_share, 1.0, 1e-12, "judged share");
     assert_eq!(judged(&plates, None).state, VerdictState::NotJudged);
-    // Where a prediction does not carry the body, something else may: a hand, or a chair. The person is not called unable for it.
+    // Where a prediction does not carry the body, something else may: a hand, or a chair. The person is not called
+    // unable for it.
     let verdict = judged(&plates, Some(&weak));
     assert_eq!((verdict.state, verdict.reasons.len()), (VerdictState::NotJudged, 0), "{:?}", verdict.reasons);
     assert!(verdict.undecided[0].contains("something other than the feet may support the person"));
@@ -378,7 +381,8 @@ fn a_lack_of_support_while_a_plate_measures_a_part_of_a_foot_is_the_plates() {
 
 #[test]
 fn a_person_with_a_heel_beside_the_plate_and_misplaced_toe_markers_is_not_called_unable() {
-    // The heel is 155 mm beyond the edge of the second plate in single support, and the toe markers show feet that point 45 degrees outwards.
+    // The heel is 155 mm beyond the edge of the second plate in single support, and the toe markers show feet that
+    // point 45 degrees outwards.
     let Some(data) = data() else { return };
     let bytes = std::fs::read(data.join("c3d-format-variants/TYPE-3.c3d")).unwrap();
     let trial = LaboratoryFile::from_c3d(&bytes, "TYPE-3.c3d", &mut Findings::default()).unwrap();
@@ -590,7 +594,8 @@ fn three_times_the_mass_and_forces_exceed_the_strength() {
                 *part *= 3.0;
             }
         }
-        // A person of that mass would be strong enough; this person (who could carry one more, as porters do) cannot carry two.
+        // A person of that mass would be strong enough; this person (who could carry one more, as porters do) cannot
+        // carry two.
         assert_eq!(verdict(&subject, &Thresholds::default()).reasons, [], "{name}");
         let (mass_kg, height_m) = (Some(person.mass_kg), Some(person.height_m));
         let found = verdict(&subject, &Thresholds { mass_kg, height_m, ..Thresholds::default() });
@@ -623,7 +628,8 @@ fn climbing(human: &Human, lifted_m: f64) -> Motion {
     Motion { origin: "climbs".to_owned(), times: trajectory.grid().times(), columns }
 }
 
-/// The forces of an outcome on both feet between two times, as plates under these steps measure them; elsewhere there are no plates.
+/// The forces of an outcome on both feet between two times, as plates under these steps measure them; elsewhere there
+/// are no plates.
 fn loads_between(outcome: &study::Outcome, [from, to]: [f64; 2]) -> Vec<ForceRecording> {
     let times = outcome.analysis.trajectory.grid().times();
     let on_plates = |values: &[Vec3]| -> Vec<Vec3> {

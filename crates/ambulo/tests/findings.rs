@@ -1,4 +1,5 @@
-//! The list of findings: its names, its page in the documentation, its use; and that the library names no option of a command.
+//! The list of findings: its names, its page in the documentation, its use; and that the library names no option of a
+//! command.
 
 use ambulo::findings::{Code, Finding, Findings, Severity};
 use std::collections::BTreeSet;
@@ -130,7 +131,8 @@ fn option(line: &str) -> bool {
     line.match_indices("--").any(|(i, _)| line[i + 2..].starts_with(|c: char| c.is_ascii_lowercase()))
 }
 
-/// Other shells (Python, a page in the browser) have no options: errors and findings carry data, and the command adds the hint.
+/// Other shells (Python, a page in the browser) have no options: errors and findings carry data, and the command adds
+/// the hint.
 #[test]
 fn the_library_names_no_option_of_the_command() {
     assert!(option("hint: --from and --to") && !option("// ---- up ----"));

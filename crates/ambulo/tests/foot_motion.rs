@@ -18,8 +18,8 @@ fn found(markers: &MarkerRecording) -> FootMotion {
 fn every_method_detects_every_event_of_a_plain_walk() {
     let found = found(&walk());
     assert_eq!(found.by_method.len(), EventMethod::ALL.len());
-    // The synthetic foot is as slow as the pelvis 0.05 s before foot strike, and accelerates most 0.21 of its swing, 0.09 s,
-    // after foot off: single methods have errors of that size, their median half of it.
+    // The synthetic foot is as slow as the pelvis 0.05 s before foot strike, and accelerates most 0.21 of its swing,
+    // 0.09 s, after foot off: single methods have errors of that size, their median half of it.
     let all = found.by_method.iter().map(|(m, e)| (m.name(), e)).chain([("together", &found.events)]);
     for (name, list) in all {
         for row in event_agreement(&events(), list) {

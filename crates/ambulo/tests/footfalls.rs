@@ -123,8 +123,8 @@ fn no_step_is_invented_where_plates_measured_every_step() {
 fn floors_are_at_rest_and_belts_move() {
     for trial in everything() {
         let floor = found(trial, 6.0).floor_velocity;
-        // The data's README: in stance the walker's midfoot goes back at 1.10 m/s, the runner's heel, which is on the belt for a moment
-        // only, at about 3.6 m/s. A low-pass of 6 Hz lets half a contact of 0.24 s through.
+        // The data's README: in stance the walker's midfoot goes back at 1.10 m/s, the runner's heel, which is on the
+        // belt for a moment only, at about 3.6 m/s. A low-pass of 6 Hz lets half a contact of 0.24 s through.
         let belt = match trial.subject {
             "gait2392" => 1.10,
             "rajagopal-run" => 3.6,

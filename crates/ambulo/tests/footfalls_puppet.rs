@@ -1,8 +1,10 @@
-//! Stances of a puppet whose feet are placed by the test: stairs, sideways, backwards, on a belt, starting and stopping.
+//! Stances of a puppet whose feet are placed by the test: stairs, sideways, backwards, on a belt, starting and
+//! stopping.
 //!
-//! The puppet is a trunk and two flat feet that move independently. A foot swings on a quintic from place to place (velocity and
-//! acceleration are zero at both ends) and is lifted in between; the trunk follows. The places of the feet are known exactly, the times
-//! of the events to a few hundredths of a second, because a quintic starts slowly: after 50 of 400 ms it has covered 2 % of its way.
+//! The puppet is a trunk and two flat feet that move independently. A foot swings on a quintic from place to place
+//! (velocity and acceleration are zero at both ends) and is lifted in between; the trunk follows. The places of the
+//! feet are known exactly, the times of the events to a few hundredths of a second, because a quintic starts slowly:
+//! after 50 of 400 ms it has covered 2 % of its way.
 
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfalls, footfalls};
@@ -33,8 +35,10 @@ fn model() -> Model {
         )
     };
     let text = format!(
-        "<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"30000\">\n<Model name=\"puppet\">\n<gravity>0 -9.80665 0</gravity>\n\
-         <BodySet><objects>\n<Body name=\"ground\"><mass>0</mass></Body>\n{}{}{}</objects></BodySet>\n</Model>\n</OpenSimDocument>\n",
+        "<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"30000\">\n<Model name=\"puppet\">\n<gravity>0 -9.80665 \
+         0</gravity>\n\
+         <BodySet><objects>\n<Body \
+         name=\"ground\"><mass>0</mass></Body>\n{}{}{}</objects></BodySet>\n</Model>\n</OpenSimDocument>\n",
         body("trunk", 70.0),
         body("calcn_r", 1.0),
         body("calcn_l", 1.0)

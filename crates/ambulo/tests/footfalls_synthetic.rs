@@ -1,5 +1,5 @@
-//! Stances of motions whose contacts are known: a synthetic walk, also on a belt, on a ramp, mirrored, rotated, reversed and cut;
-//! standing on two feet and on one; a jump.
+//! Stances of motions whose contacts are known: a synthetic walk, also on a belt, on a ramp, mirrored, rotated,
+//! reversed and cut; standing on two feet and on one; a jump.
 
 use crate::common;
 use crate::walks;
@@ -112,10 +112,12 @@ fn rises(walk: &SyntheticWalk, side: Side) -> Vec<f64> {
     pairs.map(|(i, pair)| grid.time(i) - grid.step_s * pair[0] / (pair[1] - pair[0])).collect()
 }
 
-/// Strikes of the forces under the walk, and offs: the foot then is above the floor. Those next to the ends are left out.
+/// Strikes of the forces under the walk, and offs: the foot then is above the floor. Those next to the ends are left
+/// out.
 ///
-/// The force of a soft shoe ends earlier, although its sole is still below the floor: it is damped, and zero where the sole rises faster than
-/// 1 / (1.5 x 2 s/m) = 0.33 m/s. Toes that carried the body are 10 mm deep then, and need 25 ms more. Detection from motion cannot know that.
+/// The force of a soft shoe ends earlier, although its sole is still below the floor: it is damped, and zero where the
+/// sole rises faster than 1 / (1.5 x 2 s/m) = 0.33 m/s. Toes that carried the body are 10 mm deep then, and need 25 ms
+/// more. Detection from motion cannot know that.
 fn known(walk: &SyntheticWalk) -> Vec<Event> {
     let mut events = Vec::new();
     for side in Side::BOTH {

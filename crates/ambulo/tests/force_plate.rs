@@ -1,15 +1,15 @@
 //! Force plates against examples worked by hand.
 //!
 //! The plate of [`plate_files::CORNERS_MM`] acts on a foot with F = (30, 50, 700) N at the point
-//! (250, 200, 0) mm and with a free moment of 4 N.m about the vertical, all in the axes of the laboratory. About the centre of the
-//! surface, C = (200, 300, 0) mm, the arm is r = (0.05, -0.1, 0) m, and
+//! (250, 200, 0) mm and with a free moment of 4 N.m about the vertical, all in the axes of the laboratory. About the
+//! centre of the surface, C = (200, 300, 0) mm, the arm is r = (0.05, -0.1, 0) m, and
 //!
 //! ```text
 //! M_C = r × F + (0, 0, 4) = (-0.1·700, -0.05·700, 0.05·50 + 0.1·30 + 4) = (-70, -35, 9.5) N.m
 //! ```
 //!
-//! y and z of the plate are opposite to those of the laboratory: F' = (30, -50, -700) N, M' = (-70, 35, -9.5) N.m. The comments
-//! below derive the channels of each type.
+//! y and z of the plate are opposite to those of the laboratory: F' = (30, -50, -700) N, M' = (-70, 35, -9.5) N.m. The
+//! comments below derive the channels of each type.
 
 use crate::plate_files::{CORNERS_MM, File, RATE_HZ, record};
 use ambulo::findings::{Code, Findings};

@@ -1,4 +1,5 @@
-//! The full body in three dimensions: the masses of the planar figure, spatial joints, and the signs of the conventions.
+//! The full body in three dimensions: the masses of the planar figure, spatial joints, and the signs of the
+//! conventions.
 
 use crate::common::assert_near;
 use ambulo::dynamics::{Workspace, inverse_frame};

@@ -1,7 +1,8 @@
-//! The default curves against the normative means that they were fitted to: Schwartz, Rozumalski, Trost 2008, five speeds.
+//! The default curves against the normative means that they were fitted to: Schwartz, Rozumalski, Trost 2008, five
+//! speeds.
 //!
-//! The tables are not part of the repository. They are looked for in `shared/data` next to it, or in `$AMBULO_DATA/data`;
-//! without them the tests say `skipped` and pass.
+//! The tables are not part of the repository. They are looked for in `shared/data` next to it, or in
+//! `$AMBULO_DATA/data`; without them the tests say `skipped` and pass.
 
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Jet, Laws, LegJoint, Speed, Style, Walk};
@@ -12,8 +13,8 @@ const SPEEDS: [(&str, f64); 5] =
     [("VerySlow", 0.172), ("Slow", 0.290), ("Free", 0.429), ("Fast", 0.560), ("VeryFast", 0.694)];
 /// What issue 4 asks for [deg].
 const ALLOWED_DEG: f64 = 1.5;
-/// Second derivatives, relative to their own size: between the 0.04 and 0.36 of `literature.md` 1.3 that knots with true values
-/// have, though here the knots follow laws of speed.
+/// Second derivatives, relative to their own size: between the 0.04 and 0.36 of `literature.md` 1.3 that knots with
+/// true values have, though here the knots follow laws of speed.
 const ALLOWED_ACCELERATION: f64 = 0.30;
 
 fn table(name: &str) -> Option<String> {
@@ -38,7 +39,8 @@ fn means(table: &str, quantity: &str, speed: &str) -> Vec<f64> {
     values
 }
 
-/// Second derivative [deg/cycle²] of the first twelve harmonics at a phase, the step from 100 % to 0 % taken out as a line.
+/// Second derivative [deg/cycle²] of the first twelve harmonics at a phase, the step from 100 % to 0 % taken out as a
+/// line.
 fn second_derivative(means: &[f64], phase: f64) -> f64 {
     let step = means[50] - means[0];
     let sum = |order: usize| {

@@ -58,7 +58,8 @@ fn knees_change_their_sign_and_ankles_do_not() {
     assert_eq!(named(&jets, "elbow_flex_r"), posture.elbows[0]);
 }
 
-/// At contact the right foot of the built-in figure is ahead of the left by about a step, and arms and legs are opposite.
+/// At contact the right foot of the built-in figure is ahead of the left by about a step, and arms and legs are
+/// opposite.
 #[test]
 fn the_built_in_figure_takes_a_step() {
     let (walk, model) = (walk(|_| ()), figure());

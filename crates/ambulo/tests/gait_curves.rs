@@ -67,8 +67,8 @@ proptest! {
         assert_near(h.rate, (b - a) * 30.0 * u * u * (1.0 - u) * (1.0 - u), 1e-12, "slope");
     }
 
-    /// The claim of `cyclic_curve`: at each knot both segments give the same angle, rate and acceleration, however phase and
-    /// speed move through it.
+    /// The claim of `cyclic_curve`: at each knot both segments give the same angle, rate and acceleration, however
+    /// phase and speed move through it.
     #[test]
     fn curves_are_c2_through_every_knot_while_speed_changes(
         v in 0.14..0.73_f64, rates in proptest::array::uniform4(-3.0..3.0_f64), style in 0..2_usize,
@@ -81,7 +81,8 @@ proptest! {
             let n = curve.knots().len();
             for k in 0..n {
                 let at_knot = Jet { value: curve.knot_phase(k + 1, v), rate: f, acceleration: df };
-                // A hundred roundings to both sides, so that knot n counts as the end of the cycle and as its beginning.
+                // A hundred roundings to both sides, so that knot n counts as the end of the cycle and as its
+                // beginning.
                 let shifted = |by: f64| Jet { value: at_knot.value + by, ..at_knot };
                 let before = curve.on_segment(k, shifted(-1e-14), speed);
                 let after = curve.on_segment((k + 1) % n, shifted(1e-14), speed);

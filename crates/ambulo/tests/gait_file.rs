@@ -235,7 +235,8 @@ fn changes_of_pace_are_read_in_the_units_of_the_keys() {
 fn contradictions_are_refused() {
     assert_eq!(
         refused("speed = 1\nstep_length = 0.7\ncadence = 120"),
-        "line 1, `speed`: found 1; expected the step length times the step frequency, 1.4000 m/s. hint: leave out one of speed, \
+        "line 1, `speed`: found 1; expected the step length times the step frequency, 1.4000 m/s. hint: leave out one \
+         of speed, \
          step length and frequency"
     );
     assert_eq!(
@@ -254,7 +255,8 @@ fn overlapping_and_parted_sub_cycles_are_refused() {
     let overlap = changed(KNEE_1997, "name = \"E\"\nfrom_percent = [70, 4]", "name = \"E\"\nfrom_percent = [65, 4]");
     assert_eq!(
         overlap,
-        "line 15, `knee.sub_cycle[2]`: sub-cycle E overlaps sub-cycle F (by 5.0 % of the cycle at free speed); expected \
+        "line 15, `knee.sub_cycle[2]`: sub-cycle E overlaps sub-cycle F (by 5.0 % of the cycle at free speed); \
+         expected \
          `from_percent` to be equal to `to_percent` of the previous one"
     );
     let gap = changed(KNEE_1997, "to_percent = 140", "to_percent = 135");
@@ -282,7 +284,8 @@ fn knots_out_of_order_are_refused() {
     let text = changed(ANKLE, "at_percent = 66", "at_percent = 100.2");
     assert!(text.starts_with("line 4, `ankle.knot[1]`: found 100.0 % after 100.2 %"), "{text}");
     let text = refused(
-        "[[change]]\njoint = \"hip\"\nknot = \"loading\"\nscale = 1\n[[change]]\njoint = \"knee\"\nknot = \"stance peak\"\ntime_percent = 15",
+        "[[change]]\njoint = \"hip\"\nknot = \"loading\"\nscale = 1\n[[change]]\njoint = \"knee\"\nknot = \"stance \
+         peak\"\ntime_percent = 15",
     );
     assert!(
         text.starts_with("line 5, `change[2]`: with all changes, at knot `fastest stance extension`: found"),
@@ -317,7 +320,8 @@ fn rules_of_style_1997_are_kept() {
     let text = changed(KNEE_1997, "style = \"1997\"", "style = \"knots\"");
     assert!(
         text.ends_with(
-            "found `sub_cycle` in a gait of style \"knots\"; expected `knot`. hint: style \"1997\" has sub-cycles, style \
+            "found `sub_cycle` in a gait of style \"knots\"; expected `knot`. hint: style \"1997\" has sub-cycles, \
+             style \
              \"knots\" has knots"
         ),
         "{text}"
@@ -400,7 +404,8 @@ fn the_document_has_every_key() {
 proptest! {
     /// Whatever is cut off, doubled or replaced: an answer, never a panic.
     #[test]
-    fn no_file_makes_the_reader_panic(cut in 0..700_usize, from in 0..700_usize, word in "[a-z0-9_\\[\\]=.\" -]{0,12}") {
+    fn no_file_makes_the_reader_panic(cut in 0..700_usize, from in 0..700_usize,
+        word in "[a-z0-9_\\[\\]=.\" -]{0,12}") {
         for text in [KNEE_1997, ANKLE] {
             let cut = text.floor_char_boundary(cut.min(text.len()));
             let from = text.floor_char_boundary(from.min(text.len()));

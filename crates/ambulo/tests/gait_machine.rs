@@ -89,8 +89,8 @@ fn the_order_of_children_changes_no_bit() {
     assert!(orders.len() > 15, "{} orders", orders.len());
 }
 
-/// Two machines that always do what the other was doing, and a third that counts what it saw: side by side all at once. Run one
-/// after the other on live values, both would end in the same state.
+/// Two machines that always do what the other was doing, and a third that counts what it saw: side by side all at once.
+/// Run one after the other on live values, both would end in the same state.
 fn mirrors() -> Machine {
     let mirror = |name: &str, other: &'static str, start: [&str; 2]| {
         let states = start.map(State::named).to_vec();

@@ -50,7 +50,8 @@ static STOPS_AND_GOES: LazyLock<SyntheticWalk> = LazyLock::new(|| made(STOP_AND_
 /// A machine of the left knee with these states and transitions.
 fn knee(states: &str, transitions: &str) -> String {
     format!(
-        "speed = 1.2\n[[machine]]\nname = \"own\"\ndrives = \"left knee\"\nstate = [{states}]\ntransition = [{transitions}]\n"
+        "speed = 1.2\n[[machine]]\nname = \"own\"\ndrives = \"left knee\"\nstate = [{states}]\ntransition = \
+         [{transitions}]\n"
     )
 }
 
@@ -70,7 +71,8 @@ fn entered(walk: &Walk, machine: &str, until_s: f64) -> Vec<(String, f64)> {
     list
 }
 
-/// The largest differences of rate and acceleration from central differences of value and rate, in steps of a tenth of a millisecond.
+/// The largest differences of rate and acceleration from central differences of value and rate, in steps of a tenth of
+/// a millisecond.
 fn jumps(text: &str, of: impl Fn(&WalkPosture) -> Jet, until_s: f64) -> [f64; 2] {
     const H: f64 = 1e-4;
     let mut machine = WalkMachine::new(&walk(text));
@@ -86,8 +88,11 @@ fn jumps(text: &str, of: impl Fn(&WalkPosture) -> Jet, until_s: f64) -> [f64; 2]
 fn transitions_by_events_start_from_the_present_value_rate_and_acceleration() {
     // In the middle of the fastest flexion, away to a curve, to a constant and back.
     let text = knee(
-        "{ name = \"gait\" }, { name = \"high\", activity = \"sub_cycle\", to_deg = 70, within = 0.3 }, { name = \"scaled\", scale = 0.5, angle_deg = 5 }",
-        "{ from = \"gait\", to = \"high\", when = \"left phase > 55 % and left phase < 57 %\" }, { from = \"high\", to = \"scaled\", when = \"after 0.17 s\", within = 0.15 }, { from = \"scaled\", to = \"gait\", when = \"after 0.4 s\", within = 0.05 }",
+        "{ name = \"gait\" }, { name = \"high\", activity = \"sub_cycle\", to_deg = 70, within = 0.3 }, \
+         { name = \"scaled\", scale = 0.5, angle_deg = 5 }",
+        "{ from = \"gait\", to = \"high\", when = \"left phase > 55 % and left phase < 57 %\" }, { from = \"high\", \
+         to = \"scaled\", when = \"after 0.17 s\", within = 0.15 }, { from = \"scaled\", to = \"gait\", when = \"after \
+         0.4 s\", within = 0.05 }",
     );
     let states = entered(&walk(&text), "own", 3.0);
     assert!(states.len() > 6, "{states:?}");
@@ -156,7 +161,8 @@ fn left_and_right_are_edited_apart() {
         assert!((limp.left.knee.rate - usual.left.knee.rate).abs() < 1e-12);
     }
     // Both sides by one name, pelvis, trunk and arms.
-    let text = "[[joint]]\njoint = \"elbow\"\nangle_deg = 20\n[[joint]]\njoint = \"trunk\"\nangle_deg = 5\n[[joint]]\njoint = \"pelvis\"\nscale = 2\n[[joint]]\njoint = \"right shoulder\"\nscale = 0\n";
+    let text = "[[joint]]\njoint = \"elbow\"\nangle_deg = 20\n[[joint]]\njoint = \"trunk\"\nangle_deg = \
+        5\n[[joint]]\njoint = \"pelvis\"\nscale = 2\n[[joint]]\njoint = \"right shoulder\"\nscale = 0\n";
     let (own, usual) = (crate::gait_machine_files::walk(text).at(0.4), crate::gait_machine_files::walk("").at(0.4));
     for k in [0, 1] {
         assert!((own.elbows[k].value - usual.elbows[k].value - 20_f64.to_radians()).abs() < 1e-12);
@@ -171,7 +177,9 @@ fn left_and_right_are_edited_apart() {
 #[test]
 fn sides_that_differ_are_corrected_if_their_machines_repeat_what_they_do() {
     assert!(repeats(&walk(LIMP)) && repeats(&walk(SUB_CYCLES)) && repeats(&walk(STOP_AND_GO)));
-    let once = "[[machine]]\nname = \"nod\"\ndrives = \"left elbow\"\nstate = [{ name = \"a\" }, { name = \"b\", activity = \"constant\", angle_deg = 40 }]\ntransition = [{ from = \"a\", to = \"b\", when = \"time >= 10 s\" }]\n";
+    let once = "[[machine]]\nname = \"nod\"\ndrives = \"left elbow\"\nstate = [{ name = \"a\" }, { name = \"b\", \
+        activity = \"constant\", angle_deg = 40 }]\ntransition = [{ from = \"a\", to = \"b\", when = \"time >= 10 s\" \
+        }]\n";
     assert!(!repeats(&walk(once)));
     let settings = |gait| SyntheticWalkSettings {
         gait,
@@ -190,7 +198,9 @@ fn sides_that_differ_are_corrected_if_their_machines_repeat_what_they_do() {
 
 #[test]
 fn machines_in_a_simulation_see_the_feet_strike() {
-    let text = "speed = 1.2\n[[machine]]\nname = \"striking\"\nstate = [{ name = \"before\" }, { name = \"after\" }]\ntransition = [{ from = \"before\", to = \"after\", when = \"left foot strikes\" }, { from = \"after\", to = \"before\", when = \"left foot is up and after 0.2 s\" }]\n";
+    let text = "speed = 1.2\n[[machine]]\nname = \"striking\"\nstate = [{ name = \"before\" }, \
+        { name = \"after\" }]\ntransition = [{ from = \"before\", to = \"after\", when = \"left foot strikes\" }, \
+        { from = \"after\", to = \"before\", when = \"left foot is up and after 0.2 s\" }]\n";
     let walk = made(text, SyntheticMode::Paper, 3);
     let strikes: Vec<f64> =
         walk.states.iter().filter(|p| p.state == "after" && p.time_s[0] > 0.0).map(|p| p.time_s[0]).collect();
@@ -198,7 +208,8 @@ fn machines_in_a_simulation_see_the_feet_strike() {
     let left = walk.loads.iter().find(|load| load.name.starts_with("left")).unwrap();
     let times = &left.times;
     for strike in strikes {
-        // The loads on heel and toes have the rows of the simulation; a strike is the first loaded row after an unloaded one.
+        // The loads on heel and toes have the rows of the simulation; a strike is the first loaded row after an
+        // unloaded one.
         let row = times.iter().position(|t| *t >= strike - 1e-9).unwrap();
         let loaded = |row: usize| {
             let of_side = walk.loads.iter().filter(|load| load.name.starts_with("left"));
@@ -213,8 +224,14 @@ fn machines_in_a_simulation_see_the_feet_strike() {
 fn a_parent_interrupts_restarts_and_waits_for_its_children() {
     let text = |resumes: bool| {
         format!(
-            "[[machine]]\nname = \"parent\"\nstate = [{{ name = \"work\" }}, {{ name = \"pause\" }}, {{ name = \"over\" }}]\ntransition = [{{ from = \"work\", to = \"over\", when = \"machine child is done\" }}, {{ from = \"work\", to = \"pause\", when = \"after 0.5 s\" }}, {{ from = \"pause\", to = \"work\", when = \"after 0.3 s\" }}]\n\
-             [[machine]]\nname = \"child\"\nduring = {{ machine = \"parent\", state = \"work\" }}\nresumes = {resumes}\nstate = [{{ name = \"first\" }}, {{ name = \"second\" }}, {{ name = \"last\", done = true }}]\ntransition = [{{ from = \"first\", to = \"second\", when = \"after 0.4 s\" }}, {{ from = \"second\", to = \"last\", when = \"after 0.2 s\" }}]\n"
+            "[[machine]]\nname = \"parent\"\nstate = [{{ name = \"work\" }}, {{ name = \"pause\" }}, \
+             {{ name = \"over\" }}]\ntransition = [{{ from = \"work\", to = \"over\", \
+             when = \"machine child is done\" }}, {{ from = \"work\", to = \"pause\", when = \"after 0.5 s\" }}, {{ \
+             from = \"pause\", to = \"work\", when = \"after 0.3 s\" }}]\n\
+             [[machine]]\nname = \"child\"\nduring = {{ machine = \"parent\", state = \"work\" }}\nresumes = \
+             {resumes}\nstate = [{{ name = \"first\" }}, {{ name = \"second\" }}, {{ name = \"last\", \
+             done = true }}]\ntransition = [{{ from = \"first\", to = \"second\", when = \"after 0.4 s\" }}, {{ from = \
+             \"second\", to = \"last\", when = \"after 0.2 s\" }}]\n"
         )
     };
     let names = |list: &[(String, f64)]| list.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
@@ -231,8 +248,12 @@ fn a_parent_interrupts_restarts_and_waits_for_its_children() {
 
 #[test]
 fn conditions_on_angles_phases_and_machines_fire_where_they_say() {
-    let text = "speed = 1.2\n[[machine]]\nname = \"bent\"\nstate = [{ name = \"no\" }, { name = \"yes\" }]\ntransition = [{ from = \"no\", to = \"yes\", when = \"angle 'left knee' > 30 deg\" }, { from = \"yes\", to = \"no\", when = \"not angle 'left knee' > 30 deg\" }]\n\
-                [[machine]]\nname = \"both\"\nstate = [{ name = \"no\" }, { name = \"yes\" }]\ntransition = [{ from = \"no\", to = \"yes\", when = \"machine bent is yes and machine 'left leg' is swing\" }, { from = \"yes\", to = \"no\", when = \"machine bent is no or machine 'left leg' is stance\" }]\n";
+    let text = "speed = 1.2\n[[machine]]\nname = \"bent\"\nstate = [{ name = \"no\" }, { name = \"yes\" }]\ntransition \
+        = [{ from = \"no\", to = \"yes\", when = \"angle 'left knee' > 30 deg\" }, { from = \"yes\", to = \"no\", \
+        when = \"not angle 'left knee' > 30 deg\" }]\n\
+                [[machine]]\nname = \"both\"\nstate = [{ name = \"no\" }, { name = \"yes\" }]\ntransition = \
+                [{ from = \"no\", to = \"yes\", when = \"machine bent is yes and machine 'left leg' is swing\" }, \
+                { from = \"yes\", to = \"no\", when = \"machine bent is no or machine 'left leg' is stance\" }]\n";
     let walk = walk(text);
     for (state, at_s) in entered(&walk, "bent", 3.0).into_iter().skip(1) {
         let [before, now] = [0.003, 0.0].map(|earlier| walk.at(at_s - earlier).left.knee.value.to_degrees());
@@ -254,8 +275,12 @@ fn conditions_on_angles_phases_and_machines_fire_where_they_say() {
 
 #[test]
 fn curves_recordings_and_coordinates_of_the_model_are_followed() {
-    let text = "speed = 1.2\n[[machine]]\nname = \"toes\"\ndrives = \"mtp_angle_r\"\n[[machine.state]]\nname = \"curled\"\nactivity = \"curve\"\n[[machine.state.knot]]\nname = \"flat\"\nat_percent = 30\nangle_deg = 0\nslope_deg = 0\ncurvature_deg = 0\n[[machine.state.knot]]\nname = \"push\"\nat_percent = 60\nangle_deg = 25\nslope_deg = 0\ncurvature_deg = 0\n\
-                [[machine]]\nname = \"nod\"\ndrives = \"trunk\"\nstate = [{ name = \"replayed\", activity = \"recording\", file = \"nod.sto\", column = \"lean\", from = 0.2 }]\n";
+    let text = "speed = 1.2\n[[machine]]\nname = \"toes\"\ndrives = \"mtp_angle_r\"\n[[machine.state]]\nname = \
+        \"curled\"\nactivity = \"curve\"\n[[machine.state.knot]]\nname = \"flat\"\nat_percent = 30\nangle_deg = \
+        0\nslope_deg = 0\ncurvature_deg = 0\n[[machine.state.knot]]\nname = \"push\"\nat_percent = 60\nangle_deg = \
+        25\nslope_deg = 0\ncurvature_deg = 0\n\
+                [[machine]]\nname = \"nod\"\ndrives = \"trunk\"\nstate = [{ name = \"replayed\", \
+                activity = \"recording\", file = \"nod.sto\", column = \"lean\", from = 0.2 }]\n";
     let mut asked = Vec::new();
     let gait = Gait::from_toml_with(text, &mut |file, column| {
         asked.push(format!("{file}/{column}"));
@@ -280,7 +305,8 @@ fn curves_recordings_and_coordinates_of_the_model_are_followed() {
     }
     assert!((largest.to_degrees() - 25.0).abs() < 0.01, "{largest}");
     // A figure without toe joints has no such coordinate.
-    let text = "[[machine]]\nname = \"toes\"\ndrives = \"mtp_angle_r\"\nstate = [{ name = \"curled\", activity = \"constant\", angle_deg = 20 }]\n";
+    let text = "[[machine]]\nname = \"toes\"\ndrives = \"mtp_angle_r\"\nstate = [{ name = \"curled\", \
+        activity = \"constant\", angle_deg = 20 }]\n";
     let gait = crate::gait_machine_files::gait(text);
     let build = Build { toe_joint: false, ..build() };
     let settings = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Paper, cycles: 1, rate_hz: 100.0 };
@@ -400,7 +426,9 @@ fn angles_that_no_joint_can_follow_are_refused() {
 
 #[test]
 fn a_change_of_pace_during_another_is_refused() {
-    let text = "[[machine]]\nname = \"m\"\ndrives = \"pace\"\nstate = [{ name = \"a\", activity = \"pace\", speed = 1 }, { name = \"b\", activity = \"pace\", speed = 1.4 }]\ntransition = [{ from = \"a\", to = \"b\", when = \"after 0.2 s\" }]\n";
+    let text = "[[machine]]\nname = \"m\"\ndrives = \"pace\"\nstate = [{ name = \"a\", activity = \"pace\", \
+        speed = 1 }, { name = \"b\", activity = \"pace\", speed = 1.4 }]\ntransition = [{ from = \"a\", to = \"b\", \
+        when = \"after 0.2 s\" }]\n";
     let error = planned(walk(text), 4.0, 60.0, &mut Findings::default()).unwrap_err().to_string();
     assert!(error.contains("after the end of the previous change"), "{error}");
 }

@@ -1,6 +1,8 @@
-//! Signs and sides of the laws of angles outside the sagittal plane and of joint moments, in clinical terms, at free speed.
+//! Signs and sides of the laws of angles outside the sagittal plane and of joint moments, in clinical terms, at free
+//! speed.
 //!
-//! Phases are shares of the cycle of the right foot: 0 is right foot strike, 0.1 to 0.5 is right single support, 0.6 right foot off.
+//! Phases are shares of the cycle of the right foot: 0 is right foot strike, 0.1 to 0.5 is right single support, 0.6
+//! right foot off.
 
 use ambulo::gait::{Jet, JointMomentLaws, JointMoments, OtherPlaneLaws, OtherPlanes};
 

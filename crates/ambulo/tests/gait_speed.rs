@@ -1,4 +1,5 @@
-//! Changes of pace while walking: nothing breaks up to the second derivative, and phase is the integral of the cycle rate.
+//! Changes of pace while walking: nothing breaks up to the second derivative, and phase is the integral of the cycle
+//! rate.
 
 use crate::common::{assert_near, derivatives};
 use ambulo::findings::{Code, Findings};
@@ -77,8 +78,8 @@ fn knot_times(walk: &Walk) -> Vec<f64> {
     times
 }
 
-/// Accelerations have slopes of at most 1e5 rad/s³, so across 2e-9 s they differ by 2e-4 where they are continuous; a break of
-/// what a quintic with a wrong curvature makes is 10 rad/s² and more.
+/// Accelerations have slopes of at most 1e5 rad/s³, so across 2e-9 s they differ by 2e-4 where they are continuous; a
+/// break of what a quintic with a wrong curvature makes is 10 rad/s² and more.
 #[test]
 fn accelerations_have_no_breaks_at_knots_nor_at_changes_of_speed() {
     for (name, walk) in
@@ -98,8 +99,8 @@ fn accelerations_have_no_breaks_at_knots_nor_at_changes_of_speed() {
     }
 }
 
-/// Across a knot the third derivative jumps by up to 1e4 rad/s³ J: a stencil of step h then misses rates by J h² and accelerations
-/// by J h.
+/// Across a knot the third derivative jumps by up to 1e4 rad/s³ J: a stencil of step h then misses rates by J h² and
+/// accelerations by J h.
 #[test]
 fn rates_and_accelerations_are_derivatives_while_speed_changes() {
     let (h, jump) = (1e-5, 1e4);
@@ -119,8 +120,8 @@ fn rates_and_accelerations_are_derivatives_while_speed_changes() {
     }
 }
 
-/// Against Simpson's rule on 20000 panels, h⁴/180 × duration × fourth derivative: (1.5e-4)⁴/180 × 3 × 600 = 1e-14 cycles, and the
-/// roundings of its sums.
+/// Against Simpson's rule on 20000 panels, h⁴/180 × duration × fourth derivative: (1.5e-4)⁴/180 × 3 × 600 = 1e-14
+/// cycles, and the roundings of its sums.
 #[test]
 fn phase_is_the_integral_of_the_cycle_rate() {
     for (name, walk) in

@@ -26,7 +26,8 @@ fn velocity_and_acceleration_vanish_at_the_bounds() {
             let phase = Jet { value: curve.knot_phase(k, 0.43), rate: 1.0, acceleration: 0.0 };
             let angle = curve.at(phase, Jet::constant(0.43));
             assert_near(angle.value, knot.angle.at(0.43), 1e-12, "bound value");
-            // Slopes are 30 Δ u²: a rounding of 1e-16 cycles in the phase leaves 1e-30, curvatures 60 Δ u a rounding of 1e-13.
+            // Slopes are 30 Δ u²: a rounding of 1e-16 cycles in the phase leaves 1e-30, curvatures 60 Δ u a rounding of
+            // 1e-13.
             assert_near(angle.rate, 0.0, 1e-12, "velocity");
             assert_near(angle.acceleration, 0.0, 1e-9, "acceleration");
         }
@@ -56,7 +57,8 @@ fn laws_of_speed_are_linear() {
 
 proptest! {
     #[test]
-    fn angular_velocity_has_one_sign_within_a_sub_cycle(v in 0.17..0.7_f64, length in 0.5..1.3_f64, height in 0.7..1.5_f64) {
+    fn angular_velocity_has_one_sign_within_a_sub_cycle(v in 0.17..0.7_f64, length in 0.5..1.3_f64,
+        height in 0.7..1.5_f64) {
         let walk = standard(|gait| {
             gait.pace.length_scale = length;
             gait.step_height = height;

@@ -58,7 +58,8 @@ fn numbers_that_no_gait_can_have_are_refused() {
     let error = Gait::named("freee").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "gait: found `freee`; expected one of standard, long, short, goose, parade, slow, free, fast. hint: did you mean `free`?"
+        "gait: found `freee`; expected one of standard, long, short, goose, parade, slow, free, fast. hint: did you \
+         mean `free`?"
     );
 }
 

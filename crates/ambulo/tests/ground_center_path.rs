@@ -30,7 +30,8 @@ fn level_stance(heel_down_s: Option<f64>) -> Stance {
     }
 }
 
-/// Place of the centre of pressure between rear (0) and ball (1) at 0.05 s of a stance in which the foot first has these slopes.
+/// Place of the centre of pressure between rear (0) and ball (1) at 0.05 s of a stance in which the foot first has
+/// these slopes.
 fn place_between(slopes: &[f64]) -> f64 {
     let places: Vec<FootPlace> = slopes.iter().copied().map(foot).collect();
     let up = Vec3::y();

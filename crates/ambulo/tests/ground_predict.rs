@@ -127,8 +127,8 @@ fn with_everything_prescribed_the_forces_are_those_that_were_applied() {
     assert!(alone > 2.0 * informed, "{alone} N without, {informed} N with");
 }
 
-/// Deviations of a walk whose required wrench has something added, over those without it, rms over the stances of both feet: force forward and up,
-/// centre of pressure along and across.
+/// Deviations of a walk whose required wrench has something added, over those without it, rms over the stances of both
+/// feet: force forward and up, centre of pressure along and across.
 fn widened(walk: &SyntheticWalk, added: impl Fn(f64) -> Wrench) -> [f64; 4] {
     let rms = |total: Vec<Wrench>| {
         let found = predicted(walk, Prescribed { total: Some(total), ..Prescribed::default() });

@@ -8,8 +8,8 @@
 //! | the same frames with a pause | the same bits |
 //! | ten times the frames | not a byte more |
 //!
-//! The recordings are not part of the repository; without them that test prints `skipped` and passes. The table of delays takes a minute and is printed
-//! where `AMBULO_DELAYS=1` is set.
+//! The recordings are not part of the repository; without them that test prints `skipped` and passes. The table of
+//! delays takes a minute and is printed where `AMBULO_DELAYS=1` is set.
 
 use crate::footfall_trials::{Recorded, everything};
 use crate::walks;
@@ -98,7 +98,8 @@ fn a_synthetic_walk_is_streamed_as_it_is_predicted_whole() {
     let [of_stream, of_batch] = [&streamed, &as_frames(&batch, &streamed)]
         .map(|frames| rms(&apart(frames, &applied, SETTLED_S)) * (100.0 / weight));
     println!(
-        "stream - whole {late:.2?}, at once {at_once:.2?}, stream - applied {of_stream:.2?}, whole - applied {of_batch:.2?} % BW"
+        "stream - whole {late:.2?}, at once {at_once:.2?}, stream - applied {of_stream:.2?}, whole - applied \
+         {of_batch:.2?} % BW"
     );
     assert!(late.x < 3.0 && late.y < 8.0 && late.z < 3.0, "{late}");
     assert!(of_stream.y < of_batch.y + 4.0, "{of_stream} {of_batch}");
@@ -319,7 +320,8 @@ fn recordings_are_streamed_nearly_as_well_as_they_are_predicted_whole() {
     let cells = |v: &Vec3| format!("{:.1} / {:.1} / {:.1}", v.x, v.y, v.z);
     let pair = |v: &Vec3| format!("{:.0} / {:.0}", v.x, v.z);
     println!(
-        "| recording | stream - whole [% BW] | stream - plates | whole - plates | centre of pressure [mm]: stream - whole | stream - plates | whole - plates |"
+        "| recording | stream - whole [% BW] | stream - plates | whole - plates | centre of pressure [mm]: stream - \
+         whole | stream - plates | whole - plates |"
     );
     let mut means = [Vec3::zeros(); 3];
     for trial in trials {
@@ -327,7 +329,8 @@ fn recordings_are_streamed_nearly_as_well_as_they_are_predicted_whole() {
         let all: Vec<String> = forces.iter().map(cells).chain(centers.iter().map(pair)).collect();
         println!("| {name} | {} |", all.join(" | "));
         let [apart, of_stream, of_batch] = forces;
-        // In running the last steps of a stream are determined less well: what the filter of the motion took is added without the frames to come.
+        // In running the last steps of a stream are determined less well: what the filter of the motion took is added
+        // without the frames to come.
         let most_up = if name.ends_with("run") { 11.0 } else { 6.0 };
         assert!(apart.x < 3.0 && apart.y < most_up && apart.z < 3.0, "{name}: {apart}");
         assert!(!of_stream.y.is_finite() || of_stream.y < of_batch.y + 4.0, "{name}: {of_stream} {of_batch}");
@@ -348,7 +351,8 @@ fn a_longer_delay_is_more_accurate() {
     let cells = |v: &Vec3| format!("{:.1} / {:.1} / {:.1}", v.x, v.y, v.z);
     let pair = |v: &Vec3| format!("{:.0} / {:.0}", v.x, v.z);
     println!(
-        "| delay | stream - whole [% BW] | stream - plates | centre of pressure [mm]: stream - whole | stream - plates |"
+        "| delay | stream - whole [% BW] | stream - plates | centre of pressure [mm]: stream - whole | stream - plates \
+         |"
     );
     let mut last = f64::INFINITY;
     for delay_ms in [0, 10, 30, 50, 70, 100, 150] {

@@ -1,8 +1,8 @@
 //! What must hold for every model, and what can be computed by hand.
 //!
 //! Identities (power balance, Newton for the whole body, energy along a motion), invariances (turned world, mirrored
-//! body, scaled masses, reversed time), closed forms (pendulums, tops, a standing figure). Beside each comparison stands
-//! one that must fail.
+//! body, scaled masses, reversed time), closed forms (pendulums, tops, a standing figure). Beside each comparison
+//! stands one that must fail.
 
 use crate::common::assembly::{Assembly, Axes, Frames, inertia};
 use crate::common::random::{self, Case, Random, Recipe, Waves};

@@ -371,8 +371,8 @@ fn reactions_that_are_computed_again_have_the_same_bits() {
     }
 }
 
-/// The wrench of the parent on each body, moved from the joint to the mass centre as the caller of `project_wrenches` knows it: a force
-/// that acts at J has the moment n + (J - c) × f about c.
+/// The wrench of the parent on each body, moved from the joint to the mass centre as the caller of `project_wrenches`
+/// knows it: a force that acts at J has the moment n + (J - c) × f about c.
 #[test]
 fn wrenches_at_the_mass_centres_have_the_generalised_forces_of_their_joints() {
     let mut seen = 0;

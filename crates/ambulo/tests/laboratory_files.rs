@@ -161,7 +161,8 @@ fn peaks_and_contact_times_are_those_of_the_readme() {
             let contact = feet.contacts.iter().find(|c| c.plate == *plate).unwrap();
             let found_bw = contact.peak_n / (mass_kg * 9.80665);
             println!(
-                "{name} plate {plate}: {:?} {:.4}-{:.4} s (README {strike_s}-{off_s}), peak {found_bw:.3} BW ({peak_bw})",
+                "{name} plate {plate}: {:?} {:.4}-{:.4} s (README {strike_s}-{off_s}), peak {found_bw:.3} BW \
+                 ({peak_bw})",
                 contact.side, contact.start_s, contact.end_s
             );
             assert_eq!(contact.side, Some(*side), "{name} plate {plate}");
@@ -282,8 +283,8 @@ fn one_recording_as_type_2_and_as_type_4_agrees_to_three_percent() {
                 1000.0 * moved
             );
             assert!((b.peak_n() / peak - 1.0).abs() < 0.03 && apart < 0.03 * peak, "{}", a.name);
-            // TYPE-2.C3D scales Mx and My by 36.83 and 37.03 N.mm a bit, TYPE-4.C3D by 741.87 x 0.0611 = 45.33 and 45.19:
-            // the moments in the two files themselves differ by a fifth.
+            // TYPE-2.C3D scales Mx and My by 36.83 and 37.03 N.mm a bit, TYPE-4.C3D by 741.87 x 0.0611 = 45.33 and
+            // 45.19: the moments in the two files themselves differ by a fifth.
             let allowed = if two.file.channels.len() == 6 { 0.03 } else { 0.002 };
             assert!(moved < allowed, "{}: {moved} m", a.name);
         }

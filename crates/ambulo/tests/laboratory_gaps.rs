@@ -59,7 +59,8 @@ fn moments(trial: &Trial, walk: &LaboratoryRecording) -> (Vec<Vec<f64>>, Finding
     (JOINTS.iter().map(column).collect(), findings, body.fit.errors.into_iter().map(|e| e.name).collect())
 }
 
-/// Root mean square of the differences divided by that of the moments: of all joints together, and the largest of a single joint.
+/// Root mean square of the differences divided by that of the moments: of all joints together, and the largest of a
+/// single joint.
 fn change(moments: &[Vec<f64>], reference: &[Vec<f64>]) -> ([f64; 2], usize) {
     let (mut all, mut of_all, mut worst, mut which) = (0.0, 0.0, 0.0_f64, 0);
     for (k, (a, b)) in moments.iter().zip(reference).enumerate() {
@@ -87,7 +88,8 @@ fn without(walk: &LaboratoryRecording, names: &[String], from: f64, span: f64) -
     cut
 }
 
-/// Largest change when each group of markers is lost from each of these times for `span`. Asserts that every loss is reported.
+/// Largest change when each group of markers is lost from each of these times for `span`. Asserts that every loss is
+/// reported.
 fn worst_change(trial: &Trial, reference: &[Vec<f64>], groups: &[Vec<String>], starts: &[f64], span: f64) -> [f64; 2] {
     let mut worst = [0.0_f64; 2];
     for group in groups {
@@ -143,8 +145,8 @@ fn lost_markers_change_the_moments_of_the_child_little() {
     assert_losses_change_little(trial(child(), [1.87, 2.74]), 0.10);
 }
 
-/// Two markers on each thigh: without the knee marker for 0.3 s the knee moment changes by up to 13 % of its size. The aim of 10 % is
-/// missed here; the limit is the present result.
+/// Two markers on each thigh: without the knee marker for 0.3 s the knee moment changes by up to 13 % of its size. The
+/// aim of 10 % is missed here; the limit is the present result.
 #[test]
 fn lost_markers_change_the_moments_of_the_adult_with_sixteen_markers_little() {
     assert_losses_change_little(trial(adult(), [7.97, 9.46]), 0.15);

@@ -1,4 +1,5 @@
-//! Predicted ground forces of landings: on both feet, which carry the body until the recording ends, and on the forefoot, as downstairs.
+//! Predicted ground forces of landings: on both feet, which carry the body until the recording ends, and on the
+//! forefoot, as downstairs.
 
 use crate::activity::{GRAVITY, Places, man, moving, moving_on_soles, smooth, stepping};
 use ambulo::findings::Findings;
@@ -9,7 +10,8 @@ use ambulo::model::{BySide, Side};
 /// Time of the landing [s]; the flight before it lasts 0.3 s.
 const LANDING_S: f64 = 0.6;
 
-/// Height of the pelvis above standing: falls, is stopped by the legs and rises again; both parts have the same speed at the landing.
+/// Height of the pelvis above standing: falls, is stopped by the legs and rises again; both parts have the same speed
+/// at the landing.
 fn drop(t: f64) -> f64 {
     let s = t - LANDING_S;
     let speed = 0.3 * GRAVITY;
@@ -30,7 +32,8 @@ fn landing(t: f64, forward: f64) -> [[f64; 2]; 3] {
     [[along + 0.04, 0.9 + height], [along, feet], [along, feet]]
 }
 
-/// Largest difference of predicted and required vertical force in the last 0.1 s of a recording that ends after some seconds [body weights].
+/// Largest difference of predicted and required vertical force in the last 0.1 s of a recording that ends after some
+/// seconds [body weights].
 fn error_at_end(places: Places, seconds: f64) -> f64 {
     let human = man();
     let trajectory = moving(&human, places, seconds);
@@ -48,7 +51,8 @@ fn error_at_end(places: Places, seconds: f64) -> f64 {
 
 #[test]
 fn a_landing_is_carried_to_the_end_of_the_recording() {
-    // The feet of this motion stop within a frame, which needs 43 body weights; the low-pass spreads that over the first second.
+    // The feet of this motion stop within a frame, which needs 43 body weights; the low-pass spreads that over the
+    // first second.
     for (what, places) in [("on the spot", (|t| landing(t, 0.0)) as Places), ("forwards", |t| landing(t, 1.0))] {
         for (seconds, limit) in [(2.0, 0.1), (4.0, 0.05)] {
             let error = error_at_end(places, seconds);
@@ -64,13 +68,15 @@ const DUTY: f64 = 0.65;
 /// Stairs down: forward and up in a stride [m].
 const STAIRS: [f64; 2] = [0.6, -0.34];
 
-/// Slope of a sole that comes down with its ball first and has its heel down 0.2 s later [rad], against the share of the stride.
+/// Slope of a sole that comes down with its ball first and has its heel down 0.2 s later [rad], against the share of
+/// the stride.
 fn forefoot_first(share: f64) -> f64 {
     let p = share.rem_euclid(1.0);
     0.5 * if p < DUTY { 1.0 - smooth(p * STRIDE_S / 0.2) } else { smooth((p - DUTY) / (1.0 - DUTY)) }
 }
 
-/// Someone who goes downstairs; the soles turn about the balls of the feet, so that these are where they would be in level feet.
+/// Someone who goes downstairs; the soles turn about the balls of the feet, so that these are where they would be in
+/// level feet.
 fn downstairs(human: &Human, t: f64, pitch: fn(f64) -> f64) -> ([[f64; 2]; 3], [f64; 2]) {
     let [pelvis, right, left] = stepping(t, STRIDE_S, DUTY, STAIRS, 0.8);
     let pitches = [pitch(t / STRIDE_S), pitch(t / STRIDE_S - 0.5)];
@@ -82,7 +88,8 @@ fn downstairs(human: &Human, t: f64, pitch: fn(f64) -> f64) -> ([[f64; 2]; 3], [
     ([pelvis, lifted(right, pitches[0]), lifted(left, pitches[1])], pitches)
 }
 
-/// Places of the centre of pressure between heel (0) and ball (1) a time after each strike that is known; from the strikes of the puppet.
+/// Places of the centre of pressure between heel (0) and ball (1) a time after each strike that is known; from the
+/// strikes of the puppet.
 fn places_after_strikes(pitch: fn(f64) -> f64, after_s: f64) -> Vec<f64> {
     let human = man();
     let trajectory = moving_on_soles(&human, |t| downstairs(&human, t, pitch), 5.0);

@@ -29,7 +29,8 @@ fn differences(subject: &Subject, fit: &MarkerFit, reference: &Table, window: [f
     list
 }
 
-/// Coordinates that OpenSim's own two runs, at its default accuracy and converged, disagree on by more than 0.5 degrees.
+/// Coordinates that OpenSim's own two runs, at its default accuracy and converged, disagree on by more than 0.5
+/// degrees.
 const LOOSE: [&str; 4] = ["mtp_angle", "pro_sup", "elbow_flex_l", "ankle_angle_l"];
 
 /// `opensim_mm`: OpenSim's mean over frames of the root mean square over markers, 0 to 2 s.

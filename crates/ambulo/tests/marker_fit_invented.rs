@@ -296,7 +296,8 @@ fn long_losses_stay_gaps_and_short_ones_are_bridged() {
         if (100..160).contains(&i) {
             assert!(last[i].is_nan(), "frame {i} of the long gap has a value");
         } else {
-            // A wave of 3 rad/s and 0.8 rad has a jerk of 22 rad/s³: a parabola misses the middle of 0.2 s by 0.004 rad.
+            // A wave of 3 rad/s and 0.8 rad has a jerk of 22 rad/s³: a parabola misses the middle of 0.2 s by 0.004
+            // rad.
             let allowed = if (40..60).contains(&i) { 0.01 } else { 1e-8 };
             assert!((last[i] - state.q[7]).abs() < allowed, "frame {i}: {} for {}", last[i], state.q[7]);
         }

@@ -35,7 +35,8 @@ fn moments(subject: &Subject, fit: &MarkerFit, window: [f64; 2]) -> Vec<Vec<f64>
     JOINTS.iter().map(column).collect()
 }
 
-/// Root mean square of the differences over that of the moments, all joints together, and the largest of the joints' own.
+/// Root mean square of the differences over that of the moments, all joints together, and the largest of the joints'
+/// own.
 fn change(moments: &[Vec<f64>], reference: &[Vec<f64>]) -> [f64; 2] {
     let (mut all, mut of_all, mut worst) = (0.0, 0.0, 0.0_f64);
     for (a, b) in moments.iter().zip(reference) {
@@ -58,8 +59,8 @@ fn without(markers: &MarkerRecording, names: &[&str], from: f64, span: f64) -> M
     cut
 }
 
-/// Each group of markers in turn is lost from each of these times for `span`; returns the largest change and asserts that it
-/// was reported.
+/// Each group of markers in turn is lost from each of these times for `span`; returns the largest change and asserts
+/// that it was reported.
 fn worst_change(subject: &Subject, groups: &[Vec<&str>], starts: &[f64], span: f64, window: [f64; 2]) -> [f64; 2] {
     let (whole, _) = fitted(subject, &subject.markers);
     let reference = moments(subject, &whole, window);

@@ -1,5 +1,5 @@
-//! Markers that are far from their places for long: labels exchanged without a leap, and markers that stand elsewhere than in the
-//! standing trial.
+//! Markers that are far from their places for long: labels exchanged without a leap, and markers that stand elsewhere
+//! than in the standing trial.
 
 use crate::gait_files::{Subject, everyone, turning, woman};
 use crate::marker_data;

@@ -84,7 +84,8 @@ fn markers_are_on_the_body_where_their_names_mean() {
                 "{}",
                 marker.name
             );
-            // No marker is further from the origin of its segment than 0.8 m, the distance of the vertex from the lumbar joint.
+            // No marker is further from the origin of its segment than 0.8 m, the distance of the vertex from the
+            // lumbar joint.
             assert!(marker.location.norm() < 0.8, "{}", marker.name);
         }
     }
@@ -98,8 +99,10 @@ fn names_of_real_recordings_are_recognised() {
     assert_eq!(lower.on(Landmark::LateralMalleolus, Some(Side::Left)), Some("LANK"));
     assert_eq!(lower.on(Landmark::MedialMalleolus, Some(Side::Left)), None);
     let oxford = recognised(
-        "LFHD LBHD RFHD RBHD C7 T2 T6 T10 T12 RBAK CLAV STRN LSHO LELB LWRA LWRB LFIN RSHO RELB RWRA RWRB RFIN SACR RASI LASI \
-         LTHI LKNE LHFB LTUB LTIB LSHN LANK LMMA LHEE LCPG LPCA LLCA LSTL LNAV LP1M LD1M LP5M LD5M LTOE LHLX LHJC RHJC LAJC PELO",
+        "LFHD LBHD RFHD RBHD C7 T2 T6 T10 T12 RBAK CLAV STRN LSHO LELB LWRA LWRB LFIN RSHO RELB RWRA RWRB RFIN SACR \
+         RASI LASI \
+         LTHI LKNE LHFB LTUB LTIB LSHN LANK LMMA LHEE LCPG LPCA LLCA LSTL LNAV LP1M LD1M LP5M LD5M LTOE LHLX LHJC RHJC \
+         LAJC PELO",
     );
     assert_eq!(oxford.sets, ["plug-in-gait", "oxford-foot"]);
     assert_eq!(oxford.unknown, ["LHJC", "RHJC", "LAJC", "PELO"], "computed points are no markers");
@@ -208,7 +211,8 @@ fn names_of_other_laboratories_mean_what_they_say() {
         // OpenCap's laboratory names, as in keenon/nimblephysics data/grf/OpenCapUnfiltered.
         (
             "opencap",
-            "r.ASIS L.ASIS r.PSIS L.PSIS r_knee L_knee r_mknee L_mknee r_ankle L_ankle r_mankle L_mankle r_calc L_calc r_toe L_toe \
+            "r.ASIS L.ASIS r.PSIS L.PSIS r_knee L_knee r_mknee L_mknee r_ankle L_ankle r_mankle L_mankle r_calc L_calc \
+             r_toe L_toe \
              r_5meta L_5meta r_sh1 r_sh2 L_sh1 r_thigh1 L_thigh1 C7 R_Shoulder L_Shoulder",
             &[
                 ("r_knee", L::LateralEpicondyle),
@@ -219,12 +223,14 @@ fn names_of_other_laboratories_mean_what_they_say() {
         ),
         (
             "cmu",
-            "LFWT RFWT LBWT RBWT LTHI RTHI LKNE RKNE LSHN RSHN LANK RANK LHEE RHEE LTOE RTOE LMT5 RMT5 C7 T10 CLAV STRN",
+            "LFWT RFWT LBWT RBWT LTHI RTHI LKNE RKNE LSHN RSHN LANK RANK LHEE RHEE LTOE RTOE LMT5 RMT5 C7 T10 CLAV \
+             STRN",
             &[("RFWT", L::Asis), ("RBWT", L::Psis), ("RKNE", L::LateralEpicondyle), ("RMT5", L::FifthMetatarsal)],
         ),
         (
             "cast",
-            "C7 RA LA L5 RPSIS LPSIS RASIS LASIS RGT LGT RLE LLE RME LME RHF LHF RTT LTT RLM LLM RMM LMM RCA LCA RVMH LVMH RIMH LIMH RIIT LIIT",
+            "C7 RA LA L5 RPSIS LPSIS RASIS LASIS RGT LGT RLE LLE RME LME RHF LHF RTT LTT RLM LLM RMM LMM RCA LCA RVMH \
+             LVMH RIMH LIMH RIIT LIIT",
             &[
                 ("RA", L::Acromion),
                 ("RVMH", L::FifthMetatarsal),
@@ -240,23 +246,28 @@ fn names_of_other_laboratories_mean_what_they_say() {
         ),
         (
             "plug-in-gait",
-            "LASI RASI LPSI RPSI LTHI LKNE LTHAP LTHAD LTIB LANK LTIAP LTIAD LHEE LSMH LFMH LVMH RTHI RKNE RTIB RANK RHEE RSMH RFMH RVMH",
+            "LASI RASI LPSI RPSI LTHI LKNE LTHAP LTHAD LTIB LANK LTIAP LTIAD LHEE LSMH LFMH LVMH RTHI RKNE RTIB RANK \
+             RHEE RSMH RFMH RVMH",
             &[("RSMH", L::SecondToe), ("RFMH", L::FirstMetatarsal), ("RVMH", L::FifthMetatarsal)],
         ),
         (
             "human-body-model",
-            "LASIS RASIS LPSIS RPSIS LGTRO RGTRO LLEK RLEK LMEK RMEK LATI RATI LLM RLM LMM RMM LHEE RHEE LTOE RTOE LMT5 RMT5 XYPH NAVE SACR",
+            "LASIS RASIS LPSIS RPSIS LGTRO RGTRO LLEK RLEK LMEK RMEK LATI RATI LLM RLM LMM RMM LHEE RHEE LTOE RTOE \
+             LMT5 RMT5 XYPH NAVE SACR",
             &[("RLEK", L::LateralEpicondyle), ("RMEK", L::MedialEpicondyle), ("RLM", L::LateralMalleolus)],
         ),
         (
             "gait2392",
-            "asis_R asis_L psis_R psis_L Knee.Lat_R Knee.Lat_L Knee.Med_R Ankle.Lat_R Ankle.Lat_L Heel_R Heel_L Toe.Tip_R Toe.Tip_L",
+            "asis_R asis_L psis_R psis_L Knee.Lat_R Knee.Lat_L Knee.Med_R Ankle.Lat_R Ankle.Lat_L Heel_R Heel_L \
+             Toe.Tip_R Toe.Tip_L",
             &[("Knee.Lat_R", L::LateralEpicondyle), ("Heel_R", L::Heel), ("Toe.Tip_R", L::Hallux)],
         ),
         (
             "words",
-            "front-waist-right front-waist-left back-waist-right back-waist-left Lateral-Knee-Right Lateral-Knee-Left Medial-Knee-Right \
-             lateral-malleolus-right lateral-malleolus-left Calcaneus-right Calcaneus-left first-metatarsal-head-right 5th-met-right",
+            "front-waist-right front-waist-left back-waist-right back-waist-left Lateral-Knee-Right Lateral-Knee-Left \
+             Medial-Knee-Right \
+             lateral-malleolus-right lateral-malleolus-left Calcaneus-right Calcaneus-left first-metatarsal-head-right \
+             5th-met-right",
             &[
                 ("front-waist-right", L::Asis),
                 ("Lateral-Knee-Right", L::LateralEpicondyle),

@@ -73,7 +73,8 @@ fn the_response_of_a_slider_is_that_of_the_formula() {
             let fit = fitted(&model, &recorded(&model, step_s, &states), Some(smoothing));
             let found = amplitude(fit.motion.columns[0].as_ref().unwrap(), step_s, omega) / 0.1;
             println!("step {step_s} s, {share} of the cut-off: {found:.4}, formula {exact:.4} (about {expected:.4})");
-            // The third difference of a step h falls short of the derivative by (ω h)²/8, here at most 0.02, counted six times over.
+            // The third difference of a step h falls short of the derivative by (ω h)²/8, here at most 0.02, counted
+            // six times over.
             assert!((found - exact).abs() < 0.02, "{found} instead of {exact}");
         }
     }
@@ -161,7 +162,8 @@ fn recordings_of_walking_keep_their_distances_and_lose_their_noise() {
             }
         }
         println!(
-            "{name}: {:.3} mm frame by frame, {:.3} mm together, {} steps; jerk of the knee {:.0} and {:.0} rad/s³; {} by {:.2} deg",
+            "{name}: {:.3} mm frame by frame, {:.3} mm together, {} steps; jerk of the knee {:.0} and {:.0} rad/s³; {} \
+             by {:.2} deg",
             mean(&plain),
             mean(&whole),
             whole.iterations[0],

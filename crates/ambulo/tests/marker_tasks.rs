@@ -1,7 +1,7 @@
 //! Coordinates that are held near values while markers are fitted.
 //!
-//! Three markers at a distance of 1 m from a hinge, recorded at the angle t: the cost of the markers is 2 (1 - cos(q - t)), whatever their weights,
-//! and with a task k (q - a)² the angle solves sin(t - q) = k (q - a).
+//! Three markers at a distance of 1 m from a hinge, recorded at the angle t: the cost of the markers is 2 (1 - cos(q -
+//! t)), whatever their weights, and with a task k (q - a)² the angle solves sin(t - q) = k (q - a).
 
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{
@@ -20,17 +20,23 @@ const ALLOWED: f64 = 1e-7;
 fn hinge() -> Model {
     let pin = |name: &str, parent: &str, default: f64| {
         format!(
-            "<PinJoint name=\"{name}\"><socket_parent_frame>{parent}</socket_parent_frame><socket_child_frame>/bodyset/{name}</socket_child_frame>\
-             <coordinates><Coordinate name=\"q_{name}\"><default_value>{default}</default_value></Coordinate></coordinates></PinJoint>"
+            "<PinJoint \
+             name=\"{name}\"><socket_parent_frame>{parent}</socket_parent_frame><socket_child_frame>\
+             /bodyset/{name}</socket_child_frame>\
+             <coordinates><Coordinate \
+             name=\"q_{name}\"><default_value>{default}</default_value></Coordinate></coordinates></PinJoint>"
         )
     };
     let marker = |name: &str, place: &str| {
         format!(
-            "<Marker name=\"{name}\"><socket_parent_frame>/bodyset/bar</socket_parent_frame><location>{place}</location></Marker>"
+            "<Marker \
+             name=\"{name}\"><socket_parent_frame>/bodyset/bar</socket_parent_frame><location>{place}</location>\
+             </Marker>"
         )
     };
     let text = format!(
-        "<OpenSimDocument Version=\"40000\"><Model name=\"hinge\"><BodySet><objects><Body name=\"bar\"><mass>1</mass></Body>\
+        "<OpenSimDocument Version=\"40000\"><Model name=\"hinge\"><BodySet><objects><Body \
+         name=\"bar\"><mass>1</mass></Body>\
          <Body name=\"end\"><mass>1</mass></Body></objects></BodySet><JointSet><objects>{}{}</objects></JointSet>\
          <MarkerSet><objects>{}{}{}</objects></MarkerSet></Model></OpenSimDocument>",
         pin("bar", "/ground", 0.2),
@@ -118,7 +124,8 @@ fn markers_without_a_task_are_counted() {
     let settings = FitSettings { weights: [("b".to_owned(), 0.0)].into(), ..FitSettings::default() };
     // Two markers may be too few for a fit; which are common is reported before.
     let _ = fit_markers(&model, &recording, &settings, &mut findings);
-    let expected = "2 of 4 markers of `bar` are on the model and are fitted; 1 more have the weight 0 and are not fitted; 1 only in the recording: x";
+    let expected = "2 of 4 markers of `bar` are on the model and are fitted; 1 more have the weight 0 and are not \
+        fitted; 1 only in the recording: x";
     let messages: Vec<&str> = findings.as_slice().iter().map(|f| f.message.as_str()).collect();
     assert!(messages.contains(&expected), "{messages:?}");
 }

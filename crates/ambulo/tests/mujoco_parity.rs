@@ -1,5 +1,5 @@
-//! The simulator against MuJoCo 4.0.0 on a human of 37 degrees of freedom: accelerations under joint torques, and 1 s of
-//! motion. The numbers and how they were made are in tests/testdata.
+//! The simulator against MuJoCo 4.0.0 on a human of 37 degrees of freedom: accelerations under joint torques, and 1 s
+//! of motion. The numbers and how they were made are in tests/testdata.
 //!
 //! Joints of two and three hinges at one place are built from hinges here too, with bodies without mass between them.
 

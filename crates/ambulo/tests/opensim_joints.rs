@@ -1,4 +1,5 @@
-//! Every joint type against OpenSim 4.6: generalised forces and places of random motions, recorded by `xtask/measure/peers/opensim_joints.py`.
+//! Every joint type against OpenSim 4.6: generalised forces and places of random motions, recorded by
+//! `xtask/measure/peers/opensim_joints.py`.
 
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::findings::Findings;
@@ -10,7 +11,8 @@ use std::collections::BTreeMap;
 
 /// Forces are some 100 N and sums have some 100 terms; numbers are recorded with 15 digits.
 const ALLOWED: f64 = 1e-8;
-/// Largest difference of the forces of a joint whose first and third axis are not at right angles and follow one coordinate [N.m].
+/// Largest difference of the forces of a joint whose first and third axis are not at right angles and follow one
+/// coordinate [N.m].
 const CURVES: f64 = 0.1;
 const TREES: [&str; 13] = [
     "weld",
@@ -77,7 +79,8 @@ fn every_joint_type_agrees_with_opensim() {
     for (tree, [force, place]) in differences(&model(DOCUMENT)) {
         println!("{tree:<10} forces {force:.1e} N.m, places {place:.1e} m");
         let agrees = match tree {
-            // The velocities of OpenSim's arc are in the axes of the child: its forces do not belong to its motion (tests/arc_joint.rs).
+            // The velocities of OpenSim's arc are in the axes of the child: its forces do not belong to its motion
+            // (tests/arc_joint.rs).
             "arc" => force > 1.0,
             // Nor do the forces of this joint in OpenSim have the power of its motion; ours have (below).
             "curves" => (1e-3..CURVES).contains(&force),

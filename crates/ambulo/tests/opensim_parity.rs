@@ -443,7 +443,8 @@ fn a_knee_whose_rotations_share_a_coordinate_accelerates_as_the_derivative_of_it
         off(DERIVATIVE),
         off(BIAS)
     );
-    // The central difference over 2e-5 s rounds velocities of some 4 rad/s: 4 eps / 2e-5 = 5e-11, and was printed to 1e-8.
+    // The central difference over 2e-5 s rounds velocities of some 4 rad/s: 4 eps / 2e-5 = 5e-11, and was printed to
+    // 1e-8.
     assert!(off(DERIVATIVE) < 2e-8);
     // OpenSim's own bias acceleration is not that derivative; this is where the moments of the two programs part.
     assert!(off(BIAS) > 0.03);

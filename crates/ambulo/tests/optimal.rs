@@ -1,4 +1,5 @@
-//! Optimal motion: the forces at the root vanish, a forward simulation follows the plan, sides are mirrored, momentum is kept.
+//! Optimal motion: the forces at the root vanish, a forward simulation follows the plan, sides are mirrored, momentum
+//! is kept.
 
 use ambulo::contact::{FrictionCurve, HuntCrossley, Onset};
 use ambulo::findings::Findings;
@@ -54,7 +55,8 @@ fn nothing_but_joints_and_ground_moves_an_optimal_walk() {
     }
 }
 
-/// Sideways forces cost something where a figure can have them, and their targets are zero: people's are not known to the objective.
+/// Sideways forces cost something where a figure can have them, and their targets are zero: people's are not known to
+/// the objective.
 #[test]
 fn only_a_walk_in_three_dimensions_has_a_cost_of_sideways_force() {
     let sideways = |case: &Case| -> Vec<(Vec<usize>, Vec<Option<f64>>, f64)> {
@@ -159,7 +161,8 @@ fn pelvis_and_thighs_move_out_of_plane_as_in_people() {
     assert!(mean(0.60, 0.72, |phase| hips(phase).y) < -0.004);
     assert!(mean(0.0, 0.10, |phase| hips(phase).x) > 0.004, "{}", mean(0.0, 0.10, |phase| hips(phase).x));
     assert!(mean(0.50, 0.60, |phase| hips(phase).x) < -0.004);
-    // Adduction: in the pelvis, the knee is medial of the hip in stance and lateral of it in early swing. Lateral is +z on the right.
+    // Adduction: in the pelvis, the knee is medial of the hip in stance and lateral of it in early swing. Lateral is +z
+    // on the right.
     for (side, right, later) in [("r", 1.0, 0.0), ("l", -1.0, 0.5)] {
         let knee_beyond_hip = |phase: f64| {
             let [knee, hip] = ["tibia", "femur"].map(|body| pose(&format!("{body}_{side}"), phase).translation);

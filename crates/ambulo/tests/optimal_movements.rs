@@ -245,7 +245,8 @@ fn keys_out_of_order_are_refused() {
     }
 }
 
-/// The motion of a solution at 100 Hz, its exact centre of pressure along the way [m] and the torques of both ankles [N.m].
+/// The motion of a solution at 100 Hz, its exact centre of pressure along the way [m] and the torques of both ankles
+/// [N.m].
 fn motion_with_truth(solution: &Solution) -> (Trajectory, Vec<f64>, [Vec<f64>; 2]) {
     let problem = solution.problem();
     let step_s = 0.01;

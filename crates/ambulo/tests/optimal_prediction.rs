@@ -1,4 +1,5 @@
-//! Predicted walks: nothing holds the body, work becomes height and losses, and muscles, loads, slopes and devices change what they should.
+//! Predicted walks: nothing holds the body, work becomes height and losses, and muscles, loads, slopes and devices
+//! change what they should.
 
 use ambulo::contact::HuntCrossley;
 use ambulo::findings::Findings;
@@ -158,8 +159,8 @@ fn work_becomes_height_and_losses() {
     }
 }
 
-/// Uphill, plantarflexors and hip extensors work more; downhill, knee extensors have to hold more (Lay, Hass, Gregor 2006, J Biomech 39:1621;
-/// McIntosh, Beatty, Dwan, Vickers 2006, J Biomech 39:2491; unverified).
+/// Uphill, plantarflexors and hip extensors work more; downhill, knee extensors have to hold more (Lay, Hass, Gregor
+/// 2006, J Biomech 39:1621; McIntosh, Beatty, Dwan, Vickers 2006, J Biomech 39:2491; unverified).
 #[test]
 fn slopes_and_loads_change_moments_as_in_people() {
     let on = |slope: f64| MIRRORED.predict(&WalkConditions { slope, ..WalkConditions::default() });

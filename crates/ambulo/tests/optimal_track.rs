@@ -1,4 +1,5 @@
-//! Tracking of recorded motions by feet on soft ground: a synthetic walk with known forces, and a person on force plates.
+//! Tracking of recorded motions by feet on soft ground: a synthetic walk with known forces, and a person on force
+//! plates.
 
 use crate::shared_data;
 use crate::walks;
@@ -23,7 +24,8 @@ use std::sync::LazyLock;
 /// A walk that needs no forces but those of its feet: one of the built-in plans.
 static WALK: LazyLock<&SyntheticWalk> = LazyLock::new(|| walks::optimal(walks::MAN, 1));
 
-/// The walk with errors as those of a recording: waves of 0.4 degrees and 2 mm, other ones for each coordinate, on a floor of velocity `belt`.
+/// The walk with errors as those of a recording: waves of 0.4 degrees and 2 mm, other ones for each coordinate, on a
+/// floor of velocity `belt`.
 fn recorded(belt: Vec3) -> Trajectory {
     let model = &WALK.human.model;
     let grid = WALK.trajectory.grid();
@@ -69,7 +71,8 @@ fn weight_n() -> f64 {
     WALK.human.model.mass() * WALK.human.model.gravity().norm()
 }
 
-/// Root mean square of the error of the total ground force along an axis [body weights], without the ends of the motion.
+/// Root mean square of the error of the total ground force along an axis [body weights], without the ends of the
+/// motion.
 fn error_of_total(analysis: &Analysis, axis: usize) -> f64 {
     let truth = |time_s: f64| -> f64 {
         let of = |load: &ambulo::motion::ForceRecording| {
@@ -85,8 +88,8 @@ fn error_of_total(analysis: &Analysis, axis: usize) -> f64 {
     (inside.iter().map(|e| e * e).sum::<f64>() / inside.len() as f64).sqrt() / weight_n()
 }
 
-/// Waves of 2 mm at 1 to 2.9 Hz accelerate the body by up to 0.6 m/s², 5 % of body weight rms. Tracking does not know them from the walk, so
-/// errors of this size remain; it must not add its own.
+/// Waves of 2 mm at 1 to 2.9 Hz accelerate the body by up to 0.6 m/s², 5 % of body weight rms. Tracking does not know
+/// them from the walk, so errors of this size remain; it must not add its own.
 #[test]
 fn tracking_recovers_the_forces_of_a_walk_with_errors() {
     let (before, after, motion) = &*AT_REST;

@@ -170,7 +170,8 @@ fn assert_same_axes(a: &[JointAxis], b: &[JointAxis], name: &str) -> usize {
     curves
 }
 
-/// Asserts that two models are the same except for joint names; returns the number of curves that are not straight lines.
+/// Asserts that two models are the same except for joint names; returns the number of curves that are not straight
+/// lines.
 fn assert_same_models(a: &Model, b: &Model) -> usize {
     assert_eq!((a.name(), a.gravity()), (b.name(), b.gravity()));
     assert_eq!((a.bodies().len(), a.coordinates().len()), (b.bodies().len(), b.coordinates().len()));
@@ -208,7 +209,8 @@ fn published_models_are_unchanged_after_writing_and_reading() {
     let Some((gait2392, rajagopal)) = marker_data::gait2392().zip(marker_data::rajagopal()) else { return };
     let coupled = |model: &Model| model.coordinates().iter().filter(|c| matches!(c.drive, Drive::Coupled(..))).count();
     let locked = |model: &Model| model.coordinates().iter().filter(|c| matches!(c.drive, Drive::Locked)).count();
-    // The knees' curves: translations of Gait2392's; two rotations and three translations of Rajagopal's, and the patellae's.
+    // The knees' curves: translations of Gait2392's; two rotations and three translations of Rajagopal's, and the
+    // patellae's.
     for (model, least_curves, couplers) in [(&gait2392.model, 4, 0), (&rajagopal.model, 10, 2)] {
         let read = read_back(model);
         let curves = assert_same_models(model, &read);

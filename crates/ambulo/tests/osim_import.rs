@@ -318,7 +318,8 @@ fn joints_move_along_the_axes_that_the_format_defines() {
     // The planar joint rotates first and moves along the axes of the parent.
     near(place(&simple("PlanarJoint", &["a", "b", "c"]), &[0.7, 0.5, 0.25]), 0.5, 0.25, 0.0);
     near(place(&simple("FreeJoint", &["a", "b", "c", "d", "e", "f"]), &[1.0, 1.0, 1.0, 0.1, 0.2, 0.3]), 0.1, 0.2, 0.3);
-    // The centre of the ellipsoid joint is in the direction of its z axis: x by sin b, y by -sin a cos b, z by cos a cos b.
+    // The centre of the ellipsoid joint is in the direction of its z axis: x by sin b, y by -sin a cos b, z by cos a
+    // cos b.
     let text = simple("EllipsoidJoint", &["a", "b", "c"])
         .replace("</EllipsoidJoint>", "<radii_x_y_z>0.3 0.4 0.5</radii_x_y_z></EllipsoidJoint>");
     let ((sa, ca), (sb, cb)) = (0.4_f64.sin_cos(), 0.9_f64.sin_cos());

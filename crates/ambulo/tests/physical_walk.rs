@@ -1,4 +1,5 @@
-//! Walking by own torques: nothing else moves the figure, it needs its feedback, it survives pushes and uneven ground, and a fall is reported.
+//! Walking by own torques: nothing else moves the figure, it needs its feedback, it survives pushes and uneven ground,
+//! and a fall is reported.
 
 use crate::scene_walkers::{example, scene, verdict};
 use ambulo::analysis::feasibility::VerdictState;
@@ -360,7 +361,8 @@ fn a_walker_without_a_hand_goes_twelve_metres() {
 /// With these words, a figure of a scene has three dimensions; without them it is planar.
 const SPATIAL_MODE: &str = ", mode = \"optimal\"";
 
-/// Runs a scene to its end. Nobody may fall, the walk has to be feasible, and the first figure has to walk a distance [m].
+/// Runs a scene to its end. Nobody may fall, the walk has to be feasible, and the first figure has to walk a distance
+/// [m].
 fn walks_on(name: &str, text: &str, distance: f64) -> Scene {
     let mut scene = scene(text);
     let mut findings = Findings::default();
@@ -402,7 +404,8 @@ fn a_figure_of_a_scene_changes_its_speed() {
 fn a_figure_of_a_scene_stands_walks_off_and_stops() {
     let text = example("stop-and-go.toml");
     let of_walk = text.find("walk = {").unwrap();
-    let walk = "walk = { speed = 0, changes = [{ at = 0.5, within = 0.5, speed = 0.75 }, { at = 3, speed = 0 }] }\ncontrol = {}\n";
+    let walk = "walk = { speed = 0, changes = [{ at = 0.5, within = 0.5, speed = 0.75 }, { at = 3, \
+        speed = 0 }] }\ncontrol = {}\n";
     let text = text[..of_walk].replace("duration = 16.0", "duration = 9.0") + walk;
     let mut places = Vec::new();
     let mut scene = scene(&text);

@@ -1,7 +1,9 @@
-//! Sagittal joint moments of seven children at the default settings, compared with those of Plug-in-Gait in the same C3D files (group POINT,
-//! `RHipMoment` and its like, N.mm/kg although the unit field states N.mm), while each foot is on its plate.
+//! Sagittal joint moments of seven children at the default settings, compared with those of Plug-in-Gait in the same
+//! C3D files (group POINT, `RHipMoment` and its like, N.mm/kg although the unit field states N.mm), while each foot is
+//! on its plate.
 //!
-//! `cargo test -p ambulo plug_in_gait -- --show-output` prints the comparison, with other filters of the forces as well.
+//! `cargo test -p ambulo plug_in_gait -- --show-output` prints the comparison, with other filters of the forces as
+//! well.
 
 use crate::shared_data;
 use ambulo::findings::Findings;
@@ -39,8 +41,8 @@ pub(crate) const PEOPLE: [Person; 7] = [
     person("HC055A", ["01", "09"], 32.0, 1.44),
 ];
 
-/// A joint: our coordinate, their point, the sign between them, and the limits of the mean over all legs: least r, largest RMS
-/// difference [N.m/kg].
+/// A joint: our coordinate, their point, the sign between them, and the limits of the mean over all legs: least r,
+/// largest RMS difference [N.m/kg].
 struct Joint {
     ours: &'static str,
     theirs: &'static str,

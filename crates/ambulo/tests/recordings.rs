@@ -570,7 +570,8 @@ fn another_rate_evaluates_the_same_curve_at_other_times() {
     let (own, fine) = (own.columns[0].as_ref().unwrap(), fine.columns[0].as_ref().unwrap());
     for k in 0..3 {
         for (i, value) in own[k].iter().enumerate() {
-            // The same spline at the same instant, but for the rounding of the instant: 1e-16 s times slopes of 60 rad/s³.
+            // The same spline at the same instant, but for the rounding of the instant: 1e-16 s times slopes of 60
+            // rad/s³.
             assert!((value - fine[k][4 * i]).abs() < 1e-9, "{k} {i}");
         }
     }

@@ -1,6 +1,7 @@
 //! Recorded walks made to agree with what plates measured: what remains at the root, and what had to be changed.
 //!
-//! The recordings are not part of the repository; docs/CONSISTENCY.md has the table that this prints with `--nocapture`.
+//! The recordings are not part of the repository; docs/CONSISTENCY.md has the table that this prints with
+//! `--nocapture`.
 
 use crate::gait_files;
 use crate::gait_files::{adult, child, woman};
@@ -143,7 +144,9 @@ fn with_body() -> ResidualReductionSettings {
 
 fn head(what: &str) {
     println!(
-        "\n{what}\n| walk | force before, peak %BW | moment before N.m | force after, peak %BW | moment after N.m | largest changes, rms / max deg | root mm | feet mm | mass % | trunk mm | ms |\n|---|---|---|---|---|---|---|---|---|---|---|"
+        "\n{what}\n| walk | force before, peak %BW | moment before N.m | force after, peak %BW | moment after N.m | \
+         largest changes, rms / max deg | root mm | feet mm | mass % | trunk mm | ms \
+         |\n|---|---|---|---|---|---|---|---|---|---|---|"
     );
 }
 
@@ -157,7 +160,8 @@ fn print_row(case: &Case, done: &ReducedMotion, ms: f64) {
     let foot = done.feet.iter().map(|f| 1e3 * f.max_m).fold(0.0, f64::max);
     let [x, y, z] = done.body.trunk_center_m.map(|x| 1e3 * x).into();
     println!(
-        "| {} | {:.1}, {:.1} | {:.1} | {:.2}, {:.2} | {:.1} | {} | {root:.0} | {foot:.0} | {:+.1} | {x:.0} {y:.0} {z:.0} | {ms:.0} |",
+        "| {} | {:.1}, {:.1} | {:.1} | {:.2}, {:.2} | {:.1} | {} | {root:.0} | {foot:.0} | {:+.1} | {x:.0} {y:.0} \
+         {z:.0} | {ms:.0} |",
         case.name,
         100.0 * before.force_rms_bw,
         100.0 * before.force_peak_bw,

@@ -1,4 +1,5 @@
-//! Motions made consistent where the truth is known: a walk in three dimensions whose ground forces are exactly those it needs.
+//! Motions made consistent where the truth is known: a walk in three dimensions whose ground forces are exactly those
+//! it needs.
 
 use crate::walks;
 use ambulo::dynamics::residual_reduction::{
@@ -152,7 +153,8 @@ fn a_motion_that_obeys_stays_as_it_is() {
         ..ResidualReductionSettings::default()
     };
     let (done, findings) = run(&t.model, &t.trajectory, &t.loads, settings);
-    // Sums of some twenty bodies' forces of 1e3 N round at 1e-12 N; accelerations of 1e-12 follow, times (0.5 s)² at most.
+    // Sums of some twenty bodies' forces of 1e3 N round at 1e-12 N; accelerations of 1e-12 follow, times (0.5 s)² at
+    // most.
     assert!(done.residual_before.force_rms_bw < 1e-12, "{:?}", done.residual_before);
     assert!(largest_change(&done) < 1e-10, "{}", largest_change(&done));
     assert!(done.body.mass_share.abs() < 1e-9 && done.body.trunk_center_m.norm() < 1e-9, "{:?}", done.body);
@@ -184,8 +186,8 @@ fn noise_of_a_degree_is_taken_back_as_far_as_the_forces_tell() {
         println!("{stem}: {a:.2} -> {b:.2} N.m rms off");
         (was, is) = (was + a * a, is + b * b);
     }
-    // Six equations a frame do not find some thirty angles: where feet were seen wrong (25 mm here, by the turns of the pelvis) the
-    // ankles stay wrong. The back, which has no load of its own, gains most.
+    // Six equations a frame do not find some thirty angles: where feet were seen wrong (25 mm here, by the turns of the
+    // pelvis) the ankles stay wrong. The back, which has no load of its own, gains most.
     assert!(is < 0.75 * was, "squares of moment errors: {was} -> {is}");
 }
 
@@ -213,7 +215,8 @@ fn a_change_is_one_smooth_curve_and_fades_outside_of_the_window() {
     for frame in (0..=10).chain(170..FRAMES) {
         assert!(value[frame].abs() < 1e-15 && acceleration[frame].abs() < 1e-15, "frame {frame}");
     }
-    // A cubic between frames: its acceleration is a line, so from frame to frame it moves by h (v0 + h (2 a0 + a1) / 6).
+    // A cubic between frames: its acceleration is a line, so from frame to frame it moves by h (v0 + h (2 a0 + a1) /
+    // 6).
     let h = 1.0 / RATE_HZ;
     for frame in 1..FRAMES {
         let [a0, a1] = [acceleration[frame - 1], acceleration[frame]];
@@ -410,7 +413,8 @@ fn a_simulated_walk_in_a_plane_hardly_changes() {
     let loads = measured(model, &walk.trajectory, &walk.loads, None, &mut findings).unwrap().loads();
     let (done, _) = run(model, &walk.trajectory, &loads, ResidualReductionSettings::default());
     println!("{:?} -> {:?}: {} deg", done.residual_before, done.residual_after, done.largest_angle() / DEGREE);
-    // The simulator lacks 2 N and 3 N.m rms (tests/synthetic_walk.rs); the trunk of 30 kg answers 3 N.m at 1 Hz by 0.2 degrees.
+    // The simulator lacks 2 N and 3 N.m rms (tests/synthetic_walk.rs); the trunk of 30 kg answers 3 N.m at 1 Hz by 0.2
+    // degrees.
     assert!(done.residual_before.force_rms_bw < 0.005 && done.residual_before.moment_rms_nm < 4.0);
     assert!(done.largest_angle() < 0.4 * DEGREE, "{}", done.largest_angle() / DEGREE);
     assert!(done.obeys(0.003), "{:?}", done.residual_after);

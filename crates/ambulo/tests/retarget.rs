@@ -75,8 +75,8 @@ fn the_walk_in_a_figure_of_eight_runs_through_inverse_dynamics() {
         let fits = (lowest[0]..lowest[1]).contains(&low) && (highest[0]..highest[1]).contains(&high);
         assert!(fits, "{name} runs from {low:.1} to {high:.1} degrees");
     };
-    // Walking: Schwartz 2008 has -10 to 40 at the hip, 5 to 70 of flexion at the knee, -20 to 15 at the ankle at free speed; fast and in
-    // curves people use more.
+    // Walking: Schwartz 2008 has -10 to 40 at the hip, 5 to 70 of flexion at the knee, -20 to 15 at the ankle at free
+    // speed; fast and in curves people use more.
     for side in ["r", "l"] {
         within(&format!("hip_flexion_{side}"), [-35.0, -5.0], [20.0, 50.0]);
         within(&format!("knee_angle_{side}"), [-85.0, -55.0], [-15.0, 5.0]);

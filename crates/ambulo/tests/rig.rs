@@ -1,5 +1,6 @@
-//! Results in the animator's own skeleton: figures whose motion is exactly that of the body, with the names, axes, units and resting poses of
-//! several programs; what a skeleton cannot store; results that are not those of the skeleton.
+//! Results in the animator's own skeleton: figures whose motion is exactly that of the body, with the names, axes,
+//! units and resting poses of several programs; what a skeleton cannot store; results that are not those of the
+//! skeleton.
 
 use crate::shared_data;
 use ambulo::findings::Findings;
@@ -19,7 +20,8 @@ const BUILD: Build = Build { table: SegmentTable::DeLevaMale, mass: 70.0, height
 const FRAMES: usize = 13;
 const STEP_S: f64 = 0.02;
 
-/// How a program names the joints, without sides: pelvis, first joint of the spine, thigh, shank, foot, toes, upper arm, forearm, hand; and a side.
+/// How a program names the joints, without sides: pelvis, first joint of the spine, thigh, shank, foot, toes, upper
+/// arm, forearm, hand; and a side.
 struct Names {
     joints: [&'static str; 9],
     side: fn(&str, Side) -> String,
@@ -93,7 +95,8 @@ fn facing_z() -> Mat3 {
     Mat3::new(0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0)
 }
 
-/// A joint of the figure: the body that carries it and its place there, and whether it drives a separate body or turns at will.
+/// A joint of the figure: the body that carries it and its place there, and whether it drives a separate body or turns
+/// at will.
 struct Part {
     name: String,
     parent: Option<usize>,
@@ -104,7 +107,8 @@ struct Part {
     end: Option<Vec3>,
 }
 
-/// A figure with the joints and lengths of the built-in body, a spine of two joints, clavicles, twist bones, fingers and a prop.
+/// A figure with the joints and lengths of the built-in body, a spine of two joints, clavicles, twist bones, fingers
+/// and a prop.
 struct Figure {
     human: Human,
     style: Style,
@@ -220,15 +224,16 @@ impl Figure {
         values
     }
 
-    /// Fingers, twist bones and props turn; the spine and the clavicles do not, because the trunk of the body is one piece.
+    /// Fingers, twist bones and props turn; the spine and the clavicles do not, because the trunk of the body is one
+    /// piece.
     fn own_turn(&self, part: &Part, frame: usize) -> Mat3 {
         let turns = ["Prop", "Twist", "Finger", "Head"].iter().any(|word| part.name.contains(word));
         let angle = if turns { 0.3 + 0.05 * frame as f64 } else { 0.0 };
         *Rotation3::from_euler_angles(angle, -0.5 * angle, 2.0 * angle).matrix()
     }
 
-    /// A motion of all coordinates that a skeleton shows. The trunk bends in the last third only, so that the median distance from hips to shoulders is
-    /// that of the upright body.
+    /// A motion of all coordinates that a skeleton shows. The trunk bends in the last third only, so that the median
+    /// distance from hips to shoulders is that of the upright body.
     fn motion(&self) -> Vec<Vec<f64>> {
         let model = &self.human.model;
         let value = |frame: usize, index: usize, name: &str| {
@@ -274,7 +279,8 @@ fn written(bvh: &Bvh, body: &Retargeted, motion: &Trajectory) -> Result<RiggedMo
     on_rig(model, motion, rig).map_err(|error| error.to_string())
 }
 
-/// Largest difference between the rotations of all joints of two motions of a skeleton [degrees], and between its positions [its unit].
+/// Largest difference between the rotations of all joints of two motions of a skeleton [degrees], and between its
+/// positions [its unit].
 fn difference(a: &Bvh, b: &Bvh) -> [f64; 2] {
     let mut most = [0.0_f64; 2];
     for (a, b) in (0..a.frames()).map(|frame| (a.frame(frame).unwrap(), b.frame(frame).unwrap())) {
@@ -398,7 +404,8 @@ fn a_result_of_a_part_has_its_frames_and_a_separate_first_pose_stays() {
     let made = written(&bvh, &body, &part).unwrap().bvh;
     assert_eq!(made.frames(), 5);
     assert!((0..5).all(|k| (made.frame(k).unwrap()[0] - bvh.frame(k + 4).unwrap()[0]).abs() < 1e-6));
-    // Two metres in a frame are no motion: the first frame is not part of the recording, whose results begin with the second.
+    // Two metres in a frame are no motion: the first frame is not part of the recording, whose results begin with the
+    // second.
     let posed = with_frames(&bvh, bvh.joints().to_vec(), |frame, mut values| {
         values[0] += if frame == 0 { 200.0 } else { 0.0 };
         values

@@ -109,7 +109,8 @@ fn worst_length(a: &Model, b: &Model) -> (f64, String) {
     worst
 }
 
-/// `from_stored_mm`: allowed difference of the leg lengths from those of the stored model, which another program scaled by other distances.
+/// `from_stored_mm`: allowed difference of the leg lengths from those of the stored model, which another program scaled
+/// by other distances.
 fn assert_comes_back(name: &str, subject: &Subject, from_stored_mm: f64) {
     let mut findings = Findings::default();
     let settings = SizeSettings { mass: Some(subject.model.mass()) };
@@ -128,7 +129,8 @@ fn assert_comes_back(name: &str, subject: &Subject, from_stored_mm: f64) {
         let [before, after] = [sized.rms_before_m, sized.rms_m].map(|m| 1000.0 * m.unwrap());
         let (worst, place) = worst_length(&plain.model, &sized.model);
         println!(
-            "{name} seed {seed}: marker RMS {before:.1} mm before, {after:.1} mm after; worst length {worst:.1} mm, {place}"
+            "{name} seed {seed}: marker RMS {before:.1} mm before, {after:.1} mm after; worst length {worst:.1} mm, \
+             {place}"
         );
         assert!(worst < 4.0, "{name} seed {seed}: {worst} mm");
         assert!(

@@ -506,7 +506,8 @@ fn shapes_without_inertia_are_uniform_solids() {
         ),
         (
             inertia_of(
-                "[{ kind = \"sphere\", radius = 0.2, at = [-0.3, 0, 0] }, { kind = \"sphere\", radius = 0.2, at = [0.3, 0, 0] }]",
+                "[{ kind = \"sphere\", radius = 0.2, at = [-0.3, 0, 0] }, { kind = \"sphere\", radius = 0.2, \
+                 at = [0.3, 0, 0] }]",
             ),
             summed(in_dumbbell, 0.6, 0.01),
         ),
@@ -531,7 +532,8 @@ const ANN: &str = "{ table = \"de-leva-female\", mass = 60, height = 1.65 }";
 fn built_figures_read_as_they_say() {
     let file = parse(&person(
         ANN,
-        "walk = { gait = \"slow\", speed = 0.9, mode = \"curves\", phase = 0.25 }\narms = { left = { abduction_deg = 30, stiffness = 20, damping = 2 } }\n\
+        "walk = { gait = \"slow\", speed = 0.9, mode = \"curves\", phase = 0.25 }\narms = \
+         { left = { abduction_deg = 30, stiffness = 20, damping = 2 } }\n\
          shoes = \"default\"\nat = [1, 0, 2]\n[[figure.coordinate]]\nname = \"arm_flex_l\"\nstart_deg = 90\n\
          follow = { stiffness = 5 }\n[[figure.coordinate]]\nname = \"knee_angle_r\"",
     ));

@@ -268,13 +268,15 @@ fn coordinates_begin_as_they_are_called_and_move_along_their_axes() {
         ("kind = \"revolute\"\nat = [0, 0, 0]\naxis = [1, 1, 0]\ncoordinate = { start = 0.4, rate = 0.5 }", vec![0.4]),
         ("kind = \"prismatic\"\naxis = [1, 1, 0]\ncoordinate = { start = 0.4, rate = 0.5 }", vec![0.4]),
         (
-            "kind = \"universal\"\nat = [0, 0, 0]\naxis = [1, 0, 0]\nsecond_axis = [0, 0, 1]\ncoordinate = [{ start = 0.4 }, { start = -0.2, rate = 0.5 }]",
+            "kind = \"universal\"\nat = [0, 0, 0]\naxis = [1, 0, 0]\nsecond_axis = [0, 0, 1]\ncoordinate = \
+             [{ start = 0.4 }, { start = -0.2, rate = 0.5 }]",
             vec![0.4, -0.2],
         ),
         ("kind = \"ball\"\nat = [0, 0, 0]\ncoordinate = [{ start = 0.4, rate = 0.5 }]", vec![0.4, 0.0, 0.0]),
         // The file turns first, the simulator slides first.
         (
-            "kind = \"planar\"\naxis = [0, 1, 0]\ncoordinate = [{ start = 0.4, rate = 0.5 }, { start = 2 }, { start = 3 }]",
+            "kind = \"planar\"\naxis = [0, 1, 0]\ncoordinate = [{ start = 0.4, rate = 0.5 }, { start = 2 }, \
+             { start = 3 }]",
             vec![2.0, 3.0, 0.4],
         ),
         ("kind = \"free\"\ncoordinate = [{ start = 0.4, rate = 0.5 }]", vec![0.4, 0.0, 0.0, 0.0, 0.0, 0.0]),
@@ -451,16 +453,19 @@ fn a_figure_that_a_scene_leaves_free_must_have_joints_that_the_simulator_knows()
     let error = build_in(&folder, text, SceneSettings::default()).err().unwrap().to_string();
     assert!(error.starts_with("line 3, `figure[1]`: found the joint `knee_r`"), "{error}");
     assert!(error.contains("hint: drive all coordinates of the joint, or none"), "{error}");
-    let text = "step = 0.001\nduration = 0.1\n[[body]]\nname = \"a\"\nmass = 1\ninertia = [1, 1, 1]\n[[joint]]\nname = \"j\"\n\
-                kind = \"weld\"\nparent = \"doll/head\"\nchild = \"a\"\n[[figure]]\nname = \"doll\"\nmodel = \"no.osim\"\n";
+    let text = "step = 0.001\nduration = 0.1\n[[body]]\nname = \"a\"\nmass = 1\ninertia = [1, 1, 1]\n[[joint]]\nname = \
+        \"j\"\n\
+                kind = \"weld\"\nparent = \"doll/head\"\nchild = \"a\"\n[[figure]]\nname = \"doll\"\nmodel = \
+                \"no.osim\"\n";
     assert!(refusal(text).starts_with("line 14, `figure[1].model`: no.osim"));
 }
 
-/// Largest difference of any force between a scene that drives the recorded figure and inverse dynamics of the recording, by
-/// coordinate, with the largest force.
+/// Largest difference of any force between a scene that drives the recorded figure and inverse dynamics of the
+/// recording, by coordinate, with the largest force.
 fn against_inverse_dynamics(folder: &Path, figure: &str, settings: &str) -> Vec<(String, f64, f64)> {
     let text = format!(
-        "{settings}duration = 0.6\noutput_rate = 60\n[[figure]]\nname = \"walker\"\nmodel = \"subject01_simbody.osim\"\n\
+        "{settings}duration = 0.6\noutput_rate = 60\n[[figure]]\nname = \"walker\"\nmodel = \
+         \"subject01_simbody.osim\"\n\
          motion = \"subject01_walk1_ik.mot\"\nfrom = 1.0\nroot = \"driven\"\n{figure}"
     );
     let (mut scene, _) = build_in(folder, &text, SceneSettings::default()).unwrap();
@@ -486,8 +491,8 @@ fn against_inverse_dynamics(folder: &Path, figure: &str, settings: &str) -> Vec<
     for (k, name) in model.force_names().into_iter().enumerate() {
         let (mut difference, mut largest) = (0.0_f64, 0.0_f64);
         for (time_s, forces) in &rows {
-            // The beginning of the step: there Runge-Kutta has the value, and there the second difference of three places,
-            // which impulses follow, is the acceleration.
+            // The beginning of the step: there Runge-Kutta has the value, and there the second difference of three
+            // places, which impulses follow, is the acceleration.
             let at = 1.0 + time_s - step_s;
             let frame = ((at - grid.start_s) / grid.step_s).round() as usize;
             assert!((grid.time(frame) - at).abs() < 1e-9);
@@ -514,8 +519,9 @@ fn a_driven_figure_needs_the_efforts_of_inverse_dynamics() {
     };
     // The same equations: rounding of sums of some hundred terms.
     assert!(worst("runge-kutta", 0.001, "") < 1e-12 && worst("runge-kutta", 0.001, moved) < 1e-12);
-    // Velocities of the end of a step where inverse dynamics has those of its beginning: h times jerk over acceleration, which in
-    // this unfiltered recording reaches 20/s. Of first order: half the step, half the difference.
+    // Velocities of the end of a step where inverse dynamics has those of its beginning: h times jerk over
+    // acceleration, which in this unfiltered recording reaches 20/s. Of first order: half the step, half the
+    // difference.
     let [coarse, fine] = [0.001, 0.0005].map(|step| worst("impulse", step, ""));
     assert!(coarse < 0.03 && (coarse / fine - 2.0).abs() < 0.2, "{coarse} and {fine}");
 }

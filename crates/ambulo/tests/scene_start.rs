@@ -13,13 +13,15 @@ fn built(text: &str) -> (Scene, Findings) {
     (scene, findings)
 }
 
-/// A rod of 2 kg on a hinge 0.5 m from its centre, I = 0.3 kg.m², with this velocity of its centre and this angular velocity.
+/// A rod of 2 kg on a hinge 0.5 m from its centre, I = 0.3 kg.m², with this velocity of its centre and this angular
+/// velocity.
 fn hinged(integrator: &str, velocity: &str, turning: f64) -> String {
     format!(
         "step = 0.001\nduration = 0.2\ngravity = [0, 0, 0]\nintegrator = \"{integrator}\"\n\
          [[body]]\nname = \"rod\"\nmass = 2.0\ninertia = [0.3, 0.3, 0.3]\nposition = [0.5, 0, 0]\n\
          velocity = {velocity}\nangular_velocity = [0, 0, {turning}]\n\
-         [[joint]]\nname = \"hinge\"\nkind = \"revolute\"\nparent = \"world\"\nchild = \"rod\"\nat = [0, 0, 0]\naxis = [0, 0, 1]\n"
+         [[joint]]\nname = \"hinge\"\nkind = \"revolute\"\nparent = \"world\"\nchild = \"rod\"\nat = [0, 0, 0]\naxis = \
+         [0, 0, 1]\n"
     )
 }
 
@@ -49,13 +51,15 @@ fn contradictory_velocities_start_as_if_the_joint_took_hold_with_an_impulse_in_b
 
 #[test]
 fn a_body_whose_velocity_points_away_from_its_hinge_keeps_its_angular_momentum_about_it() {
-    // 1 kg at 1 m from the hinge, I = 0.1 kg.m², v = (3, 4, 0) m/s, 1 rad/s: L = 0.1 + 4 = 4.1, energy L²/(2 (0.1 + 1)) = 7.6409 J.
+    // 1 kg at 1 m from the hinge, I = 0.1 kg.m², v = (3, 4, 0) m/s, 1 rad/s: L = 0.1 + 4 = 4.1, energy L²/(2 (0.1 +
+    // 1)) = 7.6409 J.
     for integrator in ["impulse", "runge-kutta"] {
         let text = format!(
             "step = 0.001\nduration = 0.01\ngravity = [0, 0, 0]\nintegrator = \"{integrator}\"\n\
              [[body]]\nname = \"ball\"\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\nposition = [1, 0, 0]\n\
              velocity = [3, 4, 0]\nangular_velocity = [0, 0, 1]\n\
-             [[joint]]\nname = \"hinge\"\nkind = \"revolute\"\nparent = \"world\"\nchild = \"ball\"\nat = [0, 0, 0]\naxis = [0, 0, 1]\n"
+             [[joint]]\nname = \"hinge\"\nkind = \"revolute\"\nparent = \"world\"\nchild = \"ball\"\nat = [0, 0, \
+             0]\naxis = [0, 0, 1]\n"
         );
         let (scene, findings) = built(&text);
         let found = energy(scene.world(), scene.state()).total();

@@ -34,8 +34,9 @@ fn motion(scene: &Scene) -> FigureMotion {
     }
 }
 
-/// Largest and mean generalised force on the root [N, N.m] that remain after the scene's forces on the figure. The first step is left out:
-/// driven coordinates have their velocity there, and the recording has no place before it that tells their acceleration.
+/// Largest and mean generalised force on the root [N, N.m] that remain after the scene's forces on the figure. The
+/// first step is left out: driven coordinates have their velocity there, and the recording has no place before it that
+/// tells their acceleration.
 fn residual(motion: &FigureMotion) -> [f64; 2] {
     let forces = inverse(&mut Workspace::new(&motion.model), &motion.trajectory, &motion.loads);
     let root = motion.model.bodies().iter().find(|body| body.joint.parent.is_none()).unwrap().joint.coordinates();
@@ -73,7 +74,8 @@ fn what_the_scene_does_to_a_figure_with_a_free_root_leaves_no_residual() {
     }
     let [[worst, coarse], [_, fine]] = [found[0], found[1]];
     println!(
-        "residual of the root: {worst:.1e} body weights at worst, {coarse:.1e} on average, {fine:.1e} with half the step"
+        "residual of the root: {worst:.1e} body weights at worst, {coarse:.1e} on average, {fine:.1e} with half the \
+         step"
     );
     // Steps are of first order; the worst one is the impact of a foot.
     assert!(worst < 0.02 && coarse < 1e-3 && fine < 0.6 * coarse, "{found:?}");
@@ -83,8 +85,10 @@ fn what_the_scene_does_to_a_figure_with_a_free_root_leaves_no_residual() {
 fn a_loop_and_a_bag_that_pull_at_a_figure_leave_no_residual() {
     // Moments of a loop about a wrong point, or with the wrong sign, would leave most of the weight.
     let bag = "[[body]]\nname = \"bag\"\nmass = 5.0\ninertia = [0.1, 0.1, 0.1]\nposition = [0, 0.5, 0]\n";
-    let hook = "[[closure]]\nname = \"hook\"\nkind = \"ball\"\nfirst = \"walker/torso\"\nsecond = \"world\"\nat = [0, 1.4, 0]\n";
-    let strap = "[[closure]]\nname = \"strap\"\nkind = \"ball\"\nfirst = \"bag\"\nsecond = \"walker/pelvis\"\nat = [0, 0.7, 0]\n";
+    let hook = "[[closure]]\nname = \"hook\"\nkind = \"ball\"\nfirst = \"walker/torso\"\nsecond = \"world\"\nat = [0, \
+        1.4, 0]\n";
+    let strap = "[[closure]]\nname = \"strap\"\nkind = \"ball\"\nfirst = \"bag\"\nsecond = \"walker/pelvis\"\nat = [0, \
+        0.7, 0]\n";
     let settings = format!("step = 0.0005\nduration = 0.3\n{bag}{hook}{strap}");
     let Some(scene) = walked(&settings, "root = \"free\"\n") else { return };
     let motion = motion(&scene);
@@ -154,7 +158,8 @@ const DRIVEN: [&str; 12] = [
 
 #[test]
 fn passive_joints_beside_driven_ones_carry_no_moment_in_a_recorded_figure() {
-    // Ankles turn about oblique axes and the trunk about three; nothing holds them, so their moments are zero in the recorded motion.
+    // Ankles turn about oblique axes and the trunk about three; nothing holds them, so their moments are zero in the
+    // recorded motion.
     let sided = DRIVEN.iter().enumerate().map(|(k, name)| format!("\"{name}_{}\"", if k < 6 { "r" } else { "l" }));
     let figure = format!("root = \"free\"\ndrive = [{}]\n", sided.collect::<Vec<_>>().join(", "));
     let passive = ["ankle_angle_r", "ankle_angle_l", "lumbar_extension", "lumbar_bending", "lumbar_rotation"];

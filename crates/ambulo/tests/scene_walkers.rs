@@ -106,7 +106,8 @@ fn a_walker_follows_its_consistent_walk() {
     let speed = (place(&scene, "ann/pelvis").x - start) / 1.2;
     println!("{speed:.4} m/s, the trunk is held with {trunk:.2} N.m at most");
     assert!((speed - 1.2).abs() < 0.02, "{speed} m/s");
-    // A sixth of what is taken to be in balance. It was 42 N.m in the first step, which had half of the change of velocity.
+    // A sixth of what is taken to be in balance. It was 42 N.m in the first step, which had half of the change of
+    // velocity.
     assert!(trunk < 10.0, "{trunk} N.m");
     assert_eq!(verdict(&scene).state, VerdictState::Feasible);
 }
@@ -195,20 +196,23 @@ fn the_hands_of_mirror_images_push_only_sideways() {
     let person = |name: &str, side: &str, phase: f64, z: f64| {
         let own = |joint: &str, deg: f64| {
             format!(
-                "[[figure.coordinate]]\nname = \"{joint}_{side}\"\nstart_deg = {deg}\nspring = {{ stiffness = 40, damping = 3, rest_deg = {deg} }}\n"
+                "[[figure.coordinate]]\nname = \"{joint}_{side}\"\nstart_deg = {deg}\nspring = {{ stiffness = 40, \
+                 damping = 3, rest_deg = {deg} }}\n"
             )
         };
         let word = if side == "r" { "right" } else { "left" };
         format!(
             "[[figure]]\nname = \"{name}\"\nbuild = {{ table = \"de-leva-female\", mass = 60, height = 1.65 }}\n\
-             walk = {{ speed = 1.2, phase = {phase} }}\narms = {{ {word} = {{ abduction_deg = 20 }} }}\nat = [0, 0, {z}]\n{}{}",
+             walk = {{ speed = 1.2, phase = {phase} }}\narms = {{ {word} = {{ abduction_deg = 20 }} }}\nat = [0, 0, \
+             {z}]\n{}{}",
             own("arm_flex", 0.0),
             own("elbow_flex", 20.0)
         )
     };
     let text = format!(
         "step = 0.001\nduration = 1.0\n[[obstacle]]\nname = \"floor\"\nkind = \"plane\"\n{}{}\
-         [[closure]]\nname = \"hands\"\nkind = \"ball\"\nfirst = \"ann/hand_l\"\nsecond = \"eve/hand_r\"\non_first = [0, 0, 0]\n",
+         [[closure]]\nname = \"hands\"\nkind = \"ball\"\nfirst = \"ann/hand_l\"\nsecond = \"eve/hand_r\"\non_first = \
+         [0, 0, 0]\n",
         person("ann", "l", 0.0, 0.0),
         person("eve", "r", 0.5, -0.8)
     );
@@ -252,7 +256,8 @@ fn a_walker_carries_a_box_in_both_hands() {
 
 #[test]
 fn a_figure_without_a_walk_stands_and_its_arms_can_hang_freely() {
-    let text = "step = 0.001\nduration = 0.5\n[[obstacle]]\nname = \"floor\"\nkind = \"plane\"\n[[figure]]\nname = \"guard\"\n\
+    let text = "step = 0.001\nduration = 0.5\n[[obstacle]]\nname = \"floor\"\nkind = \"plane\"\n[[figure]]\nname = \
+        \"guard\"\n\
                 build = { table = \"faure-1997\", mass = 80, height = 1.80, toe_joint = false }\n\
                 [[figure.coordinate]]\nname = \"arm_flex_r\"\nstart_deg = 10\n";
     let mut scene = scene(text);
@@ -329,8 +334,10 @@ fn errors_in_other_files_are_reported_with_their_place() {
 /// A walker without correction whose gait is this text, next to a door that opens by 1 rad from 0.6 s to 0.8 s.
 fn next_to_a_door(gait: &str) -> Result<Scene, SceneError> {
     let text = alone(", gait = \"own.toml\", mode = \"curves\"", 1.6).replace("gait = \"free\", ", "")
-        + "[[body]]\nname = \"panel\"\nmass = 5\nposition = [0, 1, 3]\nshape = { kind = \"box\", size = [0.8, 2, 0.04] }\n\
-           [[joint]]\nname = \"door\"\nkind = \"revolute\"\nparent = \"world\"\nchild = \"panel\"\nat = [-0.4, 1, 3]\naxis = [0, 1, 0]\n\
+        + "[[body]]\nname = \"panel\"\nmass = 5\nposition = [0, 1, 3]\nshape = { kind = \"box\", size = [0.8, 2, \
+            0.04] }\n\
+           [[joint]]\nname = \"door\"\nkind = \"revolute\"\nparent = \"world\"\nchild = \"panel\"\nat = [-0.4, 1, \
+           3]\naxis = [0, 1, 0]\n\
            [joint.coordinate]\ndrive = { stops = [[0.6, 0.0], [0.8, 1.0]] }\n";
     let mut load = |_: &str| Ok(gait.as_bytes().to_vec());
     Scene::build(&SceneFile::parse(&text)?, SceneSettings::default(), &mut load, &mut Findings::default())
@@ -340,7 +347,8 @@ fn next_to_a_door(gait: &str) -> Result<Scene, SceneError> {
 fn machines_of_a_walker_read_its_feet_and_the_joints_of_the_scene() {
     let waving = |when: &str| {
         format!(
-            "[[machine]]\nname = \"wave\"\ndrives = \"left elbow\"\nstate = [{{ name = \"down\" }}, {{ name = \"up\", activity = \"sub_cycle\", to_deg = 110, within = 0.3 }}]\n\
+            "[[machine]]\nname = \"wave\"\ndrives = \"left elbow\"\nstate = [{{ name = \"down\" }}, {{ name = \"up\", \
+             activity = \"sub_cycle\", to_deg = 110, within = 0.3 }}]\n\
              transition = [{{ from = \"down\", to = \"up\", when = \"{when}\" }}]\n"
         )
     };
@@ -356,7 +364,8 @@ fn machines_of_a_walker_read_its_feet_and_the_joints_of_the_scene() {
         angles
     };
     let first_above = |angles: &[(f64, f64)]| angles.iter().find(|(_, angle)| *angle > 100.0).map(|(t, _)| *t);
-    // The door is half open at 0.7 s, and the arm is up 0.3 s later; a quintic passes 100 of 110 degrees somewhat earlier.
+    // The door is half open at 0.7 s, and the arm is up 0.3 s later; a quintic passes 100 of 110 degrees somewhat
+    // earlier.
     let opened = first_above(&elbow("signal door > 0.5")).unwrap();
     assert!((0.88..1.0).contains(&opened), "{opened}");
     let struck = first_above(&elbow("left foot strikes and time > 0.2 s")).unwrap();

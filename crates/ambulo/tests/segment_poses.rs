@@ -131,8 +131,8 @@ pub(crate) fn largest_errors_of_poses(poses: &SegmentPoses) -> [f64; 2] {
     largest
 }
 
-/// Reals of 24 bits in the file: 1e-7 of the axes and of 1 m. The trunk is aimed at shoulders whose distance from the hips is a
-/// median over a trunk that bends by 0.2 rad.
+/// Reals of 24 bits in the file: 1e-7 of the axes and of 1 m. The trunk is aimed at shoulders whose distance from the
+/// hips is a median over a trunk that bends by 0.2 rad.
 #[track_caller]
 fn assert_exact([legs, trunk]: [f64; 2]) {
     assert!(legs < 1e-5 && trunk < 1e-3, "{legs} {trunk}");

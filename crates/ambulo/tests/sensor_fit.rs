@@ -1,5 +1,5 @@
-//! Orientations of sensors: known movements come back, OpenSim finds the same angles, the place follows from the feet, and what cannot be used is
-//! refused.
+//! Orientations of sensors: known movements come back, OpenSim finds the same angles, the place follows from the feet,
+//! and what cannot be used is refused.
 
 use crate::segment_poses::{FRAMES, RATE_HZ, person, posture};
 use crate::shared_data::data;
@@ -172,7 +172,8 @@ fn toes_without_sensors_stay_and_a_missing_thigh_is_refused() {
     let told = findings.as_slice().iter().find(|finding| finding.code == Code::SensorsHeld).unwrap();
     assert!(told.message.contains("`mtp_angle_r` (0)") && !told.message.contains("pelvis"), "{}", told.message);
     let error = made(&without(&["femur_r"])).fit(&ahead(Vec3::x()), &mut findings).unwrap_err();
-    let wanted = "the sensors do not determine `knee_angle_r`, `hip_flexion_r`, `hip_adduction_r`, `hip_rotation_r`: a sensor is missing";
+    let wanted = "the sensors do not determine `knee_angle_r`, `hip_flexion_r`, `hip_adduction_r`, `hip_rotation_r`: a \
+        sensor is missing";
     assert!(error.to_string().starts_with(wanted), "{error}");
     let error = made(&without(&["pelvis"])).fit(&SensorAxes::default(), &mut findings).unwrap_err();
     assert!(error.to_string().contains("`pelvis_tilt`"), "{error}");
@@ -318,13 +319,15 @@ fn opensim_finds_the_same_angles_for_disturbed_sensors() {
     }
     let (off, place) = largest;
     println!(
-        "{} angles at {} times: largest difference from OpenSim {off:.1e} rad ({place}); the disturbance moves them by up to {disturbed:.2} rad",
+        "{} angles at {} times: largest difference from OpenSim {off:.1e} rad ({place}); the disturbance moves them by \
+         up to {disturbed:.2} rad",
         table.columns().count() - 1,
         times.len()
     );
     assert!(off < 3e-3 && disturbed > 0.05, "{off} {place} {disturbed}");
 
-    // OpenSim's solver stops before the minimum of its own sum of squared angles; ours is of chords, which differ by θ²/12 of each.
+    // OpenSim's solver stops before the minimum of its own sum of squared angles; ours is of chords, which differ by
+    // θ²/12 of each.
     let mut least: f64 = 0.0;
     for (row, time) in times.iter().enumerate() {
         let frame = frame_at(time);

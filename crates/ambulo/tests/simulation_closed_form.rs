@@ -1,7 +1,8 @@
 //! The velocity-level stepper against motions and forces known in closed form, without contacts.
 //!
-//! The scheme is v⁺ from the forces at x, then x⁺ = x + h v⁺: first order. Where a motion is smooth its error must halve with
-//! the step; where the scheme itself has a closed form (constant force, linear spring) it must be met to rounding.
+//! The scheme is v⁺ from the forces at x, then x⁺ = x + h v⁺: first order. Where a motion is smooth its error must
+//! halve with the step; where the scheme itself has a closed form (constant force, linear spring) it must be met to
+//! rounding.
 
 use crate::common::random::Random;
 use crate::common::worlds::{
@@ -151,8 +152,9 @@ fn precessed(h: f64, sense: f64) -> Vec3 {
 fn a_symmetric_top_precesses_steadily() {
     let errors = assert_first_order(4e-4, |h| precessed(h, 1.0).norm());
     println!("axis of the top off by {errors:?}");
-    // A step turns the top by h ω₃ = 0.034 rad and misses the angular momentum by (h ω₃)²/2 of it at most; 1250 such steps
-    // add up to 0.73. Extrapolated by its halving the error is of second order: the square of the errors at the two steps.
+    // A step turns the top by h ω₃ = 0.034 rad and misses the angular momentum by (h ω₃)²/2 of it at most; 1250 such
+    // steps add up to 0.73. Extrapolated by its halving the error is of second order: the square of the errors at the
+    // two steps.
     assert!(errors[0] < 0.73);
     let extrapolated = precessed(1e-4, 1.0) * 2.0 - precessed(2e-4, 1.0);
     println!("extrapolated: {}", extrapolated.norm());
@@ -277,8 +279,8 @@ fn joints_stay_closed_however_fast_bodies_turn() {
 
 #[test]
 fn every_kind_of_closure_has_its_constraints_and_free_motions() {
-    // A step turns bodies by h ω < 0.03 rad and leaves (h ω)² r/2 of drift, of which the linearised projection leaves the
-    // square again: 2e-7.
+    // A step turns bodies by h ω < 0.03 rad and leaves (h ω)² r/2 of drift, of which the linearised projection leaves
+    // the square again: 2e-7.
     assert_joint(true, 2e-7);
 }
 

@@ -1,5 +1,5 @@
-//! Contact, friction and impact of the velocity-level stepper, against closed forms and against the laws themselves, whose
-//! residuals are computed here from poses, twists and forces alone.
+//! Contact, friction and impact of the velocity-level stepper, against closed forms and against the laws themselves,
+//! whose residuals are computed here from poses, twists and forces alone.
 
 use crate::common::random::Random;
 use crate::common::worlds::{
@@ -15,7 +15,8 @@ use ambulo::simulation::{
 };
 use ambulo::spatial::{Pose, Vec3};
 
-/// What a second of steps of 1 ms sums of the solver's 1e-10 of g h = 1e-2 m/s, generously: also as a share of a weight.
+/// What a second of steps of 1 ms sums of the solver's 1e-10 of g h = 1e-2 m/s, generously: also as a share of a
+/// weight.
 const SOLVED: f64 = 1e-8;
 
 /// Sum of the contact forces on a surface in the last step.
@@ -238,12 +239,14 @@ fn a_dropped_ball_bounces_with_e_times_its_speed_and_comes_to_rest() {
     let mut fall = f64::sqrt(2.0 * G * height);
     for [time, speed, after] in bounces.iter().take(5) {
         println!("{time:.3} s: {speed:.5} -> {after:.5} m/s, exact {fall:.5} -> {:.5}", e * fall);
-        // By the law itself, exact; the step in which the ball meets the floor is known to h only: g h of speed each time.
+        // By the law itself, exact; the step in which the ball meets the floor is known to h only: g h of speed each
+        // time.
         assert_near(*after, e * speed, 1e-9, "speed after");
         assert_near(*speed, fall, 2.0 * G * h, "speed before");
         fall *= e;
     }
-    // Semi-implicit steps keep m (g y + v²/2 - g h v/2) of a free fall: E itself by m g h v/2 at most, 0.7·9.81·1e-3·4.4/2.
+    // Semi-implicit steps keep m (g y + v²/2 - g h v/2) of a free fall: E itself by m g h v/2 at most,
+    // 0.7·9.81·1e-3·4.4/2.
     println!("energy gained in a step: {gained:e} J");
     assert!(gained < 0.016);
     assert!(run.velocity(0).norm() < SOLVED && (run.place(0).y - 0.1).abs() < SOLVED, "at rest in the end");
@@ -351,13 +354,13 @@ fn collisions_keep_momentum() {
     };
     let (linear, angular) = run_with(false);
     println!("without projection: momentum off by {linear:e}, angular momentum by {angular:e}");
-    // Forces come in pairs at one point. Each solve of a matrix that holds stiffnesses a million times the inertias leaves
-    // 1e6 ε = 2e-10 of the momentum that it exchanges, of 10 N.s in all.
+    // Forces come in pairs at one point. Each solve of a matrix that holds stiffnesses a million times the inertias
+    // leaves 1e6 ε = 2e-10 of the momentum that it exchanges, of 10 N.s in all.
     assert!(linear < 2e-9 && angular < 2e-9, "{linear:e} {angular:e}");
     let (linear, angular) = run_with(true);
     println!("with projection: momentum off by {linear:e}, angular momentum by {angular:e}");
-    // Projection moves balls apart without momentum: L changes by Σ m δ x v, δ the overlaps of the impacts, up to v h each:
-    // 50 of 1 kg · 2e-3 m · 2 m/s, of random signs.
+    // Projection moves balls apart without momentum: L changes by Σ m δ x v, δ the overlaps of the impacts, up to v h
+    // each: 50 of 1 kg · 2e-3 m · 2 m/s, of random signs.
     assert!(linear < 2e-9 && angular < 0.03);
 }
 
@@ -667,7 +670,8 @@ fn friction_of_soft_ground_begins_with_the_slope_of_its_law_at_rest() {
 
 #[test]
 fn owners_that_are_joined_or_ignored_pass_through_each_other_and_others_do_not() {
-    // Two balls of 1 kg hinged at their common centre, inside a third that is ignored, fall through a shelf that is ignored onto a floor.
+    // Two balls of 1 kg hinged at their common centre, inside a third that is ignored, fall through a shelf that is
+    // ignored onto a floor.
     let mut world = of_rigid(0.0, 0.0);
     add_floor(&mut world, Pose::IDENTITY);
     let shelf = add_obstacle(&mut world, Pose::at(v(0.0, 0.5, 0.0)), None);
@@ -820,8 +824,8 @@ fn departures(run: &mut Run, sum: &mut Departures) {
 
 fn judged(world: World) -> Departures {
     let mut run = Run::new(world, 1e-3);
-    // A tighter tolerance than 1e-10 asks more than there is: gaps are known to 1e-16 m, which over a step of 1 ms is 1e-13 m/s
-    // or 1e-11 of g h, and eight spheres under two rigid feet cannot all agree to less.
+    // A tighter tolerance than 1e-10 asks more than there is: gaps are known to 1e-16 m, which over a step of 1 ms is
+    // 1e-13 m/s or 1e-11 of g h, and eight spheres under two rigid feet cannot all agree to less.
     run.settings.solver = SolverSettings { max_iterations: 1000, ..SolverSettings::default() };
     let mut sum = Departures::default();
     for _ in 0..500 {
@@ -852,8 +856,8 @@ fn a_figure_whose_feet_slide_apart_obeys_newton_signorini_and_coulomb() {
     // Where contacts go over from sticking to slipping, friction and normal forces may chase each other for ever; such
     // steps say that they have not converged, and are fewer than one in twenty.
     assert!(sum.slipping > 500 && sum.unconverged <= 25, "feet must slide");
-    // The solver's 1e-10 is of the departure without forces, up to 1 m/s where feet slide: 1e-8 of g h; and the slowest slip
-    // hides in it.
+    // The solver's 1e-10 is of the departure without forces, up to 1 m/s where feet slide: 1e-8 of g h; and the slowest
+    // slip hides in it.
     let worst = sum.newton.max(sum.complementarity).max(sum.cone);
     assert!(worst < 1e-8 && sum.slip < 1e-7, "{sum:?}");
 }
@@ -876,13 +880,14 @@ fn a_point_that_strikes_and_sticks_loses_all_its_velocity() {
     while run.workspace.impacts().is_empty() {
         run.step();
     }
-    // A uniform ball that is stopped where it touches rolls on with 5/7 of its speed, whatever friction and restitution say.
-    // A point of contact lies in the middle of the overlap, up to 20 um in a step of 10 us.
+    // A uniform ball that is stopped where it touches rolls on with 5/7 of its speed, whatever friction and restitution
+    // say. A point of contact lies in the middle of the overlap, up to 20 um in a step of 10 us.
     let (at, slack) = (5.0 / 7.0 * 3.0, 1e-3);
     let touching = run.velocity(0) + run.spin(0).cross(&v(0.0, -0.1, 0.0));
     assert!((run.velocity(0) - v(at, 0.0, 0.0)).norm() < slack, "{}", run.velocity(0));
     assert!(touching.norm() < slack, "{touching}");
-    // The impact is apart from the force of the step, which carries the weight; both act on the floor, the first surface.
+    // The impact is apart from the force of the step, which carries the weight; both act on the floor, the first
+    // surface.
     let [impact] = run.workspace.impacts() else { panic!("one impact") };
     let impulse = -impact.contacts[0].force;
     assert!((impulse - v(2.0 * (at - 3.0), 2.0 * (2.0 + G * impact.time_s), 0.0)).norm() < 2.0 * slack, "{impulse}");
@@ -976,7 +981,8 @@ fn without_that_the_same_ball_bounces_and_slides() {
 
 #[test]
 fn a_driven_arm_that_strikes_stops_the_carriage_that_it_hangs_on() {
-    // A carriage of 3 kg that slides along x and y carries an arm of 1 kg whose hinge turns at 4 rad/s, tip down at the start.
+    // A carriage of 3 kg that slides along x and y carries an arm of 1 kg whose hinge turns at 4 rad/s, tip down at the
+    // start.
     let mut world = World { impact: ImpactLaw::Sticking, ..of_rigid(0.2, 0.0) };
     add_floor(&mut world, Pose::IDENTITY);
     let carriage = add_body(&mut world, 3.0, [0.1; 3], turned(0.0, v(0.0, 0.501, 0.0)));
@@ -991,8 +997,8 @@ fn a_driven_arm_that_strikes_stops_the_carriage_that_it_hangs_on() {
     while run.workspace.impacts().is_empty() {
         run.step();
     }
-    // Forwards the tip goes 2 m/s = 4 rad/s x 0.5 m faster than the carriage: that goes backwards now. Friction of 0.2 could not
-    // have done it.
+    // Forwards the tip goes 2 m/s = 4 rad/s x 0.5 m faster than the carriage: that goes backwards now. Friction of 0.2
+    // could not have done it.
     let impact = &run.workspace.impacts()[0];
     assert_near(run.velocity(0).x, -2.0, 5e-3, "the carriage goes back");
     let force = -impact.contacts[0].force;

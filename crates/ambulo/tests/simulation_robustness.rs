@@ -233,8 +233,8 @@ fn finite(state: &WorldState) -> bool {
         && state.coordinates.iter().flatten().all(|x| x.is_finite())
 }
 
-/// Departure of the change of momentum from the outer forces, as a share of all momenta and impulses; `None` where ground
-/// joints or closures take part.
+/// Departure of the change of momentum from the outer forces, as a share of all momenta and impulses; `None` where
+/// ground joints or closures take part.
 fn newton(before: Vec3, run: &Run) -> Option<f64> {
     let world = &run.world;
     if world.joints.iter().any(|j| j.parent.is_none()) || world.closures.iter().any(|c| c.second.is_none()) {
@@ -298,8 +298,8 @@ fn problem(seed: u64, count: &mut Count) -> Option<String> {
     None
 }
 
-/// A quarter of the scenes, because four tests run side by side. A quarter has 100 scenes, or 250 if `AMBULO_SCENES=all` is set, as by
-/// `cargo xtask check --full`.
+/// A quarter of the scenes, because four tests run side by side. A quarter has 100 scenes, or 250 if
+/// `AMBULO_SCENES=all` is set, as by `cargo xtask check --full`.
 fn random_scenes_stay_finite_and_in_balance(quarter: u64) {
     let all = std::env::var("AMBULO_SCENES").is_ok_and(|which| which == "all");
     let seeds = 250 * quarter..250 * quarter + if all { 250 } else { 100 };
@@ -388,8 +388,8 @@ fn jammed_four_bar(max: Option<f64>) -> World {
 fn a_driven_four_bar_that_cannot_close_gives_way_and_says_so() {
     for max in [Some(50.0), None] {
         // Without a separate limit a drive gives way where rows contradict each other, not before. In the last step
-        // before, the elbow is at δ = √(2 h ω) = 0.08 rad from straight and must turn at ω/δ = 35 rad/s at once: 35 · 0.05 N.m.s
-        // in 1 ms, 1/δ² of it in the bars: 3e5 N.
+        // before, the elbow is at δ = √(2 h ω) = 0.08 rad from straight and must turn at ω/δ = 35 rad/s at once: 35 ·
+        // 0.05 N.m.s in 1 ms, 1/δ² of it in the bars: 3e5 N.
         let (mut run, messages) = endured(jammed_four_bar(max), 1.0, max.map_or(1e6, |m| m * 1.001));
         println!("{max:?}: {messages:?}");
         assert!(messages.iter().any(|m| m.contains("`joint 0` (angle)")), "{messages:?}");

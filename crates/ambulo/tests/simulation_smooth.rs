@@ -177,7 +177,8 @@ fn a_bouncing_ball_rises_by_the_square_of_its_restitution() {
 
 #[test]
 fn spin_and_place_do_not_change_the_bounces_of_a_smooth_ball() {
-    // Without friction only the velocity along the normal counts, which a spin does not change at the lowest point of a ball.
+    // Without friction only the velocity along the normal counts, which a spin does not change at the lowest point of a
+    // ball.
     for spin in [-20.0, 20.0] {
         let mut world = of_rigid(0.0, 0.8);
         add_floor(&mut world, Pose::IDENTITY);
@@ -299,7 +300,8 @@ fn a_ball_joint_follows_its_rotation_vector_wherever_that_turns() {
     });
 }
 
-/// A ball of 1 kg over a floor, its lowest point at this height, with this speed upwards; their contact is a spring [N/m].
+/// A ball of 1 kg over a floor, its lowest point at this height, with this speed upwards; their contact is a spring
+/// [N/m].
 fn ball_on_springs(stiffness: f64, height: f64, speed: f64) -> World {
     // Those of ball and floor act in series.
     let law = ContactLaw::Regularised { stiffness: 2.0 * stiffness, damping: 0.0 };
@@ -329,7 +331,8 @@ fn a_floor_of_springs_throws_a_ball_back_as_high_as_it_fell_from() {
     });
     let depth = (2.0 * G * height / stiffness).sqrt() + G / stiffness;
     println!("springs: {deepest} deep for {depth}, back to {top} of {height}");
-    // Springs taken implicitly lose the share π ω h = 3 % of their energy in half a cycle (ω = 100 rad/s); m g adds 1 % to the depth.
+    // Springs taken implicitly lose the share π ω h = 3 % of their energy in half a cycle (ω = 100 rad/s); m g adds 1 %
+    // to the depth.
     assert!((deepest + depth).abs() < 0.02 * depth, "{deepest} for -{depth}");
     assert!(top > 0.95 * height && top < height, "{top} of {height}");
 }

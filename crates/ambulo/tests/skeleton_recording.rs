@@ -1,4 +1,5 @@
-//! Skeletons of BVH files as recordings of joint centres: names, unit, axes, forward kinematics; synthetic and real files.
+//! Skeletons of BVH files as recordings of joint centres: names, unit, axes, forward kinematics; synthetic and real
+//! files.
 
 use crate::shared_data;
 use ambulo::findings::{Code, Findings};
@@ -6,7 +7,8 @@ use ambulo::motion::skeleton::{POINT_DISTANCE_M, SkeletonError, SkeletonRecordin
 use ambulo::spatial::Vec3;
 use ambulo_formats::bvh::Bvh;
 
-/// Two legs, an arm on the right, no toes on the left; centimetres, y up, facing +z. The right knee bends by 90 degrees in the second frame.
+/// Two legs, an arm on the right, no toes on the left; centimetres, y up, facing +z. The right knee bends by 90 degrees
+/// in the second frame.
 const FIGURE: &str = "HIERARCHY
 ROOT Hips
 {
@@ -113,7 +115,8 @@ fn joint_centres_follow_from_the_bones() {
     assert_at(&recording, "toe_tip_r", 0, [0.2, 0.02, 0.09]);
     assert_at(&recording, "toe_tip_l", 0, [0.14, 0.02, -0.09]);
     assert_at(&recording, "shoulder_r", 0, [0.0, 1.43, 0.17]);
-    // A rotation of +90 degrees about x, which points to the left, moves the shank from down to backwards: a flexed knee.
+    // A rotation of +90 degrees about x, which points to the left, moves the shank from down to backwards: a flexed
+    // knee.
     assert_at(&recording, "knee_r", 1, [0.0, 0.5, 0.09]);
     assert_at(&recording, "ankle_r", 1, [-0.42, 0.5, 0.09]);
     assert_at(&recording, "toe_r", 1, [-0.48, 0.36, 0.09]);
@@ -138,7 +141,8 @@ fn points_next_to_a_joint_show_the_orientation_of_its_segment() {
 
 #[test]
 fn with_a_resting_pose_that_is_not_upright_the_mean_posture_is_used() {
-    // The bones of the legs lie along +z at rest; thighs rotated by 90 degrees about x hang down. (x, y, z) = Rx(90) (x, z, -y).
+    // The bones of the legs lie along +z at rest; thighs rotated by 90 degrees about x hang down. (x, y, z) = Rx(90)
+    // (x, z, -y).
     let lying = FIGURE
         .replace("OFFSET 0 -43 0", "OFFSET 0 0 43")
         .replace("OFFSET 0 -42 0", "OFFSET 0 0 42")
@@ -252,7 +256,8 @@ fn a_t_or_a_pose_is_found_and_taken_for_upright_standing() {
     let text = |lowered: f64| {
         let frame = |thigh: f64, knee: f64, lowered: f64| {
             format!(
-                "0 93 0 0 0 0  0 {thigh} 0 0 {knee} 0 0 0 0  0 {thigh} 0 0 {knee} 0 0 0 0  {lowered} 0 0 0 0 0  -{lowered} 0 0 0 0 0\n"
+                "0 93 0 0 0 0  0 {thigh} 0 0 {knee} 0 0 0 0  0 {thigh} 0 0 {knee} 0 0 0 0  {lowered} 0 0 0 0 0  \
+                 -{lowered} 0 0 0 0 0\n"
             )
         };
         let bent = frame(60.0, 60.0, 70.0).repeat(5);
@@ -279,7 +284,8 @@ fn rotations_are_applied_in_the_order_of_the_channels() {
     assert_at(&recording, "knee_r", 1, [-0.43, 0.93, 0.09]);
     let other = turned.replace("CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 3 Xrotation Yrotation Zrotation");
     let (recording, _) = read(&other, None);
-    // X 0, Y 90, Z 90: R = Ry(90) Rz(90); Rz turns (0,-1,0) to +x, Ry turns +x to -z: backwards again, by another sequence.
+    // X 0, Y 90, Z 90: R = Ry(90) Rz(90); Rz turns (0,-1,0) to +x, Ry turns +x to -z: backwards again, by another
+    // sequence.
     assert_at(&recording, "knee_r", 1, [-0.43, 0.93, 0.09]);
     let third = turned.replace("CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 3 Xrotation Zrotation Yrotation");
     let (recording, _) = read(&third, None);

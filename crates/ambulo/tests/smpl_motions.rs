@@ -147,7 +147,8 @@ fn joint_centres_of_the_users_model_follow_its_shape() {
     assert!(refused.contains("`J_regressor` holds `|O`"), "{refused}");
 }
 
-/// Two hops with straight legs at 100 frames per second: half a second on the floor, then a flight from 2.2 m/s upwards.
+/// Two hops with straight legs at 100 frames per second: half a second on the floor, then a flight from 2.2 m/s
+/// upwards.
 fn hopping(stated_hz: f64, findings: &mut Findings) -> SkeletonRecording {
     let (speed, stand_s) = (2.2, 0.5);
     let flight_s = 2.0 * speed / STANDARD_GRAVITY;

@@ -696,7 +696,8 @@ fn smoothing_out_of_range_is_refused() {
 
 #[test]
 fn thirty_columns_fit_and_evaluate_in_time() {
-    // The limit only catches a cost that is no longer linear. It is checked where the machine does nothing else: `cargo xtask check --full`.
+    // The limit only catches a cost that is no longer linear. It is checked where the machine does nothing else:
+    // `cargo xtask check --full`.
     let is_checked = std::env::var_os("AMBULO_TIMES").is_some();
     for n in [300usize, 10_000] {
         let times = even_times(n, 100.0);

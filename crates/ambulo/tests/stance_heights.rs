@@ -23,7 +23,8 @@ fn stance() -> [f64; 2] {
     whole[2]
 }
 
-/// Adds a smooth bump of this size to one coordinate during one stance [rad or m], and returns the reason that the quality gives for heights of stances.
+/// Adds a smooth bump of this size to one coordinate during one stance [rad or m], and returns the reason that the
+/// quality gives for heights of stances.
 fn found(name: &str, larger: f64) -> Option<QualityReason> {
     let SyntheticWalk { human, trajectory, .. } = walk();
     let (model, grid, [from_s, to_s]) = (&human.model, trajectory.grid(), stance());

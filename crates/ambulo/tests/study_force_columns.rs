@@ -4,7 +4,8 @@ use ambulo::internals::{load_columns, with_axis_last};
 use ambulo::model::Side;
 use ambulo_formats::table::Table;
 
-/// Key, side, force, point and moment of the loads in a table with these names, each for x, y and z at the place of `*`.
+/// Key, side, force, point and moment of the loads in a table with these names, each for x, y and z at the place of
+/// `*`.
 fn found(names: &[&str]) -> Vec<(String, Option<Side>, bool, bool)> {
     let axes = names.iter().flat_map(|name| ["x", "y", "z"].map(|axis| name.replace('*', axis)));
     let columns = std::iter::once("time".to_owned()).chain(axes).map(|name| (name, vec![0.0, 1.0])).collect();

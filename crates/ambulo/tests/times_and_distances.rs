@@ -36,7 +36,8 @@ fn mean(found: &TimesAndDistances, quantity: StrideQuantity) -> f64 {
     found.spread(quantity, None).unwrap().mean
 }
 
-/// Replaces values and rates of coordinates: `change` has the name, the instant, and value and rate of any coordinate at that instant.
+/// Replaces values and rates of coordinates: `change` has the name, the instant, and value and rate of any coordinate
+/// at that instant.
 fn changed(
     model: &Model,
     analysis: &mut Analysis,

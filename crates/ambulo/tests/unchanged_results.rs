@@ -1,7 +1,9 @@
-//! Results of whole studies do not change unnoticed: every number of an outcome is compared with that of a recorded run.
+//! Results of whole studies do not change unnoticed: every number of an outcome is compared with that of a recorded
+//! run.
 //!
-//! A number that changes is not wrong for that: whoever changes it on purpose records the new ones (AMBULO_WRITE=1) and says why. What is
-//! right is tested elsewhere, against laws, plates and other programs, with bounds that a small defect can hide in.
+//! A number that changes is not wrong for that: whoever changes it on purpose records the new ones (AMBULO_WRITE=1) and
+//! says why. What is right is tested elsewhere, against laws, plates and other programs, with bounds that a small
+//! defect can hide in.
 
 use crate::plug_in_gait::PEOPLE;
 use crate::shared_data::data;
@@ -15,7 +17,8 @@ use std::collections::BTreeMap;
 use std::fmt::{Debug, Write as _};
 use std::path::Path;
 
-/// Difference of two statistics, relative to the root mean square of the numbers, that is none: iterations end at about 1e-9.
+/// Difference of two statistics, relative to the root mean square of the numbers, that is none: iterations end at about
+/// 1e-9.
 const SAME: f64 = 1e-6;
 /// Numbers below this are rounding.
 const NOTHING: f64 = 1e-9;
@@ -49,7 +52,8 @@ impl Contents {
         }
     }
 
-    /// One line per name: how many numbers, their root mean square, and a sum in which each has another weight; or a checksum of the words.
+    /// One line per name: how many numbers, their root mean square, and a sum in which each has another weight; or a
+    /// checksum of the words.
     fn lines(&self, study: &str) -> BTreeMap<String, String> {
         let mut lines = BTreeMap::new();
         for (name, numbers) in &self.numbers {

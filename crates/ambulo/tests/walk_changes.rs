@@ -1,4 +1,5 @@
-//! Walks whose pace changes on the way, simulated: motion without breaks, slip, trunk torque, and the pace that is reached.
+//! Walks whose pace changes on the way, simulated: motion without breaks, slip, trunk torque, and the pace that is
+//! reached.
 
 use crate::common::assert_near;
 use ambulo::analysis::feasibility::Thresholds;
@@ -44,8 +45,8 @@ fn mean_speed(walk: &SyntheticWalk, end_s: f64, cycle_s: f64) -> f64 {
     (forward[to] - forward[from]) / ((to - from) as f64 * STEP_S)
 }
 
-/// The state at the start of a change is that of the walk before, to rounding, and that at its end is that of the walk after; one instant later the
-/// walk before is elsewhere.
+/// The state at the start of a change is that of the walk before, to rounding, and that at its end is that of the walk
+/// after; one instant later the walk before is elsewhere.
 #[test]
 fn a_change_begins_and_ends_in_the_states_of_both_walks() {
     let human = BUILD.human().unwrap();
@@ -76,8 +77,8 @@ fn a_change_begins_and_ends_in_the_states_of_both_walks() {
     assert!(found[0].iter().zip(&before[0]).any(|(a, b)| (a - b).abs() > 0.02));
 }
 
-/// Accelerations have slopes of up to 6e5 rad/s³ (toes), so across 0.2 µs they differ by 0.12 where they are continuous; a break of the
-/// correction or of the ramps would be tens of rad/s².
+/// Accelerations have slopes of up to 6e5 rad/s³ (toes), so across 0.2 µs they differ by 0.12 where they are
+/// continuous; a break of the correction or of the ramps would be tens of rad/s².
 #[test]
 fn targets_have_no_break_in_their_accelerations() {
     let human = BUILD.human().unwrap();
@@ -127,7 +128,8 @@ fn nothing_holds_the_trunk_during_a_change() {
     let change = FASTER.report.changes[0];
     let (during, before) = (rms(change.start_s, change.start_s + change.duration_s), rms(0.2, change.start_s));
     println!("trunk torque: {during:.1} N.m rms during the change, {before:.1} before");
-    // With the angles of the gait and no plan of the change, it was 54 N.m: the force that accelerates 75 kg by 0.4 m/s turns the body.
+    // With the angles of the gait and no plan of the change, it was 54 N.m: the force that accelerates 75 kg by 0.4 m/s
+    // turns the body.
     assert!(during < 10.0, "{during}");
     assert!(before < 8.0, "{before}");
 }
@@ -154,8 +156,8 @@ fn a_figure_comes_to_a_halt_and_stands() {
     assert_near(weight, 75.0 * 9.80665, 0.05 * 75.0 * 9.80665, "force under both feet");
 }
 
-/// Without a given duration, a halt from any phase takes 3 to 6 steps. The figure still walks a fifth of a cycle after the start, because a swing that
-/// begins earlier changes nothing, and it stands before the end.
+/// Without a given duration, a halt from any phase takes 3 to 6 steps. The figure still walks a fifth of a cycle after
+/// the start, because a swing that begins earlier changes nothing, and it stands before the end.
 #[test]
 fn a_halt_ends_with_a_swing_from_any_phase() {
     let human = BUILD.human().unwrap();
@@ -176,8 +178,8 @@ fn a_halt_ends_with_a_swing_from_any_phase() {
     }
 }
 
-/// Starts and halts at different speeds and phases leave no joint's range by more than the limit of the verdict, and nothing at the root. The start to
-/// 0.9 m/s is one whose first swing begins within rounding of its start.
+/// Starts and halts at different speeds and phases leave no joint's range by more than the limit of the verdict, and
+/// nothing at the root. The start to 0.9 m/s is one whose first swing begins within rounding of its start.
 #[test]
 fn starts_and_halts_need_no_force_from_outside_and_stay_in_range() {
     let human = BUILD.human().unwrap();

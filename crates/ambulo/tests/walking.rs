@@ -81,7 +81,8 @@ fn torques_of_the_multipliers_are_those_of_inverse_dynamics() {
         (sums[0] / sums[1]).sqrt()
     };
     let errors = [error(2e-3), error(1e-3), error(5e-4)];
-    // The joints' accelerations in a step of impulses are differences over it; those of the recording are the gait's own.
+    // The joints' accelerations in a step of impulses are differences over it; those of the recording are the gait's
+    // own.
     assert!(errors[1] < 0.01, "{errors:?}");
     assert!(errors[2] < 0.7 * errors[1] && errors[1] < 0.7 * errors[0], "{errors:?}");
 }

@@ -1,5 +1,5 @@
-//! Motions of Xsens MVN, made from known movements of the built-in body: the angles come back, contacts place the floor, and what cannot be
-//! used is refused.
+//! Motions of Xsens MVN, made from known movements of the built-in body: the angles come back, contacts place the
+//! floor, and what cannot be used is refused.
 
 use crate::segment_poses::{FRAMES, RATE_HZ, largest_errors_of_poses, person, posture};
 use ambulo::findings::Findings;
@@ -39,7 +39,8 @@ fn axes(segment: &str) -> Mat3 {
 }
 
 fn pose_in_file(pose: &Pose, segment: &str) -> MvnxPose {
-    // Of the world (x forward, y up, z right) in the axes of MVN's earth: x north, y west, z up; the person walks north.
+    // Of the world (x forward, y up, z right) in the axes of MVN's earth: x north, y west, z up; the person walks
+    // north.
     let file_from_world = Mat3::from_columns(&[Vec3::x(), -Vec3::z(), Vec3::y()]).transpose();
     let turn = Rotation3::from_matrix_unchecked(file_from_world * pose.rotation * axes(segment));
     let q = UnitQuaternion::from_rotation_matrix(&turn);
@@ -95,7 +96,8 @@ fn a_made_motion_gives_back_its_joint_angles() {
     assert_eq!(poses.statement, "segments +x forward, +z up, -y right");
     let [legs, trunk] = largest_errors_of_poses(&poses.transformed(&world_from_file(), 1.0));
     println!("largest errors: {legs:.1e} of pelvis and legs, {trunk:.1e} of trunk and arms");
-    // Quaternions in double precision. The trunk is aimed at shoulders whose distance is a median over a trunk that bends.
+    // Quaternions in double precision. The trunk is aimed at shoulders whose distance is a median over a trunk that
+    // bends.
     assert!(legs < 1e-9 && trunk < 1e-3, "{legs} {trunk}");
 }
 

@@ -1,9 +1,9 @@
 //! How often the claims of the 1997 paper hold: `cargo xtask claim-shares [--settings N] [--seed S] [--write]`.
 //!
-//! Draws all values that the paper does not give jointly until N choices could be simulated, judges the claims with each of them, and
-//! searches near the best one for a choice that meets more claims. Choices whose gaits are not possible are counted by their reasons. Runs on
-//! one core for some minutes; start it with `nice`. With `--write` the results go to `crates/ambulo-paper/data/shares.csv`, from where
-//! `ambulo reproduce` prints them.
+//! Draws all values that the paper does not give jointly until N choices could be simulated, judges the claims with
+//! each of them, and searches near the best one for a choice that meets more claims. Choices whose gaits are not
+//! possible are counted by their reasons. Runs on one core for some minutes; start it with `nice`. With `--write` the
+//! results go to `crates/ambulo-paper/data/shares.csv`, from where `ambulo reproduce` prints them.
 
 use crate::workspace;
 use ambulo_paper::{Judgement, OpenValues, StoredShares, judged_of_the_paper, shares_csv};

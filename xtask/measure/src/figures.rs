@@ -1,7 +1,7 @@
 //! Draws the pictures of the documents from the output of the `ambulo` command: `cargo xtask figures`.
 //!
-//! `ambulo forces` (without recordings `ambulo demo`) writes SVG into `target/figures`; a headless Chromium renders the figures that
-//! the documents use as PNG in `docs/images`.
+//! `ambulo forces` (without recordings `ambulo demo`) writes SVG into `target/figures`; a headless Chromium renders the
+//! figures that the documents use as PNG in `docs/images`.
 
 use crate::workspace::{self, Walk};
 use std::fs;
@@ -22,7 +22,8 @@ const TIMEOUT: Duration = Duration::from_secs(60);
 const PAUSE: Duration = Duration::from_millis(20);
 /// Window size for the report page [CSS pixels].
 const PAGE: [u32; 2] = [1400, 1000];
-/// Options: quiet, offline, no sandbox (containers forbid it), 3-D rendering in software, time to draw a page, two pixels per CSS pixel.
+/// Options: quiet, offline, no sandbox (containers forbid it), 3-D rendering in software, time to draw a page, two
+/// pixels per CSS pixel.
 const FLAGS: [&str; 10] = [
     "--headless=new",
     "--no-sandbox",
@@ -172,7 +173,8 @@ mod tests {
 
     #[test]
     fn the_size_is_that_of_the_svg_element_alone() {
-        let svg = "<?xml version=\"1.0\"?>\n<svg width=\"990\" height=\"315.5px\" stroke-width=\"2\"><rect width=\"5\"/></svg>";
+        let svg = "<?xml version=\"1.0\"?>\n<svg width=\"990\" height=\"315.5px\" stroke-width=\"2\"><rect \
+            width=\"5\"/></svg>";
         assert_eq!(size(svg), Ok([990, 316]));
         assert_eq!(size("<svg width=\"25.4mm\" height=\"50.8mm\">"), Ok([96, 192]));
         let message = size("<svg stroke-width=\"2\"><rect width=\"5\" height=\"5\"/></svg>").unwrap_err();

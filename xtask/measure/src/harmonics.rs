@@ -1,8 +1,8 @@
 //! The first twelve harmonics of a mean curve.
 //!
-//! Mean curves sampled at 2 % are smooth up to about the twelfth harmonic (literature.md 1.3); above, a second derivative is
-//! noise. Values at 0 % and 100 % differ by up to 0.5° in the tables, which average the ends of all cycles; the straight line
-//! between both ends is subtracted first, so that the curve does not jump.
+//! Mean curves sampled at 2 % are smooth up to about the twelfth harmonic (literature.md 1.3); above, a second
+//! derivative is noise. Values at 0 % and 100 % differ by up to 0.5° in the tables, which average the ends of all
+//! cycles; the straight line between both ends is subtracted first, so that the curve does not jump.
 
 use crate::normative::SAMPLES;
 use ambulo::numerics::Harmonics;

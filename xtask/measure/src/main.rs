@@ -1,4 +1,5 @@
-//! Commands of `cargo xtask` that need the library: benchmarks, validations and fits. Each command is a file of this folder.
+//! Commands of `cargo xtask` that need the library: benchmarks, validations and fits. Each command is a file of this
+//! folder.
 
 #![allow(clippy::disallowed_methods, reason = "measurements are made on one machine")]
 

@@ -77,7 +77,8 @@ pub(crate) fn curves(sheet: Sheet, quantity: &str) -> Result<Curves, String> {
     Ok(bands(sheet, quantity)?.map(|band| band.mean))
 }
 
-/// Mean curves of a quantity in two laboratories, children at self-selected speed: Pinzone, Schwartz, Thomason, Baker 2014.
+/// Mean curves of a quantity in two laboratories, children at self-selected speed: Pinzone, Schwartz, Thomason,
+/// Baker 2014.
 pub(crate) fn two_laboratories(quantity: &str) -> Result<[Vec<f64>; 2], String> {
     const FILE: &str = "pinzone2014.csv";
     let mut means: [Vec<f64>; 2] = Default::default();
@@ -108,7 +109,8 @@ pub(crate) fn event(name: &str) -> Result<[f64; 5], String> {
     Ok(event_band(name)?.0)
 }
 
-/// Mean and standard deviation of an event's time at five speeds [share of the cycle]; the table has negative deviations.
+/// Mean and standard deviation of an event's time at five speeds [share of the cycle]; the table has negative
+/// deviations.
 pub(crate) fn event_band(name: &str) -> Result<([f64; 5], [f64; 5]), String> {
     const FILE: &str = "schwartz2008_cycle_events.csv";
     let text = read(FILE)?;

@@ -1,4 +1,5 @@
-//! Writes the two files of the normative bands, which pages and figures show: one with speeds, times and distances, and one with curves.
+//! Writes the two files of the normative bands, which pages and figures show: one with speeds, times and distances, and
+//! one with curves.
 
 use crate::normative::{self, Band, SAMPLES, Sheet};
 use crate::workspace;

@@ -3,8 +3,8 @@
 //! The model (16 segments, 37 degrees of freedom), the motion (1000 frames, base at rest) and the C and C++ programs
 //! are in the scripts folder; its README explains how to install each peer. A missing peer is listed with a hint.
 //!
-//! Times are CPU time of the thread per frame [us], the median of 31 to 41 passes over all frames. Compare only times of one
-//! run: between runs, the same program varied by up to 30 %. All programs are built with `-O3 -march=native`.
+//! Times are CPU time of the thread per frame [us], the median of 31 to 41 passes over all frames. Compare only times
+//! of one run: between runs, the same program varied by up to 30 %. All programs are built with `-O3 -march=native`.
 
 use ambulo_formats::npz::Npz;
 use std::fmt::Write as _;
@@ -285,7 +285,8 @@ fn output(command: &mut Command, name: &str) -> Result<String, String> {
     Err(format!("{name}: {}: {line}", done.status))
 }
 
-/// The folder with `human.xml`, `segments.txt` and `frames.txt`, filled from the scripts' `data/` where missing or older.
+/// The folder with `human.xml`, `segments.txt` and `frames.txt`, filled from the scripts' `data/` where missing or
+/// older.
 fn prepare_data(settings: &Settings) -> Result<PathBuf, String> {
     let (from, to) = (settings.scripts.join("data"), settings.build.join("data"));
     fs::create_dir_all(&to).map_err(|e| format!("{}: cannot create: {e}", to.display()))?;

@@ -1,7 +1,7 @@
 //! The page of the 1997 paper: `cargo xtask reproduction [--write]`.
 //!
-//! Simulates all walks in both modes, judges the claims, and writes docs/measured/REPRODUCTION.md with their reasons, the values that the
-//! paper does not give, and the muscle groups of the four gaits. Takes some minutes.
+//! Simulates all walks in both modes, judges the claims, and writes docs/measured/REPRODUCTION.md with their reasons,
+//! the values that the paper does not give, and the muscle groups of the four gaits. Takes some minutes.
 
 use crate::workspace;
 use ambulo_paper::{
@@ -43,9 +43,12 @@ fn text(claims: &[Claim], others: &[Sensitivity], shares: &StoredShares) -> Stri
     let [held, all] = tally(claims);
     let mut page = format!(
         "# The claims of the 1997 paper: results\n\n\
-         **{held} of {all}** claims of the paper that could fail hold in its own mode. Claims that are true by construction and claims of ours are \
-         listed and not counted. [REPRODUCTION.md](../REPRODUCTION.md) describes the mode, the files and the method.\n\n\
-         \"Share\" is the share of {} settings (seed {}) of all values that the paper does not give, drawn jointly, in which the claim holds; \
+         **{held} of {all}** claims of the paper that could fail hold in its own mode. Claims that are true by \
+         construction and claims of ours are \
+         listed and not counted. [REPRODUCTION.md](../REPRODUCTION.md) describes the mode, the files and the \
+         method.\n\n\
+         \"Share\" is the share of {} settings (seed {}) of all values that the paper does not give, drawn jointly, in \
+         which the claim holds; \
          \"turned\" is the number of other single values that reverse the judgement.\n\n",
         shares.settings, shares.seed
     );
@@ -62,7 +65,8 @@ fn text(claims: &[Claim], others: &[Sensitivity], shares: &StoredShares) -> Stri
 
 fn claim_table(claims: &[Claim], others: &[Sensitivity], shares: &StoredShares) -> String {
     let mut table = String::from(
-        "| claim | statement in short | paper's mode | number | corrected | kind | share | turned |\n|---|---|---|---|---|---|---|---|\n",
+        "| claim | statement in short | paper's mode | number | corrected | kind | share | turned \
+         |\n|---|---|---|---|---|---|---|---|\n",
     );
     for claim in claims {
         let holds = if claim.pass { "holds" } else { "fails" };
@@ -102,7 +106,8 @@ fn contradictions(claims: &[Claim], shares: &StoredShares) -> String {
 fn best_setting(shares: &StoredShares) -> String {
     let [held, judged] = shares.best_held;
     let mut section = format!(
-        "\n## The most plausible figure\n\nOf all settings, this one meets most claims: {held} of the {judged} claims of the paper that were judged \
+        "\n## The most plausible figure\n\nOf all settings, this one meets most claims: {held} of the {judged} claims \
+         of the paper that were judged \
          with other settings. The 1997 figure most likely was near it:\n\n| value | |\n|---|---|\n"
     );
     for (name, value) in shares.best.named() {
@@ -115,7 +120,8 @@ fn best_setting(shares: &StoredShares) -> String {
 fn muscle_table(claims: &[Claim]) -> String {
     let Some(claim) = claims.iter().find(|claim| claim.id == "m1") else { return String::new() };
     let mut section = String::from(
-        "\n## Action of muscles in the four gaits\n\nConcentric and eccentric work per cycle [J/kg] and the instant of the largest torque \
+        "\n## Action of muscles in the four gaits\n\nConcentric and eccentric work per cycle [J/kg] and the instant of \
+         the largest torque \
          [% of the cycle], right leg, net moments without impacts.\n\n\
          | mode | gait | joint | group | concentric | eccentric | peak |\n|---|---|---|---|---|---|---|\n",
     );
@@ -143,7 +149,8 @@ fn muscle_table(claims: &[Claim]) -> String {
 
 fn assumption_table(claims: &[Claim], others: &[Sensitivity]) -> String {
     let mut section = String::from(
-        "\n## Values that the paper does not give\n\n| quantity | value | reason | other value → claims that change |\n|---|---|---|---|\n",
+        "\n## Values that the paper does not give\n\n| quantity | value | reason | other value → claims that change \
+         |\n|---|---|---|---|\n",
     );
     for assumption in assumptions() {
         let own = others.iter().filter(|other| other.what == assumption.what);

@@ -24,8 +24,8 @@
 //! | `solver_iterations`                           | human, last tenth: mean per step                                |
 //! | `error`                                       | instead of all results: the engine does not support this scene  |
 //!
-//! `null` means not finite, or not available: slip and creep if no contact stuck. A frictionless chain or ladder conserves its
-//! energy, so the change is the error of the whole motion.
+//! `null` means not finite, or not available: slip and creep if no contact stuck. A frictionless chain or ladder
+//! conserves its energy, so the change is the error of the whole motion.
 //!
 //! Everything is also written to `target/simulators.json`. With `--golden FILE` nothing is timed: MuJoCo writes
 //! accelerations and trajectories of the human without contact, and Pinocchio writes its accelerations next to them.

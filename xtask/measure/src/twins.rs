@@ -9,8 +9,9 @@
 //! | `wrong foot`| the force of each foot acts on the other one                                                      |
 //! | `torque`    | a device works against both knees with 5 N.m/kg, more than twice what a knee can supply           |
 //!
-//! Every recording should be feasible or not judged, every twin infeasible. Only recordings that are called feasible have twins; those that
-//! are refused or not judged are listed. `--only` takes the recordings whose name contains a text.
+//! Every recording should be feasible or not judged, every twin infeasible. Only recordings that are called feasible
+//! have twins; those that are refused or not judged are listed. `--only` takes the recordings whose name contains a
+//! text.
 
 use crate::validate::recording::{Recording, all};
 use crate::workspace;
@@ -155,7 +156,8 @@ fn trial(path: &Path) -> Result<Source, String> {
     Ok(Job::of(path).read(&mut files, &mut Findings::default()).map_err(|error| error.text())?.source)
 }
 
-/// The verdict on a twin. Motion and forces are filtered already, and are filtered once more as those of a recording are.
+/// The verdict on a twin. Motion and forces are filtered already, and are filtered once more as those of a recording
+/// are.
 fn twin(outcome: &Outcome, change: Change) -> Result<Verdict, String> {
     let model = &outcome.body;
     let trajectory = &outcome.analysis.trajectory;

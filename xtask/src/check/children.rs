@@ -13,7 +13,8 @@ const PAUSE: Duration = Duration::from_millis(20);
 
 /// All programs of a check.
 pub(super) struct Children {
-    /// Processor time of all that have ended [s]. The lock is held while one is waited for, so that the increase is its time.
+    /// Processor time of all that have ended [s]. The lock is held while one is waited for, so that the increase is its
+    /// time.
     cpu_s: Mutex<Option<f64>>,
     stopped: AtomicBool,
 }

@@ -1,4 +1,5 @@
-//! Runs lanes of steps side by side. The output of a step goes to a file and is printed when the step has ended, so that lanes do not mix.
+//! Runs lanes of steps side by side. The output of a step goes to a file and is printed when the step has ended, so
+//! that lanes do not mix.
 
 use super::children::Children;
 use super::programs;

@@ -1,11 +1,13 @@
 //! Whether the crate of measurements is linted and tested.
 //!
-//! `xtask/measure` has as much code as a crate of the product, and no user runs it. A check lints and tests it unless one of these holds:
+//! `xtask/measure` has as much code as a crate of the product, and no user runs it. A check lints and tests it unless
+//! one of these holds:
 //!
 //! - the same files have passed in this target folder: a hash of them is kept there;
 //! - this is a branch, and no file differs from the commit at which it left `origin/main`, where CI has checked it.
 //!
-//! Otherwise it is only compiled, so that a changed signature of the library is noticed. `--full` lints and tests it always.
+//! Otherwise it is only compiled, so that a changed signature of the library is noticed. `--full` lints and tests it
+//! always.
 
 use super::steps::PROFILE;
 use crate::workspace;

@@ -1,9 +1,9 @@
-//! What CI runs, up to the first failure: `cargo xtask check`; with `--full` everything that takes longer, too; with `--shuffle SEED` only the
-//! tests, in another order.
+//! What CI runs, up to the first failure: `cargo xtask check`; with `--full` everything that takes longer, too; with
+//! `--shuffle SEED` only the tests, in another order.
 //!
-//! The steps are plain commands of cargo (in the profile `ci`), of this program and, in `viewer/`, of npm, so you can repeat a failed step alone.
-//! They run in lanes, side by side ([`steps`]). A step whose program or target is not installed is skipped with a message; where `CI` is set, that
-//! is a failure.
+//! The steps are plain commands of cargo (in the profile `ci`), of this program and, in `viewer/`, of npm, so you can
+//! repeat a failed step alone. They run in lanes, side by side ([`steps`]). A step whose program or target is not
+//! installed is skipped with a message; where `CI` is set, that is a failure.
 
 mod children;
 mod lanes;

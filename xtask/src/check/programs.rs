@@ -1,7 +1,8 @@
 //! The test programs: which there are, their tests one after the other or shuffled, and the slowest tests.
 //!
-//! Cargo compiles the programs and lists them as lines of JSON. They are started here as cargo starts them, so that the time of each test can be
-//! asked for and its place changed: the stable test harness has both options only for the variable `RUSTC_BOOTSTRAP`.
+//! Cargo compiles the programs and lists them as lines of JSON. They are started here as cargo starts them, so that the
+//! time of each test can be asked for and its place changed: the stable test harness has both options only for the
+//! variable `RUSTC_BOOTSTRAP`.
 
 use super::children::Children;
 use std::fs::File;
@@ -137,7 +138,9 @@ mod tests {
 
     #[test]
     fn the_slowest_tests_come_first() {
-        let output = "     Running library (/t/library-1)\ntest gait::steps ... ok <1.500s>\ntest knee - should panic ... ok <0.001s>\n     Running command (/t/command-2)\ntest walk::all ... FAILED <12.000s>\ntest result: ok. 3 passed; 0 failed; finished in 13.50s\n";
+        let output = "     Running library (/t/library-1)\ntest gait::steps ... ok <1.500s>\ntest knee - should panic \
+            ... ok <0.001s>\n     Running command (/t/command-2)\ntest walk::all ... FAILED <12.000s>\ntest result: \
+            ok. 3 passed; 0 failed; finished in 13.50s\n";
         let found = slowest(output, 2);
         assert_eq!(found, [(12.0, "command walk::all".to_owned()), (1.5, "library gait::steps".to_owned())]);
     }

@@ -1,8 +1,9 @@
 //! All tests of all test programs in an order that a seed decides: `cargo xtask check --shuffle SEED`.
 //!
-//! A test must not depend on what ran before it in its process, on what runs next to it in other processes, or on how busy the machine is. So
-//! the tests of each program are shuffled and divided among processes, and as many processes run at a time as there are processors, with as
-//! many threads each. Several tests share a process, because some share what is expensive to compute.
+//! A test must not depend on what ran before it in its process, on what runs next to it in other processes, or on how
+//! busy the machine is. So the tests of each program are shuffled and divided among processes, and as many processes
+//! run at a time as there are processors, with as many threads each. Several tests share a process, because some share
+//! what is expensive to compute.
 
 use super::children::Children;
 use super::lanes::{list, log_of};

@@ -49,8 +49,8 @@ pub(super) type Lane = &'static [Step];
 /// Most fields of most steps.
 const PLAIN: Step = Step { name: "", tool: Tool::Cargo, arguments: &[], variable: None, after: None, hint: "" };
 
-/// Cargo builds one thing at a time in a folder, so what compiles is one lane. The test programs come first in it: while they run, the other
-/// steps of all lanes use the processors that they leave.
+/// Cargo builds one thing at a time in a folder, so what compiles is one lane. The test programs come first in it:
+/// while they run, the other steps of all lanes use the processors that they leave.
 pub(super) const LANES: [Lane; 3] = [&COMPILED, &TESTED, &PAGES];
 
 const COMPILED: [Step; 8] = [
@@ -89,7 +89,8 @@ const COMPILED: [Step; 8] = [
             "-D",
             "warnings",
         ],
-        hint: "mend what clippy names, or say why not with #[expect(.., reason = \"..\")]; if it asks for an update of Cargo.lock, run `cargo build` and commit the lock file",
+        hint: "mend what clippy names, or say why not with #[expect(.., reason = \"..\")]; if it asks for an update of \
+            Cargo.lock, run `cargo build` and commit the lock file",
         ..PLAIN
     },
     Step {

@@ -1,8 +1,9 @@
 //! Lines over 120 columns in all Rust source: how many there are, and `cargo xtask house --wrap`, which breaks them.
 //!
-//! rustfmt breaks code, but neither comments nor texts. Here comments are wrapped as Markdown: lists keep their indent, and
-//! code, tables, headings and equations stay. A long text is broken with a backslash at the end of the line, which does not
-//! change its value. A comment behind code moves above it. Texts with line breaks of their own and raw texts stay.
+//! rustfmt breaks code, but neither comments nor texts. Here comments are wrapped as Markdown: lists keep their indent,
+//! and code, tables, headings and equations stay. A long text is broken with a backslash at the end of the line, which
+//! does not change its value. A comment behind code moves above it. Texts with line breaks of their own and raw texts
+//! stay.
 
 use super::tokens::{Kind, Token, tokens};
 
@@ -13,8 +14,8 @@ const LONG_TEXT: usize = 50;
 /// Most columns of the code behind a text that is broken because of them, such as `.into();`.
 const LONGEST_END: usize = 8;
 
-/// Numbers of the lines that are too long, from 1. These may be: tables, equations and code in comments, comments without a
-/// blank to break at, and texts that have line breaks of their own, such as pages and files of tests.
+/// Numbers of the lines that are too long, from 1. These may be: tables, equations and code in comments, comments
+/// without a blank to break at, and texts that have line breaks of their own, such as pages and files of tests.
 pub(super) fn long_lines(source: &str) -> Vec<usize> {
     let tokens = tokens(source);
     let whole: Vec<&Token<'_>> = tokens.iter().filter(|token| is_raw(token) || has_own_breaks(token)).collect();
@@ -281,7 +282,8 @@ fn has_own_breaks(token: &Token<'_>) -> bool {
     token.kind == Kind::Literal && token.text.replace("\\\n", "").contains('\n')
 }
 
-/// Where the part `from..to` of a text that begins at `first` is broken, and the indent of the next line; none if its line fits.
+/// Where the part `from..to` of a text that begins at `first` is broken, and the indent of the next line; none if its
+/// line fits.
 fn break_in(source: &str, first: usize, from: usize, to: usize) -> Option<(usize, usize)> {
     let line_start = source[..from].rfind('\n').map_or(0, |at| at + 1);
     let line = source[line_start..].lines().next()?;

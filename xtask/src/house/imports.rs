@@ -1,9 +1,9 @@
 //! Which file of a crate uses which, and the circles among them.
 //!
-//! A path is followed to the file that defines its item, through `mod`, `use` and re-exports; so a `pub use` alone makes no
-//! edge, and `super::Thing` leads past `mod.rs` to the file of `Thing`. A file that uses what an enclosing module's file defines
-//! makes no edge: a module and its parts are read together. A circle is a strongly connected component of more than one file.
-//! Not followed: paths made by macros, methods, and globs of enums.
+//! A path is followed to the file that defines its item, through `mod`, `use` and re-exports; so a `pub use` alone
+//! makes no edge, and `super::Thing` leads past `mod.rs` to the file of `Thing`. A file that uses what an enclosing
+//! module's file defines makes no edge: a module and its parts are read together. A circle is a strongly connected
+//! component of more than one file. Not followed: paths made by macros, methods, and globs of enums.
 
 use super::source::File;
 use super::tokens::{Kind, Token, closing};

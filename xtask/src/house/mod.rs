@@ -1,7 +1,8 @@
 //! Size and shape of the product's source: `cargo xtask house [--baseline REV] [--list] [--wrap]`.
 //!
-//! Product is `crates/*/src` without items for tests; `xtask` and `viewer` are not counted. A function's lines run from its
-//! signature to its closing brace. A private function is a free function without `pub`. Long lines are counted in tests and `xtask`, too.
+//! Product is `crates/*/src` without items for tests; `xtask` and `viewer` are not counted. A function's lines run from
+//! its signature to its closing brace. A private function is a free function without `pub`. Long lines are counted in
+//! tests and `xtask`, too.
 
 mod columns;
 mod imports;
@@ -189,19 +190,23 @@ impl House {
             if part.lines > most {
                 let Part { lines, path } = part;
                 return Err(format!(
-                    "the {what} {path} has {lines} lines (allowed: {most})\nhint: give what it does besides its main duty a {what} of its own"
+                    "the {what} {path} has {lines} lines (allowed: {most})\nhint: give what it does besides its main \
+                     duty a {what} of its own"
                 ));
             }
         }
         if !self.long_lines.is_empty() {
             return Err(format!(
-                "{} lines have more than {MOST_COLUMNS} columns\nhint: `cargo xtask house --wrap`, then `cargo fmt --all`; break the others by hand",
+                "{} lines have more than {MOST_COLUMNS} columns\nhint: `cargo xtask house --wrap`, then `cargo fmt \
+                 --all`; break the others by hand",
                 self.long_lines.len()
             ));
         }
         if long > 0 || circles > 0 {
             return Err(format!(
-                "{long} functions have more than {LONGEST_FUNCTION} lines (allowed: 0), {circles} circles of files (allowed: 0)\nhint: the lists above name them; divide the functions, or move what two files share into a third"
+                "{long} functions have more than {LONGEST_FUNCTION} lines (allowed: 0), {circles} circles of files \
+                 (allowed: 0)\nhint: the lists above name them; divide the functions, or move what two files share \
+                 into a third"
             ));
         }
         self.public_types.judge("types", MOST_UNNAMED_TYPES)?;

@@ -8,7 +8,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-/// Tests of one mutant that take longer [s] have hung: the quick ones take less than ten seconds, the wide ones less than a minute.
+/// Tests of one mutant that take longer [s] have hung: the quick ones take less than ten seconds, the wide ones less
+/// than a minute.
 const QUICK_LIMIT_S: u32 = 30;
 const WIDE_LIMIT_S: u32 = 300;
 /// Mutants between two savings of the record.
@@ -102,8 +103,9 @@ impl Place {
         Ok(String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect())
     }
 
-    /// Writes a difference that adds the lines of these mutants, as if all others had been there before. `cargo mutants` 27.1.0 runs
-    /// mutants that delete a field of a struct whatever pattern of names it is given, but leaves out those of unchanged lines.
+    /// Writes a difference that adds the lines of these mutants, as if all others had been there before.
+    /// `cargo mutants` 27.1.0 runs mutants that delete a field of a struct whatever pattern of names it is given, but
+    /// leaves out those of unchanged lines.
     fn write_lines(&self, names: &[String]) -> Result<PathBuf, String> {
         let mut lines = BTreeMap::<&str, BTreeSet<usize>>::new();
         for name in names {
@@ -153,8 +155,8 @@ impl Place {
     }
 }
 
-/// Draws mutants of a module and runs those that `known` does not have yet. After every few mutants `save` gets the record, so that a run
-/// that is interrupted is a smaller sample.
+/// Draws mutants of a module and runs those that `known` does not have yet. After every few mutants `save` gets the
+/// record, so that a run that is interrupted is a smaller sample.
 pub(super) fn sample(
     place: &Place,
     module: &Module,
@@ -213,7 +215,8 @@ fn with(outcomes: &Outcomes, wanted: Outcome) -> Vec<String> {
     outcomes.iter().filter(|(_, outcome)| **outcome == wanted).map(|(name, _)| name.clone()).collect()
 }
 
-/// A random sample: the first `count` of a shuffle (Fisher, Yates) with the generator SplitMix64 (Steele, Lea, Flood 2014; unverified).
+/// A random sample: the first `count` of a shuffle (Fisher, Yates) with the generator SplitMix64 (Steele, Lea, Flood
+/// 2014; unverified).
 fn draw(mut names: Vec<String>, count: usize, seed: u64) -> Vec<String> {
     let mut state = seed;
     let mut random = || {

@@ -1,13 +1,14 @@
-//! Mutation tests of the science: `cargo xtask mutants [MODULE..] [--sample N] [--seed S]`, `[--resume]`, `[--retry]`, `[--page]`.
+//! Mutation tests of the science: `cargo xtask mutants [MODULE..] [--sample N] [--seed S]`, `[--resume]`, `[--retry]`,
+//! `[--page]`.
 //!
-//! `cargo mutants` changes one function at a time (another operator, another return value, a lost branch) and runs the tests. A mutant
-//! that no test notices survives: that line could be wrong unseen. This command runs all mutants of small modules and a random
-//! sample of large ones, first with the quick tests of the subject, then the survivors with the wider tests. Outcomes are recorded in
-//! `xtask/mutants/<module>.txt`, the reasons for survivors in `xtask/mutants/reasons.txt`; `docs/measured/MUTANTS.md` is written
-//! from both.
+//! `cargo mutants` changes one function at a time (another operator, another return value, a lost branch) and runs the
+//! tests. A mutant that no test notices survives: that line could be wrong unseen. This command runs all mutants of
+//! small modules and a random sample of large ones, first with the quick tests of the subject, then the survivors with
+//! the wider tests. Outcomes are recorded in `xtask/mutants/<module>.txt`, the reasons for survivors in
+//! `xtask/mutants/reasons.txt`; `docs/measured/MUTANTS.md` is written from both.
 //!
-//! It tests the commit, in a separate copy below the target folder, so that nothing in the workspace changes while it runs. A
-//! mutant takes about ten seconds.
+//! It tests the commit, in a separate copy below the target folder, so that nothing in the workspace changes while it
+//! runs. A mutant takes about ten seconds.
 
 mod campaign;
 mod modules;
@@ -98,7 +99,8 @@ impl Request {
                 other => {
                     let names: Vec<&str> = MODULES.iter().map(|module| module.name).collect();
                     return Err(format!(
-                        "`{other}` is unknown, expected a module ({}), --sample N, --seed S, --resume, --retry or --page",
+                        "`{other}` is unknown, expected a module ({}), --sample N, --seed S, --resume, --retry or \
+                         --page",
                         names.join(", ")
                     ));
                 }

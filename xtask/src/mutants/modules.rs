@@ -14,7 +14,8 @@ pub(super) struct Module {
     pub(super) wide: &'static [&'static str],
 }
 
-/// Tests that take more than five seconds, left out everywhere: a mutant that only they would notice counts as a survivor.
+/// Tests that take more than five seconds, left out everywhere: a mutant that only they would notice counts as a
+/// survivor.
 pub(super) const SLOW: [&str; 17] = [
     "quarter_of_random_scenes",
     "a_simulated_walk_in_a_plane_hardly_changes",

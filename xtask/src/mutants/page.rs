@@ -89,7 +89,8 @@ fn row(name: &str, mutants: Option<usize>, counts: &Counts) -> String {
     let mutants = mutants.map_or_else(String::new, |count| count.to_string());
     let Counts { caught, timeout, missed, mended, equivalent, .. } = counts;
     format!(
-        "| {name} | {mutants} | {} | {equivalent} | {viable} | {caught} | {timeout} | {mended} | {missed} | {:.1} % | {:.1} to {:.1} % | {now:.1} %{} |",
+        "| {name} | {mutants} | {} | {equivalent} | {viable} | {caught} | {timeout} | {mended} | {missed} | {:.1} % | \
+         {:.1} to {:.1} % | {now:.1} %{} |",
         counts.run(),
         share(counts.noticed_at_first()),
         100.0 * low,

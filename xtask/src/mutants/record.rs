@@ -1,7 +1,8 @@
 //! Outcomes of mutants, one file per module, and the reasons for survivors.
 //!
-//! A file begins with `commit`, `seed`, `mutants` (how many the module has) and perhaps `note` (why it is no random sample); then one line per mutant that was run: outcome, blank,
-//! name as `cargo mutants --list` shows it. A line of `reasons.txt` is a name, ` => ` and the reason.
+//! A file begins with `commit`, `seed`, `mutants` (how many the module has) and perhaps `note` (why it is no random
+//! sample); then one line per mutant that was run: outcome, blank, name as `cargo mutants --list` shows it. A line of
+//! `reasons.txt` is a name, ` => ` and the reason.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -31,7 +32,8 @@ const WORDS: [(Outcome, &str); 5] = [
     (Outcome::Unviable, "unviable"),
 ];
 
-/// Beginning of the reason for a survivor that no test can notice: results change nowhere, or only where two computed numbers are exactly equal.
+/// Beginning of the reason for a survivor that no test can notice: results change nowhere, or only where two computed
+/// numbers are exactly equal.
 const EQUIVALENT: &str = "equivalent";
 
 /// The outcomes of one module.
@@ -80,7 +82,8 @@ impl Counts {
     pub(super) fn sentence(&self) -> String {
         let Counts { caught, timeout, missed, mended, equivalent, unviable } = self;
         format!(
-            "{caught} caught, {timeout} timeouts, {missed} missed, {mended} mended, {equivalent} equivalent, {unviable} unviable"
+            "{caught} caught, {timeout} timeouts, {missed} missed, {mended} mended, {equivalent} equivalent, \
+             {unviable} unviable"
         )
     }
 }

@@ -1,7 +1,7 @@
 //! Finds the pairs of shapes whose bounding boxes overlap: sweep and prune.
 //!
-//! Overlapping boxes overlap along every axis. The boxes are sorted by their low ends along the axis on which their middles
-//! spread most; each box is then compared only with those that begin before it ends.
+//! Overlapping boxes overlap along every axis. The boxes are sorted by their low ends along the axis on which their
+//! middles spread most; each box is then compared only with those that begin before it ends.
 //!
 //! Source: Baraff 1992, "Dynamic simulation of non-penetrating rigid bodies" (unverified page), for the sweep.
 //! Cost: n log n for the sort, plus the number of pairs that overlap along that axis.

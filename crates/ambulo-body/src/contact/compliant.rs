@@ -1,4 +1,5 @@
-//! Compliant contact of a sphere and a plane: Hertz spring, Hunt-Crossley damping, friction smoothed over the slip speed.
+//! Compliant contact of a sphere and a plane: Hertz spring, Hunt-Crossley damping, friction smoothed over the slip
+//! speed.
 //!
 //!   k = E^(2/3) / 2
 //!   F_h = 4/3 k √(R k) (d² + ε)^(3/4)
@@ -20,13 +21,14 @@
 //! | `depth`, `depth_rate` | d, d'  | m, m/s | overlap and its growth                                            |
 //! | `slip`                | v      | m/s    | tangential velocity of the surface of the sphere on the plane     |
 //!
-//! As published, the law gives a small force before the surfaces meet, because tanh(b_d d) is not -1 for d < 0; a small pull while they part
-//! fast; and friction with √(v² + ε) in place of v. With [`Onset::AtTouch`], the force is zero unless d > 0, and never negative. The force
-//! therefore jumps at d = 0 by half of F_h(0), which is F_h without ε at 3.2 mm: 7.5 N for [`HuntCrossley::FALISSE_2022`] and R = 32 mm.
-//! With ε = 0 there is no jump. [`Onset::Published`] is the law as published.
+//! As published, the law gives a small force before the surfaces meet, because tanh(b_d d) is not -1 for d < 0; a small
+//! pull while they part fast; and friction with √(v² + ε) in place of v. With [`Onset::AtTouch`], the force is zero
+//! unless d > 0, and never negative. The force therefore jumps at d = 0 by half of F_h(0), which is F_h without ε at
+//! 3.2 mm: 7.5 N for [`HuntCrossley::FALISSE_2022`] and R = 32 mm. With ε = 0 there is no jump. [`Onset::Published`] is
+//! the law as published.
 //!
-//! Source: opensim-core `SmoothSphereHalfSpaceForce.h`; simbody `SmoothSphereHalfSpaceForce.cpp`; 3dpredictsim `Contact/HCContactModel.m`. Each set of parameters names
-//! its own file.
+//! Source: opensim-core `SmoothSphereHalfSpaceForce.h`; simbody `SmoothSphereHalfSpaceForce.cpp`; 3dpredictsim
+//! `Contact/HCContactModel.m`. Each set of parameters names its own file.
 //! Cost: constant.
 //! Not handled: radii that change over the contact; load sharing between spheres.
 //! Pinned by: tests/contact_geometry.rs
@@ -68,7 +70,8 @@ pub enum Onset {
     /// Where the surfaces meet; the force never pulls.
     #[default]
     AtTouch,
-    /// As published: smoothly, before the surfaces meet, with a small pull while they part fast, and √(v² + ε) as slip speed.
+    /// As published: smoothly, before the surfaces meet, with a small pull while they part fast, and √(v² + ε) as slip
+    /// speed.
     Published,
 }
 
@@ -109,10 +112,12 @@ impl HuntCrossley {
         friction_curve: FrictionCurve::Stribeck,
         onset: Onset::AtTouch,
     };
-    /// opensim-core Moco `example2DWalking/2D_gait.osim`: two spheres per foot, 35 mm at the heel and 15 mm at the forefoot.
+    /// opensim-core Moco `example2DWalking/2D_gait.osim`: two spheres per foot, 35 mm at the heel and 15 mm at the
+    /// forefoot.
     pub const MOCO_2D_GAIT: HuntCrossley = HuntCrossley { stiffness: 3_067_776.0, ..HuntCrossley::FALISSE_2022 };
-    /// Soft shoes: stiffness as OpenSim Moco's `2D_gait.osim`, dissipation 2 s/m as there and in Falisse 2022; friction 0.6. A creep
-    /// speed of 13 mm/s at full friction is ours; it is much slower than theirs (0.2 m/s), so that a foot in stance stays in place.
+    /// Soft shoes: stiffness as OpenSim Moco's `2D_gait.osim`, dissipation 2 s/m as there and in Falisse 2022; friction
+    /// 0.6. A creep speed of 13 mm/s at full friction is ours; it is much slower than theirs (0.2 m/s), so that a foot
+    /// in stance stays in place.
     pub const SOFT_SHOES: HuntCrossley = HuntCrossley {
         static_friction: 0.6,
         dynamic_friction: 0.6,
@@ -125,8 +130,8 @@ impl HuntCrossley {
     /// opensim-models `WalkerModel.osim`: spheres of 50 mm.
     pub const WALKER_MODEL: HuntCrossley =
         HuntCrossley { dissipation: 1.0, dynamic_friction: 0.4, viscous_friction: 0.4, ..HuntCrossley::FALISSE_2022 };
-    /// SCONE `Human0914.osim` and `H0914M_osim3.osim`: heel and toe, 30 mm. A comment in the file gives a dissipation of 0.3; the
-    /// file sets 1.
+    /// SCONE `Human0914.osim` and `H0914M_osim3.osim`: heel and toe, 30 mm. A comment in the file gives a dissipation
+    /// of 0.3; the file sets 1.
     pub const SCONE_HUMAN_0914: HuntCrossley = HuntCrossley {
         stiffness: 2e6,
         dissipation: 1.0,
@@ -242,8 +247,8 @@ impl HuntCrossley {
         [dry / v_t + self.viscous_friction, slope / (v_t * v_t * v_t)]
     }
 
-    /// Force on the sphere as from [`HuntCrossley::force`], with its derivatives. They are exact except at the corner of
-    /// [`FrictionCurve::Stribeck`]. The normal of the plane is +y.
+    /// Force on the sphere as from [`HuntCrossley::force`], with its derivatives. They are exact except at the corner
+    /// of [`FrictionCurve::Stribeck`]. The normal of the plane is +y.
     #[inline]
     #[must_use]
     pub fn force_with_slopes(&self, radius: f64, depth: f64, depth_rate: f64, slip: Vec3) -> ContactSlopes {

@@ -1,7 +1,7 @@
 //! Contact points of two shapes: midway between their surfaces, with normal and gap.
 //!
-//! Closed forms, with centre c and radius r of a sphere, normal n towards the first shape, and gap = n·(p₁ - p₂) for the
-//! points p₁, p₂ of the two surfaces that face each other:
+//! Closed forms, with centre c and radius r of a sphere, normal n towards the first shape, and gap = n·(p₁ - p₂) for
+//! the points p₁, p₂ of the two surfaces that face each other:
 //!
 //! | first    | second     | gap                                       | points                                     |
 //! |----------|------------|-------------------------------------------|--------------------------------------------|
@@ -14,8 +14,9 @@
 //! | cuboid   | half-space | n·corner                                  | 8, one per corner                          |
 //! | hull     | half-space | n·corner                                  | one per corner                             |
 //!
-//! Other pairs: see `separating_axis` (flat faces on flat faces), `sphere_and_capsule` (on flat faces) and `height_field`. No
-//! state is kept between calls, so that the gap of a point belongs to this pose and not to an earlier one.
+//! Other pairs: see `separating_axis` (flat faces on flat faces), `sphere_and_capsule` (on flat faces) and
+//! `height_field`. No state is kept between calls, so that the gap of a point belongs to this pose and not to an
+//! earlier one.
 //!
 //! Cost: constant for closed forms, which do not allocate; per call, two solids with flat faces allocate a few lists, a
 //! sphere on a height field one.
@@ -38,7 +39,8 @@ pub struct ContactPoint {
     pub normal: Vec3,
     /// Distance of the surfaces along the normal [m]; negative where they overlap.
     pub gap: f64,
-    /// Identifies the touching features of the two shapes: constant from step to step, different for each point of a pair.
+    /// Identifies the touching features of the two shapes: constant from step to step, different for each point of a
+    /// pair.
     pub feature: u64,
 }
 
@@ -215,8 +217,8 @@ fn placed(world_from_second: &Pose, touch: &Touch) -> ContactPoint {
     }
 }
 
-/// Hashes four numbers into one, with the finalizer of splitmix64 after each: two different inputs collide with a probability
-/// of 2⁻⁶⁴.
+/// Hashes four numbers into one, with the finalizer of splitmix64 after each: two different inputs collide with a
+/// probability of 2⁻⁶⁴.
 fn mixed(parts: [u64; 4]) -> u64 {
     parts.into_iter().fold(0, |state, part| {
         let mut z = (state ^ part).wrapping_add(0x9E37_79B9_7F4A_7C15);

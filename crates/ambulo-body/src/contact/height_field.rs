@@ -10,8 +10,8 @@
 //! | face of a solid     | peak     | along the normal of the face, if no neighbour of the peak is higher along it     |
 //! | length of a capsule | both     | the same, less the radius; the ends are spheres                                  |
 //!
-//! A ridge is an edge of the grid at which the surface bends down. Edges in flat ground and in valleys have no contacts, so
-//! that a body that slides over flat ground does not catch on them.
+//! A ridge is an edge of the grid at which the surface bends down. Edges in flat ground and in valleys have no
+//! contacts, so that a body that slides over flat ground does not catch on them.
 //!
 //! Source: local minima of the distance between convex pieces, derived here.
 //! Cost: cells under the bounding box of the shape times its corners, edges and faces.
@@ -54,10 +54,11 @@ struct Ridge {
 /// Rows and columns of cells.
 type Cells = [RangeInclusive<usize>; 2];
 
-/// Bends below this sine count as flat, and points within this share of a cell as equal; heights and points round to 1e-16.
+/// Bends below this sine count as flat, and points within this share of a cell as equal; heights and points round to
+/// 1e-16.
 const FLAT: f64 = 1e-9;
-/// Sine of the angle by which a contact normal may lie outside the normals of the two faces of an edge. A box that is tilted
-/// by a few degrees on a ridge then touches it with both of its edges, not only with the lower one.
+/// Sine of the angle by which a contact normal may lie outside the normals of the two faces of an edge. A box that is
+/// tilted by a few degrees on a ridge then touches it with both of its edges, not only with the lower one.
 const BESIDE: f64 = 0.05;
 
 /// At most `most` of `count` indices, evenly spread, including both ends.
@@ -193,7 +194,8 @@ impl HeightField {
         for [i, j] in self.inner_points(low, high) {
             let peak = self.point(i, j);
             for (number, face) in solid.faces.iter().enumerate() {
-                // Only faces that face down: under a face that faces up, the lowest point of the ground would count as a peak.
+                // Only faces that face down: under a face that faces up, the lowest point of the ground would count as
+                // a peak.
                 if face.normal.y < 0.0 && self.is_peak(i, j, -face.normal) && solid.is_over(number, peak, 0.0) {
                     let gap = face.normal.dot(&peak) - face.height;
                     let point = peak - face.normal * (gap / 2.0);
@@ -325,16 +327,16 @@ impl Ridge {
     }
 }
 
-/// Whether a direction, perpendicular to the edge of two faces, lies on the short arc between their normals, or outside by less than
-/// [`BESIDE`].
+/// Whether a direction, perpendicular to the edge of two faces, lies on the short arc between their normals, or outside
+/// by less than [`BESIDE`].
 fn lies_between(outward: Vec3, [n, m]: [Vec3; 2]) -> bool {
     let turn = n.cross(&m);
     let least = -BESIDE * turn.norm();
     n.cross(&outward).dot(&turn) >= least && outward.cross(&m).dot(&turn) >= least
 }
 
-/// Contact of a sphere about a point of a capsule's axis with a point of the ground, above it or, if they overlap by more than the
-/// radius, below. `None` if they coincide.
+/// Contact of a sphere about a point of a capsule's axis with a point of the ground, above it or, if they overlap by
+/// more than the radius, below. `None` if they coincide.
 fn core_touch(core: Vec3, ground: Vec3, radius: f64, feature: [u64; 4]) -> Option<Touch> {
     let way = core - ground;
     let distance = way.norm().copysign(way.y);

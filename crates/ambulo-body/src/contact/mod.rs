@@ -1,4 +1,5 @@
-//! Contact geometry and contact laws: shapes, where two shapes touch, Coulomb's friction cone, and a compliant contact force.
+//! Contact geometry and contact laws: shapes, where two shapes touch, Coulomb's friction cone, and a compliant contact
+//! force.
 
 mod shape;
 

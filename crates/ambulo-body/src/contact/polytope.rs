@@ -150,7 +150,8 @@ impl Polytope {
         Polytope { vertices, faces, net: Arc::clone(&self.net) }
     }
 
-    /// Of the faces at the vertex furthest against `direction` (within `slack` [m]), the one that faces most against it.
+    /// Of the faces at the vertex furthest against `direction` (within `slack` [m]), the one that faces most against
+    /// it.
     pub(super) fn opposing(&self, direction: Vec3, slack: f64) -> usize {
         let reached = -largest(&self.vertices, -direction) + slack;
         let mut best = (f64::MAX, 0);

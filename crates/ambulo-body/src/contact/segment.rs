@@ -23,8 +23,8 @@ pub(super) fn nearest_point(point: Vec3, segment: Segment) -> Vec3 {
     at_share(segment, nearest_share(point, segment))
 }
 
-/// The nearest points of two segments, as shares s, t of their lengths: the minimum of ‖a + s u - b - t v‖² over the unit
-/// square, inside if there is one, else on one of the four sides.
+/// The nearest points of two segments, as shares s, t of their lengths: the minimum of ‖a + s u - b - t v‖² over the
+/// unit square, inside if there is one, else on one of the four sides.
 pub(super) fn nearest_shares(first: Segment, second: Segment) -> (f64, f64) {
     let ([a, a_end], [b, b_end]) = (first, second);
     let (u, v, d) = (a_end - a, b_end - b, a - b);
@@ -53,8 +53,8 @@ pub(super) fn across(direction: Vec3) -> Vec3 {
     direction.cross(&Vec3::ith(direction.iamin(), 1.0)).normalize()
 }
 
-/// Segments at a smaller angle [rad] are treated as parallel. At this angle the ends of a length of 0.4 m are 20 mm further
-/// apart than its middle.
+/// Segments at a smaller angle [rad] are treated as parallel. At this angle the ends of a length of 0.4 m are 20 mm
+/// further apart than its middle.
 const SIDE_BY_SIDE: f64 = 0.1;
 
 /// The part of `first` that `second` runs alongside, as shares of its length. `None` unless they are nearly parallel.

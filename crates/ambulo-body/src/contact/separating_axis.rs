@@ -4,11 +4,11 @@
 //!
 //!   s(n) = min over b in B of n·b - max over a in A of n·a,      gap = max over unit n of s(n).
 //!
-//! For overlapping solids this direction is the normal of a face of A or of B, or the cross product of an edge of each. A pair
-//! of edges counts only where the arcs between the normals of their faces cross on the unit sphere, since only such pairs make
-//! a face of B - A. For a face, the opposing face of the other solid is clipped by the planes through the sides of the first;
-//! each remaining corner touches the plane of the face with the gap n·(v - p). Two edges touch in the one point where they
-//! cross.
+//! For overlapping solids this direction is the normal of a face of A or of B, or the cross product of an edge of each.
+//! A pair of edges counts only where the arcs between the normals of their faces cross on the unit sphere, since only
+//! such pairs make a face of B - A. For a face, the opposing face of the other solid is clipped by the planes through
+//! the sides of the first; each remaining corner touches the plane of the face with the gap n·(v - p). Two edges touch
+//! in the one point where they cross.
 //!
 //! | code        | symbol | unit | meaning                                            |
 //! | `normal`    | n      | 1    | outward from the first solid, or from a face       |
@@ -18,8 +18,8 @@
 //! Source: separating-axis theorem; the test of arcs follows Gregorius 2013, "The separating axis test between convex
 //! polyhedra" (unverified page), derived here from the signs of triple products.
 //! Cost: faces of one times corners of the other, plus edges times edges.
-//! Not handled: separated solids that are nearest at a corner and a corner or edge. There s is below the distance, and no
-//! point is reported unless a face lies opposite.
+//! Not handled: separated solids that are nearest at a corner and a corner or edge. There s is below the distance, and
+//! no point is reported unless a face lies opposite.
 //! Pinned by: tests/contact_geometry.rs
 
 use super::polytope::{Plane, Polytope, largest, sides};
@@ -33,7 +33,8 @@ pub(super) struct Touch {
     /// Unit vector from the first solid towards the second.
     pub(super) outward: Vec3,
     pub(super) gap: f64,
-    /// Kinds and indices of the touching features; 64 bits on every target, since `face_touches` packs three numbers into one.
+    /// Kinds and indices of the touching features; 64 bits on every target, since `face_touches` packs three numbers
+    /// into one.
     pub(super) feature: [u64; 4],
 }
 
@@ -45,12 +46,12 @@ enum Axis {
     Edges(usize, usize, Vec3),
 }
 
-/// In the order face of the first, face of the second, edges, a later feature must separate by this share of the size of the
-/// solids more than an earlier one. Rounding (1e-16 of the size) then does not change the choice from step to step; a normal
-/// that is wrong by this share changes the gap by less.
+/// In the order face of the first, face of the second, edges, a later feature must separate by this share of the size
+/// of the solids more than an earlier one. Rounding (1e-16 of the size) then does not change the choice from step to
+/// step; a normal that is wrong by this share changes the gap by less.
 const PREFERENCE: f64 = 1e-7;
-/// Edges at a smaller angle [rad] are skipped: their cross product is inaccurate, and a face separates equally well to second
-/// order.
+/// Edges at a smaller angle [rad] are skipped: their cross product is inaccurate, and a face separates equally well to
+/// second order.
 const PARALLEL: f64 = 1e-4;
 
 /// Reports the contacts of two solids, given in one frame, whose gap is below `reach` [m].
@@ -132,8 +133,8 @@ fn best_edges(first: &Polytope, second: &Polytope) -> Option<(f64, Axis)> {
     best
 }
 
-/// Whether the short arcs a-b and c-d on the unit sphere cross: c and d are on opposite sides of the plane of a and b, a and b
-/// on opposite sides of the plane of c and d, and both arcs on one half of the sphere.
+/// Whether the short arcs a-b and c-d on the unit sphere cross: c and d are on opposite sides of the plane of a and b,
+/// a and b on opposite sides of the plane of c and d, and both arcs on one half of the sphere.
 fn arcs_cross([a, b]: [Vec3; 2], [c, d]: [Vec3; 2]) -> bool {
     let (plane, other_plane) = (b.cross(&a), d.cross(&c));
     let (from_c, from_d) = (c.dot(&plane), d.dot(&plane));

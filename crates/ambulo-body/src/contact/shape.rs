@@ -25,7 +25,8 @@ use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A solid that can touch others, in its own frame: geometry alone, without friction or restitution. Clones share large data.
+/// A solid that can touch others, in its own frame: geometry alone, without friction or restitution. Clones share large
+/// data.
 #[derive(Debug, Clone)]
 pub struct Shape {
     pub(super) form: Form,
@@ -109,7 +110,8 @@ pub enum ShapeError {
     },
     /// The points span no volume: too few, on a line or in a plane.
     #[error(
-        "the hull of {points} points has a volume of {volume:e} m³ within a box of {extent:e} m; expected at least four points that are not in one plane"
+        "the hull of {points} points has a volume of {volume:e} m³ within a box of {extent:e} m; expected at least \
+         four points that are not in one plane"
     )]
     Flat {
         /// Number of given points.
@@ -121,8 +123,8 @@ pub enum ShapeError {
     },
 }
 
-/// A hull that fills less than this share of the cube over its longest side is rejected as flat: a sheet of 1 m² must be
-/// thicker than 1 nm. The hull algorithm rounds to 1e-16 of the extent.
+/// A hull that fills less than this share of the cube over its longest side is rejected as flat: a sheet of 1 m² must
+/// be thicker than 1 nm. The hull algorithm rounds to 1e-16 of the extent.
 const FLAT: f64 = 1e-9;
 
 impl Shape {
@@ -172,7 +174,8 @@ impl Shape {
     /// Each cell is two triangles, split from (i, j + 1) to (i + 1, j).
     ///
     /// # Errors
-    /// Sizes that are not finite and above zero, heights that are not finite, or a number of heights that does not fit the grid.
+    /// Sizes that are not finite and above zero, heights that are not finite, or a number of heights that does not fit
+    /// the grid.
     pub fn height_field(
         rows: usize,
         columns: usize,

@@ -1,13 +1,13 @@
 //! Spheres and capsules on solids with flat faces.
 //!
-//! Both contain all points within a radius r of a core: a point or a segment. With δ the distance of the core from the solid
-//! (negative inside) and n the direction from the solid to the core, the gap is δ - r. Outside, δ is the distance to the face
-//! over which the point lies, or else to the nearest edge. Inside, δ is the separation along the best axis: a face normal or,
-//! for a segment of direction d, the cross product of d and an edge whose two faces lie on both sides of the plane through
-//! the edge along d.
+//! Both contain all points within a radius r of a core: a point or a segment. With δ the distance of the core from the
+//! solid (negative inside) and n the direction from the solid to the core, the gap is δ - r. Outside, δ is the distance
+//! to the face over which the point lies, or else to the nearest edge. Inside, δ is the separation along the best axis:
+//! a face normal or, for a segment of direction d, the cross product of d and an edge whose two faces lie on both sides
+//! of the plane through the edge along d.
 //!
-//! A segment over a face with normal n touches at the two ends of the part over the face, each with its own gap; along an
-//! edge likewise.
+//! A segment over a face with normal n touches at the two ends of the part over the face, each with its own gap; along
+//! an edge likewise.
 //!
 //! Source: distances of convex sets, derived here.
 //! Cost: faces and edges of the solid; nothing is allocated.
@@ -117,8 +117,8 @@ fn separation_from_point(solid: &Polytope, point: Vec3) -> Separation {
     nearest_of((0..solid.net.edges.len()).filter_map(to_edge)).unwrap_or(best)
 }
 
-/// A point above a plane by less [m] may be on an edge, where the direction from the edge is undefined: a few roundings of the
-/// coordinates of the solid's corners.
+/// A point above a plane by less [m] may be on an edge, where the direction from the edge is undefined: a few roundings
+/// of the coordinates of the solid's corners.
 fn rounding(solid: &Polytope) -> f64 {
     16.0 * f64::EPSILON * solid.size_from(Vec3::zeros())
 }
@@ -183,8 +183,8 @@ fn facing(solid: &Polytope, outward: Vec3) -> Option<usize> {
     best.1
 }
 
-/// The part of a segment over a face: two shares of its length, each with a number for its end: 0 and 1 for the ends of the
-/// segment, 2 and up for the side of the face that cuts it.
+/// The part of a segment over a face: two shares of its length, each with a number for its end: 0 and 1 for the ends of
+/// the segment, 2 and up for the side of the face that cuts it.
 fn over_face(solid: &Polytope, face: usize, segment: Segment) -> Option<[(f64, usize); 2]> {
     let normal = solid.faces[face].normal;
     let (mut from, mut to) = ((0.0, 0), (1.0, 1));

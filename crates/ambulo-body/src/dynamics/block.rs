@@ -7,8 +7,8 @@ use crate::spatial::{Mat3, Vec3};
 /// A motion or wrench of a body: angular part, then linear part.
 pub type Six = nalgebra::Vector6<f64>;
 
-/// A pivot below this share of its diagonal entry counts as zero: sums of six products round to a few 1e-16, while stiff rows
-/// (see `proximal`) leave a share of 1e-10.
+/// A pivot below this share of its diagonal entry counts as zero: sums of six products round to a few 1e-16, while
+/// stiff rows (see `proximal`) leave a share of 1e-10.
 const VANISHED: f64 = 1e-13;
 
 /// Mass and inertia of a rigid body at one instant.
@@ -256,8 +256,8 @@ pub fn transport(a: &Six, arm: &Vec3) -> Six {
     )
 }
 
-/// Factors a symmetric matrix of `rows.len()` ≤ 6 rows as L D Lᵀ in place: unit L below the diagonal, 1/D on it. Zero pivots and
-/// pivots up to `least` are disabled (1/D = 0); returns their number.
+/// Factors a symmetric matrix of `rows.len()` ≤ 6 rows as L D Lᵀ in place: unit L below the diagonal, 1/D on it. Zero
+/// pivots and pivots up to `least` are disabled (1/D = 0); returns their number.
 #[inline(always)]
 pub(crate) fn factor_small(rows: &mut [[f64; 6]], least: &[f64; 6]) -> usize {
     let size = rows.len();

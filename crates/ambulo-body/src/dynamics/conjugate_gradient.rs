@@ -1,7 +1,7 @@
 //! Conjugate gradient for constraint graphs: motions and constraint forces by the solver of the 1997 paper.
 //!
-//! Trees are solved exactly; the forces of loop closures and contacts are refined iteratively. With a(λ) = A⁻¹ (b + Jᵀ λ), one
-//! tree solve, and the active rows u = J a(λ) - c, the forces minimise
+//! Trees are solved exactly; the forces of loop closures and contacts are refined iteratively. With a(λ) = A⁻¹ (b + Jᵀ
+//! λ), one tree solve, and the active rows u = J a(λ) - c, the forces minimise
 //!
 //!   f(λ) = ½ λᵀ (W + R) λ - λᵀ (c - J a(0))        W = J A⁻¹ Jᵀ, R the compliances
 //!
@@ -10,20 +10,21 @@
 //!   α = rᵀ r / pᵀ (W + R) p        λ += α p        r' = r - α (W + R) p
 //!   β = max(0, r'ᵀ (r' - r) / rᵀ r)                p := r' + β p
 //!
-//! W p is one tree solve for the wrenches Jᵀ p; no matrix is formed. β is that of Polak and Ribière. Since f is quadratic,
-//! r'ᵀ r = 0 in exact arithmetic, so that β equals r'ᵀ r' / rᵀ r of Fletcher and Reeves, and both are the linear method of
-//! Hestenes and Stiefel. With rounding, β = 0 restarts when directions are no longer conjugate. All p are in the range of W, so
-//! that redundant rows get the forces nearest to the guess, or the least-squares forces without a guess. If W p = 0, the forces
-//! p move nothing although r has a part along them: rows contradict each other. That part is removed from r, the rest is
-//! solved, and `converged` stays false; the rows get the force along p that a compliance of 1/ρ would give (as in
-//! [`super::proximal`]).
+//! W p is one tree solve for the wrenches Jᵀ p; no matrix is formed. β is that of Polak and Ribière. Since f is
+//! quadratic, r'ᵀ r = 0 in exact arithmetic, so that β equals r'ᵀ r' / rᵀ r of Fletcher and Reeves, and both are the
+//! linear method of Hestenes and Stiefel. With rounding, β = 0 restarts when directions are no longer conjugate. All p
+//! are in the range of W, so that redundant rows get the forces nearest to the guess, or the least-squares forces
+//! without a guess. If W p = 0, the forces p move nothing although r has a part along them: rows contradict each other.
+//! That part is removed from r, the rest is solved, and `converged` stays false; the rows get the force along p that a
+//! compliance of 1/ρ would give (as in [`super::proximal`]).
 //!
-//! Contacts and bounds are handled by an active set (section 3.3 of the paper). A row at its bound is inactive while its
-//! departure points further out. A contact whose force would pull is opened and the system solved again; a contact that closes
-//! is added. A sticking contact beyond the cone slips, with friction r = μ λ_n of the previous force along d opposite to the
-//! slip; it sticks if friction would support the slip. While it slips, λ_t = r d + s e with e perpendicular to d: at the
-//! solution u_t = -κ r d, and to first order the turning of the slip direction is a row along e of compliance κ = |u_t| / r. If
-//! a bound is reached on the way, the length of the step is that which minimises f.
+//! Contacts and bounds are handled by an active set (section 3.3 of the paper). A row at its bound is inactive while
+//! its departure points further out. A contact whose force would pull is opened and the system solved again; a contact
+//! that closes is added. A sticking contact beyond the cone slips, with friction r = μ λ_n of the previous force along
+//! d opposite to the slip; it sticks if friction would support the slip. While it slips, λ_t = r d + s e with e
+//! perpendicular to d: at the solution u_t = -κ r d, and to first order the turning of the slip direction is a row
+//! along e of compliance κ = |u_t| / r. If a bound is reached on the way, the length of the step is that which
+//! minimises f.
 //!
 //! Compliant rows are scaled by 1/√(1 + R/W), so that they need no additional rounds.
 //!
@@ -33,8 +34,8 @@
 //! | `toward`  | p      | N.m, N        | one per row |
 //! | `applied` | (W+R)p | as the motion | one per row |
 //!
-//! Source: Faure, Debunne, Cani, Multon 1997, sections 3.1 and 3.3 (which names Fletcher-Reeves-Polak-Ribière after Press
-//! et al. 1992, unverified page). The equations are derived above.
+//! Source: Faure, Debunne, Cani, Multon 1997, sections 3.1 and 3.3 (which names Fletcher-Reeves-Polak-Ribière after
+//! Press et al. 1992, unverified page). The equations are derived above.
 //! Cost: one factorisation of the trees; one tree solve per iteration.
 //! Long because it is one algorithm: its steps share the notation above.
 //! Pinned by: tests/constraint_graph.rs
@@ -118,8 +119,8 @@ pub(super) fn project(
     coordinates.clone_from(&workspace.coordinates);
 }
 
-/// Removes from `rows` the part that forces of active rows can produce; inactive and compliant rows become zero. Conjugate
-/// residuals minimise |r - W y|; what remains of r is in the null space of W.
+/// Removes from `rows` the part that forces of active rows can produce; inactive and compliant rows become zero.
+/// Conjugate residuals minimise |r - W y|; what remains of r is in the null space of W.
 ///
 ///   α = rᵀ W r / |W p|²          r' = r - α W p          β = r'ᵀ W r' / rᵀ W r          W p := W r' + β W p
 pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut ConjugateWorkspace, rows: &mut [f64]) {
@@ -294,8 +295,9 @@ impl Rounds<'_, '_> {
         }
     }
 
-    /// Moves λ towards the trial forces: all the way, or to the minimum of f. If that is a short step, moves instead straight to
-    /// the first bound on the way to the unconfined forces, if that lowers f more. Motions are affine in the forces.
+    /// Moves λ towards the trial forces: all the way, or to the minimum of f. If that is a short step, moves instead
+    /// straight to the first bound on the way to the unconfined forces, if that lowers f more. Motions are affine in
+    /// the forces.
     fn advance(
         &mut self,
         motions: &mut [Six],

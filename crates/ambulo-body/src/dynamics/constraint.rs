@@ -1,13 +1,14 @@
 //! Scalar constraints between bodies, and the graph of bodies, joints, constraints and loads at one instant.
 //!
-//! A row constrains the motions a = (α, a_c) of two bodies (angular part before linear, at the mass centres, in world axes):
-//! the quantity
+//! A row constrains the motions a = (α, a_c) of two bodies (angular part before linear, at the mass centres, in world
+//! axes): the quantity
 //!
 //!   u = j_first · a_first + j_second · a_second + R λ - target
 //!
-//! must vanish, or obey the law of the row. The multiplier λ is the constraint force: it acts as the wrench j_first λ on the
-//! first body and j_second λ on the second (Faure, Debunne, Cani, Multon 1997, section 3.1). R is the compliance: zero for a rigid
-//! row. The unknown motion may be accelerations, velocities (then λ is an impulse) or displacements.
+//! must vanish, or obey the law of the row. The multiplier λ is the constraint force: it acts as the wrench j_first λ
+//! on the first body and j_second λ on the second (Faure, Debunne, Cani, Multon 1997, section 3.1). R is the
+//! compliance: zero for a rigid row. The unknown motion may be accelerations, velocities (then λ is an impulse) or
+//! displacements.
 //!
 //! Joints that form trees are [`Link`]s, not rows. Rows close loops, and describe contacts and limits of coordinates.
 
@@ -62,16 +63,16 @@ pub enum ActsOn {
 /// Which constraint forces rows may produce.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Law {
-    /// For each row: u = 0 while λ is inside [least, most]; u > 0 only at λ = least, u < 0 only at λ = most. Infinite bounds make
-    /// an equality; `least` = 0 makes a row that only pushes, such as a lower limit.
+    /// For each row: u = 0 while λ is inside [least, most]; u > 0 only at λ = least, u < 0 only at λ = most. Infinite
+    /// bounds make an equality; `least` = 0 makes a row that only pushes, such as a lower limit.
     Bounded {
         /// Least force [N, N.m], or impulse.
         least: f64,
         /// Largest force [N, N.m], or impulse.
         most: f64,
     },
-    /// Three rows, normal first: u_n ≥ 0, λ_n ≥ 0, one of them zero; |λ_t| ≤ μ λ_n, and while slipping λ_t = -μ λ_n u_t/|u_t|
-    /// (Coulomb's cone, not a pyramid).
+    /// Three rows, normal first: u_n ≥ 0, λ_n ≥ 0, one of them zero; |λ_t| ≤ μ λ_n, and while slipping λ_t = -μ λ_n
+    /// u_t/|u_t| (Coulomb's cone, not a pyramid).
     Contact {
         /// Coefficient of friction μ.
         friction: f64,
@@ -106,8 +107,8 @@ pub struct ConstraintGraph {
     pub rows: Vec<Constraint>,
 }
 
-/// Convergence of a solver. Redundant rows are not counted here; [`undetermined_rows`](super::undetermined_rows) finds them with a
-/// few tree solves.
+/// Convergence of a solver. Redundant rows are not counted here; [`undetermined_rows`](super::undetermined_rows) finds
+/// them with a few tree solves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Convergence {
     /// Number of tree solves.
@@ -199,8 +200,8 @@ impl ConstraintGraph {
         }
     }
 
-    /// Wrench of each joint on its body, at the mass centre of the body [N.m, N]: the sum of M a - b - Jᵀ λ over the body and its
-    /// descendants. Along a free direction it is the effort, up to the residual of the solver.
+    /// Wrench of each joint on its body, at the mass centre of the body [N.m, N]: the sum of M a - b - Jᵀ λ over the
+    /// body and its descendants. Along a free direction it is the effort, up to the residual of the solver.
     #[must_use]
     pub fn joint_wrenches(&self, outwards: &[(usize, Option<usize>)], solution: &GraphSolution) -> Vec<Six> {
         let mut wrenches = Vec::new();
@@ -236,8 +237,8 @@ impl ConstraintGraph {
         }
     }
 
-    /// Mobility of a row [1/kg or 1/(kg.m²)]: its motion per unit of force if its bodies were free, with the mean of their principal
-    /// moments of inertia.
+    /// Mobility of a row [1/kg or 1/(kg.m²)]: its motion per unit of force if its bodies were free, with the mean of
+    /// their principal moments of inertia.
     pub(crate) fn mobility(&self, group: &ConstraintGroup, row: usize) -> f64 {
         let of_body = |body: usize, j: &Six| {
             let terms = &self.bodies[body];

@@ -2,8 +2,8 @@
 //!
 //!   λ = Π_K( (λ° - ρ (J a - c)) / (1 + ρ R) )          H = -∂λ/∂(J a)
 //!
-//! For a row, Π clamps. For the friction of a contact, it shortens z = λ° - ρ u to the radius r, and H is ρ (r / |z|) across z.
-//! Symbols as in [`super::proximal`].
+//! For a row, Π clamps. For the friction of a contact, it shortens z = λ° - ρ u to the radius r, and H is ρ (r / |z|)
+//! across z. Symbols as in [`super::proximal`].
 
 use crate::numerics::elementary::hypot;
 

@@ -1,7 +1,7 @@
 //! The mobility of all rows on each other, W = J A⁻¹ Jᵀ + R, as a dense matrix (Delassus' operator).
 //!
-//! With it, the motion of the rows is u = W λ + q, where q is their motion without constraint forces. Column k is the response to
-//! a unit force in row k: one solve with the factors of the trees.
+//! With it, the motion of the rows is u = W λ + q, where q is their motion without constraint forces. Column k is the
+//! response to a unit force in row k: one solve with the factors of the trees.
 //!
 //! | code     | symbol | unit            | shape      |
 //! | `matrix` | W      | 1/kg, 1/(kg.m²) | rows², column by column |

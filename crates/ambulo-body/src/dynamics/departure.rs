@@ -1,8 +1,8 @@
 //! Departure of rows from their laws, in units of motion: the residual that every solver reports.
 //!
-//! A law confines λ to a set K and allows u + R λ ≠ 0 only at the boundary of K. With the mobility W of a row, both conditions
-//! are λ = Π_K(λ - (u + R λ)/W); the departure is W |λ - Π_K(λ - (u + R λ)/W)|, which is |u + R λ| for an equality. The
-//! measure does not depend on the solver and its unknowns.
+//! A law confines λ to a set K and allows u + R λ ≠ 0 only at the boundary of K. With the mobility W of a row, both
+//! conditions are λ = Π_K(λ - (u + R λ)/W); the departure is W |λ - Π_K(λ - (u + R λ)/W)|, which is |u + R λ| for an
+//! equality. The measure does not depend on the solver and its unknowns.
 //!
 //! | code       | symbol  | unit            | shape       |
 //! | `u`        | J a - c | as the motion   | one per row |
@@ -14,11 +14,11 @@ use crate::numerics::elementary::hypot;
 use super::block::Six;
 use super::constraint::{ActsOn, ConstraintGraph, ConstraintGroup, Convergence, Law};
 
-/// Smallest scale of departures, as a share of the velocities that a row compares. Their difference is accurate to 1e-16 of
-/// them, and must stay well below a tolerance of 1e-10.
+/// Smallest scale of departures, as a share of the velocities that a row compares. Their difference is accurate to
+/// 1e-16 of them, and must stay well below a tolerance of 1e-10.
 const SMALLEST_SCALE: f64 = 1e-4;
-/// ρ times the mobility of rows: large, so that two or three rounds suffice; far below 1/ε, so that A + Jᵀ H J keeps the digits
-/// of A.
+/// ρ times the mobility of rows: large, so that two or three rounds suffice; far below 1/ε, so that A + Jᵀ H J keeps
+/// the digits of A.
 const STIFFNESS: f64 = 1e6;
 
 /// u of all rows, with the mobilities and the scale that turn it into departures.

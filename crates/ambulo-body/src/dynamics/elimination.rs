@@ -1,14 +1,15 @@
-//! Numeric part of the elimination: factors and solves linear systems of jointed bodies, leaves to root, without fill-in on trees.
+//! Numeric part of the elimination: factors and solves linear systems of jointed bodies, leaves to root, without
+//! fill-in on trees.
 //!
-//! A body c is attached to its parent p by a joint with f free directions S (6 x f, at the mass centre of c). For any unknown
-//! (acceleration, velocity or displacement) the joint allows
+//! A body c is attached to its parent p by a joint with f free directions S (6 x f, at the mass centre of c). For any
+//! unknown (acceleration, velocity or displacement) the joint allows
 //!
 //!   a_c = X a_p + S q + w          X a = (α, a + α × arm)          w: prescribed by the joint
 //!
-//! The system is min ½ aᵀ A a - bᵀ a - τᵀ q over all bodies and free directions. A has the inertias on its diagonal and, off the
-//! diagonal, the couplings between bodies that are no parent and child (closed loops, contacts between bodies). Stationarity
-//! in a_c is Newton's law with the joint force as Lagrange multipliers of the 6 - f constrained directions. With the
-//! neighbours n of c among the remaining bodies,
+//! The system is min ½ aᵀ A a - bᵀ a - τᵀ q over all bodies and free directions. A has the inertias on its diagonal
+//! and, off the diagonal, the couplings between bodies that are no parent and child (closed loops, contacts between
+//! bodies). Stationarity in a_c is Newton's law with the joint force as Lagrange multipliers of the 6 - f constrained
+//! directions. With the neighbours n of c among the remaining bodies,
 //!
 //!   G_p = Sᵀ (A_cc X + A_cp)      G_n = Sᵀ A_cn      D = Sᵀ A_cc S      y = D⁻¹ (Sᵀ (b_c - A_cc w) + τ)
 //!   A_pp += Xᵀ A_cc X + Xᵀ A_cp + A_pc X - G_pᵀ D⁻¹ G_p
@@ -16,9 +17,9 @@
 //!   b_p  += Xᵀ (b_c - A_cc w) - A_pc w - G_pᵀ y      b_n -= A_nc w + G_nᵀ y
 //!   q = y - D⁻¹ (G_p a_p + Σ G_n a_n)                a_c = X a_p + S q + w
 //!
-//! This is the block L D Lᵀ factorisation of the system of bodies and multipliers, with each body and the multipliers of its
-//! joint eliminated together, in the order of `elimination_order`. A massless body is no special case unless one of its free
-//! directions moves no mass at all; such a direction is kept at rest (`inertialess`).
+//! This is the block L D Lᵀ factorisation of the system of bodies and multipliers, with each body and the multipliers
+//! of its joint eliminated together, in the order of `elimination_order`. A massless body is no special case unless one
+//! of its free directions moves no mass at all; such a direction is kept at rest (`inertialess`).
 //!
 //! | code         | symbol | unit             | shape                        |
 //! | `diagonal`   | A_cc   | kg.m², kg.m, kg  | 6 x 6 per body               |
@@ -28,8 +29,8 @@
 //! | `d`          | D      | kg.m² or kg      | f x f per joint              |
 //!
 //! Source: Baraff 1996, "Linear-time dynamics using Lagrange multipliers" (unverified page), as the paper of 1997 cites
-//! it in section 3.1; the recursion over f free directions instead of 6 - f constrained ones is that of articulated bodies,
-//! derived above.
+//! it in section 3.1; the recursion over f free directions instead of 6 - f constrained ones is that of articulated
+//! bodies, derived above.
 //! Cost: linear in bodies on forests.
 //! Pinned by: tests/elimination.rs
 
@@ -53,8 +54,9 @@ pub struct EliminationWorkspace {
     g_neighbor: Vec<[Six; 6]>,
     /// Factor of D, one row per coordinate.
     d: Vec<[f64; 6]>,
-    /// Linear and angular size of the sums on each body's diagonal before the joints are eliminated; the result is accurate to
-    /// `ROUNDING` of this. (The inner one of two hinges on the same line without mass between them has only rounding left.)
+    /// Linear and angular size of the sums on each body's diagonal before the joints are eliminated; the result is
+    /// accurate to `ROUNDING` of this. (The inner one of two hinges on the same line without mass between them has only
+    /// rounding left.)
     carried: Vec<(f64, f64)>,
     inertialess: usize,
 }
@@ -160,7 +162,8 @@ impl Elimination {
         w.hang(body, parent, arm);
     }
 
-    /// One free direction and neighbours: what [`Elimination::factor_step`] does, without room for five more directions.
+    /// One free direction and neighbours: what [`Elimination::factor_step`] does, without room for five more
+    /// directions.
     fn factor_coupled_hinge(&self, step: &Step, link: Link, k: usize, terms: &LinkTerms, w: &mut EliminationWorkspace) {
         let (s, arm) = (&terms.directions[k], &terms.arm[step.body]);
         let own = w.diagonal[step.body];
@@ -341,8 +344,8 @@ impl Elimination {
         if place.transposed { block.add_transposed(more) } else { block.add(more) }
     }
 
-    /// Solves with the factor. `bodies` contains the wrenches b and receives the motions a, one per body; `coordinates` contains
-    /// the efforts τ and receives the joint motions q.
+    /// Solves with the factor. `bodies` contains the wrenches b and receives the motions a, one per body; `coordinates`
+    /// contains the efforts τ and receives the joint motions q.
     pub fn solve(
         &self,
         terms: &LinkTerms,

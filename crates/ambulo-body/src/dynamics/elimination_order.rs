@@ -1,8 +1,9 @@
 //! Symbolic part of the elimination: in which order bodies are eliminated, and which blocks that takes.
 //!
-//! On a forest, each body comes after its children, and no block appears that was not there. With couplings between bodies that
-//! are no parent and child, the next body is the one with the fewest neighbours among those whose children are eliminated;
-//! its neighbours then become neighbours of each other and of its parent. The numeric part is `elimination`.
+//! On a forest, each body comes after its children, and no block appears that was not there. With couplings between
+//! bodies that are no parent and child, the next body is the one with the fewest neighbours among those whose children
+//! are eliminated; its neighbours then become neighbours of each other and of its parent. The numeric part is
+//! `elimination`.
 //!
 //! Source: minimum degree (unverified).
 //! Pinned by: tests/elimination.rs
@@ -73,8 +74,8 @@ pub struct LinkTerms {
     pub offset: Vec<Six>,
 }
 
-/// The order in which bodies are eliminated and the blocks needed. Depends on parents and couplings only, so it is made once for
-/// many instants.
+/// The order in which bodies are eliminated and the blocks needed. Depends on parents and couplings only, so it is made
+/// once for many instants.
 #[derive(Debug, Clone)]
 pub struct Elimination {
     pub(super) links: Vec<Link>,
@@ -172,7 +173,8 @@ impl Elimination {
         self.couplings.len()
     }
 
-    /// Takes the body with the fewest neighbours first, among those whose children are eliminated; of equals the outermost.
+    /// Takes the body with the fewest neighbours first, among those whose children are eliminated; of equals the
+    /// outermost.
     fn order(&mut self, outwards: &[usize], couplings: &[(usize, usize)]) -> Result<(), LinkError> {
         let bodies = self.links.len();
         let mut adjacent: Vec<Vec<(usize, usize)>> = vec![Vec::new(); bodies];

@@ -18,8 +18,8 @@ pub(super) enum Friction {
     Slips { along: [f64; 2], compliance: f64 },
 }
 
-/// State of friction: sticking inside the cone, and on it if friction would support the slip. Without friction so far, it slips if
-/// the friction that this point alone would need exceeds the limit.
+/// State of friction: sticking inside the cone, and on it if friction would support the slip. Without friction so far,
+/// it slips if the friction that this point alone would need exceeds the limit.
 pub(super) fn friction_state(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobility: f64) -> Friction {
     let length = hypot(force[0], force[1]);
     if radius <= 0.0 {

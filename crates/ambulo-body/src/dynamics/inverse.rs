@@ -1,24 +1,24 @@
 //! Inverse dynamics: computes the force and moment in every joint from a motion and the known loads.
 //!
-//! The Newton-Euler equations of each body in absolute quantities, then one sweep from the leaves to the root. For body i
-//! with mass centre c and joint centre J:
+//! The Newton-Euler equations of each body in absolute quantities, then one sweep from the leaves to the root. For body
+//! i with mass centre c and joint centre J:
 //!
 //!   f_i = m (a - g) - Σ f_load + Σ_children f_j
 //!   n_c = I α + ω × I ω - Σ (n_load + (p - c) × f_load) + Σ_children (n_j + (J_j - c) × f_j)
 //!   n_i = n_c + (c - J) × f_i
 //!
 //! (f_i, n_i) is the wrench of the parent on body i at J. Its generalised forces are τ = Σ_axes (dθ/dq) a · n_i for
-//! rotations and (dd/dq) e · f_i for translations, so that a coordinate's share of the power is τ q̇. At the root, which is
-//! free, (f, n) is the residual: the disagreement between the measured loads and the motion. The bushings of a model are loads that
-//! follow from the motion (model::bushing).
+//! rotations and (dd/dq) e · f_i for translations, so that a coordinate's share of the power is τ q̇. At the root,
+//! which is free, (f, n) is the residual: the disagreement between the measured loads and the motion. The bushings of a
+//! model are loads that follow from the motion (model::bushing).
 //!
 //! | code       | symbol | unit        | meaning                                              |
 //! | `force`    | f_i    | N           | of the parent on the body, world axes                |
 //! | `moment`   | n_i    | N.m         | about the joint centre, world axes                   |
 //! | `tau`      | τ      | N.m or N    | generalised force of a coordinate                    |
 //!
-//! Source: Luh, Walker, Paul 1980, "On-line computational scheme for mechanical manipulators" (unverified page), here in
-//! world instead of body axes; signs of generalised forces as in OpenSim (`InverseDynamicsSolver`).
+//! Source: Luh, Walker, Paul 1980, "On-line computational scheme for mechanical manipulators" (unverified page), here
+//! in world instead of body axes; signs of generalised forces as in OpenSim (`InverseDynamicsSolver`).
 //! Cost: linear in bodies; measured by `cargo xtask bench`.
 //! Pinned by: tests/independent.rs (recursive Newton-Euler in joint coordinates), tests/identities.rs,
 //! tests/opensim_parity.rs
@@ -67,13 +67,13 @@ pub struct JointReaction {
 pub struct Forces {
     /// Generalised forces [N.m or N]: one column per coordinate, one entry per frame.
     pub generalized: Vec<Vec<f64>>,
-    /// Reaction in the joint of each body: one column per body. From [`inverse_with_residual`] only the joints to ground have one, the other
-    /// columns are empty.
+    /// Reaction in the joint of each body: one column per body. From [`inverse_with_residual`] only the joints to
+    /// ground have one, the other columns are empty.
     pub reactions: Vec<Vec<JointReaction>>,
 }
 
-/// The reactions in all joints of a motion, computed when they are read: eight frames are kept at a time, instead of 72 bytes per joint and
-/// frame. Made for reading frame after frame.
+/// The reactions in all joints of a motion, computed when they are read: eight frames are kept at a time, instead of 72
+/// bytes per joint and frame. Made for reading frame after frame.
 #[derive(Debug)]
 pub struct ReactionReader<'a> {
     trajectory: &'a Trajectory,
@@ -160,8 +160,8 @@ pub fn inverse_frame<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, loa
     FrameForces { plan, kernel }
 }
 
-/// Generalised forces of all frames, without allocation: `store(coordinate, first_frame, values)` receives them in runs of at
-/// most eight frames. [`inverse`] collects all results instead.
+/// Generalised forces of all frames, without allocation: `store(coordinate, first_frame, values)` receives them in runs
+/// of at most eight frames. [`inverse`] collects all results instead.
 pub fn inverse_frames(
     workspace: &mut Workspace,
     trajectory: &Trajectory,
@@ -208,8 +208,8 @@ pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[Load
     collect(workspace, trajectory, loads, |_| true)
 }
 
-/// As [`inverse`], but of the reactions only those of joints to ground, which are the residual. The other reactions take more than half of
-/// the memory of [`inverse`]; [`ReactionReader`] gives them.
+/// As [`inverse`], but of the reactions only those of joints to ground, which are the residual. The other reactions
+/// take more than half of the memory of [`inverse`]; [`ReactionReader`] gives them.
 #[must_use]
 pub fn inverse_with_residual(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[LoadSeries]) -> Forces {
     collect(workspace, trajectory, loads, |segment| segment.parent == GROUND)
@@ -284,11 +284,13 @@ impl<'a> ReactionReader<'a> {
     }
 }
 
-/// Projects known joint wrenches on the coordinates: one generalised force per coordinate [N.m or N]. This is the last step
-/// of [`inverse_frame`] alone. `wrenches` has one entry per body: of its parent on it, at its mass centre, world axes.
+/// Projects known joint wrenches on the coordinates: one generalised force per coordinate [N.m or N]. This is the last
+/// step of [`inverse_frame`] alone. `wrenches` has one entry per body: of its parent on it, at its mass centre, world
+/// axes.
 ///
 /// # Panics
-/// If the length of a slice of `posture` differs from the number of coordinates, or that of `wrenches` from the number of bodies.
+/// If the length of a slice of `posture` differs from the number of coordinates, or that of `wrenches` from the number
+/// of bodies.
 pub fn project_wrenches<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, wrenches: &[Wrench]) -> &'w [f64] {
     let Workspace { plan, one: kernel, .. } = workspace;
     assert_eq!(wrenches.len(), plan.segments.len(), "one wrench per body");

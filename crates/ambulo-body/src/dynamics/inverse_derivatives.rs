@@ -1,8 +1,8 @@
 //! Exact derivatives of inverse dynamics by positions, rates and accelerations, for several frames side by side.
 //!
-//! Every joint becomes a chain of massless links with one axis each. Spatial vectors (angular part or moment first) are at the
-//! origin of the world. λ is the link before link j, gravity is the acceleration a = -g of the ground, and the superscript c marks sums over
-//! a link and all bodies that it carries:
+//! Every joint becomes a chain of massless links with one axis each. Spatial vectors (angular part or moment first) are
+//! at the origin of the world. λ is the link before link j, gravity is the acceleration a = -g of the ground, and the
+//! superscript c marks sums over a link and all bodies that it carries:
 //!
 //!   v_j = v_λ + S_j q̇_j          Ψ̇_j = v_λ × S_j
 //!   a_j = a_λ + S_j q̈_j + Ψ̇_j q̇_j    Ψ̈_j = a_λ × S_j + v_λ × Ψ̇_j
@@ -14,18 +14,19 @@
 //!   ∂τ_i/∂q̇_j = 2 S_iᵀ (B_jᶜ S_j + I_jᶜ Ψ̇_j)                      ∂τ_j/∂q̇_i = 2 S_jᵀ (B_jᶜ S_i + I_jᶜ Ψ̇_i)
 //!   ∂τ_i/∂q_j = S_iᵀ (2 B_jᶜ Ψ̇_j + I_jᶜ Ψ̈_j + S_j ×* f_jᶜ)         ∂τ_j/∂q_i = S_jᵀ (2 B_jᶜ Ψ̇_i + I_jᶜ Ψ̈_i)     (i ≠ j)
 //!
-//! With the momentum (n, p) of a body and its inertia (m, h = m c, J) at the origin, B depends on the angular part only:
-//! B (ω, u) = (T ω, ω × p) with T = ½ (ω_b × J - J ω_b × - v × h × - h × v × - n ×).
+//! With the momentum (n, p) of a body and its inertia (m, h = m c, J) at the origin, B depends on the angular part
+//! only: B (ω, u) = (T ω, ω × p) with T = ½ (ω_b × J - J ω_b × - v × h × - h × v × - n ×).
 //!
-//! An axis s whose displacement follows a curve f of its coordinate has S = s f', and its rates gain the terms of a changing axis:
+//! An axis s whose displacement follows a curve f of its coordinate has S = s f', and its rates gain the terms of a
+//! changing axis:
 //!
 //!   Ψ̇_j = v_λ × S_j + s f'' q̇     Ψ̈_j = a_λ × S_j + v_λ × (v_λ × S_j) + 2 v_λ × s f'' q̇ + s (f'' q̈ + f‴ q̇²)
 //!
 //! and ∂τ_j/∂q_j also has (s f'')ᵀ f_jᶜ. These follow from the equations above by the chain rule.
 //!
-//! Source: S. Singh, R. P. Russell, P. M. Wensing, "Efficient analytical derivatives of rigid-body dynamics using spatial vector
-//! algebra", IEEE Robotics and Automation Letters 7 (2022), arXiv 2105.05102 (equations unverified; the tests compare with finite
-//! differences and an independent recursion). The form of B is ours.
+//! Source: S. Singh, R. P. Russell, P. M. Wensing, "Efficient analytical derivatives of rigid-body dynamics using
+//! spatial vector algebra", IEEE Robotics and Automation Letters 7 (2022), arXiv 2105.05102 (equations unverified; the
+//! tests compare with finite differences and an independent recursion). The form of B is ours.
 //! Cost: one pass over all pairs of links of which one carries the other.
 //! Not handled: ball-like joints; bushings, which are left out.
 //! Pinned by: tests/inverse_derivatives.rs
@@ -61,7 +62,8 @@ pub struct InverseDerivatives {
     pub by_acceleration: DMatrix<f64>,
 }
 
-/// Computes the generalised forces without external loads and bushings, and their derivatives by positions, rates and accelerations.
+/// Computes the generalised forces without external loads and bushings, and their derivatives by positions, rates and
+/// accelerations.
 ///
 /// In the mass matrix, the diagonal entry of the height of the pelvis is the body mass:
 ///
@@ -240,8 +242,8 @@ impl<const N: usize> DerivativeKernel<N> {
         DerivativeKernel::with(model, false)
     }
 
-    /// Coupled coordinates follow their leaders: forces and derivatives are those of the leaders. The values, rates and accelerations in
-    /// `scratch` must obey the couplers.
+    /// Coupled coordinates follow their leaders: forces and derivatives are those of the leaders. The values, rates and
+    /// accelerations in `scratch` must obey the couplers.
     pub fn with_couplers(model: &Model) -> Result<DerivativeKernel<N>, CurvedJointError> {
         DerivativeKernel::with(model, true)
     }

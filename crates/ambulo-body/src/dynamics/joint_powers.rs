@@ -1,7 +1,8 @@
-//! Powers of generalised forces, computed when they are read: one number per coordinate and frame less to keep in long recordings.
+//! Powers of generalised forces, computed when they are read: one number per coordinate and frame less to keep in long
+//! recordings.
 //!
-//! The power of a generalised force is τ q̇. Of ball-like joints, whose generalised forces are moments about the axes of the joint's frame on
-//! the parent, it is τ times the relative angular velocity about the same axis.
+//! The power of a generalised force is τ q̇. Of ball-like joints, whose generalised forces are moments about the axes
+//! of the joint's frame on the parent, it is τ times the relative angular velocity about the same axis.
 //! Pinned by: tests/identities.rs (the powers of joints, loads and gravity are the change of kinetic energy)
 
 use crate::kinematics::plan::Plan;

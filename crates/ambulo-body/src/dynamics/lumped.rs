@@ -1,21 +1,22 @@
 //! Lumps bodies whose joints leave no freedom together with the body that carries them.
 //!
-//! A joint without freedom (driven, recorded, welded) gives a_c = X a_p + w with nothing unknown. A body with some freedom and all
-//! bodies attached to it in this way are one body for the solver. With C their common mass centre,
+//! A joint without freedom (driven, recorded, welded) gives a_c = X a_p + w with nothing unknown. A body with some
+//! freedom and all bodies attached to it in this way are one body for the solver. With C their common mass centre,
 //!
 //!   a_c = X_c a_C + W_c          W_c = X W_p + w_c          W = 0 for the first of them
 //!   A_C = Σ X_cᵀ A_c X_c         b_C = Σ X_cᵀ (b_c - A_c W_c)          j_C = X_cᵀ j_c          target_C = target - j_c W_c
 //!
-//! which is again a rigid body with its inertia about its mass centre. A walking figure whose joints are all driven becomes one
-//! body with two free directions, whatever the number of its bodies, and a Newton step costs no more than for a box.
+//! which is again a rigid body with its inertia about its mass centre. A walking figure whose joints are all driven
+//! becomes one body with two free directions, whatever the number of its bodies, and a Newton step costs no more than
+//! for a box.
 //!
 //! | code      | symbol | unit           | shape        |
 //! | `arm`     |        | m              | one per body |
 //! | `beyond`  | W      | as the unknown | one per body |
 //! | `shift`   | j W    | as the unknown | one per row  |
 //!
-//! Source: derived above; the same sums as in an elimination of those bodies, computed once instead of at each factorisation.
-//! Not handled: rows within one lumped body, or on one without freedom; then the whole graph is solved.
+//! Source: derived above; the same sums as in an elimination of those bodies, computed once instead of at each
+//! factorisation. Not handled: rows within one lumped body, or on one without freedom; then the whole graph is solved.
 //! Pinned by: tests/lumped.rs
 
 use super::block::{BodyTerms, Six, carry, transport};

@@ -1,12 +1,13 @@
 //! Anderson mixing: reaches the fixed point of a map in fewer iterations.
 //!
 //! Of a map x -> g(x), the last inputs x_j and outputs g_j are known, newest first. With f = g - x, the weights θ that
-//! minimise |f_0 - Σ θ_j (f_0 - f_j)| give the next input g_0 - Σ θ_j (g_0 - g_j). For a linear map with at most as many
-//! dimensions as earlier iterations, this is the fixed point.
+//! minimise |f_0 - Σ θ_j (f_0 - f_j)| give the next input g_0 - Σ θ_j (g_0 - g_j). For a linear map with at most as
+//! many dimensions as earlier iterations, this is the fixed point.
 //!
 //! Used for friction: its bound follows the normal forces, which for a box that slides on legs depend on two angles.
 //!
-//! Source: Anderson 1965, "Iterative procedures for nonlinear integral equations" (unverified); the equations are above.
+//! Source: Anderson 1965, "Iterative procedures for nonlinear integral equations" (unverified); the equations are
+//! above.
 
 /// Number of earlier iterations kept.
 const DEPTH: usize = 2;

@@ -1,8 +1,8 @@
 //! Inverse dynamics (forces from motion) and constrained dynamics (motion from forces).
 //!
-//! [`inverse()`] computes the joint forces of a recorded motion. [`solve_graph`] computes the motion and the constraint forces of
-//! jointed bodies with closed loops, contacts and friction, as each step of the simulator needs them. [`residual_reduction`]
-//! changes a recorded motion so that it agrees with measured ground forces.
+//! [`inverse()`] computes the joint forces of a recorded motion. [`solve_graph`] computes the motion and the constraint
+//! forces of jointed bodies with closed loops, contacts and friction, as each step of the simulator needs them.
+//! [`residual_reduction`] changes a recorded motion so that it agrees with measured ground forces.
 //!
 //! Constraints have several solvers: [`Method::Newton`] tries `proximal`, then `nonsmooth_newton`, then `relaxed`;
 //! [`Method::ConjugateGradient`] is the solver of the 1997 paper. docs/METHODS.md says which method when.

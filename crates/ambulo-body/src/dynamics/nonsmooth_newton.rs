@@ -1,5 +1,5 @@
-//! Newton's method on the laws themselves, for contacts where the steps of [`super::proximal`] do not converge: many that begin
-//! to slip or to separate at once.
+//! Newton's method on the laws themselves, for contacts where the steps of [`super::proximal`] do not converge: many
+//! that begin to slip or to separate at once.
 //!
 //! With W and q of [`super::delassus`], u = W λ + q, and a law is an equation F = 0 that is piecewise smooth in λ:
 //!
@@ -7,16 +7,17 @@
 //!   normal force       F = (λ_n - Π(z_n))/ρ_n                      Π: onto [0, bound]
 //!   friction           F = (λ_t - D(z_t, μ r))/ρ_t                  D: onto the disc of this radius, r = Π(z_n)
 //!
-//! ρ is of the size of the inverse mobility of the row, so F is a motion. Each step solves ∂F/∂λ Δ = -F with dense factors and is
-//! halved until |F|² falls below the largest of the last few values; ∂F/∂λ contains the dependence of friction on the normal
-//! force, which the friction disc of `proximal` does not. Redundant rows make W singular, and steps along the forces that move
-//! nothing leave the cones; a share of its diagonal is therefore added to the derivative (not to F), more where a step fails, as
-//! in the method of Levenberg and Marquardt. Where no step lowers |F|², the best forces are changed at
-//! random, or set to zero, and sweeps over the rows one by one (Gauss and Seidel, with the same projections) lead to the next
-//! place to start from. The iterate with the smallest departure is returned.
+//! ρ is of the size of the inverse mobility of the row, so F is a motion. Each step solves ∂F/∂λ Δ = -F with dense
+//! factors and is halved until |F|² falls below the largest of the last few values; ∂F/∂λ contains the dependence of
+//! friction on the normal force, which the friction disc of `proximal` does not. Redundant rows make W singular, and
+//! steps along the forces that move nothing leave the cones; a share of its diagonal is therefore added to the
+//! derivative (not to F), more where a step fails, as in the method of Levenberg and Marquardt. Where no step
+//! lowers |F|², the best forces are changed at random, or set to zero, and sweeps over the rows one by one (Gauss and
+//! Seidel, with the same projections) lead to the next place to start from. The iterate with the smallest departure is
+//! returned.
 //!
-//! Source: Alart and Curnier 1991 for F; Jourdan, Alart and Jean 1998 for the sweeps (unverified pages). Derivatives derived above.
-//! Cost: one factorisation of n rows per step, n³/3 products.
+//! Source: Alart and Curnier 1991 for F; Jourdan, Alart and Jean 1998 for the sweeps (unverified pages). Derivatives
+//! derived above. Cost: one factorisation of n rows per step, n³/3 products.
 //! Pinned by: tests/contact_convergence.rs
 
 use super::block::Six;
@@ -38,8 +39,8 @@ const SCALES: [f64; 8] = [1.0, 0.1, 10.0, 1.0, 0.01, 100.0, 1.0, 0.3];
 /// Every turn of this number starts after so many sweeps more from no forces: about as much work as its steps.
 const FRESH: usize = 6;
 const FRESH_SWEEPS: usize = 2000;
-/// The others start at the best forces so far, each changed by up to this share, after a few sweeps. Few, since many lead back
-/// to where the last descent ended.
+/// The others start at the best forces so far, each changed by up to this share, after a few sweeps. Few, since many
+/// lead back to where the last descent ended.
 const CHANGE: f64 = 0.25;
 const SWEEPS: usize = 10;
 /// Number of halvings of a step.
@@ -48,9 +49,9 @@ const HALVINGS: usize = 12;
 const MEMORY: usize = 4;
 /// Least fall of |F|², relative to its linear prediction.
 const FALL: f64 = 1e-4;
-/// Share of ∂F_i/∂λ_i that is added to the derivative at the start of a turn. A step that fails is tried again with this times as
-/// much up to the largest; after a step that does not, a tenth is enough, down to the least: invisible in ten digits, far above the
-/// rounding of a redundant row.
+/// Share of ∂F_i/∂λ_i that is added to the derivative at the start of a turn. A step that fails is tried again with
+/// this times as much up to the largest; after a step that does not, a tenth is enough, down to the least: invisible in
+/// ten digits, far above the rounding of a redundant row.
 const ADDED: f64 = 1e-6;
 const RAISED: f64 = 30.0;
 const MOST_ADDED: f64 = 1.0;
@@ -81,7 +82,8 @@ pub(super) struct NonsmoothWorkspace {
     most_products: usize,
 }
 
-/// Improves motion and forces if it can, in about so many products; returns whether the laws hold. The factors of the problem are those of the trees afterwards.
+/// Improves motion and forces if it can, in about so many products; returns whether the laws hold. The factors of the
+/// problem are those of the trees afterwards.
 pub(super) fn solve(
     problem: &mut Problem<'_>,
     w: &mut NonsmoothWorkspace,
@@ -340,7 +342,8 @@ fn depart(group: &ConstraintGroup, rho: &[f64], lambda: &[f64], u: &[f64], left:
     }
 }
 
-/// ∂F/∂λ of one group. Inside the bounds F = u, whose derivative is a row of W; outside it is that of λ and of the bound.
+/// ∂F/∂λ of one group. Inside the bounds F = u, whose derivative is a row of W; outside it is that of λ and of the
+/// bound.
 fn differentiate(
     group: &ConstraintGroup,
     rho: &[f64],

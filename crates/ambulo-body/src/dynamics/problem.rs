@@ -17,12 +17,12 @@ const LEVEL: f64 = 0.1;
 /// Solver of loop closures and contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
-    /// Newton steps on an augmented Lagrangian. The initial guess affects the result only by rounding; redundant rows get the
-    /// least-squares forces.
+    /// Newton steps on an augmented Lagrangian. The initial guess affects the result only by rounding; redundant rows
+    /// get the least-squares forces.
     #[default]
     Newton,
-    /// Conjugate gradient, as in the paper of 1997. Starts at the guess; redundant rows get the forces nearest to it, without a
-    /// guess the least-squares forces.
+    /// Conjugate gradient, as in the paper of 1997. Starts at the guess; redundant rows get the forces nearest to it,
+    /// without a guess the least-squares forces.
     ConjugateGradient,
 }
 
@@ -33,7 +33,8 @@ pub struct SolverSettings {
     pub method: Method,
     /// Largest accepted residual; see [`Convergence::residual`](super::Convergence::residual).
     pub tolerance: f64,
-    /// Maximum number of tree solves. Newton needs few in every scene; conjugate gradient up to a multiple of the number of rows.
+    /// Maximum number of tree solves. Newton needs few in every scene; conjugate gradient up to a multiple of the
+    /// number of rows.
     pub max_iterations: usize,
 }
 

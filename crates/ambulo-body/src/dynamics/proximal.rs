@@ -1,25 +1,27 @@
 //! Newton's method for constraint graphs: motions and constraint forces by Newton steps on an augmented Lagrangian.
 //!
-//! With the inertias A in the coordinates of the trees, rows u = J a + R λ - c and laws that confine the forces to a set K:
+//! With the inertias A in the coordinates of the trees, rows u = J a + R λ - c and laws that confine the forces to a
+//! set K:
 //!
 //!   λ = Π_K( (λ° - ρ (J a - c)) / (1 + ρ R) )                                                     (1)
 //!   A a = b + Jᵀ λ                                                                                 (2)
 //!
-//! λ° is the last estimate. A Newton step on (2) with (1) inserted solves (A + Jᵀ H J) Δ = b + Jᵀ λ - A a, where H = -∂λ/∂(J a) is
-//! 3 x 3 for a contact and diagonal otherwise. Rows on one body add to the block of that body, rows between two bodies couple
-//! them; the system is solved by `elimination`. When (2) holds, λ° := λ; each such round reduces the departure of rigid rows by
-//! 1/(1 + ρ W), W = J A⁻¹ Jᵀ. Redundant rows are allowed: from λ° = 0, every λ° stays in the range of J, so that a table on
-//! four legs gets the least-squares forces.
+//! λ° is the last estimate. A Newton step on (2) with (1) inserted solves (A + Jᵀ H J) Δ = b + Jᵀ λ - A a, where H =
+//! -∂λ/∂(J a) is 3 x 3 for a contact and diagonal otherwise. Rows on one body add to the block of that body, rows
+//! between two bodies couple them; the system is solved by `elimination`. When (2) holds, λ° := λ; each such round
+//! reduces the departure of rigid rows by 1/(1 + ρ W), W = J A⁻¹ Jᵀ. Redundant rows are allowed: from λ° = 0, every λ°
+//! stays in the range of J, so that a table on four legs gets the least-squares forces.
 //!
-//! After a full step, λ - H J Δ satisfies (2) up to rounding, which a second, small step corrects; if these forces also satisfy
-//! the laws, the problem is solved. If they do not, but the active rows are those that were factored, these forces become the
-//! next λ°, and ρ is raised if the last rounds were slow.
+//! After a full step, λ - H J Δ satisfies (2) up to rounding, which a second, small step corrects; if these forces also
+//! satisfy the laws, the problem is solved. If they do not, but the active rows are those that were factored, these
+//! forces become the next λ°, and ρ is raised if the last rounds were slow.
 //!
-//! Coulomb's law is not the gradient of a function. The friction disc |λ_t| ≤ r takes its radius r = μ λ_n from the normal force
-//! of the previous step; for a fixed radius, (1) and (2) are the stationarity of a convex function φ, and a line search on φ
-//! safeguards each step. While the same contacts slip, [`AndersonMixing`] extrapolates the radii: a table that slides and turns,
-//! guessed within 1 %, takes 6 steps to 1e-10 instead of 9. If friction changes normal forces that the motion does not
-//! determine (a table that slides on four legs), there are many solutions, and the result depends on the guess.
+//! Coulomb's law is not the gradient of a function. The friction disc |λ_t| ≤ r takes its radius r = μ λ_n from the
+//! normal force of the previous step; for a fixed radius, (1) and (2) are the stationarity of a convex function φ, and
+//! a line search on φ safeguards each step. While the same contacts slip, [`AndersonMixing`] extrapolates the radii: a
+//! table that slides and turns, guessed within 1 %, takes 6 steps to 1e-10 instead of 9. If friction changes normal
+//! forces that the motion does not determine (a table that slides on four legs), there are many solutions, and the
+//! result depends on the guess.
 //!
 //! | code        | symbol | unit            | shape                         |
 //! | `lambda`    | λ      | N.m, N          | one per row                   |
@@ -29,10 +31,11 @@
 //! | `radius`    | r      | N               | one per group                 |
 //! | `curvature` | H      | kg, kg.m²       | 3 x 3 per contact, else diagonal |
 //!
-//! A guess of the forces, for example from the last time step, determines the initial active set, which is kept for one round.
-//! If forces are not unique and the least-squares forces would leave a cone, the guess is moved towards them as far as all
-//! cones allow. Slip directions that oscillate from step to step are damped; contacts that still do not converge are passed to
-//! [`super::nonsmooth_newton`], if that fails to [`super::relaxed`], and then to the first again with more patience.
+//! A guess of the forces, for example from the last time step, determines the initial active set, which is kept for one
+//! round. If forces are not unique and the least-squares forces would leave a cone, the guess is moved towards them as
+//! far as all cones allow. Slip directions that oscillate from step to step are damped; contacts that still do not
+//! converge are passed to [`super::nonsmooth_newton`], if that fails to [`super::relaxed`], and then to the first again
+//! with more patience.
 //!
 //! Source: proximal handling of constraints on articulated bodies as in Carpentier, Budhiraja, Mansard 2021, "Proximal
 //! and sparse resolution of constrained dynamic equations" (unverified page); friction disc of lagged radius after
@@ -54,8 +57,8 @@ use super::nonsmooth_newton::{self, MOST_ROWS, NonsmoothWorkspace};
 use super::problem::{Problem, inertial_slope, lowest};
 use super::relaxed::{self, RelaxedWorkspace};
 
-/// Factor by which ρ is raised if departures fall too slowly, and its limit. At 1e9 times A, nine digits of a step are lost, which
-/// the next step corrects; at 1e12, pivots of A would be treated as rounding.
+/// Factor by which ρ is raised if departures fall too slowly, and its limit. At 1e9 times A, nine digits of a step are
+/// lost, which the next step corrects; at 1e12, pivots of A would be treated as rounding.
 const STIFFER: f64 = 32.0;
 const STIFFEST: f64 = 1e3;
 /// A round that leaves more than this share of the departure is slow.
@@ -70,12 +73,14 @@ const BEFORE_HALF_STEPS: usize = 12;
 const STALLED: usize = 30;
 /// Maximum number of Newton steps after the convex problem.
 const POLISH: usize = 20;
-/// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and a third of a second.
+/// Work of [`super::nonsmooth_newton`] before the convex problem and after it [products]: milliseconds and a third of a
+/// second.
 const FIRST_PRODUCTS: usize = 10_000_000;
 const LAST_PRODUCTS: usize = 300_000_000;
 /// The last work is divided by this where rows may have no solution.
 const DOUBTFUL_SHARE: usize = 15;
-/// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing more is tried.
+/// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing
+/// more is tried.
 const NEARLY: f64 = 1e-6;
 const FAR: f64 = 1e-2;
 /// Number of rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row with relevant mobility.
@@ -226,8 +231,8 @@ impl Newton<'_, '_> {
             self.accept_nearest(motions, coordinates, lambda, convergence);
         }
         if self.rho > self.plain {
-            // Displacements are projected with the initial ρ: modes that hardly yield to it belong to stretched loops, and would be
-            // moved far to correct little.
+            // Displacements are projected with the initial ρ: modes that hardly yield to it belong to stretched loops,
+            // and would be moved far to correct little.
             self.rho = self.plain;
             self.guess(lambda);
             self.factor(convergence);
@@ -310,8 +315,8 @@ impl Newton<'_, '_> {
         self.graph.rows.len() <= MOST_ROWS && self.graph.groups.iter().any(contact)
     }
 
-    /// After steps that stalled: Newton's method on the laws themselves, then a few of the usual steps if it fails too. Returns
-    /// whether the laws hold.
+    /// After steps that stalled: Newton's method on the laws themselves, then a few of the usual steps if it fails too.
+    /// Returns whether the laws hold.
     fn solve_laws(
         &mut self,
         motions: &mut Vec<Six>,
@@ -374,19 +379,19 @@ impl Newton<'_, '_> {
         self.factor(convergence);
     }
 
-    /// Whether the row that is violated most belongs to no contact. Contacts alone always have a solution; loops, drives and limits may contradict
-    /// each other.
+    /// Whether the row that is violated most belongs to no contact. Contacts alone always have a solution; loops,
+    /// drives and limits may contradict each other.
     fn may_contradict(&self) -> bool {
         let worst = self.w.best.worst();
         let group = self.graph.groups.iter().find(|group| worst.is_some_and(|row| group.rows.contains(&row)));
         group.is_none_or(|group| matches!(group.law, Law::Bounded { .. }))
     }
 
-    /// One round with the active set of the guess: small forces next to large ones are inaccurate after the first solve, and would be
-    /// classified as slipping or pulling.
+    /// One round with the active set of the guess: small forces next to large ones are inaccurate after the first
+    /// solve, and would be classified as slipping or pulling.
     ///
-    /// If forces are not unique, the first solve gives the least-squares forces, which may lie outside their cones although others do
-    /// not. λ° is therefore moved from the guess towards them only as far as all cones allow.
+    /// If forces are not unique, the first solve gives the least-squares forces, which may lie outside their cones
+    /// although others do not. λ° is therefore moved from the guess towards them only as far as all cones allow.
     fn approach(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
         let share = active_set::share_of_least_squares(self.graph, &self.w.factored, &self.w.before, lambda);
         self.problem.departures.read(self.graph, motions, coordinates);
@@ -469,9 +474,9 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// Whether the residual is the same as a round before with the largest ρ: the rows contradict each other. If it falls only
-    /// slowly, ρ is raised; this is needed for modes whose mobility is far below that of single rows (bending of a tall tower,
-    /// with the fourth power of the number of levels).
+    /// Whether the residual is the same as a round before with the largest ρ: the rows contradict each other. If it
+    /// falls only slowly, ρ is raised; this is needed for modes whose mobility is far below that of single rows
+    /// (bending of a tall tower, with the fourth power of the number of levels).
     fn stuck(&mut self, residual: f64, last: &mut f64) -> bool {
         let slow = residual > SLOW * *last;
         let stiff = self.rho >= self.stiffest;
@@ -487,8 +492,8 @@ impl Newton<'_, '_> {
         self.w.curvature.iter().any(Curvature::slips)
     }
 
-    /// Starts the next round: λ° := the forces that satisfy (2) (`trial`), radii of slipping contacts extrapolated from the last
-    /// rounds, and λ and H for both at the same motion with the same active set.
+    /// Starts the next round: λ° := the forces that satisfy (2) (`trial`), radii of slipping contacts extrapolated from
+    /// the last rounds, and λ and H for both at the same motion with the same active set.
     fn recenter(&mut self, lambda: &mut [f64], steady: bool) {
         let slips = self.slips();
         let NewtonWorkspace { mixing, last_radius, radius, center, trial, curvature, .. } = &mut *self.w;
@@ -527,8 +532,8 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// λ by (1) and H at the present motion. A contact that begins to push gets no friction for one step: the friction by -ρ u
-    /// would be many times too large and open the contact again, without end.
+    /// λ by (1) and H at the present motion. A contact that begins to push gets no friction for one step: the friction
+    /// by -ρ u would be many times too large and open the contact again, without end.
     fn evaluate(&mut self, lambda: &mut [f64]) {
         let NewtonWorkspace { center, radius, curvature, .. } = &mut *self.w;
         let (map, u) = (Proximal { graph: self.graph, rho: self.rho, center }, &self.problem.departures.u);
@@ -537,7 +542,8 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// Adds the Newton step Δ, shortened by a line search, to the motion. Returns whether the step was full, so that (2) holds.
+    /// Adds the Newton step Δ, shortened by a line search, to the motion. Returns whether the step was full, so that
+    /// (2) holds.
     fn newton_step(
         &mut self,
         motions: &mut [Six],

@@ -1,14 +1,15 @@
 //! Fallback where Newton's method on Coulomb's law fails: a nearby convex problem, which always has a solution.
 //!
-//! With u_n + s instead of u_n, where s = μ |u_t| is fixed at a guess, Coulomb's law is the stationarity of a convex function,
-//! with normal force and friction in one cone:
+//! With u_n + s instead of u_n, where s = μ |u_t| is fixed at a guess, Coulomb's law is the stationarity of a convex
+//! function, with normal force and friction in one cone:
 //!
 //!   λ = Π_cone( λ° - ρ (u + s n) )         A a = b + Jᵀ λ
 //!
-//! Newton steps with a line search always converge to its minimum. Then s is updated from the computed slip, λ° := λ, and the
-//! problem is solved again for a few rounds. With s = 0, slipping surfaces would separate at μ |u_t|; at the fixed point of s
-//! the law is Coulomb's. After any round, forces lie in their cones, oppose the motion, and satisfy A a = b + Jᵀ λ: an
-//! unconverged problem (a pile of boxes) loses accuracy, which the residual reports, but gains no energy.
+//! Newton steps with a line search always converge to its minimum. Then s is updated from the computed slip, λ° := λ,
+//! and the problem is solved again for a few rounds. With s = 0, slipping surfaces would separate at μ |u_t|; at the
+//! fixed point of s the law is Coulomb's. After any round, forces lie in their cones, oppose the motion, and satisfy A
+//! a = b + Jᵀ λ: an unconverged problem (a pile of boxes) loses accuracy, which the residual reports, but gains no
+//! energy.
 //!
 //! Source: De Saxcé and Feng 1998 for the shift by μ |u_t|; Anitescu 2006 for s = 0 (unverified pages).
 //! Cost: one factorisation per step.

@@ -49,8 +49,8 @@ impl Roots {
 }
 
 impl Root {
-    /// A joint that translates and rotates about one axis (planar models) has residuals along its free directions only. For a
-    /// joint with several rotations, or without translations, the whole wrench is residual.
+    /// A joint that translates and rotates about one axis (planar models) has residuals along its free directions only.
+    /// For a joint with several rotations, or without translations, the whole wrench is residual.
     fn of(body: BodyId, joint: &Joint) -> Root {
         let directions = |axes: &[JointAxis]| -> Vec<Vec3> {
             let moves = |axis: &&JointAxis| matches!(axis.displacement, Displacement::Follows(..));

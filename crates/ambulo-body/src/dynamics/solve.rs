@@ -1,8 +1,9 @@
 //! Solves constraint graphs with a chosen method; holds the scratch memory that the methods share.
 //!
-//! [`Method::Newton`] factors trees and rows together: loops cost some fill-in, contacts one factorisation each time that one
-//! opens, sticks or slips. [`Method::ConjugateGradient`] factors the trees once and refines the forces of the rows by tree
-//! solves. tests/constraint_graph.rs counts the tree solves and factorisations of both on ladders, tables, walls and towers.
+//! [`Method::Newton`] factors trees and rows together: loops cost some fill-in, contacts one factorisation each time
+//! that one opens, sticks or slips. [`Method::ConjugateGradient`] factors the trees once and refines the forces of the
+//! rows by tree solves. tests/constraint_graph.rs counts the tree solves and factorisations of both on ladders, tables,
+//! walls and towers.
 
 use super::block::Six;
 use super::conjugate_gradient::{self, ConjugateWorkspace};
@@ -15,8 +16,8 @@ use super::problem::{Method, Problem, SolverSettings};
 use super::proximal::{self, NewtonWorkspace};
 use std::collections::BTreeMap;
 
-/// A row is determined if less than this share of a random probe remains in it: regular rows leave 1e-12, a duplicated row
-/// leaves 1/2, and a row that occurs k times (k-1)/k.
+/// A row is determined if less than this share of a random probe remains in it: regular rows leave 1e-12, a duplicated
+/// row leaves 1/2, and a row that occurs k times (k-1)/k.
 const UNDETERMINED: f64 = 1e-6;
 
 /// Scratch memory of the solver. Nothing is allocated while the structure of the graph is unchanged.
@@ -43,12 +44,12 @@ pub struct GraphWorkspace {
     conjugate: ConjugateWorkspace,
 }
 
-/// Solves the graph. On entry, `solution.lambda` is a guess of the forces, for example those of the last time step: it determines
-/// which contacts are first treated as loaded and as slipping, and where conjugate gradient starts. The guess of a new contact is
-/// a positive normal force without friction.
+/// Solves the graph. On entry, `solution.lambda` is a guess of the forces, for example those of the last time step: it
+/// determines which contacts are first treated as loaded and as slipping, and where conjugate gradient starts. The
+/// guess of a new contact is a positive normal force without friction.
 ///
-/// If rows contradict each other (a drive against a wall), [`Convergence::converged`](super::Convergence::converged) is false and
-/// the row with the largest departure is reported; forces stay within their bounds.
+/// If rows contradict each other (a drive against a wall), [`Convergence::converged`](super::Convergence::converged) is
+/// false and the row with the largest departure is reported; forces stay within their bounds.
 ///
 /// # Errors
 /// Links that do not form trees.
@@ -78,8 +79,8 @@ pub fn solve_graph(
     done
 }
 
-/// Displacements that bring the rows active at the last solution to `targets` with the least motion of mass: M δ = Jᵀ ν,
-/// J δ = targets, within the free directions of the joints. Uses the last factorisation and the last method.
+/// Displacements that bring the rows active at the last solution to `targets` with the least motion of mass: M δ = Jᵀ
+/// ν, J δ = targets, within the free directions of the joints. Uses the last factorisation and the last method.
 pub fn project_displacements(
     graph: &ConstraintGraph,
     targets: &[f64],
@@ -110,12 +111,13 @@ pub fn project_displacements(
     });
 }
 
-/// Active rows of the last solution whose forces the motion does not determine, because some combination of them with others
-/// moves nothing (a flat foot on four points, a planar loop closed by spatial rows). Uses the last factorisation.
+/// Active rows of the last solution whose forces the motion does not determine, because some combination of them with
+/// others moves nothing (a flat foot on four points, a planar loop closed by spatial rows). Uses the last
+/// factorisation.
 ///
-/// The rows get a probe z of random targets. The part of it that no force can produce lies in the null space of J A⁻¹ Jᵀ, and
-/// appears with probability one in exactly the rows that the null space involves. Costs a few tree solves with Newton's
-/// method, as many as a solution with conjugate gradient.
+/// The rows get a probe z of random targets. The part of it that no force can produce lies in the null space of J A⁻¹
+/// Jᵀ, and appears with probability one in exactly the rows that the null space involves. Costs a few tree solves with
+/// Newton's method, as many as a solution with conjugate gradient.
 #[must_use]
 pub fn undetermined_rows(graph: &ConstraintGraph, workspace: &mut GraphWorkspace) -> Vec<usize> {
     let mut left = probe(graph.rows.len());

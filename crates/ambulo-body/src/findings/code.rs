@@ -15,7 +15,8 @@ struct Entry {
     remedy: &'static str,
 }
 
-/// Makes the enum and the list of entries, in the same order. A macro, because no function can declare the variants of an enum.
+/// Makes the enum and the list of entries, in the same order. A macro, because no function can declare the variants of
+/// an enum.
 macro_rules! codes {
     ($($variant:ident $name:literal $severity:ident $meaning:literal $remedy:literal;)*) => {
         /// What a finding is about. Its name, such as `markers.swap`, is stable and meant for programs.
@@ -50,9 +51,11 @@ codes! {
         "Check the mass of the body; zero is correct only if another body includes its mass.";
     ModelInertia "model.inertia" Warning
         "The inertia of a body is physically impossible."
-        "Correct the inertia in the model file: moments of inertia are positive, and none exceeds the sum of the other two.";
+        "Correct the inertia in the model file: moments of inertia are positive, and none exceeds the sum of the other \
+         two.";
     ModelBushing "model.bushing" Note
-        "A bushing (a spring with a damper between two bodies) is included in inverse dynamics; forces of the coordinates are in addition to it."
+        "A bushing (a spring with a damper between two bodies) is included in inverse dynamics; forces of the \
+         coordinates are in addition to it."
         "Nothing to do; to leave it out, switch it off in the model or exclude it in the set-up of inverse dynamics.";
     ModelConstraint "model.constraint" Warning
         "A constraint of the model is not enforced; forces that pass through it are reported at the joints of the tree."
@@ -87,11 +90,13 @@ codes! {
         "The recording has no column for coordinates of the model; their default values were used throughout."
         "Record these coordinates, or check that their constant values suit the motion.";
     MotionCoupledMismatch "motion.coupled_mismatch" Warning
-        "Recorded values of a locked or coupled coordinate differ from what the model prescribes; the model's values were used."
+        "Recorded values of a locked or coupled coordinate differ from what the model prescribes; the model's values \
+         were used."
         "Check that recording and model belong together.";
     MotionOutOfRange "motion.out_of_range" Warning
         "A coordinate leaves the range that the model allows."
-        "Check that the motion was recorded with this model, and that signs agree: some models count knee flexion positive, some negative.";
+        "Check that the motion was recorded with this model, and that signs agree: some models count knee flexion \
+         positive, some negative.";
     MotionRepeatedRow "motion.repeated_row" Warning
         "Rows of the recording repeat the row before them and were dropped."
         "Check the export of the file.";
@@ -121,7 +126,8 @@ codes! {
         "Useful joints were not recognised by their names."
         "Rename the joints of the skeleton to usual names.";
     BvhRestPose "bvh.rest_pose" Note
-        "The rest pose of the file is not upright standing; a T- or A-pose of the recording, or its mean posture, is used instead."
+        "The rest pose of the file is not upright standing; a T- or A-pose of the recording, or its mean posture, is \
+         used instead."
         "Nothing to do if the message names a pose; otherwise check that the person is upright on average.";
     BvhPose "bvh.pose" Note
         "The first frame is a calibration pose and was left out."
@@ -141,7 +147,8 @@ codes! {
         "Give the SMPL model that the motion was made with, or the person's stature.";
     // Subjects of AddBiomechanics.
     B3dForceMissing "b3d.force_missing" Warning
-        "Ground forces are marked as missing in some frames; only the longest time with measured forces was used, or forces were predicted."
+        "Ground forces are marked as missing in some frames; only the longest time with measured forces was used, or \
+         forces were predicted."
         "Choose another time range, or predict the forces of the whole trial.";
     B3dUnobserved "b3d.unobserved" Note
         "Coordinates of the model were not measured in this trial; their values are assumed."
@@ -161,7 +168,8 @@ codes! {
         "Check the sensor with the largest angle; it may have moved on the body.";
     SensorsHeading "sensors.heading" Note
         "The orientations of the sensors were turned about the vertical, so that the person faces forward."
-        "Check that the person walks forward in the result; an axis of a sensor that points forward can show the direction instead.";
+        "Check that the person walks forward in the result; an axis of a sensor that points forward can show the \
+         direction instead.";
     SensorsHeld "sensors.held" Note
         "Coordinates that rotate no sensor keep their default values."
         "Nothing to do; toes and wrists are often without sensors.";
@@ -169,8 +177,10 @@ codes! {
         "A sensor has no data in some frames."
         "Check the sensor; short gaps are bridged, longer ones leave coordinates unknown.";
     SensorsPlaced "sensors.placed" Warning
-        "Orientations do not contain the position of the person; the position of the pelvis was derived from the feet on the ground."
-        "Treat horizontal forces, speed and step lengths as estimates; do not use recordings of running, jumping or stairs.";
+        "Orientations do not contain the position of the person; the position of the pelvis was derived from the feet \
+         on the ground."
+        "Treat horizontal forces, speed and step lengths as estimates; do not use recordings of running, jumping or \
+         stairs.";
     SensorsUnknown "sensors.unknown" Warning
         "Sensors match no body of the model, or several match the same body."
         "Name the columns by the bodies of the model, with the ending `_imu`.";
@@ -179,7 +189,8 @@ codes! {
         "Record the person standing still in the default posture of the model, and give that as the standing trial.";
     // Poses of segments.
     PosesUsed "poses.used" Note
-        "The file contains poses of body segments (markerless motion capture or an inertial suit); the body follows them, and markers of the file are not used."
+        "The file contains poses of body segments (markerless motion capture or an inertial suit); the body follows \
+         them, and markers of the file are not used."
         "Nothing to do.";
     PosesOdd "poses.odd" Warning
         "Poses of segments are not valid rotations, are missing, or do not agree with a level floor."
@@ -191,7 +202,8 @@ codes! {
         "Distances between the joint centres of the poses are unusual."
         "Check the unit of length and the stature.";
     PosesGap "poses.gap" Warning
-        "Poses of a segment are missing for longer than the largest gap that is bridged; its coordinates have no value there."
+        "Poses of a segment are missing for longer than the largest gap that is bridged; its coordinates have no value \
+         there."
         "Choose a time range without the gap.";
     PosesBridged "poses.bridged" Note
         "Missing poses of a segment were bridged by a smooth curve."
@@ -247,7 +259,8 @@ codes! {
         "A marker moved away from its position on the body at some times and was not used there."
         "Correct the trajectory of the marker.";
     MarkersUnfitted "markers.unfitted" Warning
-        "The fit of the body to the markers took too many steps at some times and was stopped; coordinates are approximate there, or have no values."
+        "The fit of the body to the markers took too many steps at some times and was stopped; coordinates are \
+         approximate there, or have no values."
         "Correct markers that jump or have wrong labels, or leave those times out.";
     MarkersSwap "markers.swap" Warning
         "Two markers had exchanged labels at some times and were exchanged back."
@@ -284,7 +297,8 @@ codes! {
         "The trunk has no marker; it is assumed upright above the pelvis."
         "Add markers on the trunk.";
     KeypointsNoise "keypoints.noise" Note
-        "The recording has keypoints of video instead of markers; their noise was estimated, and positions far from their paths were left out."
+        "The recording has keypoints of video instead of markers; their noise was estimated, and positions far from \
+         their paths were left out."
         "Nothing to do; more cameras or a better calibration of the cameras reduce the noise.";
     ScalingFitted "scaling.fitted" Note
         "States how the model was scaled to the person and how well its markers fit."
@@ -319,13 +333,16 @@ codes! {
         "No mass is stated; it was measured by the force plates during the motion."
         "Nothing to do, or state the mass.";
     MassMismatch "mass.mismatch" Warning
-        "The mass on the force plates over whole gait cycles differs from the mass of the model by 3 to 5 %: results are normalised by the measured mass, dynamics use the mass of the model."
+        "The mass on the force plates over whole gait cycles differs from the mass of the model by 3 to 5 %: results \
+         are normalised by the measured mass, dynamics use the mass of the model."
         "Scale the model to this person.";
     MassStandingMismatch "mass.standing_mismatch" Warning
-        "The stated body mass was not used: the standing trial and the motion on the force plates agree on a different mass."
+        "The stated body mass was not used: the standing trial and the motion on the force plates agree on a different \
+         mass."
         "Give the measured mass, or check the standing trial.";
     MassContradicted "mass.contradicted" Warning
-        "The mass on the force plates, in motion or in the standing trial, differs from the body mass by more than 5 % and more than the error of the measurement."
+        "The mass on the force plates, in motion or in the standing trial, differs from the body mass by more than 5 % \
+         and more than the error of the measurement."
         "Give the right mass, or scale the model to this person; check that every foot is on a plate.";
     MassScaled "mass.scaled" Note
         "The model was scaled to the stated mass and stature."
@@ -393,7 +410,8 @@ codes! {
         "Record steps on plates, or predict the forces.";
     // Loads from files.
     LoadsGuessed "loads.guessed" Note
-        "The columns of the ground forces were recognised by their names, the feet by names or by the centre of pressure."
+        "The columns of the ground forces were recognised by their names, the feet by names or by the centre of \
+         pressure."
         "State them if the guess is wrong.";
     LoadsWorldAxes "loads.world_axes" Note
         "Forces from a table are not in the markers' axes; they are read as x forward, y up, z right."
@@ -423,7 +441,8 @@ codes! {
         "A force acts nearer to the other foot than to its own; right and left may be exchanged."
         "Exchange the bodies on which the loads act.";
     LoadsUnderOtherFoot "loads.under_other_foot" Warning
-        "The centre of pressure of a load is under the other foot than stated by its file or its name; it was used as stated."
+        "The centre of pressure of a load is under the other foot than stated by its file or its name; it was used as \
+         stated."
         "Correct the body of the load, or remove it, so that the centre of pressure decides.";
     LoadsOtherHeight "loads.other_height" Warning
         "The foot on which a load of a force table acts is far above or below its centre of pressure."
@@ -505,13 +524,16 @@ codes! {
         "Check for a hand on a rail, a seat, a load that is carried, and errors of the motion.";
     // Motion and forces together.
     ResidualLarge "residual.large" Warning
-        "Residual forces at the root are large: motion, forces and model do not agree, and joint moments cannot be trusted."
+        "Residual forces at the root are large: motion, forces and model do not agree, and joint moments cannot be \
+         trusted."
         "Check files, sides and time origin; choose the time in which every loaded foot is on a plate.";
     ConsistencyIncompleteForces "consistency.incomplete_forces" Warning
-        "Motion and forces disagree by more than half the body weight, as if a foot were on ground without a plate; the motion was changed to agree."
+        "Motion and forces disagree by more than half the body weight, as if a foot were on ground without a plate; \
+         the motion was changed to agree."
         "Choose the time in which all forces were measured.";
     ConsistencyResidualLeft "consistency.residual_left" Warning
-        "Within its tolerances the motion cannot agree with the forces: more than 1 % of body weight, or of body weight times one metre, is left at the root."
+        "Within its tolerances the motion cannot agree with the forces: more than 1 % of body weight, or of body \
+         weight times one metre, is left at the root."
         "Use wider tolerances or another mass, or check for forces that were not measured.";
     ConsistencyLargeChange "consistency.large_change" Warning
         "A coordinate was changed by more than the usual error of a motion: 2 degrees, or 30 mm at the root."
@@ -526,7 +548,8 @@ codes! {
         "Tracking changed the rotations by more than 5 degrees (rms), more than the error of recorded motions."
         "Check mass, body and the motion of the feet; use predicted forces instead.";
     FeasibilityUnmeasuredSupport "feasibility.unmeasured_support" Note
-        "Frames in which a foot may be on unmeasured ground were judged on predicted forces, or not at all without a prediction."
+        "Frames in which a foot may be on unmeasured ground were judged on predicted forces, or not at all without a \
+         prediction."
         "Nothing to do.";
     // Synthetic walks and simulation.
     GaitSpeedRange "gait.speed_range" Warning
@@ -542,8 +565,10 @@ codes! {
         "The replayed torques were computed for a figure of another mass."
         "Use the figure that the torques were computed for, or compute torques for this one.";
     FigureFell "figure.fell" Warning
-        "A figure that walks by its own torques fell: its pelvis is below 0.7 of its first height over the ground. Its joints are then only damped, and the run ends 2 s after all such figures have fallen."
-        "Nothing to do if it was meant to fall; otherwise lift its soles further (`lift`), push it less, or choose another speed.";
+        "A figure that walks by its own torques fell: its pelvis is below 0.7 of its first height over the ground. Its \
+         joints are then only damped, and the run ends 2 s after all such figures have fallen."
+        "Nothing to do if it was meant to fall; otherwise lift its soles further (`lift`), push it less, or choose \
+         another speed.";
     DriveGaveWay "drive.gave_way" Warning
         "A drive without a largest force would need more than 1,000 times the total weight; it gave way."
         "Prescribe a motion that the other constraints allow, or give the drive a largest force.";
@@ -586,7 +611,8 @@ codes! {
         "Nothing to do.";
     ConvertRigLimits "convert.rig_limits" Warning
         "Joints of an animation file lack the channels that a changed motion needs, so they keep or approximate it."
-        "Give the joints that the message names three rotation channels (and the pelvis three position channels), and export the file again.";
+        "Give the joints that the message names three rotation channels (and the pelvis three position channels), and \
+         export the file again.";
     ConvertOtherName "convert.other_name" Warning
         "A result was written into the skeleton of a file with another name than its source."
         "Check that both are the same take.";
@@ -664,6 +690,7 @@ impl schemars::JsonSchema for Code {
 
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let names: Vec<&str> = Code::all().map(Code::name).collect();
-        schemars::json_schema!({ "description": "What is unusual; docs/FINDINGS.md explains each code.", "type": "string", "enum": names })
+        schemars::json_schema!({ "description": "What is unusual; docs/FINDINGS.md explains each code.",
+            "type": "string", "enum": names })
     }
 }

@@ -1,7 +1,8 @@
 //! Warnings and notes that computations collect for the user.
 //!
-//! A function that meets partial trouble reports it to the [`Findings`] that its caller passes in, and goes on. Every kind of finding
-//! has a [`Code`] with a severity, a meaning and a remedy. Findings inform the user; no computation depends on them.
+//! A function that meets partial trouble reports it to the [`Findings`] that its caller passes in, and goes on. Every
+//! kind of finding has a [`Code`] with a severity, a meaning and a remedy. Findings inform the user; no computation
+//! depends on them.
 
 mod code;
 mod word;

@@ -1,13 +1,13 @@
 //! Angles of pelvis and hips as clinics define them: of axes through the iliac spines.
 //!
-//! With A the axes of the body (forward, up, right) in the neutral posture, R_p(t) and R_t(t) the rotations of pelvis and thigh,
-//! R_t(0) that of the thigh in the neutral posture, and C the clinical axes in the pelvis ([`PelvicFrame`]):
+//! With A the axes of the body (forward, up, right) in the neutral posture, R_p(t) and R_t(t) the rotations of pelvis
+//! and thigh, R_t(0) that of the thigh in the neutral posture, and C the clinical axes in the pelvis ([`PelvicFrame`]):
 //!
 //!   pelvis in the world      Aᵀ R_p(t) C
 //!   thigh in the pelvis      (R_p(t) C)ᵀ R_t(t) R_t(0)ᵀ A
 //!
-//! Each is taken apart into R_z(a) R_x(b) R_y(c): tilt or flexion about the axis to the right, then obliquity or adduction about the
-//! axis forward, then rotation, in the order of Plug-in-Gait and of Gait2392.
+//! Each is taken apart into R_z(a) R_x(b) R_y(c): tilt or flexion about the axis to the right, then obliquity or
+//! adduction about the axis forward, then rotation, in the order of Plug-in-Gait and of Gait2392.
 //!
 //! Source: Kadaba 1990, as Plug-in-Gait has it (unverified).
 //! Not handled: pelves that lean sideways by 90 degrees.

@@ -1,12 +1,12 @@
 //! Apparent gravity in flight phases: a clock that runs wrongly shows as a body that falls too slowly or too fast.
 //!
-//! While nothing touches the person, the mass centre falls with g. If the stated frame rate is k times the true one, every time is 1/k
-//! of the true time and the apparent acceleration is k² g; a film in slow motion falls slowly. One published subset of AMASS states half
-//! of its true rate.
+//! While nothing touches the person, the mass centre falls with g. If the stated frame rate is k times the true one,
+//! every time is 1/k of the true time and the apparent acceleration is k² g; a film in slow motion falls slowly. One
+//! published subset of AMASS states half of its true rate.
 //!
-//! A flight is a time in which the lowest point of both feet is higher than [`CLEAR_M`] above its usual lowest place. On it a parabola is
-//! fitted to the height of the mass centre; where the parabola leaves more than [`UNEXPLAINED`] of the variance, something carried the person.
-//! Pinned by: tests/smpl_motions.rs
+//! A flight is a time in which the lowest point of both feet is higher than [`CLEAR_M`] above its usual lowest place.
+//! On it a parabola is fitted to the height of the mass centre; where the parabola leaves more than [`UNEXPLAINED`] of
+//! the variance, something carried the person. Pinned by: tests/smpl_motions.rs
 
 use crate::model::Model;
 use crate::motion::{MarkerRecording, Motion};
@@ -15,7 +15,8 @@ use crate::numerics::median;
 use crate::spatial::STANDARD_GRAVITY;
 use std::ops::Range;
 
-/// Height of both feet above the floor in flight [m]: more than a heel rises while the toes stand, with toes and heels tracked.
+/// Height of both feet above the floor in flight [m]: more than a heel rises while the toes stand, with toes and heels
+/// tracked.
 const CLEAR_M: f64 = 0.05;
 /// Fewest frames of a flight.
 const FRAMES: usize = 6;
@@ -27,7 +28,8 @@ const SHORTEST_FALL_M: f64 = 0.02;
 const FOOT_POINTS: [&str; 4] = ["heel", "ankle", "toe", "toe_tip"];
 /// Quantile of the height of the lowest point that is the floor.
 const FLOOR: f64 = 0.05;
-/// A frame rate that is wrong by this factor contradicts gravity. The shape of the body and the filter of the file change the apparent gravity too.
+/// A frame rate that is wrong by this factor contradicts gravity. The shape of the body and the filter of the file
+/// change the apparent gravity too.
 pub const WRONG_CLOCK: f64 = 1.25;
 
 /// The acceleration with which a person falls in flight, from which a wrong frame rate shows.

@@ -1,8 +1,8 @@
 //! Scalars, vectors and matrices of several frames at once (one SIMD lane per frame).
 //!
-//! A [`Lanes<N>`] contains the same scalar of N frames. With N = 1 it is a plain number; with N = 8 each loop below becomes one
-//! vector instruction on processors that have it. Lanes never affect each other, and no fused multiply-add is used, so that
-//! the result of a frame is identical to the last bit on every lane and processor.
+//! A [`Lanes<N>`] contains the same scalar of N frames. With N = 1 it is a plain number; with N = 8 each loop below
+//! becomes one vector instruction on processors that have it. Lanes never affect each other, and no fused multiply-add
+//! is used, so that the result of a frame is identical to the last bit on every lane and processor.
 
 use crate::spatial::{Mat3, Vec3};
 use std::array;

@@ -1,12 +1,13 @@
 //! Proposes the meaning of markers from where they sit on the body.
 //!
-//! Where enough names are known, the built-in body is calibrated and fitted to the known markers; where not, a standing body of the size that
-//! fits best is compared with the highest posture of the recording. For a marker p and a segment with poses T(t):
+//! Where enough names are known, the built-in body is calibrated and fitted to the known markers; where not, a standing
+//! body of the size that fits best is compared with the highest posture of the recording. For a marker p and a segment
+//! with poses T(t):
 //!
 //!   score = w · spread + distance        spread: standard deviation of T(t)⁻¹ p(t); distance: to the nearest landmark of the segment
 //!
-//! The segment with the least score is proposed, and its landmark if that is near and no other marker is nearer to it. Otherwise the marker
-//! is a technical one.
+//! The segment with the least score is proposed, and its landmark if that is near and no other marker is nearer to it.
+//! Otherwise the marker is a technical one.
 //!
 //! Not handled: markers that are not on the body; several people.
 //! Pinned by: tests/marker_proposal.rs
@@ -26,7 +27,8 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Most frames that are compared.
 const FRAMES: usize = 60;
-/// Weight of the spread of a marker on a segment: markers move less on their own segment than landmarks differ between subjects.
+/// Weight of the spread of a marker on a segment: markers move less on their own segment than landmarks differ between
+/// subjects.
 const SPREAD_WEIGHT: f64 = 3.0;
 /// A landmark is proposed within this distance of its usual position, on a fitted body and on a standing one [m].
 const NEAR_M: [f64; 2] = [0.05, 0.12];
@@ -59,7 +61,8 @@ struct Reference {
     statement: String,
 }
 
-/// Proposes the meaning of the markers that were not recognised by name. The recording is in world axes: x forward, y up, z right.
+/// Proposes the meaning of the markers that were not recognised by name. The recording is in world axes: x forward, y
+/// up, z right.
 ///
 /// With an unknown heading, a standing body is turned to the four sides, and the one that fits best is used.
 #[must_use]

@@ -1,7 +1,7 @@
 //! Kinematics: from markers to joint coordinates, and from coordinates to the motion of all bodies.
 //!
-//! A [`Trajectory`] contains every coordinate with its first two derivatives on a uniform time grid. The poses, twists and
-//! accelerations of the bodies are computed from it frame by frame ([`BodyMotion`]), or in blocks of frames inside
+//! A [`Trajectory`] contains every coordinate with its first two derivatives on a uniform time grid. The poses, twists
+//! and accelerations of the bodies are computed from it frame by frame ([`BodyMotion`]), or in blocks of frames inside
 //! [`crate::dynamics`].
 
 pub(crate) mod plan;

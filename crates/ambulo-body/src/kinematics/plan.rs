@@ -1,7 +1,7 @@
 //! A model prepared for fast sweeps: constant offsets are multiplied out, principal axes are recognised.
 //!
-//! The sweeps use only the joint frames M on the children: inertia, mass centre and the joints of the children are given in the
-//! axes of M, so that an offset on the child costs nothing per frame.
+//! The sweeps use only the joint frames M on the children: inertia, mass centre and the joints of the children are
+//! given in the axes of M, so that an offset on the child costs nothing per frame.
 
 use crate::model::{Bushing, Displacement, Function, Joint, JointAxis, JointSpeeds, Model, Resistance};
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
@@ -16,8 +16,8 @@ pub(crate) struct Plan {
     pub(crate) gravity: Vec3,
     pub(crate) coordinates: usize,
     pub(crate) segments: Vec<Segment>,
-    /// Segments by their depth in the tree. A child directly after its parent would wait for the results of the parent; siblings
-    /// and cousins in between keep the processor busy.
+    /// Segments by their depth in the tree. A child directly after its parent would wait for the results of the parent;
+    /// siblings and cousins in between keep the processor busy.
     pub(crate) outwards: Vec<usize>,
     pub(crate) axes: Vec<Axis>,
     pub(crate) bushings: Vec<PlannedBushing>,

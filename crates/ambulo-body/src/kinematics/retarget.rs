@@ -1,7 +1,8 @@
 //! Transfers the motion of a skeleton (animation file) to the built-in body.
 //!
-//! The body gets the segment lengths of the skeleton (`skeleton_body`), and its motion by [`fit_markers`]. The floor is placed so that the ankles are at the height of the body's ankles during stance: at the
-//! [`STANDING`] quantile of their height.
+//! The body gets the segment lengths of the skeleton (`skeleton_body`), and its motion by [`fit_markers`]. The floor is
+//! placed so that the ankles are at the height of the body's ankles during stance: at the [`STANDING`] quantile of
+//! their height.
 //!
 //! Not handled: uneven floors, shoulders that move relative to the trunk, hands.
 //! Pinned by: tests/retarget.rs
@@ -83,7 +84,8 @@ pub(super) fn fit_skeleton(
     fit_markers(model, markers, &settings, findings)
 }
 
-/// Height of the floor under the recorded points of a skeleton [m]; the body stands on its floor at its default coordinates.
+/// Height of the floor under the recorded points of a skeleton [m]; the body stands on its floor at its default
+/// coordinates.
 pub(super) fn floor_under(model: &Model, markers: &MarkerRecording) -> f64 {
     let defaults: Vec<f64> = model.coordinates().iter().map(|coordinate| coordinate.default_value).collect();
     let standing = model.poses(&defaults);
@@ -97,7 +99,9 @@ fn report_clock(wrong: Option<FlightGravity>, findings: &mut Findings) {
     let Some(found) = wrong else { return };
     let FlightGravity { gravity, flights, stated_hz } = found;
     let message = format!(
-        "in {flights} flight {} the person falls with {gravity:.1} m/s² at the stated {stated_hz:.0} frames per second; gravity means about {:.0} frames per second. hint: every force depends on it; correct the frame rate in the file",
+        "in {flights} flight {} the person falls with {gravity:.1} m/s² at the stated {stated_hz:.0} frames per \
+         second; gravity means about {:.0} frames per second. hint: every force depends on it; correct the frame rate \
+         in the file",
         if flights == 1 { "phase" } else { "phases" },
         found.rate_hz()
     );

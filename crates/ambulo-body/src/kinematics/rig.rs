@@ -1,10 +1,11 @@
 //! The motion of a result in the skeleton that it was computed from: the animator's own rig.
 //!
-//! The skeleton is fitted again with the body of the result, as [`retarget`](super::retarget) did. With the pose of a segment W in the
-//! fit and W' in the result, the joint of the segment is turned by W' Wᵀ, and mid-hip is moved by the difference of its places. Because the points of a
-//! skeleton are never quite those of a body, the fit of the changed skeleton is not yet the motion of the result; fit and change are repeated
-//! as long as they converge. So filters, residual reduction and tracking change the skeleton, while what the body does not represent (a bent spine, a knee that bends sideways)
-//! stays as recorded.
+//! The skeleton is fitted again with the body of the result, as [`retarget`](super::retarget) did. With the pose of a
+//! segment W in the fit and W' in the result, the joint of the segment is turned by W' Wᵀ, and mid-hip is moved by the
+//! difference of its places. Because the points of a skeleton are never quite those of a body, the fit of the changed
+//! skeleton is not yet the motion of the result; fit and change are repeated as long as they converge. So filters,
+//! residual reduction and tracking change the skeleton, while what the body does not represent (a bent spine, a knee
+//! that bends sideways) stays as recorded.
 //!
 //! The floor is the floor of the run: the model stands on it at its default coordinates.
 //!
@@ -27,10 +28,11 @@ const UNSEEN: [&str; 2] = ["pro_sup_r", "pro_sup_l"];
 const PASSES: usize = 4;
 /// Largest size of a change relative to that of the pass before, if the passes converge. Measured on a walk: 0.1.
 const CONVERGING: f64 = 0.5;
-/// Largest relative difference between the lengths of a segment in result and skeleton; the same skeleton has the same lengths up to rounding.
+/// Largest relative difference between the lengths of a segment in result and skeleton; the same skeleton has the same
+/// lengths up to rounding.
 const SAME_LENGTH: f64 = 0.01;
-/// Largest RMS distance between the points of the skeleton and those of the result [m]: about two thirds of the length of a foot. A changed motion stays
-/// near the recorded one, while another take soon is elsewhere.
+/// Largest RMS distance between the points of the skeleton and those of the result [m]: about two thirds of the length
+/// of a foot. A changed motion stays near the recorded one, while another take soon is elsewhere.
 const SAME_TAKE_M: f64 = 0.2;
 /// Largest difference between the times of result and file, as a share of a frame.
 const SAME_TIME: f64 = 0.1;
@@ -41,7 +43,8 @@ const SAME_TIME: f64 = 0.1;
 pub enum RigError {
     /// A result of something else than a skeleton.
     #[error(
-        "the body `{model}` of the result has no marker `{missing}`, so it was not made for a skeleton; expected the result of an animation file"
+        "the body `{model}` of the result has no marker `{missing}`, so it was not made for a skeleton; expected the \
+         result of an animation file"
     )]
     NoSkeleton {
         /// Name of the model.
@@ -51,7 +54,8 @@ pub enum RigError {
     },
     /// Segments of other lengths.
     #[error(
-        "the {segment} is {found_m:.3} m long in the skeleton and {expected_m:.3} m in the result; expected the skeleton that the result was computed from"
+        "the {segment} is {found_m:.3} m long in the skeleton and {expected_m:.3} m in the result; expected the \
+         skeleton that the result was computed from"
     )]
     OtherSkeleton {
         /// The segment.
@@ -63,7 +67,9 @@ pub enum RigError {
     },
     /// Frames that the skeleton does not have.
     #[error(
-        "the result has {found} frames from {start_s:.4} s at {rate_hz:.2} Hz, the skeleton {frames} frames at {expected_hz:.2} Hz; expected frames of the skeleton. hint: a result at another frame rate, or of another take, cannot be written into it"
+        "the result has {found} frames from {start_s:.4} s at {rate_hz:.2} Hz, the skeleton {frames} frames at \
+         {expected_hz:.2} Hz; expected frames of the skeleton. hint: a result at another frame rate, or of another \
+         take, cannot be written into it"
     )]
     OtherFrames {
         /// Frames of the result.
@@ -79,7 +85,8 @@ pub enum RigError {
     },
     /// A motion that is elsewhere.
     #[error(
-        "the body of the result is {distance_m:.2} m (RMS) away from the joints of the skeleton; expected at most {SAME_TAKE_M} m. hint: is this the result of another take?"
+        "the body of the result is {distance_m:.2} m (RMS) away from the joints of the skeleton; expected at most \
+         {SAME_TAKE_M} m. hint: is this the result of another take?"
     )]
     OtherTake {
         /// The distance [m].
@@ -93,7 +100,8 @@ pub enum RigError {
     Skeleton(#[from] SkeletonError),
 }
 
-/// Gives a skeleton the motion of the result that was computed from it. `model` is the body of the result, and the skeleton was read for its [`segments`].
+/// Gives a skeleton the motion of the result that was computed from it. `model` is the body of the result, and the
+/// skeleton was read for its [`segments`].
 ///
 /// # Errors
 /// A result of another skeleton or take, or at other times; see [`RigError`].
@@ -135,13 +143,15 @@ fn changes(model: &Model, wanted: &[Vec<Pose>], fit: &Motion) -> Vec<PostureChan
     wanted.iter().enumerate().map(change).collect()
 }
 
-/// Sizes of the changes of the pass before, all frames together: of mid-hip [m] and of each segment [1]; empty before the first.
+/// Sizes of the changes of the pass before, all frames together: of mid-hip [m] and of each segment [1]; empty before
+/// the first.
 #[derive(Default)]
 struct Steps(Vec<f64>);
 
 impl Steps {
-    /// The changes without those of segments that do not converge: about the axis of a straight arm a fit does not follow the skeleton, which would be
-    /// turned further in every pass. All frames are treated alike, because a motion whose frames were changed by turns would tremble.
+    /// The changes without those of segments that do not converge: about the axis of a straight arm a fit does not
+    /// follow the skeleton, which would be turned further in every pass. All frames are treated alike, because a motion
+    /// whose frames were changed by turns would tremble.
     fn converging(&mut self, mut changes: Vec<PostureChange>) -> Vec<PostureChange> {
         let away = |turn: &Mat3| (turn - Mat3::identity()).norm_squared();
         let squares = |change: &PostureChange| -> Vec<f64> {
@@ -166,8 +176,8 @@ impl Steps {
     }
 }
 
-/// The model without the ranges of pelvis, trunk and legs, whose orientations a skeleton shows in full. At the limit of a range a fit would not follow the
-/// skeleton. The ranges of arms keep them from turning about a straight elbow.
+/// The model without the ranges of pelvis, trunk and legs, whose orientations a skeleton shows in full. At the limit of
+/// a range a fit would not follow the skeleton. The ranges of arms keep them from turning about a straight elbow.
 fn without_ranges(model: &Model) -> Model {
     let mut coordinates = model.coordinates().to_vec();
     let is_arm = |name: &str| ["arm_", "elbow_", "pro_sup_"].iter().any(|stem| name.starts_with(stem));
@@ -238,7 +248,8 @@ pub fn segments(model: &Model) -> Vec<(Segment, Option<Side>)> {
     found
 }
 
-/// The poses of all bodies at these coordinates, but without the coordinates of which a skeleton shows nothing, so that the joints keep them.
+/// The poses of all bodies at these coordinates, but without the coordinates of which a skeleton shows nothing, so that
+/// the joints keep them.
 fn poses_shown(model: &Model, mut coordinates: Vec<f64>) -> Vec<Pose> {
     for (value, coordinate) in coordinates.iter_mut().zip(model.coordinates()) {
         if UNSEEN.iter().any(|side| side == &coordinate.name) {

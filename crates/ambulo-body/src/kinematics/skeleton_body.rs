@@ -1,8 +1,8 @@
 //! The built-in body with the segment lengths of recorded joint centres.
 //!
-//! In a segment scaled by f, the mass centre and the radii of gyration are scaled by f; masses are those of the table. The joint centres,
-//! and points next to them that show the orientation of the segments, become markers of the body. Their names are listed in
-//! [`crate::motion::skeleton`].
+//! In a segment scaled by f, the mass centre and the radii of gyration are scaled by f; masses are those of the table.
+//! The joint centres, and points next to them that show the orientation of the segments, become markers of the body.
+//! Their names are listed in [`crate::motion::skeleton`].
 //!
 //! Not handled: shoulders that move relative to the trunk, hands.
 //! Pinned by: tests/retarget.rs, tests/segment_poses.rs
@@ -16,8 +16,8 @@ use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
 
-/// Quantile of the ankle height that corresponds to a flat foot: stance is 60 % of a cycle, and the foot is flat, with the lowest
-/// ankle, in about half of it.
+/// Quantile of the ankle height that corresponds to a flat foot: stance is 60 % of a cycle, and the foot is flat, with
+/// the lowest ankle, in about half of it.
 pub const STANDING: f64 = 0.1;
 /// Relative difference of a segment length from the table above which it is reported.
 const REPORTED: f64 = 0.15;
@@ -39,8 +39,8 @@ pub enum JointCentreError {
     },
 }
 
-/// The body of a table with the lengths of recorded joint centres, and with these feet; `unusual` is the code for lengths that differ
-/// much from the table.
+/// The body of a table with the lengths of recorded joint centres, and with these feet; `unusual` is the code for
+/// lengths that differ much from the table.
 pub(super) fn body_of_joint_centres(
     table: &Human,
     markers: &MarkerRecording,

@@ -243,7 +243,8 @@ fn along<const N: usize>(frame: &M3<N>, axis: &Axis) -> V3<N> {
     }
 }
 
-/// Position, velocity and acceleration relative to F, in world axes, of an origin of M that slides as M turns; `None` if it does not.
+/// Position, velocity and acceleration relative to F, in world axes, of an origin of M that slides as M turns; `None`
+/// if it does not.
 #[inline(always)]
 fn slide_with_rotation<const N: usize>(
     segment: &Segment,
@@ -261,8 +262,8 @@ fn slide_with_rotation<const N: usize>(
     }
 }
 
-/// Position, velocity and acceleration relative to F, in world axes, of the point p = radii * n on an ellipsoid, where n is the
-/// z axis of M: ṅ = w × n, n̈ = ẇ × n + w × (w × n), with w the angular velocity of M in F.
+/// Position, velocity and acceleration relative to F, in world axes, of the point p = radii * n on an ellipsoid, where
+/// n is the z axis of M: ṅ = w × n, n̈ = ẇ × n + w × (w × n), with w the angular velocity of M in F.
 #[inline(always)]
 fn slide_on_ellipsoid<const N: usize>(
     radii: Vec3,
@@ -295,8 +296,8 @@ fn axis_in_motion<const N: usize>(
     [n, rate, relative_rate.cross(n) + relative.cross(rate)]
 }
 
-/// Position, velocity and acceleration relative to F, in world axes, of the end of an arc: p = d f (n + y) with f a function of c = n · y,
-/// so that ṗ = d (f' ċ (n + y) + f ṅ) and p̈ = d ((f'' ċ² + f' c̈) (n + y) + 2 f' ċ ṅ + f n̈).
+/// Position, velocity and acceleration relative to F, in world axes, of the end of an arc: p = d f (n + y) with f a
+/// function of c = n · y, so that ṗ = d (f' ċ (n + y) + f ṅ) and p̈ = d ((f'' ċ² + f' c̈) (n + y) + 2 f' ċ ṅ + f n̈).
 #[inline(always)]
 fn slide_on_arc<const N: usize>(
     length: f64,
@@ -324,8 +325,8 @@ fn arc_factor<const N: usize>(cosine: Lanes<N>, length: f64) -> [Lanes<N>; 3] {
     [0, 1, 2].map(|k| Lanes(found.map(|derivatives| derivatives[k])))
 }
 
-/// The moment about the origin of M that has the power of a force on the end of an arc: ṗ = d (f' (w × n)·y (n + y) + f w × n) with the
-/// angular velocity w, so that the moment is n × d (f F + f' (F·(n + y)) y).
+/// The moment about the origin of M that has the power of a force on the end of an arc: ṗ = d (f' (w × n)·y (n + y) + f
+/// w × n) with the angular velocity w, so that the moment is n × d (f F + f' (F·(n + y)) y).
 #[inline(always)]
 pub(crate) fn arc_moment<const N: usize>(length: f64, index: usize, s: &Scratch<N>, force: V3<N>) -> V3<N> {
     let (n, y) = (s.states[index + 1].rotation.col(1), s.joint_frames[index].col(1));

@@ -4,8 +4,8 @@ use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, CoordinateKind, Drive, Model};
 use crate::motion::{SmoothMotion, TimeGrid};
 
-/// A complete motion of a model: every coordinate with rate and acceleration on a uniform time grid. All numbers are finite;
-/// couplers and locks are obeyed.
+/// A complete motion of a model: every coordinate with rate and acceleration on a uniform time grid. All numbers are
+/// finite; couplers and locks are obeyed.
 ///
 /// Poses of bodies are not stored: recomputing them where they are used is cheaper than reading them from memory.
 #[derive(Debug, Clone)]
@@ -32,7 +32,8 @@ pub struct Posture<'a> {
 pub enum TrajectoryError {
     /// A number that is not finite.
     #[error(
-        "coordinate `{coordinate}` is not a finite number at {time_s:.4} s; expected values without gaps. hint: choose a range without the gap, or fill it"
+        "coordinate `{coordinate}` is not a finite number at {time_s:.4} s; expected values without gaps. hint: choose \
+         a range without the gap, or fill it"
     )]
     NotFinite {
         /// The coordinate.
@@ -85,8 +86,8 @@ impl Trajectory {
         Ok(Trajectory { grid, columns })
     }
 
-    /// Completes a smoothed recording: locked, prescribed and missing coordinates get the values of the model, coupled ones follow
-    /// their coupler. A recorded column that contradicts them is not used, with a warning.
+    /// Completes a smoothed recording: locked, prescribed and missing coordinates get the values of the model, coupled
+    /// ones follow their coupler. A recorded column that contradicts them is not used, with a warning.
     ///
     /// # Errors
     /// Numbers that are not finite.

@@ -1,7 +1,7 @@
 //! The arc of constant curvature between the two frames of a joint, as OpenSim's ConstantCurvatureJoint has it.
 //!
-//! A rod of length d leaves the origin of F along y and bends to an arc that ends at the origin of M along n, the y axis of M. With θ the angle
-//! between both, the arc has the radius d / θ, and its end is, by elementary geometry,
+//! A rod of length d leaves the origin of F along y and bends to an arc that ends at the origin of M along n, the y
+//! axis of M. With θ the angle between both, the arc has the radius d / θ, and its end is, by elementary geometry,
 //!
 //!   p = d f (n + y)      f = tan(θ/2) / θ      cos θ = c = n · y
 //!
@@ -10,11 +10,12 @@
 //! | `factor(c)` | f, df/dc, d²f/dc² | 1 |
 //! | `x` | θ/2 | rad |
 //!
-//! Derivatives by c, not by θ, stay smooth where the rod is straight; there they follow from the series of tan x / x and 2x / sin 2x in x².
+//! Derivatives by c, not by θ, stay smooth where the rod is straight; there they follow from the series of tan x / x
+//! and 2x / sin 2x in x².
 //!
-//! Source: OpenSim, ConstantCurvatureJoint.cpp (`getTransform`), read. Near a straight rod (sin θ < 0.001) and near a right angle OpenSim
-//! puts the end at d n instead; its velocities are in the axes of the child and the rate of its Jacobian is zero, so that its generalised
-//! forces do not belong to its motion. Here they do.
+//! Source: OpenSim, ConstantCurvatureJoint.cpp (`getTransform`), read. Near a straight rod (sin θ < 0.001) and near a
+//! right angle OpenSim puts the end at d n instead; its velocities are in the axes of the child and the rate of its
+//! Jacobian is zero, so that its generalised forces do not belong to its motion. Here they do.
 //! Pinned by: tests/arc_joint.rs, places against OpenSim 4.6 in tests/opensim_joints.rs
 
 use crate::numerics::elementary::{acos, cos, sin, tan};

@@ -57,8 +57,8 @@ pub struct Resistance {
 /// The smallest cosine of the second angle whose rates are computed; nearer to a right angle they have no value.
 const LEAST_COSINE: f64 = 1e-9;
 
-/// Force and moment on the second body at the origin of its frame, in world axes, from the poses of both frames in the world and the
-/// velocities of their origins.
+/// Force and moment on the second body at the origin of its frame, in world axes, from the poses of both frames in the
+/// world and the velocities of their origins.
 #[inline]
 pub(crate) fn load(stiffness: &Resistance, damping: &Resistance, poses: [Pose; 2], rates: [Twist; 2]) -> Wrench {
     let ([first, second], [slow, fast]) = (poses, rates);

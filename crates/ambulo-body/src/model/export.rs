@@ -111,8 +111,8 @@ fn joint(model: &Model, id: BodyId) -> Result<OsimJoint, ExportError> {
     })
 }
 
-/// Type of a joint with angular velocities as speeds, whose axes are not in the document: x, y, z of the joint frames, each with
-/// the coordinate in its position. `None` for joints with the rates of their coordinates as speeds.
+/// Type of a joint with angular velocities as speeds, whose axes are not in the document: x, y, z of the joint frames,
+/// each with the coordinate in its position. `None` for joints with the rates of their coordinates as speeds.
 fn ball_kind(joint: &Joint) -> Result<Option<OsimJointKind>, ExportError> {
     let in_turn = |axes: &[JointAxis]| {
         let units = [Vec3::x(), Vec3::y(), Vec3::z()];

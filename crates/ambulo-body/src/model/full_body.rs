@@ -1,8 +1,10 @@
-//! The built-in full body in three dimensions: the planar figure of [`anthropometry`](super::anthropometry) with spatial joints.
+//! The built-in full body in three dimensions: the planar figure of [`anthropometry`](super::anthropometry) with
+//! spatial joints.
 //!
-//! Bodies, masses, mass centres, inertias and soles are those of the planar figure with a toe joint for the same [`Build`]; only the
-//! joints differ. All coordinates zero is upright standing, thumbs forward. Names and signs are those of Gait2392 and
-//! docs/CONVENTIONS.md; s is r or l, and axes on the left are mirrored so that both sides have the same signs.
+//! Bodies, masses, mass centres, inertias and soles are those of the planar figure with a toe joint for the same
+//! [`Build`]; only the joints differ. All coordinates zero is upright standing, thumbs forward. Names and signs are
+//! those of Gait2392 and docs/CONVENTIONS.md; s is r or l, and axes on the left are mirrored so that both sides have
+//! the same signs.
 //!
 //! | body              | coordinates, in the order of the rotations                                     | axes (right side) |
 //! |-------------------|--------------------------------------------------------------------------------|-------------------|
@@ -15,9 +17,9 @@
 //! | `humerus_s`       | `arm_flex_s`, `arm_add_s`, `arm_rot_s` (+ inwards)                               | z, x, y           |
 //! | `forearm_s` (+ hand) | `elbow_flex_s`, `pro_sup_s` (+ pronation)                                    | z, y              |
 //!
-//! There is no talus: ankle and subtalar axes intersect in the ankle centre, and the calcaneus rotates about both. The subtalar axis is
-//! that of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Hand and wrist are rigid with the forearm.
-//! With tables that do not split the trunk there is no lumbar joint; the root is `torso`.
+//! There is no talus: ankle and subtalar axes intersect in the ankle centre, and the calcaneus rotates about both. The
+//! subtalar axis is that of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Hand and wrist are
+//! rigid with the forearm. With tables that do not split the trunk there is no lumbar joint; the root is `torso`.
 //!
 //! The body of a person is the same tree with other lengths: see [`SubjectShape`] and [`reshaped`].
 
@@ -31,14 +33,15 @@ use crate::spatial::{Inertia, Pose, Vec3};
 /// Axis of `subtalar_r` in Gait2392 (`subject01_simbody.osim`), in the foot.
 const SUBTALAR: [f64; 3] = [0.787_179_61, 0.604_747_46, -0.120_949_49];
 
-/// Anterior tilt of the pelvis in standing [rad]: 11.7°, mean of the walking speeds slow to fast of Schwartz, Rozumalski,
-/// Trost 2008 (10.97° to 13.13°). Hip angles are relative to the tilted pelvis, so a standing hip is flexed by the same angle.
+/// Anterior tilt of the pelvis in standing [rad]: 11.7°, mean of the walking speeds slow to fast of Schwartz,
+/// Rozumalski, Trost 2008 (10.97° to 13.13°). Hip angles are relative to the tilted pelvis, so a standing hip is flexed
+/// by the same angle.
 pub const STANDING_TILT: f64 = 11.7 * std::f64::consts::PI / 180.0;
 
-/// Ranges [deg]. Hip abduction 45 to 50, adduction 20 to 30, rotation inwards 45, outwards 45 to 60; lumbar bending 35, rotation of the
-/// trunk 30 to 45; foot inversion 35, eversion 20; shoulder adduction 50, abduction 180, rotation 90 both ways; pronation and
-/// supination 90: tables of normal ranges of motion such as the Merck manual's; the larger value is used (unverified).
-/// Rotations of the trunk are allowed to both sides.
+/// Ranges [deg]. Hip abduction 45 to 50, adduction 20 to 30, rotation inwards 45, outwards 45 to 60; lumbar bending 35,
+/// rotation of the trunk 30 to 45; foot inversion 35, eversion 20; shoulder adduction 50, abduction 180, rotation 90
+/// both ways; pronation and supination 90: tables of normal ranges of motion such as the Merck manual's; the larger
+/// value is used (unverified). Rotations of the trunk are allowed to both sides.
 const RANGES: [(&str, [f64; 2]); 8] = [
     ("hip_adduction", [-50.0, 30.0]),
     ("hip_rotation", [-60.0, 45.0]),
@@ -161,7 +164,8 @@ impl FullBodyBuilder<'_> {
 /// Size and joint frames of a segment of a person.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SegmentShape {
-    /// Length divided by the length in the segment table; mass centre and radii of gyration scale with it, the mass does not.
+    /// Length divided by the length in the segment table; mass centre and radii of gyration scale with it, the mass
+    /// does not.
     pub factor: f64,
     /// The joint frame on the parent.
     pub parent_from_joint: Pose,
@@ -200,7 +204,8 @@ impl SolePlacement {
         SolePlacement { ankle_height: dimensions.ankle_height, forward: 0.0, right: 0.0 }
     }
 
-    /// Position of a point of the scaled foot of the segment table in this foot: `above` the ground, `forward` of the ankle [m].
+    /// Position of a point of the scaled foot of the segment table in this foot: `above` the ground, `forward` of the
+    /// ankle [m].
     #[must_use]
     pub fn place(&self, forward: f64, above: f64) -> Vec3 {
         Vec3::new(forward + self.forward, above - self.ankle_height, self.right)

@@ -21,7 +21,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub enum ImportError {
     /// A body that is not connected to ground.
     #[error(
-        "body `{body}` (line {line}) is not connected to ground; expected a joint with this body as its child. hint: a FreeJoint to ground lets it move freely"
+        "body `{body}` (line {line}) is not connected to ground; expected a joint with this body as its child. hint: a \
+         FreeJoint to ground lets it move freely"
     )]
     Unjoined {
         /// The body.
@@ -71,7 +72,8 @@ pub enum ImportError {
     },
     /// A body that is the child of two joints.
     #[error(
-        "body `{body}` is the child of two joints, `{first}` and `{second}` (line {line}); expected a tree. hint: closed loops are not supported; remove one of the two joints"
+        "body `{body}` is the child of two joints, `{first}` and `{second}` (line {line}); expected a tree. hint: \
+         closed loops are not supported; remove one of the two joints"
     )]
     Loop {
         /// The body.
@@ -95,7 +97,8 @@ pub enum ImportError {
     },
     /// A coupler with an unknown coordinate.
     #[error(
-        "constraint `{constraint}` (line {line}) names the coordinate `{coordinate}`; expected one of the model's coordinates"
+        "constraint `{constraint}` (line {line}) names the coordinate `{coordinate}`; expected one of the model's \
+         coordinates"
     )]
     UnknownCoordinate {
         /// The constraint.
@@ -144,8 +147,8 @@ impl Model {
     }
 }
 
-/// Reads a model from an OpenSim document. Parts without effect on the dynamics are reported in one note, with counts; impossible
-/// inertias, massless bodies and constraints that close loops give warnings.
+/// Reads a model from an OpenSim document. Parts without effect on the dynamics are reported in one note, with counts;
+/// impossible inertias, massless bodies and constraints that close loops give warnings.
 ///
 /// # Errors
 /// Bodies outside the tree, negative masses, unknown names: see [`ImportError`].
@@ -188,7 +191,8 @@ pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model,
 fn note_bushings(document: &OsimModel, findings: &mut Findings) {
     for OsimBushing { name, frames: [first, second], .. } in &document.bushings {
         let message = format!(
-            "the bushing `{name}` between `{}` and `{}` is applied: the forces of the coordinates are those that act besides it",
+            "the bushing `{name}` between `{}` and `{}` is applied: the forces of the coordinates are those that act \
+             besides it",
             first.body, second.body
         );
         findings.report(Code::ModelBushing, message);
@@ -454,7 +458,8 @@ fn couple(
         OsimConstraint::Off { .. } => Ok(()),
         OsimConstraint::Other { kind, name, line } => {
             let message = format!(
-                "the {kind} `{name}` (line {line}) is not enforced: forces through it are reported at the joints of the tree"
+                "the {kind} `{name}` (line {line}) is not enforced: forces through it are reported at the joints of \
+                 the tree"
             );
             findings.report(Code::ModelConstraint, message);
             Ok(())

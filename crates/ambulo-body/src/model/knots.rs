@@ -8,7 +8,8 @@ pub struct Knots {
 }
 
 impl Knots {
-    /// Checks the points: finite, strictly increasing abscissae, one ordinate each, at least one point; `None` otherwise.
+    /// Checks the points: finite, strictly increasing abscissae, one ordinate each, at least one point; `None`
+    /// otherwise.
     #[must_use]
     pub fn new(x: Vec<f64>, y: Vec<f64>) -> Option<Knots> {
         let finite = x.iter().chain(&y).all(|v| v.is_finite());

@@ -147,8 +147,8 @@ pub struct Marker {
 
 /// A tree of bodies, its coordinates and markers; it never changes.
 ///
-/// Bodies come parent first, each with the joint that carries it. A joint has at most three rotations and three translations, each
-/// a function of at most one coordinate.
+/// Bodies come parent first, each with the joint that carries it. A joint has at most three rotations and three
+/// translations, each a function of at most one coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     name: String,
@@ -226,7 +226,8 @@ pub enum ModelError {
     },
     /// A point mass that is too heavy for a person.
     #[error(
-        "a mass of {} kg on `{body}`; expected at most {most_kg:.0} kg, five times the mass of the model, because no person carries more", Shown(*found_kg)
+        "a mass of {} kg on `{body}`; expected at most {most_kg:.0} kg, five times the mass of the model, because no \
+         person carries more", Shown(*found_kg)
     )]
     PointMass {
         /// The body that should carry it.
@@ -238,7 +239,8 @@ pub enum ModelError {
     },
     /// A point mass that is too far away from its body.
     #[error(
-        "a mass {} m from the origin of `{body}`; expected at most {most_m} m, because a mass farther away is not on the body. hint: positions are in metres", Shown(*found_m)
+        "a mass {} m from the origin of `{body}`; expected at most {most_m} m, because a mass farther away is not on \
+         the body. hint: positions are in metres", Shown(*found_m)
     )]
     PointMassPlace {
         /// The body that should carry it.
@@ -421,7 +423,8 @@ impl Model {
     /// The model with a point mass [kg] fixed to a body at a position in its frame [m]: a shoe, a battery, a load.
     ///
     /// # Errors
-    /// A negative mass, more than five times the mass of the model, a place more than 5 m away, or numbers that are not finite.
+    /// A negative mass, more than five times the mass of the model, a place more than 5 m away, or numbers that are not
+    /// finite.
     pub fn with_point_mass(&self, body: BodyId, mass: f64, place: Vec3) -> Result<Model, ModelError> {
         let (most_kg, found_m) = (MOST_BODY_MASSES * self.mass(), place.amax());
         let named = || self.bodies[body.0].name.clone();
@@ -439,7 +442,8 @@ impl Model {
         Ok(model)
     }
 
-    /// The model on ground that rises by an angle [rad] along x. The axes are those of the ground, so gravity is inclined.
+    /// The model on ground that rises by an angle [rad] along x. The axes are those of the ground, so gravity is
+    /// inclined.
     #[must_use]
     pub fn on_slope(&self, angle: f64) -> Model {
         let forward = Vec3::x() - self.up * self.up.dot(&Vec3::x());

@@ -38,7 +38,8 @@ impl Joint {
         self.parent_from_joint * Pose { rotation, translation } * self.child_from_joint.inverse()
     }
 
-    /// Angular velocity and velocity of the joint frame of the child per unit rate of a coordinate, in the axes of the parent.
+    /// Angular velocity and velocity of the joint frame of the child per unit rate of a coordinate, in the axes of the
+    /// parent.
     #[doc(hidden)]
     pub fn slopes(&self, q: &[f64], id: CoordinateId) -> [Vec3; 2] {
         let (mut turned, mut angular) = (Mat3::identity(), Vec3::zeros());
@@ -59,7 +60,8 @@ impl Joint {
 }
 
 impl Model {
-    /// `world_from_body` of every body at these coordinates, one value for each [rad or m]; coupled ones follow their leaders.
+    /// `world_from_body` of every body at these coordinates, one value for each [rad or m]; coupled ones follow their
+    /// leaders.
     #[must_use]
     pub fn poses(&self, coordinates: &[f64]) -> Vec<Pose> {
         ModelPosture::new(self, coordinates.to_vec()).poses
@@ -110,8 +112,8 @@ impl<'a> ModelPosture<'a> {
         self.poses[body.index()].place(self.model.bodies()[body.index()].inertia.center())
     }
 
-    /// Angular velocity and velocity of a body relative to its parent per unit rate of a coordinate of its joint, in world
-    /// axes.
+    /// Angular velocity and velocity of a body relative to its parent per unit rate of a coordinate of its joint, in
+    /// world axes.
     pub(crate) fn slopes(&self, body: BodyId, id: CoordinateId) -> [Vec3; 2] {
         let joint = &self.model.bodies()[body.index()].joint;
         let parent = joint.parent.map_or_else(Mat3::identity, |parent| self.poses[parent.index()].rotation);

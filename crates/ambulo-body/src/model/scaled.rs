@@ -2,18 +2,20 @@
 //!
 //! Factors are along the axes of the frame of each body. With S = diag(factors of the body):
 //! - mass centre, markers, joint frames and frames of bushings on the body: position S p, orientation unchanged;
-//! - translations of a joint are scaled by the factors of the parent, aᵀ S a along their axis a; a translation that is itself a
-//!   coordinate (slope one, no intercept) is not, because its value is a length of the motion, not of the body;
+//! - translations of a joint are scaled by the factors of the parent, aᵀ S a along their axis a; a translation that is
+//!   itself a coordinate (slope one, no intercept) is not, because its value is a length of the motion, not of the
+//!   body;
 //! - the half axes of an ellipsoid are scaled by the factors of the parent along them;
 //! - the length of an arc is scaled by the factor of the child along y;
 //! - a coupler whose follower is a translation is multiplied by the factor of the parent along it;
-//! - masses keep their shares, or grow with the volumes of the bodies ([`MassDistribution`]); inertias scale with the square of the factor or, if the three factors differ, as those of a cylinder
-//!   with the smallest and another moment of inertia of the body.
+//! - masses keep their shares, or grow with the volumes of the bodies ([`MassDistribution`]); inertias scale with the
+//!   square of the factor or, if the three factors differ, as those of a cylinder with the smallest and another moment
+//!   of inertia of the body.
 //!
-//! Source: OpenSim 4, Body.cpp (`scaleInertialProperties`), SpatialTransform.cpp, CoordinateCouplerConstraint.cpp (`scale`), read.
-//! Differences: an axis opposite to x, y or z is scaled as one along it (OpenSim multiplies by the negative factor); couplers of
-//! translations may have unequal factors; the half axes of an ellipsoid in a rotated joint frame are scaled along their own directions (OpenSim
-//! takes the factors in the order x, y, z).
+//! Source: OpenSim 4, Body.cpp (`scaleInertialProperties`), SpatialTransform.cpp, CoordinateCouplerConstraint.cpp
+//! (`scale`), read. Differences: an axis opposite to x, y or z is scaled as one along it (OpenSim multiplies by the
+//! negative factor); couplers of translations may have unequal factors; the half axes of an ellipsoid in a rotated
+//! joint frame are scaled along their own directions (OpenSim takes the factors in the order x, y, z).
 //! Pinned by: tests/scaling.rs, against OpenSim 4.6
 
 use super::{
@@ -230,8 +232,8 @@ fn scaled_inertia(inertia: &Inertia, s: &Vec3, share: f64) -> Result<Inertia, In
     Inertia::new(mass * share, s.component_mul(&inertia.center()), scaled * share)
 }
 
-/// Scales a cylinder along the axis k of the smallest moment, m r²/2, whose length follows from another moment, m (l²/12 + r²/4);
-/// products of inertia scale with both their factors.
+/// Scales a cylinder along the axis k of the smallest moment, m r²/2, whose length follows from another moment, m
+/// (l²/12 + r²/4); products of inertia scale with both their factors.
 fn as_cylinder(mass: f64, about: &Mat3, s: &Vec3) -> Mat3 {
     let moments = about.diagonal();
     let k = if moments.x <= moments.y {

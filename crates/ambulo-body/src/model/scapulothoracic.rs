@@ -1,8 +1,8 @@
 //! The joint between shoulder blade and thorax, as two joints around a body without mass.
 //!
-//! OpenSim's ScapulothoracicJoint is a chain: an ellipsoid joint from the thorax to a massless body, whose frames are both turned by 90 degrees
-//! about z so that abduction and elevation are positive, and a pin from there to the shoulder blade, about the winging axis
-//! (-sin w, cos w, 0) through (x, y, 0) of the joint frame.
+//! OpenSim's ScapulothoracicJoint is a chain: an ellipsoid joint from the thorax to a massless body, whose frames are
+//! both turned by 90 degrees about z so that abduction and elevation are positive, and a pin from there to the shoulder
+//! blade, about the winging axis (-sin w, cos w, 0) through (x, y, 0) of the joint frame.
 //!
 //! Source: OpenSim, ScapulothoracicJoint.cpp (`extendAddToSystem`), read.
 //! Pinned by: tests/opensim_joints.rs, against OpenSim 4.6

@@ -1,11 +1,13 @@
-//! A trial of an AddBiomechanics subject (`.b3d`): coordinates of the file's own model, markers, and the ground forces on the feet.
+//! A trial of an AddBiomechanics subject (`.b3d`): coordinates of the file's own model, markers, and the ground forces
+//! on the feet.
 //!
-//! The file has no names of coordinates. Their order is that of nimblephysics: from the root outwards, the joints under a body in the
-//! order of the document, without those that a coupler drives (it leaves out the patellae). The mass centre, which the file also
-//! states, tells whether that order is right.
+//! The file has no names of coordinates. Their order is that of nimblephysics: from the root outwards, the joints under
+//! a body in the order of the document, without those that a coupler drives (it leaves out the patellae). The mass
+//! centre, which the file also states, tells whether that order is right.
 //!
-//! The ground force of many frames is marked as missing, with a reason: a foot next to the plates, a force that contradicts the motion.
-//! Its value is then often zero and means nothing. Only the longest time without such a frame is used as measured.
+//! The ground force of many frames is marked as missing, with a reason: a foot next to the plates, a force that
+//! contradicts the motion. Its value is then often zero and means nothing. Only the longest time without such a frame
+//! is used as measured.
 //!
 //! Source: keenon/nimblephysics, `dart/biomechanics/OpenSimParser.cpp` and `SubjectOnDisk.cpp`.
 //! Pinned by: tests/b3d_trials.rs
@@ -29,8 +31,8 @@ use std::ops::Range;
 
 /// Shorter measured times have no whole step, so that forces are predicted instead [s].
 const SHORTEST_MEASURED_S: f64 = 0.5;
-/// Largest distance of the model's mass centre from the stated one [m]: the patellae that are left out move it by about a millimetre, a
-/// confused coordinate by more.
+/// Largest distance of the model's mass centre from the stated one [m]: the patellae that are left out move it by about
+/// a millimetre, a confused coordinate by more.
 const SAME_MASS_CENTRE_M: f64 = 0.01;
 /// Frames of a trial in which the mass centre is compared.
 const COMPARED_FRAMES: usize = 20;
@@ -67,12 +69,14 @@ pub enum B3dError {
     },
     /// No pass, so that there are no coordinates.
     #[error(
-        "the trial has 0 passes of the computation, so it has neither coordinates nor ground forces; expected at least one. hint: its markers can be fitted with another body"
+        "the trial has 0 passes of the computation, so it has neither coordinates nor ground forces; expected at least \
+         one. hint: its markers can be fitted with another body"
     )]
     NoPass,
     /// Coordinates of another number.
     #[error(
-        "the file has {found} coordinates, its model `{model}` {free} that are not driven by a coupler ({all} in all); expected equal numbers, because the file does not name its coordinates"
+        "the file has {found} coordinates, its model `{model}` {free} that are not driven by a coupler ({all} in all); \
+         expected equal numbers, because the file does not name its coordinates"
     )]
     Coordinates {
         /// Coordinates in the file.
@@ -86,7 +90,9 @@ pub enum B3dError {
     },
     /// Coordinates in an unknown order, or of another model.
     #[error(
-        "the mass centre of the model is {distance_m:.3} m from the one that the file states; expected at most {allowed_m} m: the coordinates are in another order, or belong to another model. hint: use the markers of the file with another body"
+        "the mass centre of the model is {distance_m:.3} m from the one that the file states; expected at most \
+         {allowed_m} m: the coordinates are in another order, or belong to another model. hint: use the markers of the \
+         file with another body"
     )]
     MassCentre {
         /// Median distance [m].
@@ -248,7 +254,8 @@ impl<'a> B3dTrial<'a> {
         names.iter().zip(&self.last_pass()?.contacts).map(force).collect()
     }
 
-    /// The same forces as columns of a table, three each for force, centre of pressure and moment, with the body in their names.
+    /// The same forces as columns of a table, three each for force, centre of pressure and moment, with the body in
+    /// their names.
     ///
     /// # Errors
     /// A trial without a pass.
@@ -292,7 +299,8 @@ impl<'a> B3dTrial<'a> {
         let is = |value: f64, default: f64| (value - default).abs() < 1e-6;
         if is(mass_kg, default_kg) && is(height_m, default_m) && age_years == default_years {
             let message = format!(
-                "the stated {mass_kg} kg, {height_m} m and {age_years} years are what the form of AddBiomechanics begins with; they were not used"
+                "the stated {mass_kg} kg, {height_m} m and {age_years} years are what the form of AddBiomechanics \
+                 begins with; they were not used"
             );
             findings.report(Code::B3dFormDefaults, message);
             return SubjectParameters::default();

@@ -1,8 +1,8 @@
 //! Markers and joint angles of BIDS motion data.
 //!
-//! Three channels of the type POS with the components x, y and z and the same tracked point are a marker. A channel of the type JNTANG is a
-//! coordinate of a model if its name or tracked point is that of the coordinate; so is a POS channel with the name of a translation.
-//! Pinned by: tests/bids_recordings.rs
+//! Three channels of the type POS with the components x, y and z and the same tracked point are a marker. A channel of
+//! the type JNTANG is a coordinate of a model if its name or tracked point is that of the coordinate; so is a POS
+//! channel with the name of a translation. Pinned by: tests/bids_recordings.rs
 
 use super::import::coordinates_from_table;
 use super::marker_recording::{MarkerError, MarkerPath, MarkerRecording, checked};
@@ -25,7 +25,8 @@ const TIME: &str = "LATENCY";
 pub enum BidsError {
     /// Neither a frame rate nor times.
     #[error(
-        "no frame rate; expected `SamplingFrequency` in the _motion.json next to the file, or a channel of the type LATENCY"
+        "no frame rate; expected `SamplingFrequency` in the _motion.json next to the file, or a channel of the type \
+         LATENCY"
     )]
     NoRate,
     /// A unit that is not known for this type of channel.
@@ -42,7 +43,8 @@ pub enum BidsError {
     },
     /// Neither markers nor joint angles.
     #[error(
-        "fewer than four tracked points with positions (POS in x, y and z), and no joint angles (JNTANG); found channels of the types {found}"
+        "fewer than four tracked points with positions (POS in x, y and z), and no joint angles (JNTANG); found \
+         channels of the types {found}"
     )]
     Nothing {
         /// The types.
@@ -121,7 +123,8 @@ fn factor(channel: &BidsChannel) -> Result<f64, BidsError> {
     })
 }
 
-/// The markers; `rate_hz` is the frame rate of the `_motion.json`. Channels that are marked as bad are gaps, with a finding.
+/// The markers; `rate_hz` is the frame rate of the `_motion.json`. Channels that are marked as bad are gaps, with a
+/// finding.
 ///
 /// # Errors
 /// No frame rate, unknown units, no visible marker.

@@ -39,7 +39,8 @@ pub enum CurveError {
     },
     /// An angle changes suddenly between two rows.
     #[error(
-        "line {line}, column `{column}`: found a jump by {change_deg:.1} deg at {time_s:.4} s{more}; expected an angle that a joint can follow. hint: correct these rows, or use the part before or after them"
+        "line {line}, column `{column}`: found a jump by {change_deg:.1} deg at {time_s:.4} s{more}; expected an angle \
+         that a joint can follow. hint: correct these rows, or use the part before or after them"
     )]
     Jump {
         /// Name of the column.
@@ -108,8 +109,8 @@ impl RecordedTable {
         Ok(CoordinateCurves { span_s: span(&times), columns })
     }
 
-    /// Spline of one column with its first and last time [s]; `turns` means that it is an angle, which may be in degrees
-    /// by the header.
+    /// Spline of one column with its first and last time [s]; `turns` means that it is an angle, which may be in
+    /// degrees by the header.
     ///
     /// # Errors
     /// As for [`RecordedTable::coordinates`], and a missing column.

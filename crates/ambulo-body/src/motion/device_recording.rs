@@ -26,7 +26,8 @@ impl DeviceRecording {
         let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else { return };
         if *first > grid.start_s + grid.step_s || *last < grid.end_s() - grid.step_s {
             let message = format!(
-                "the device was recorded only from {first:.3} s to {last:.3} s; elsewhere its contribution is assumed zero"
+                "the device was recorded only from {first:.3} s to {last:.3} s; elsewhere its contribution is assumed \
+                 zero"
             );
             findings.report(Code::DeviceShorterThanMotion, message);
         }

@@ -17,8 +17,8 @@
 //! of its samples, as by OpenSim's `Storage::pad(size / 2)` in its inverse dynamics tool. Each pass begins in the state
 //! after a straight line through its first samples, so constants and straight lines pass unchanged.
 //! OpenSim begins each pass with three unfiltered samples instead, which causes a transient: for order 3, its remainder
-//! at the beginning of the data is exp(-π/2 cutoff x duration) of the start error, 1e-8 at 6 Hz and 2 s. Otherwise both agree
-//! to 1e-11 (OpenSim 4.6). OpenSim lowers a cut-off above half the rate to 0.49 of the rate; here it is an error.
+//! at the beginning of the data is exp(-π/2 cutoff x duration) of the start error, 1e-8 at 6 Hz and 2 s. Otherwise both
+//! agree to 1e-11 (OpenSim 4.6). OpenSim lowers a cut-off above half the rate to 0.49 of the rate; here it is an error.
 //!
 //! Source: OpenSim `Common/Signal.cpp` (LowpassIIR, Pad), `Common/Storage.cpp` (pad, lowpassIIR),
 //! `Tools/InverseDynamicsTool.cpp`; pole positions: any text on Butterworth filters, derived at `Section::cascade`.
@@ -88,7 +88,8 @@ pub enum FilterError {
     },
     /// The cut-off is not between [`LOWEST_CUTOFF_HZ`] and half of the sampling rate.
     #[error(
-        "cut-off is {} Hz: allowed are {LOWEST_CUTOFF_HZ} Hz, because less leaves no motion, to below {} Hz, half of the sampling rate\n\
+        "cut-off is {} Hz: allowed are {LOWEST_CUTOFF_HZ} Hz, because less leaves no motion, to below {} Hz, half of \
+         the sampling rate\n\
          hint: choose a cut-off in this range or switch the filter off", Shown(*found), Shown(*allowed)
     )]
     Cutoff {
@@ -139,8 +140,8 @@ pub fn low_pass_each(
     Ok(filtered)
 }
 
-/// Filters uniformly sampled values and keeps the extension by half of the samples at each end, so that a spline through the
-/// result has its ends outside the data.
+/// Filters uniformly sampled values and keeps the extension by half of the samples at each end, so that a spline
+/// through the result has its ends outside the data.
 pub fn low_pass_padded(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<PaddedSeries, FilterError> {
     check(samples, rate_hz, filter)?;
     let pad = samples.len() / 2;
@@ -149,10 +150,12 @@ pub fn low_pass_padded(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result
     Ok(PaddedSeries { samples, pad })
 }
 
-/// Series that are filtered side by side. Each sample waits for the one before it; a processor computes others meanwhile.
+/// Series that are filtered side by side. Each sample waits for the one before it; a processor computes others
+/// meanwhile.
 const TOGETHER: usize = 4;
 
-/// Filters uniformly sampled series without extension, for series that are extended already. Each result is the one that the series has alone.
+/// Filters uniformly sampled series without extension, for series that are extended already. Each result is the one
+/// that the series has alone.
 ///
 /// # Errors
 /// The number of the series and what is wrong with it.
@@ -174,8 +177,8 @@ pub fn low_pass_unpadded(
     Ok(filtered)
 }
 
-/// Extends a series by odd reflection with `pad` samples at each end: 2x₀ - xⱼ at the start. Applies to values and times.
-/// `pad` is limited to the number of samples minus one.
+/// Extends a series by odd reflection with `pad` samples at each end: 2x₀ - xⱼ at the start. Applies to values and
+/// times. `pad` is limited to the number of samples minus one.
 pub fn extend_by_reflection(samples: &[f64], pad: usize) -> Vec<f64> {
     let [first, .., last] = samples else {
         return samples.to_vec();
@@ -216,8 +219,9 @@ fn run_both_ways<const N: usize>(mut rows: Vec<[f64; N]>, rate_hz: f64, filter: 
     rows
 }
 
-/// One pass. Each section starts in the state after a straight line through the beginning of its input; its output begins with the
-/// same line, delayed. The slope is computed over the delay of the whole filter, so that the delay does not amplify its noise.
+/// One pass. Each section starts in the state after a straight line through the beginning of its input; its output
+/// begins with the same line, delayed. The slope is computed over the delay of the whole filter, so that the delay does
+/// not amplify its noise.
 fn run<const N: usize>(sections: &[Section], rows: &mut [[f64; N]]) {
     let delay: f64 = sections.iter().map(|section| section.delay).sum();
     let reach = (delay.ceil() as usize).clamp(1, rows.len() - 1);

@@ -125,7 +125,8 @@ fn report_millimetres(recording: &ForceRecording, findings: &mut Findings) {
     let farthest = loaded.map(|(_, p)| p.norm()).fold(0.0, f64::max);
     if farthest > FARTHEST_PLAUSIBLE_POINT_M {
         let message = format!(
-            "the load `{}` acts up to {farthest:.0} m from the origin; its points look like millimetres. hint: divide the points by 1000, and the moments too if they are N.mm",
+            "the load `{}` acts up to {farthest:.0} m from the origin; its points look like millimetres. hint: divide \
+             the points by 1000, and the moments too if they are N.mm",
             recording.name
         );
         findings.report(Code::LoadsMillimetres, message);

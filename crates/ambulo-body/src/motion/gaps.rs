@@ -57,7 +57,8 @@ pub fn fill_gaps(name: &str, times: &[f64], column: &[f64], findings: &mut Findi
     Ok((0..column.len()).map(|i| if column[i].is_finite() { column[i] } else { spline.value(times[i]) }).collect())
 }
 
-/// Bridges the gaps of up to `longest_s` between known samples by a quintic spline through all of them. Returns which samples were bridged.
+/// Bridges the gaps of up to `longest_s` between known samples by a quintic spline through all of them. Returns which
+/// samples were bridged.
 pub(crate) fn bridge_gaps(times: &[f64], column: &mut [f64], longest_s: f64) -> Vec<usize> {
     let known: Vec<usize> = (0..column.len()).filter(|&i| column[i].is_finite()).collect();
     let is_short = |pair: &[usize]| pair[1] > pair[0] + 1 && times[pair[1]] - times[pair[0]] <= longest_s;

@@ -8,14 +8,14 @@ use ambulo_formats::c3d::C3d;
 
 /// Units that are tried.
 const UNITS: [(&str, f64); 3] = [("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)];
-/// Largest distance of markers along an axis, from the legs of a child to a tall adult with raised arms [m]. The range is narrower than the
-/// factor of ten between the units.
+/// Largest distance of markers along an axis, from the legs of a child to a tall adult with raised arms [m]. The range
+/// is narrower than the factor of ten between the units.
 const BODY_M: [f64; 2] = [0.35, 3.0];
 /// Edges of force plates [m].
 const PLATE_M: [f64; 2] = [0.25, 2.4];
 
-/// Metres per unit of the positions of a C3D: as stated, else inferred from the size of the markers, or of the force plates without markers.
-/// `None` if neither does.
+/// Metres per unit of the positions of a C3D: as stated, else inferred from the size of the markers, or of the force
+/// plates without markers. `None` if neither does.
 pub(super) fn metres_per_unit(file: &C3d, findings: &mut Findings) -> Option<f64> {
     if let Some(metres) = file.metres_per_unit() {
         return Some(metres);

@@ -16,8 +16,8 @@ const ENOUGH_ROTATIONS: usize = 4;
 /// Reads the coordinates of `model` from a table. Columns are coordinate names or absolute state paths
 /// (`/jointset/hip_r/hip_flexion_r/value`); rotations are converted from degrees if the header states degrees.
 ///
-/// Whole turns between two frames are removed from angles. Unknown columns, repeated rows, angles in the wrong unit and jumps are
-/// findings.
+/// Whole turns between two frames are removed from angles. Unknown columns, repeated rows, angles in the wrong unit and
+/// jumps are findings.
 ///
 /// # Errors
 /// Times that do not increase, two different rows at one time, no known column.
@@ -148,7 +148,8 @@ fn is_usual_unit(model: &Model, motion: &Motion, in_degrees: bool, findings: &mu
             .collect();
         if !large.is_empty() {
             let message = format!(
-                "angles that were read as radians look like degrees: they reach {}. hint: set inDegrees=yes in the header of a .mot or .sto; a .csv cannot state its unit",
+                "angles that were read as radians look like degrees: they reach {}. hint: set inDegrees=yes in the \
+                 header of a .mot or .sto; a .csv cannot state its unit",
                 large.join(", ")
             );
             findings.report(Code::MotionDegreesAsRadians, message);
@@ -159,7 +160,8 @@ fn is_usual_unit(model: &Model, motion: &Motion, in_degrees: bool, findings: &mu
     let is_too_small = moving.len() >= ENOUGH_ROTATIONS && moving.iter().all(|x| *x < SMALLEST_PLAUSIBLE_SPAN_DEG);
     if is_too_small {
         let message = format!(
-            "no angle exceeds {SMALLEST_PLAUSIBLE_SPAN_DEG} under a header that states degrees; the angles look like radians. hint: set inDegrees=no in the header"
+            "no angle exceeds {SMALLEST_PLAUSIBLE_SPAN_DEG} under a header that states degrees; the angles look like \
+             radians. hint: set inDegrees=no in the header"
         );
         findings.report(Code::MotionRadiansAsDegrees, message);
     }

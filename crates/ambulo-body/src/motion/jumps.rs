@@ -25,7 +25,8 @@ struct Limits {
 
 const ROTATION: Limits = Limits { fastest: 30.0, bounds: [0.1, 0.3] };
 
-/// Removes changes of angles by whole turns, and whole turns that bring an angle into its range, with a note for each column.
+/// Removes changes of angles by whole turns, and whole turns that bring an angle into its range, with a note for each
+/// column.
 pub(super) fn without_whole_turns(model: &Model, motion: &mut Motion, findings: &mut Findings) {
     for (coordinate, column) in model.coordinates().iter().zip(&mut motion.columns) {
         let (CoordinateKind::Rotation, Some(column)) = (coordinate.kind, column) else { continue };
@@ -87,7 +88,8 @@ pub(super) fn report_jumps(model: &Model, motion: &Motion, findings: &mut Findin
         if let [first, ..] = frames[..] {
             let change = factor * (column[first] - column[first - 1]);
             let message = format!(
-                "`{}` jumps by {change:.3} {unit} {}{}; its rate, and the forces, are wrong there. hint: correct these frames, or leave them out",
+                "`{}` jumps by {change:.3} {unit} {}{}; its rate, and the forces, are wrong there. hint: correct these \
+                 frames, or leave them out",
                 coordinate.name,
                 place(&motion.times, first),
                 and_more_times(frames.len())
@@ -124,7 +126,8 @@ pub(super) fn unwrapped(column: &mut [f64]) -> Vec<usize> {
     found
 }
 
-/// Whole turns by which most of the angles are outside a range that they would be inside without; zero if there are none.
+/// Whole turns by which most of the angles are outside a range that they would be inside without; zero if there are
+/// none.
 fn turns_beyond(column: &[f64], [low, high]: [f64; 2]) -> f64 {
     let Some(usual) = median(column.iter().copied()) else { return 0.0 };
     let turns = ((usual - 0.5 * (low + high)) / TAU).round();

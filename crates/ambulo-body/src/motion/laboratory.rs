@@ -1,12 +1,12 @@
 //! Determines the axes of a laboratory relative to the world: x forward, y up, z right.
 //!
-//! **Up** is the direction of the forces of the plates on the feet, and the direction from the feet to pelvis and head; it is
-//! rounded to one of the laboratory's axes. **Forward** is the direction in which the pelvis moves; if it does not move (a treadmill,
-//! standing), the direction that feet and pelvis face. Within [`SNAP_DEG`] of an axis it is that axis, otherwise the measured
-//! heading. The rows of `world_from_lab` are forward, up and right = forward × up.
+//! **Up** is the direction of the forces of the plates on the feet, and the direction from the feet to pelvis and head;
+//! it is rounded to one of the laboratory's axes. **Forward** is the direction in which the pelvis moves; if it does
+//! not move (a treadmill, standing), the direction that feet and pelvis face. Within [`SNAP_DEG`] of an axis it is that
+//! axis, otherwise the measured heading. The rows of `world_from_lab` are forward, up and right = forward × up.
 //!
-//! **Unit.** A body of 1800 m was written in millimetres: if the height of the markers is not that of a person, the power
-//! of ten that makes it plausible is used.
+//! **Unit.** A body of 1800 m was written in millimetres: if the height of the markers is not that of a person, the
+//! power of ten that makes it plausible is used.
 //! Pinned by: tests/laboratory.rs, tests/laboratory_files.rs
 
 use super::force_plate::PlateRecording;
@@ -29,7 +29,8 @@ const WALKED_M: f64 = 0.4;
 const WALKED_M_S: f64 = 0.15;
 /// A turn: the headings of the first and second half of the path differ by more than this [deg].
 const TURN_DEG: f64 = 20.0;
-/// Smallest angle between walking and facing direction in sideways walking [deg]; beyond 180° minus this it is backwards.
+/// Smallest angle between walking and facing direction in sideways walking [deg]; beyond 180° minus this it is
+/// backwards.
 const SIDEWAYS_DEG: f64 = 60.0;
 /// Plausible heights of the markers, from a set for the legs of a child to a tall adult with raised arms [m].
 const HEIGHT_M: [f64; 2] = [0.35, 3.0];
@@ -97,8 +98,8 @@ impl Laboratory {
     }
 }
 
-/// Determines the laboratory of a recording from its markers in metres and its plates, both in the laboratory's axes. `unit` is the
-/// unit in the file, for the statement.
+/// Determines the laboratory of a recording from its markers in metres and its plates, both in the laboratory's axes.
+/// `unit` is the unit in the file, for the statement.
 ///
 /// Undetermined quantities are reported as warnings.
 #[must_use]
@@ -173,7 +174,8 @@ fn upward(
         (body, None) => {
             let up = body.map_or_else(|| longest_axis(markers), |(axis, _)| axis);
             let message = format!(
-                "the upward axis cannot be determined from plates or posture; {} was assumed. hint: name heel, toe and pelvis markers as in the list of marker sets",
+                "the upward axis cannot be determined from plates or posture; {} was assumed. hint: name heel, toe and \
+                 pelvis markers as in the list of marker sets",
                 up_name(up)
             );
             findings.report(Code::LaboratoryUpUnclear, message);
@@ -214,13 +216,15 @@ fn scale(markers: &MarkerRecording, up: Vec3, findings: &mut Findings) -> f64 {
     }
     let Some(factor) = UNIT_FACTORS.into_iter().find(|&f| fits(f)) else {
         let message = format!(
-            "the markers span {height:.3} m from lowest to highest, which is not a standing person in any unit; lengths were not changed"
+            "the markers span {height:.3} m from lowest to highest, which is not a standing person in any unit; \
+             lengths were not changed"
         );
         findings.report(Code::LaboratorySizeOdd, message);
         return 1.0;
     };
     let message = format!(
-        "the markers span {height:.4} m from lowest to highest by the file's unit; lengths were multiplied by {factor}, which gives {:.3} m",
+        "the markers span {height:.4} m from lowest to highest by the file's unit; lengths were multiplied by \
+         {factor}, which gives {:.3} m",
         height * factor
     );
     findings.report(Code::LaboratoryUnitChanged, message);
@@ -251,7 +255,8 @@ fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut 
                 return (snapped(-travel, up), Heading::Walking);
             }
             let message = format!(
-                "the body moves at {apart:.0} degrees to its facing direction; forward is the facing direction. hint: check whether left and right markers are swapped"
+                "the body moves at {apart:.0} degrees to its facing direction; forward is the facing direction. hint: \
+                 check whether left and right markers are swapped"
             );
             findings.report(Code::LaboratorySideways, message);
             (snapped(facing, up), Heading::Facing)
@@ -260,7 +265,8 @@ fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut 
         (None, None) => {
             let forward = if up.x.abs() > 0.5 { Vec3::y() } else { Vec3::x() };
             let message = format!(
-                "the forward direction cannot be determined (the body stays in place, and no heel, toe or pelvis marker is known); {} was assumed",
+                "the forward direction cannot be determined (the body stays in place, and no heel, toe or pelvis \
+                 marker is known); {} was assumed",
                 direction_name(forward, up)
             );
             findings.report(Code::LaboratoryForwardUnclear, message);
@@ -308,7 +314,8 @@ fn travel(
         "its direction from beginning to end"
     };
     let message = format!(
-        "the body turns by about {turn:.0} degrees; forward is {chosen}, so that pelvis angles and fore-aft forces are less meaningful than in a straight walk"
+        "the body turns by about {turn:.0} degrees; forward is {chosen}, so that pelvis angles and fore-aft forces are \
+         less meaningful than in a straight walk"
     );
     findings.report(Code::LaboratoryTurning, message);
     Some(Travel { direction: on_plates.unwrap_or_else(|| way.normalize()), turn_deg: Some(turn) })

@@ -1,7 +1,7 @@
 //! Finds the markers on heels, toes, ankles and pelvis by the names that laboratories use.
 //!
-//! Names are compared without case, points and underscores, with the side at the beginning (`R.Heel`, `RHEE`, `right_heel`) or
-//! at the end (`heel_r`). Of several names for one landmark the first in its list is used.
+//! Names are compared without case, points and underscores, with the side at the beginning (`R.Heel`, `RHEE`,
+//! `right_heel`) or at the end (`heel_r`). Of several names for one landmark the first in its list is used.
 //!
 //! | set | heel | toe | ankle | pelvis |
 //! |---|---|---|---|---|
@@ -77,8 +77,8 @@ impl Landmarks {
         Landmarks::named(recording, None)
     }
 
-    /// Finds the landmarks by a marker set, and those that it does not have by the names that laboratories use. Without a set, landmarks with
-    /// other names are found by the built-in sets.
+    /// Finds the landmarks by a marker set, and those that it does not have by the names that laboratories use. Without
+    /// a set, landmarks with other names are found by the built-in sets.
     #[must_use]
     pub fn named(recording: &MarkerRecording, set: Option<&MarkerSet>) -> Landmarks {
         let names = || recording.markers.iter().map(|m| m.name.as_str());

@@ -40,7 +40,8 @@ const FARTHEST_M: f64 = 1e6;
 pub enum MarkerError {
     /// No marker is visible in any frame.
     #[error(
-        "no marker was seen in any of the {frames} frames of {} (listed: {listed}); expected at least one. hint: check that this is the recording of the trial, and that its markers are labelled",
+        "no marker was seen in any of the {frames} frames of {} (listed: {listed}); expected at least one. hint: check \
+         that this is the recording of the trial, and that its markers are labelled",
         shown(name)
     )]
     NoMarker {
@@ -53,7 +54,8 @@ pub enum MarkerError {
     },
     /// Lengths without a unit.
     #[error(
-        "the markers have the unit `{found}` (POINT:UNITS), and their size is that of no person in mm, cm or m; expected a unit of length such as mm. hint: set POINT:UNITS in the file"
+        "the markers have the unit `{found}` (POINT:UNITS), and their size is that of no person in mm, cm or m; \
+         expected a unit of length such as mm. hint: set POINT:UNITS in the file"
     )]
     Unit {
         /// The unit in the file.
@@ -61,7 +63,8 @@ pub enum MarkerError {
     },
     /// Times that do not increase.
     #[error(
-        "frame {frame} of {}: time {later} s comes after {earlier} s; expected increasing times. hint: sort the rows, or cut the file where the clock was reset",
+        "frame {frame} of {}: time {later} s comes after {earlier} s; expected increasing times. hint: sort the rows, \
+         or cut the file where the clock was reset",
         shown(name)
     )]
     TimeNotRising {
@@ -97,8 +100,8 @@ impl MarkerRecording {
         self.markers.iter().find(|marker| marker.name == name)
     }
 
-    /// Removes the frames at both ends in which less than half of the markers are visible: the person walks into and out of the view
-    /// of the cameras. Returns the whole recording if nothing would be left.
+    /// Removes the frames at both ends in which less than half of the markers are visible: the person walks into and
+    /// out of the view of the cameras. Returns the whole recording if nothing would be left.
     #[must_use]
     pub fn trimmed_to_visible(&self) -> MarkerRecording {
         let ever_seen: Vec<&MarkerPath> =
@@ -163,11 +166,12 @@ pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerReco
 /// Reads the markers of a C3D file, in the axes of the laboratory.
 ///
 /// Points with angles, forces, moments, powers or scalars, computed points (axes and joint centres of
-/// Plug-in Gait), and unlabelled ones (`*7`, no name) are left out. A prefix of the subject that all labels share is removed:
-/// `Anna:LASI` becomes `LASI`. Of two points with the same name the one that is visible longer is kept.
+/// Plug-in Gait), and unlabelled ones (`*7`, no name) are left out. A prefix of the subject that all labels share is
+/// removed: `Anna:LASI` becomes `LASI`. Of two points with the same name the one that is visible longer is kept.
 ///
 /// # Errors
-/// A unit of length that is neither stated nor inferred from the size of the markers, times that do not increase, no visible marker.
+/// A unit of length that is neither stated nor inferred from the size of the markers, times that do not increase, no
+/// visible marker.
 pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
     let Some(unit_m) = metres_per_unit(file, findings) else {
         return Err(MarkerError::Unit { found: file.point_unit.clone() });

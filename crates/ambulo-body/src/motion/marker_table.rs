@@ -1,8 +1,8 @@
 //! Markers in a table: `time`, and three columns for each marker.
 //!
-//! The three columns of a marker end with x, y and z after a separator, or with nothing in between: `LASI_x`, `LASI.X`, `LASI X`, `LASI:x`,
-//! `LASIx`. Ambulo writes such tables itself (`convert walk.c3d walk.csv`), in metres. The unit is not stated in a table; the size of the
-//! person tells it.
+//! The three columns of a marker end with x, y and z after a separator, or with nothing in between: `LASI_x`, `LASI.X`,
+//! `LASI X`, `LASI:x`, `LASIx`. Ambulo writes such tables itself (`convert walk.c3d walk.csv`), in metres. The unit is
+//! not stated in a table; the size of the person tells it.
 
 use super::guessed_unit::unit_of_frames;
 use super::marker_recording::{MarkerError, MarkerPath, MarkerRecording, checked};

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 /// Parameters of POINT that list points which are not positions (Vicon's type groups), or are computed.
 const TYPE_GROUPS: [&str; 7] = ["ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "MODELED_MARKERS", "REACTIONS"];
 
-/// Segments whose axes are written by Plug-in Gait and the Oxford foot model as four points: origin O, anterior A, lateral L,
-/// proximal P, as in `LFEO`, `LFEA`, `LFEL`, `LFEP`.
+/// Segments whose axes are written by Plug-in Gait and the Oxford foot model as four points: origin O, anterior A,
+/// lateral L, proximal P, as in `LFEO`, `LFEA`, `LFEL`, `LFEP`.
 const AXES: [&str; 11] = ["PEL", "HED", "TRX", "FE", "TI", "FO", "TO", "CL", "HU", "RA", "HN"];
 
 /// The points that are markers.

@@ -35,7 +35,8 @@ pub enum MotionError {
     },
     /// Times that do not increase.
     #[error(
-        "{place}: time {later} s comes after {earlier} s; expected increasing times. hint: sort the rows, or cut the file where the clock was reset"
+        "{place}: time {later} s comes after {earlier} s; expected increasing times. hint: sort the rows, or cut the \
+         file where the clock was reset"
     )]
     TimeNotRising {
         /// Line or row of the file.
@@ -47,7 +48,8 @@ pub enum MotionError {
     },
     /// Two different rows for one time.
     #[error(
-        "{place}: a second row for time {time} s with other numbers in `{column}`; expected one row per time. hint: delete one of the two"
+        "{place}: a second row for time {time} s with other numbers in `{column}`; expected one row per time. hint: \
+         delete one of the two"
     )]
     TwoRows {
         /// Line or row of the file.
@@ -59,7 +61,8 @@ pub enum MotionError {
     },
     /// No column of a coordinate of the model.
     #[error(
-        "no column names a coordinate of the model `{model}`; found {found}; expected some of {known}. hint: is this the motion of another model?"
+        "no column names a coordinate of the model `{model}`; found {found}; expected some of {known}. hint: is this \
+         the motion of another model?"
     )]
     NoCoordinate {
         /// Name of the model.
@@ -99,7 +102,8 @@ pub enum MotionError {
     },
     /// A gap that is too long to fill, or at an end of the recording.
     #[error(
-        "`{column}` has no number from {from_s:.4} s to {to_s:.4} s; expected gaps inside the recording of at most {longest_s} s. hint: choose a range without the gap"
+        "`{column}` has no number from {from_s:.4} s to {to_s:.4} s; expected gaps inside the recording of at most \
+         {longest_s} s. hint: choose a range without the gap"
     )]
     Gap {
         /// The column.
@@ -113,7 +117,8 @@ pub enum MotionError {
     },
     /// Time steps of very different lengths.
     #[error(
-        "the time steps of {samples} samples are {shortest_s:.1e} s to {longest_s:.1e} s long; expected similar lengths. hint: check whether the time column was rounded, or merged from two recordings"
+        "the time steps of {samples} samples are {shortest_s:.1e} s to {longest_s:.1e} s long; expected similar \
+         lengths. hint: check whether the time column was rounded, or merged from two recordings"
     )]
     UnevenClock {
         /// Shortest step [s].
@@ -125,7 +130,8 @@ pub enum MotionError {
     },
     /// A frame rate of the results that is not possible.
     #[error(
-        "a frame rate of {} Hz was requested; expected a rate above 0, with at least two frames in the range, and at most {highest_hz} Hz, because of memory", Shown(*found_hz)
+        "a frame rate of {} Hz was requested; expected a rate above 0, with at least two frames in the range, and at \
+         most {highest_hz} Hz, because of memory", Shown(*found_hz)
     )]
     Rate {
         /// The rate [Hz].
@@ -135,7 +141,8 @@ pub enum MotionError {
     },
     /// A measured force that is not finite.
     #[error(
-        "the load `{load}` has a force, point or torque that is not a number at {time_s:.4} s under load; expected numbers. hint: choose a range without this time"
+        "the load `{load}` has a force, point or torque that is not a number at {time_s:.4} s under load; expected \
+         numbers. hint: choose a range without this time"
     )]
     ForceNotFinite {
         /// Name of the load.
@@ -145,7 +152,8 @@ pub enum MotionError {
     },
     /// A range that ends far away from the recording.
     #[error(
-        "the range starts or ends at {} s; expected an instant near the recording, which lasts from {first_s} s to {last_s} s, at most {farthest_s} s away", Shown(*found_s)
+        "the range starts or ends at {} s; expected an instant near the recording, which lasts from {first_s} s to \
+         {last_s} s, at most {farthest_s} s away", Shown(*found_s)
     )]
     FarRange {
         /// Start or end of the requested range [s].
@@ -159,7 +167,8 @@ pub enum MotionError {
     },
     /// Too few frames in the range.
     #[error(
-        "the range from {from_s} s to {to_s} s has {found} frames; expected at least {expected}. hint: motion and forces are both known from {first_s:.3} s to {last_s:.3} s"
+        "the range from {from_s} s to {to_s} s has {found} frames; expected at least {expected}. hint: motion and \
+         forces are both known from {first_s:.3} s to {last_s:.3} s"
     )]
     TooShort {
         /// Number of frames in the range.

@@ -1,10 +1,10 @@
 //! Smooths recorded samples to curves with two derivatives on a uniform time grid.
 //!
-//! Butterworth: the series is extended by odd reflection, low-pass filtered forwards and backwards, and a natural quintic
-//! spline through the extended series gives the derivatives, so that the ends of filter and spline are outside the
-//! data (as in OpenSim's inverse dynamics tool).
-//! Spline: a natural quintic smoothing spline whose smoothing parameter is chosen by generalised cross-validation for each
-//! coordinate (Woltring 1986); it also estimates the noise.
+//! Butterworth: the series is extended by odd reflection, low-pass filtered forwards and backwards, and a natural
+//! quintic spline through the extended series gives the derivatives, so that the ends of filter and spline are outside
+//! the data (as in OpenSim's inverse dynamics tool).
+//! Spline: a natural quintic smoothing spline whose smoothing parameter is chosen by generalised cross-validation for
+//! each coordinate (Woltring 1986); it also estimates the noise.
 
 use super::filter::{LowPass, low_pass_padded};
 use super::gaps::{LONGEST_GAP_S, fill_gaps, rows_around, spline_through};
@@ -71,7 +71,8 @@ const FEWEST_SAMPLES: usize = 6;
 const HIGHEST_RATE_HZ: f64 = 20_000.0;
 /// Largest number of frames, because of memory: ten minutes at the highest rate are 12 million, of 100 columns each.
 const MOST_FRAMES: f64 = 2e6;
-/// Farthest end of a range from the recording [s]: 11 days. Numbers beyond it are typing errors, and pages could not show them.
+/// Farthest end of a range from the recording [s]: 11 days. Numbers beyond it are typing errors, and pages could not
+/// show them.
 const FARTHEST_S: f64 = 1e6;
 /// Largest number of resampled frames per sample of a recording with uneven time steps.
 const MOST_FRAMES_PER_SAMPLE: f64 = 4.0;
@@ -84,8 +85,8 @@ impl SmoothMotion {
     }
 }
 
-/// Smooths the part of the recording around `window` that has no gaps, then keeps the frames inside the window. Recorded
-/// values of coordinates that are not free in the model are smoothed only if they are complete.
+/// Smooths the part of the recording around `window` that has no gaps, then keeps the frames inside the window.
+/// Recorded values of coordinates that are not free in the model are smoothed only if they are complete.
 ///
 /// # Errors
 /// Gaps that are too long, fewer frames than a quintic spline needs, a cut-off that the sampling rate does not allow.

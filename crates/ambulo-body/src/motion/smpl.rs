@@ -8,12 +8,13 @@
 //! | `mocap_framerate` or `mocap_frame_rate` | frames per second |
 //! | `betas` | shape of the body; needs the model's file |
 //!
-//! A rotation turns the axes of a joint from those of its parent; in the resting pose, a T, all are x to the left, y up, z forward. The
-//! file has no lengths: they come from the user's own SMPL file, J = R (v + S beta) with its joint regressor R, vertices v and shapes S, or
-//! else from the built-in body of a stature. Then the pelvis joint lies at mid-hip, and the spine is divided evenly.
+//! A rotation turns the axes of a joint from those of its parent; in the resting pose, a T, all are x to the left, y
+//! up, z forward. The file has no lengths: they come from the user's own SMPL file, J = R (v + S beta) with its joint
+//! regressor R, vertices v and shapes S, or else from the built-in body of a stature. Then the pelvis joint lies at
+//! mid-hip, and the spine is divided evenly.
 //!
-//! Source: Loper et al. 2015, ACM TOG 34:248 (unverified); names and order of joints as in public copies of smplx's `joint_names.py`.
-//! Never seen: a file of AMASS or of SMPL. Pinned by: tests/smpl_motions.rs
+//! Source: Loper et al. 2015, ACM TOG 34:248 (unverified); names and order of joints as in public copies of smplx's
+//! `joint_names.py`. Never seen: a file of AMASS or of SMPL. Pinned by: tests/smpl_motions.rs
 
 use super::skeleton::{SkeletonError, SkeletonRecording, skeleton_from_bvh};
 use crate::findings::{Code, Findings};
@@ -90,7 +91,8 @@ pub struct SmplBody {
 pub enum SmplError {
     /// An array is missing.
     #[error(
-        "no array `{wanted}`; found {found}; expected a motion of the SMPL family: poses, trans and mocap_framerate, as in AMASS"
+        "no array `{wanted}`; found {found}; expected a motion of the SMPL family: poses, trans and mocap_framerate, \
+         as in AMASS"
     )]
     NoMotion {
         /// The array.
@@ -100,7 +102,8 @@ pub enum SmplError {
     },
     /// An array of the model is missing.
     #[error(
-        "no array `{wanted}`; found {found}; expected a SMPL, SMPL-H or SMPL-X model: v_template, shapedirs and J_regressor"
+        "no array `{wanted}`; found {found}; expected a SMPL, SMPL-H or SMPL-X model: v_template, shapedirs and \
+         J_regressor"
     )]
     NoBody {
         /// The array.
@@ -110,7 +113,8 @@ pub enum SmplError {
     },
     /// An array of another type.
     #[error(
-        "the array `{array}` holds `{found}`; expected numbers (pickled objects, `|O`, are not opened). hint: save the array as numbers"
+        "the array `{array}` holds `{found}`; expected numbers (pickled objects, `|O`, are not opened). hint: save the \
+         array as numbers"
     )]
     NoNumbers {
         /// The array.
@@ -138,7 +142,8 @@ pub enum SmplError {
     },
     /// A frame rate that no recording has.
     #[error(
-        "the frame rate is {found} Hz; expected {} to {} frames per second. hint: is it the time from one frame to the next?",
+        "the frame rate is {found} Hz; expected {} to {} frames per second. hint: is it the time from one frame to the \
+         next?",
         RATES_HZ[0],
         RATES_HZ[1]
     )]
@@ -148,7 +153,8 @@ pub enum SmplError {
     },
     /// Places that are not in metres.
     #[error(
-        "the pelvis is {found} above the origin (median of `trans`), which is no height in metres; expected at most {HIGHEST_M}. hint: is `trans` in millimetres or centimetres? Divide it by 1000 or 100"
+        "the pelvis is {found} above the origin (median of `trans`), which is no height in metres; expected at most \
+         {HIGHEST_M}. hint: is `trans` in millimetres or centimetres? Divide it by 1000 or 100"
     )]
     NotMetres {
         /// Median height in the unit of the file.
@@ -249,7 +255,8 @@ impl SmplMotion {
         Ok(motion)
     }
 
-    /// Checks that the places are in metres: the pelvis of a person is about a metre above the floor, where the origin is.
+    /// Checks that the places are in metres: the pelvis of a person is about a metre above the floor, where the origin
+    /// is.
     fn check_unit(&self) -> Result<(), SmplError> {
         let to_upright = self.upright_from_file();
         let heights = self.translations.iter().map(|place| (to_upright * place).y.abs()).filter(|y| y.is_finite());

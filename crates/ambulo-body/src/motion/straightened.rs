@@ -1,7 +1,7 @@
 //! Straightens walks on a curved path.
 //!
-//! Methods that detect events in markers use world x as forward. On a curve each frame is transformed here into axes that follow the
-//! pelvis and its facing direction; the pelvis moves along x by the distance that it has covered:
+//! Methods that detect events in markers use world x as forward. On a curve each frame is transformed here into axes
+//! that follow the pelvis and its facing direction; the pelvis moves along x by the distance that it has covered:
 //!
 //!   x' = s(t) + (p - c) · f        z' = (p - c) · r        s(t) = ∫ ċ · f dt
 //!
@@ -11,8 +11,8 @@
 //! | `forward` | f | facing direction of the pelvis, horizontal, averaged over [`STEADY_S`] |
 //! | | r | f × up, to the right |
 //!
-//! A stance foot moves in these axes because of the rotation of the body, at ω times its distance from the pelvis: 0.3 m/s on a circle
-//! of 1.5 m radius.
+//! A stance foot moves in these axes because of the rotation of the body, at ω times its distance from the pelvis: 0.3
+//! m/s on a circle of 1.5 m radius.
 //! Pinned by: tests/retarget.rs
 
 use super::landmarks::Landmarks;

@@ -91,8 +91,8 @@ impl BandMatrix {
     }
 }
 
-/// Entries j to j + [`TOGETHER`] of row i of the factor. Their sums run side by side, which a processor does at once, each in the same
-/// order as alone.
+/// Entries j to j + [`TOGETHER`] of row i of the factor. Their sums run side by side, which a processor does at once,
+/// each in the same order as alone.
 fn eliminate_together(row: &mut [f64], above: &[f64], [i, j, first]: [usize; 3], w: usize) {
     let stride = w + 1;
     let others: [&[f64]; TOGETHER] = std::array::from_fn(|c| &above[(j + c) * stride..(j + c + 1) * stride]);
@@ -138,8 +138,8 @@ impl BandFactor {
 }
 
 impl BandFactor {
-    /// aᵀ A⁻¹ a = |L⁻¹ a|² of a vector with few entries, each with its row: the variance of a sum whose parts have the covariance A⁻¹. Cost: rows
-    /// after the first entry times w.
+    /// aᵀ A⁻¹ a = |L⁻¹ a|² of a vector with few entries, each with its row: the variance of a sum whose parts have the
+    /// covariance A⁻¹. Cost: rows after the first entry times w.
     #[must_use]
     pub fn variance_of(&self, entries: &[(usize, f64)]) -> f64 {
         let BandMatrix { size, width: w, rows } = &self.0;
@@ -159,8 +159,9 @@ impl BandFactor {
 
     /// The entries of A⁻¹ inside the band of A, in the memory of L.
     ///
-    /// From Z L = L⁻ᵀ, row by row from the last: Z_ij = (δ_ij / L_jj - Σ_k Z_ik L_kj) / L_jj for j <= i, k = j+1 .. j+w (Takahashi,
-    /// Fagan, Chen 1973; unverified). Column j of Z needs column j of L and later columns of Z. Cost: rows times w².
+    /// From Z L = L⁻ᵀ, row by row from the last: Z_ij = (δ_ij / L_jj - Σ_k Z_ik L_kj) / L_jj for j <= i, k = j+1 .. j+w
+    /// (Takahashi, Fagan, Chen 1973; unverified). Column j of Z needs column j of L and later columns of Z. Cost: rows
+    /// times w².
     #[must_use]
     pub fn inverse_in_band(self) -> BandMatrix {
         let BandFactor(mut matrix) = self;
@@ -189,8 +190,8 @@ impl BandFactor {
 }
 
 impl BandMatrix {
-    /// The product y = A x of the block of rows and columns from `first` on, as many as x has, which is no more than w + 1. Each row is read once,
-    /// for its own entry and for those of the columns.
+    /// The product y = A x of the block of rows and columns from `first` on, as many as x has, which is no more than
+    /// w + 1. Each row is read once, for its own entry and for those of the columns.
     fn multiply(&self, first: usize, x: &[f64], y: &mut [f64]) {
         for (i, own) in x.iter().enumerate() {
             let start = self.at(first + i, first);
@@ -201,7 +202,8 @@ impl BandMatrix {
     }
 }
 
-/// Adds `factor` times the row to `sums` and returns the product of the row with x, whose sum has [`LANES`] parts in a fixed order.
+/// Adds `factor` times the row to `sums` and returns the product of the row with x, whose sum has [`LANES`] parts in a
+/// fixed order.
 fn add_and_multiply(row: &[f64], factor: f64, x: &[f64], sums: &mut [f64]) -> f64 {
     let mut parts = [0.0; LANES];
     let (rows, row_rest) = row.as_chunks::<LANES>();

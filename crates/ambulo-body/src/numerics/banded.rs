@@ -10,8 +10,8 @@
 //! Source: G.H. Golub, C.F. Van Loan, Matrix Computations, section on banded systems (unverified); inverse bands:
 //! M.F. Hutchinson, F.R. de Hoog 1985, Numer. Math. 47:99-106 (unverified), derived below.
 //! Cost: linear in rows; w² each for the factors and for the inverse.
-//! Not handled: pivoting. If the matrix is not positive definite, the row of the first pivot that is not positive is returned.
-//! Pinned by: tests/splines.rs
+//! Not handled: pivoting. If the matrix is not positive definite, the row of the first pivot that is not positive is
+//! returned. Pinned by: tests/splines.rs
 
 /// Bands below the diagonal that the largest spline (half order 4) needs.
 const MAX_WIDTH: usize = 4;

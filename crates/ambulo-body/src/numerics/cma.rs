@@ -1,6 +1,8 @@
-//! The evolution strategy with covariance matrix adaptation (CMA-ES): minimises a function of some numbers of which nothing but values is known.
+//! The evolution strategy with covariance matrix adaptation (CMA-ES): minimises a function of some numbers of which
+//! nothing but values is known.
 //!
-//! Each generation draws λ candidates from the normal distribution with mean m and covariance σ² C, and moves the distribution to the better half:
+//! Each generation draws λ candidates from the normal distribution with mean m and covariance σ² C, and moves the
+//! distribution to the better half:
 //!
 //!   x_k = m + σ C^½ z_k                                    candidates, the best one is x_1
 //!   m'  = Σ w_i x_i                                        weighted mean of the best μ
@@ -19,9 +21,9 @@
 //!
 //! The weights are those without negative ones. Only the order of the costs matters, not their size.
 //!
-//! Source: N. Hansen, `purecma.py` 3.0.0 in the repository CMA-ES/pycma (public domain), which has these equations and their constants; explained in
-//! Hansen 2016, The CMA Evolution Strategy: A Tutorial, arXiv 1604.00772 (only its abstract was read).
-//! Cost: two eigendecompositions of C per generation.
+//! Source: N. Hansen, `purecma.py` 3.0.0 in the repository CMA-ES/pycma (public domain), which has these equations and
+//! their constants; explained in Hansen 2016, The CMA Evolution Strategy: A Tutorial, arXiv 1604.00772 (only its
+//! abstract was read). Cost: two eigendecompositions of C per generation.
 
 use super::random::Random;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -96,7 +98,8 @@ impl Constants {
 }
 
 impl Cma {
-    /// Starts at a point of one or more unknowns, with the standard deviation `sigma` of each unknown. Equal seeds give equal candidates.
+    /// Starts at a point of one or more unknowns, with the standard deviation `sigma` of each unknown. Equal seeds give
+    /// equal candidates.
     #[must_use]
     pub fn new(start: &[f64], sigma: f64, seed: u64) -> Cma {
         let count = start.len();
@@ -161,8 +164,8 @@ impl Cma {
         (0..Cma::candidates(self.mean.len())).map(|_| draw()).collect()
     }
 
-    /// Moves the distribution by the costs of the candidates of [`Cma::ask`]. A cost that is not finite is larger than any other; a generation
-    /// without a finite one changes nothing.
+    /// Moves the distribution by the costs of the candidates of [`Cma::ask`]. A cost that is not finite is larger than
+    /// any other; a generation without a finite one changes nothing.
     pub fn tell(&mut self, candidates: &[Vec<f64>], costs: &[f64]) {
         self.generations += 1;
         let rank = |k: usize| costs.get(k).copied().filter(|cost| cost.is_finite()).unwrap_or(f64::INFINITY);

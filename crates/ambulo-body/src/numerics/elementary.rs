@@ -1,14 +1,15 @@
 //! Elementary functions with the same bits on every platform.
 //!
-//! `f64::sin`, `f64::exp` and the like of the standard library belong to the platform: the C library of Linux even chooses between variants by
-//! processor, and a browser, Windows and macOS have others. Their last bits differ, and a solver that ends when its steps are small
-//! then ends elsewhere. These functions are compiled from one source, without fused multiply-add, so a result depends on its input
-//! alone. Sums, products, quotients and `sqrt` are exact to the last bit by the standard (IEEE 754) and need no function here.
-//! `powi` with a literal exponent is products in a fixed order, so it needs none either.
+//! `f64::sin`, `f64::exp` and the like of the standard library belong to the platform: the C library of Linux even
+//! chooses between variants by processor, and a browser, Windows and macOS have others. Their last bits differ, and a
+//! solver that ends when its steps are small then ends elsewhere. These functions are compiled from one source, without
+//! fused multiply-add, so a result depends on its input alone. Sums, products, quotients and `sqrt` are exact to the
+//! last bit by the standard (IEEE 754) and need no function here. `powi` with a literal exponent is products in a fixed
+//! order, so it needs none either.
 //!
-//! Source: the crate `libm`, a translation of the mathematical libraries of FreeBSD and musl (its feature `arch`, which takes instructions of
-//! the processor, changes only correctly rounded functions); sine and cosine are in `numerics::sin_cos`. Errors are below 1 unit in the
-//! last place, those of [`powi`] grow with the exponent.
+//! Source: the crate `libm`, a translation of the mathematical libraries of FreeBSD and musl (its feature `arch`, which
+//! takes instructions of the processor, changes only correctly rounded functions); sine and cosine are in
+//! `numerics::sin_cos`. Errors are below 1 unit in the last place, those of [`powi`] grow with the exponent.
 //! `clippy.toml` forbids the functions of the standard library.
 //! Pinned by: tests/numerics_elementary.rs, with values of 50 digits, and a checksum of the bits of all functions.
 
@@ -130,7 +131,8 @@ pub fn hypot(x: f64, y: f64) -> f64 {
     if SAFE.contains(&square) { square.sqrt() } else { libm::hypot(x, y) }
 }
 
-/// xⁿ by products, for an exponent that is computed; the standard library gives another result when the compiler knows both numbers.
+/// xⁿ by products, for an exponent that is computed; the standard library gives another result when the compiler knows
+/// both numbers.
 #[inline]
 #[must_use]
 pub fn powi(x: f64, n: i32) -> f64 {

@@ -2,8 +2,8 @@
 //!
 //!   C_ij = Σ_k A_ik B_kj        in the order of k, each product rounded before it is added
 //!
-//! Rows are computed side by side, one lane per row, so the width of the processor's vectors changes no sum. The product of `nalgebra` without its
-//! optional kernels adds column by column too, but not in vectors.
+//! Rows are computed side by side, one lane per row, so the width of the processor's vectors changes no sum. The
+//! product of `nalgebra` without its optional kernels adds column by column too, but not in vectors.
 //!
 //! Cost: rows x columns x terms.
 //! Pinned by: tests/numerics_matrix_product.rs

@@ -11,8 +11,8 @@
 //! | `p`            | p      | s^(2m-1)   | the smoothing parameter   |
 //!
 //! Before the first and after the last sample, f continues as the polynomial of degree m-1 that a natural spline
-//! has at its ends. Woltring's SPLDER does the same, and so does OpenSim 4.6 as released; SimTK's `GCVSPLUtil::splder` asserts
-//! in debug builds that no time is outside.
+//! has at its ends. Woltring's SPLDER does the same, and so does OpenSim 4.6 as released; SimTK's `GCVSPLUtil::splder`
+//! asserts in debug builds that no time is outside.
 //!
 //! Source: H.J. Woltring 1986, Adv. Eng. Software 8:104-113 (unverified), as translated in simbody's
 //! `SimTKmath/Geometry/src/gcvspl.cpp` and used by OpenSim's `GCVSpline`. Sample weights are 1, as OpenSim sets them.

@@ -1,15 +1,16 @@
 //! Cholesky factors of symmetric positive definite matrices whose rows begin at any column.
 //!
-//! A = L Lᵀ, where row i of L begins in the same column as row i of A. Examples are band matrices, and band matrices with a border of full
-//! rows.
+//! A = L Lᵀ, where row i of L begins in the same column as row i of A. Examples are band matrices, and band matrices
+//! with a border of full rows.
 //!
 //!   L_ij = (A_ij - Σ_k L_ik L_jk) / L_jj        L_ii = √(A_ii - Σ_k L_ik²)        k from the later of both beginnings to j - 1
 //!
-//! Neighbouring rows that begin in the same column are factored side by side, one lane per row, so that every entry is a sum in the order of k.
-//! Sums of the solution have eight parts, one per lane, added in a fixed order. So the result has the same bits on every processor.
+//! Neighbouring rows that begin in the same column are factored side by side, one lane per row, so that every entry is
+//! a sum in the order of k. Sums of the solution have eight parts, one per lane, added in a fixed order. So the result
+//! has the same bits on every processor.
 //!
-//! Source: A. George, J. W. Liu, "Computer solution of large sparse positive definite systems", 1981, chapter 4 (unverified).
-//! Cost: half the sum of the squares of the row lengths.
+//! Source: A. George, J. W. Liu, "Computer solution of large sparse positive definite systems", 1981, chapter 4
+//! (unverified). Cost: half the sum of the squares of the row lengths.
 //! Not handled: pivoting. `factor` returns `None` if the matrix is not positive definite.
 //! Pinned by: tests/numerics_profile_cholesky.rs
 
@@ -175,7 +176,8 @@ impl Panel {
         true
     }
 
-    /// Computes the columns j to j + R - 1 from the rows with these numbers, which lie above and begin in the same column.
+    /// Computes the columns j to j + R - 1 from the rows with these numbers, which lie above and begin in the same
+    /// column.
     #[inline(always)]
     fn eliminate<S: Simd, const R: usize>(&mut self, simd: S, j: usize, above: &ProfileMatrix) {
         let from = self.begin.max(above.first[j]);

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 
 use crate::numerics::elementary::{cos, ln};
 
-/// Splitmix64 (Steele, Lea, Flood 2014; unverified). Its state is one number, so that a computation can be stopped and resumed.
+/// Splitmix64 (Steele, Lea, Flood 2014; unverified). Its state is one number, so that a computation can be stopped and
+/// resumed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Random(u64);
 

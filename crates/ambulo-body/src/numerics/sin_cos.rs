@@ -1,7 +1,8 @@
 //! Sine and cosine of many angles at once.
 //!
-//! The scalar sine and cosine of a mathematical library take longer than all other arithmetic of a frame, and cannot be vectorised.
-//! Here every step is free of branches, so that the loop over a slice becomes vector code. One angle alone is computed in the same way.
+//! The scalar sine and cosine of a mathematical library take longer than all other arithmetic of a frame, and cannot be
+//! vectorised. Here every step is free of branches, so that the loop over a slice becomes vector code. One angle alone
+//! is computed in the same way.
 //!
 //! x = k π/2 + r with |r| ≤ π/4 (Cody and Waite: π/2 in three parts of 33 bits, so that k times the first two is exact
 //! for |k| < 2²⁰); then the polynomials of the FreeBSD math library (msun `k_sin.c`, `k_cos.c`, `e_rem_pio2.c`; Sun

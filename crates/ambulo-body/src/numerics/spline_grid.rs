@@ -196,7 +196,8 @@ impl SplineGrid {
             self.node_weights.extend(nodes[..m].iter().map(|polynomial| polynomial[k]));
             for l in start..start + m - 1 {
                 for power in 0..m {
-                    // A step to the right of i counts with plus for the samples to its right; a step to the left with minus for those to its left.
+                    // A step to the right of i counts with plus for the samples to its right; a step to the left with
+                    // minus for those to its left.
                     let (seen_by, sign) = if l >= i { (l + 1..start + m, -1.0) } else { (start..l + 1, 1.0) };
                     let weight = |j: usize| nodes[j - start][k] * self.remainder(l, j, power);
                     self.piece_weights.push(sign * seen_by.map(weight).sum::<f64>());

@@ -16,7 +16,8 @@ pub fn finite_mean(values: impl IntoIterator<Item = f64>) -> f64 {
     sum / count
 }
 
-/// The median; with an even count the mean of the two middle values. Values that are not finite are ignored; `None` if no value remains.
+/// The median; with an even count the mean of the two middle values. Values that are not finite are ignored; `None` if
+/// no value remains.
 #[must_use]
 pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut list: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();

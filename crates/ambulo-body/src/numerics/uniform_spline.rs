@@ -1,8 +1,8 @@
 //! Cubic B-splines on uniform knots over a run of samples.
 //!
-//! Knots are at every `stride`-th sample. A sum of the splines has two continuous derivatives. At an open end every spline that
-//! overlaps the run takes part, so the sum is free there; at a closed end only those inside take part, so the sum and its two
-//! derivatives are zero there.
+//! Knots are at every `stride`-th sample. A sum of the splines has two continuous derivatives. At an open end every
+//! spline that overlaps the run takes part, so the sum is free there; at a closed end only those inside take part, so
+//! the sum and its two derivatives are zero there.
 //!
 //! Source: as `cardinal_spline`, of degree three.
 //! Cost: constant.
@@ -23,8 +23,9 @@ pub struct UniformSplines {
 }
 
 impl UniformSplines {
-    /// Splines over `samples` samples, with a knot at every `stride`-th of them. `closed` states at which end, first and last, the sum vanishes; a
-    /// closed last end needs a number of samples that is one more than a multiple of `stride`.
+    /// Splines over `samples` samples, with a knot at every `stride`-th of them. `closed` states at which end, first
+    /// and last, the sum vanishes; a closed last end needs a number of samples that is one more than a multiple of
+    /// `stride`.
     #[must_use]
     pub fn new(samples: usize, stride: usize, closed: [bool; 2]) -> UniformSplines {
         let stride = stride.max(1);
@@ -49,8 +50,8 @@ impl UniformSplines {
         if self.stride == 1 { SPLINES_AT_ONCE - 1 } else { SPLINES_AT_ONCE }
     }
 
-    /// The splines that are not zero at a sample: the index of the first, and for each the value and the first and second derivative with respect to the
-    /// number of samples.
+    /// The splines that are not zero at a sample: the index of the first, and for each the value and the first and
+    /// second derivative with respect to the number of samples.
     #[inline]
     #[must_use]
     pub fn at(self, sample: usize) -> (usize, [[f64; SPLINES_AT_ONCE]; 3], std::ops::Range<usize>) {

@@ -65,8 +65,8 @@ impl Inertia {
         self.about_center
     }
 
-    /// Describes why no rigid body can have this inertia: a negative principal moment, or one larger than the sum of the other two
-    /// (∫(y²+z²) ≤ ∫(x²+z²) + ∫(x²+y²)). `None` if the inertia is valid.
+    /// Describes why no rigid body can have this inertia: a negative principal moment, or one larger than the sum of
+    /// the other two (∫(y²+z²) ≤ ∫(x²+z²) + ∫(x²+y²)). `None` if the inertia is valid.
     #[must_use]
     pub fn defect(&self) -> Option<String> {
         let mut principal = self.about_center.symmetric_eigenvalues();

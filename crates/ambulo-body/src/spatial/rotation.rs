@@ -1,7 +1,7 @@
 //! Rotations from axes, angles, vectors and directions, and back.
 //!
-//! nalgebra has the same functions, but takes sine and cosine from the C library of the platform; these have the same bits everywhere
-//! ([`elementary`](crate::numerics::elementary)).
+//! nalgebra has the same functions, but takes sine and cosine from the C library of the platform; these have the same
+//! bits everywhere ([`elementary`](crate::numerics::elementary)).
 //!
 //! | code     | symbol        | unit | meaning                                                       |
 //! |----------|---------------|------|---------------------------------------------------------------|
@@ -89,7 +89,8 @@ pub fn rotation_vector(r: &Mat3) -> Vec3 {
     m.column(k).into_owned().try_normalize(0.0).map_or(Vec3::zeros(), |u| u * angle)
 }
 
-/// The smallest rotation that brings the direction of `a` to that of `b`. `None` if they are opposite, or if one has no direction.
+/// The smallest rotation that brings the direction of `a` to that of `b`. `None` if they are opposite, or if one has no
+/// direction.
 #[must_use]
 pub fn rotation_between(a: &Vec3, b: &Vec3) -> Option<Mat3> {
     let (a, b) = (a.try_normalize(0.0)?, b.try_normalize(0.0)?);

@@ -24,7 +24,8 @@ impl Twist {
     /// No motion.
     pub const ZERO: Twist = Twist { angular: Vec3::new(0., 0., 0.), linear: Vec3::new(0., 0., 0.) };
 
-    /// The velocity of another point of the same body, at `arm` from this one [m]. For velocities only, not for accelerations.
+    /// The velocity of another point of the same body, at `arm` from this one [m]. For velocities only, not for
+    /// accelerations.
     #[inline]
     #[must_use]
     pub fn velocity_at(&self, arm: Vec3) -> Vec3 {

@@ -31,7 +31,8 @@ pub(crate) struct BatchArgs {
     /// Folder for the results: a new one, or with --resume the folder of an interrupted batch.
     #[arg(short, long, value_name = "DIR", default_value = "batch")]
     pub(crate) output: PathBuf,
-    /// Trials that are computed at the same time [default: the number of processors; 1 in a job of Slurm, PBS, LSF or Grid Engine].
+    /// Trials that are computed at the same time [default: the number of processors; 1 in a job of Slurm, PBS, LSF or
+    /// Grid Engine].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) jobs: Option<u32>,
     /// Compute only every n-th trial, beginning with number I, counted from 0: N machines share a batch.
@@ -41,7 +42,8 @@ pub(crate) struct BatchArgs {
     #[arg(long)]
     pub(crate) resume: bool,
     /// Tables to write, separated by commas: tables of frames, cycles, events.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "kinematics,moments,powers,grf,grf_sd,cycles,events", value_parser = tables())]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "kinematics,moments,powers,grf,grf_sd,\
+        cycles,events", value_parser = tables())]
     pub(crate) keep: Vec<String>,
     /// Trials in one file of each table.
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=100_000))]

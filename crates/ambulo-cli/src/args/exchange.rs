@@ -39,7 +39,8 @@ pub(crate) struct ConvertArgs {
     /// The OpenSim model (.osim) of the coordinates in a .mot or .sto; needed for .bvh and .glb.
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
-    /// The animation file (.bvh) from which the results were computed; the written .bvh has its skeleton, joint names and fingers.
+    /// The animation file (.bvh) from which the results were computed; the written .bvh has its skeleton, joint names
+    /// and fingers.
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
     #[command(flatten)]
@@ -70,7 +71,8 @@ or shared it with the other foot.")]
 pub(crate) struct EventsArgs {
     /// The recording.
     pub(crate) input: PathBuf,
-    /// Also write the events to a .csv with side, event, time and source; an existing one is only overwritten with --force.
+    /// Also write the events to a .csv with side, event, time and source; an existing one is only overwritten with
+    /// --force.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]

@@ -43,26 +43,34 @@ The verdict states whether a person could make this motion (strength, joint rang
 pressure, sliding, flight, residual forces; docs/JUDGEMENT.md). Exit code: 0 if results were written, 2 if
 nothing could be computed; with --check, 1 if the data are bad or the motion is infeasible.")]
 pub(crate) struct ForcesArgs {
-    /// The recording: markers (.c3d, .trc, .csv with three columns per marker, _motion.tsv of BIDS), poses of segments (.c3d, .mvnx), coordinates (.mot, .sto, _motion.tsv), orientations of sensors (.sto with quaternions), a skeleton (.bvh), a motion of the SMPL family (.npz) or a subject of AddBiomechanics (.b3d).
+    /// The recording: markers (.c3d, .trc, .csv with three columns per marker, _motion.tsv of BIDS), poses of segments
+    /// (.c3d, .mvnx), coordinates (.mot, .sto, _motion.tsv), orientations of sensors (.sto with quaternions), a
+    /// skeleton (.bvh), a motion of the SMPL family (.npz) or a subject of AddBiomechanics (.b3d).
     #[arg(required_unless_present = "setup")]
     pub(crate) input: Option<PathBuf>,
-    /// Set-up of OpenSim's ScaleTool, InverseKinematicsTool, InverseDynamicsTool, IMUPlacer or IMUInverseKinematicsTool (.xml), with files and settings; may be given once per tool, all in one run (docs/OPENSIM.md).
+    /// Set-up of OpenSim's ScaleTool, InverseKinematicsTool, InverseDynamicsTool, IMUPlacer or IMUInverseKinematicsTool
+    /// (.xml), with files and settings; may be given once per tool, all in one run (docs/OPENSIM.md).
     #[arg(long, value_name = "FILE")]
     pub(crate) setup: Vec<PathBuf>,
-    /// The body as an OpenSim model (.osim), or `built-in`; required for coordinates [default for markers, sensors and skeletons: the built-in body; for a .b3d: its own model].
+    /// The body as an OpenSim model (.osim), or `built-in`; required for coordinates [default for markers, sensors and
+    /// skeletons: the built-in body; for a .b3d: its own model].
     #[arg(long, value_name = "FILE|built-in")]
     pub(crate) model: Option<PathBuf>,
-    /// The trial of a .b3d: its number or name as `ambulo info` lists them, or `all` for a result folder in DIR for each [default: the only one].
+    /// The trial of a .b3d: its number or name as `ambulo info` lists them, or `all` for a result folder in DIR for
+    /// each [default: the only one].
     #[arg(long, value_name = "N|NAME|all")]
     pub(crate) trial: Option<String>,
-    /// The SMPL, SMPL-H or SMPL-X model (.npz) that a motion was made with; it gives the lengths of the body [default: the built-in body of --height].
+    /// The SMPL, SMPL-H or SMPL-X model (.npz) that a motion was made with; it gives the lengths of the body [default:
+    /// the built-in body of --height].
     #[arg(long, value_name = "FILE")]
     pub(crate) smpl: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) subject: SubjectArgs,
     #[command(flatten)]
     pub(crate) sensors: SensorArgs,
-    /// Measured ground forces: .mot, .sto or .csv [default: the file named in --loads]. Columns are recognised by their names, and loads without a side are assigned by the centre of pressure, unless --loads or --right and --left are given.
+    /// Measured ground forces: .mot, .sto or .csv [default: the file named in --loads]. Columns are recognised by their
+    /// names, and loads without a side are assigned by the centre of pressure, unless --loads or --right and --left are
+    /// given.
     #[arg(long, value_name = "FILE")]
     pub(crate) grf: Option<PathBuf>,
     /// OpenSim external loads (.xml): which columns act on which body.
@@ -74,22 +82,28 @@ pub(crate) struct ForcesArgs {
     /// Body and column prefix of the left foot, such as calcn_l:1_ground_force_
     #[arg(long, value_name = "BODY:PREFIX", requires = "grf")]
     pub(crate) left: Option<FootColumns>,
-    /// Predict the ground forces from the motion even if they were measured, and compare both [default without measured forces].
+    /// Predict the ground forces from the motion even if they were measured, and compare both [default without measured
+    /// forces].
     #[arg(long, conflicts_with = "no_ground")]
     pub(crate) predict: bool,
-    /// Predict the ground forces as with --predict, corrected by the calibration of this person (.toml, written by `ambulo calibrate`).
+    /// Predict the ground forces as with --predict, corrected by the calibration of this person (.toml, written by
+    /// `ambulo calibrate`).
     #[arg(long, value_name = "FILE", conflicts_with = "no_ground")]
     pub(crate) person: Option<PathBuf>,
-    /// Track: find the motion nearest to the recording whose external forces come from feet on soft ground alone (docs/OPTIMAL.md). Measured forces are only compared with the result.
+    /// Track: find the motion nearest to the recording whose external forces come from feet on soft ground alone
+    /// (docs/OPTIMAL.md). Measured forces are only compared with the result.
     #[arg(long, conflicts_with_all = ["no_ground", "predict", "consistent"])]
     pub(crate) track: bool,
-    /// Change the motion as little as needed so that loaded feet do not slide, before forces are computed (docs/GROUND_FORCES.md); a note reports the improvement.
+    /// Change the motion as little as needed so that loaded feet do not slide, before forces are computed
+    /// (docs/GROUND_FORCES.md); a note reports the improvement.
     #[arg(long, conflicts_with = "no_ground")]
     pub(crate) refit: bool,
-    /// Compute without ground forces (a swinging leg, a flight); the residual force at the root then contains the whole weight.
+    /// Compute without ground forces (a swinging leg, a flight); the residual force at the root then contains the whole
+    /// weight.
     #[arg(long, conflicts_with_all = ["grf", "loads"])]
     pub(crate) no_ground: bool,
-    /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac spines; `opensim`, the model's own axes.
+    /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac
+    /// spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = AngleConvention::Clinical)]
     pub(crate) convention: AngleConvention,
     /// Start of the analysed time range [s].
@@ -101,20 +115,27 @@ pub(crate) struct ForcesArgs {
     /// Frame rate of the results [default: as recorded].
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
     pub(crate) rate: Option<f64>,
-    /// Low-pass filter of the motion: cut-off in Hz (0.1 to half the frame rate) of one pass of the zero-phase Butterworth filter, or off [default: 6, or as in --setup].
+    /// Low-pass filter of the motion: cut-off in Hz (0.1 to half the frame rate) of one pass of the zero-phase
+    /// Butterworth filter, or off [default: 6, or as in --setup].
     #[arg(long, value_name = "HZ|off", allow_hyphen_values = true)]
     pub(crate) cutoff: Option<Cutoff>,
-    /// Low-pass filter of the measured forces: cut-off in Hz, `same` for the filter of the motion, or off [default: 25 Hz for walking; the motion's, at least 8 Hz, for running and landing; off with --cutoff off; 20 Hz, order 2, when compared with a prediction; off with a --setup of inverse dynamics].
+    /// Low-pass filter of the measured forces: cut-off in Hz, `same` for the filter of the motion, or off [default: 25
+    /// Hz for walking; the motion's, at least 8 Hz, for running and landing; off with --cutoff off; 20 Hz, order 2,
+    /// when compared with a prediction; off with a --setup of inverse dynamics].
     #[arg(long, value_name = "same|HZ|off", allow_hyphen_values = true)]
     pub(crate) force_cutoff: Option<ForceCutoff>,
     /// Order of one pass of the Butterworth filters (1 to 8).
     #[arg(long, value_name = "N", default_value_t = Settings::LOW_PASS.order, value_parser = order)]
     pub(crate) order: usize,
-    /// How the motion is smoothed. `spline`: quintic, stiffness by generalised cross-validation; --cutoff then applies only to forces with --force-cutoff same.
+    /// How the motion is smoothed. `spline`: quintic, stiffness by generalised cross-validation; --cutoff then applies
+    /// only to forces with --force-cutoff same.
     #[arg(long, value_name = "FILTER", default_value = "butterworth", value_parser = one_of(&Filter::ALL))]
     pub(crate) filter: Filter,
-    /// Residual reduction: change the motion within its noise until it agrees with the measured forces (docs/CONSISTENCY.md). `motion`: the motion only; `body`: also the body mass and the mass centre of the trunk [without a value: body].
-    #[arg(long, value_name = "WHAT", value_parser = one_of(&Adjustable::ALL), num_args = 0..=1, require_equals = true, default_missing_value = "body", conflicts_with = "no_ground")]
+    /// Residual reduction: change the motion within its noise until it agrees with the measured forces
+    /// (docs/CONSISTENCY.md). `motion`: the motion only; `body`: also the body mass and the mass centre of the trunk
+    /// [without a value: body].
+    #[arg(long, value_name = "WHAT", value_parser = one_of(&Adjustable::ALL), num_args = 0..=1, require_equals = true,
+        default_missing_value = "body", conflicts_with = "no_ground")]
     pub(crate) consistent: Option<Adjustable>,
     /// Joint moments of a worn device: .sto or .csv with columns as in moments.sto; adds moments_biological.sto.
     #[arg(long, value_name = "FILE")]
@@ -264,12 +285,13 @@ pub(crate) struct SubjectArgs {
     /// Standing trial of the same person: .c3d or .trc; for sensors a .sto with quaternions.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
-    /// Body mass [kg]; the mass of a standing trial on force plates is used instead if it differs by less than 5 %. A given model is scaled to it
-    /// [default: as measured by the force plates or stated in the recording; with --model the model's].
+    /// Body mass [kg]; the mass of a standing trial on force plates is used instead if it differs by less than 5 %. A
+    /// given model is scaled to it [default: as measured by the force plates or stated in the recording; with --model
+    /// the model's].
     #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
     pub(crate) mass: Option<f64>,
-    /// Stature [m]; a given model is scaled to it [default: as stated in the recording, or estimated from the markers; with --model the
-    /// model's].
+    /// Stature [m]; a given model is scaled to it [default: as stated in the recording, or estimated from the markers;
+    /// with --model the model's].
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
@@ -278,30 +300,33 @@ pub(crate) struct SubjectArgs {
     /// The marker set: a name from docs/MARKERS.md or a .toml [default: recognised from the marker names].
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) markers: Option<String>,
-    /// Markers for --model from a separate OpenSim MarkerSet (.xml). Markers replace those with the same name; others are added.
+    /// Markers for --model from a separate OpenSim MarkerSet (.xml). Markers replace those with the same name; others
+    /// are added.
     #[arg(long, value_name = "FILE")]
     pub(crate) marker_set: Option<PathBuf>,
-    /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; may be repeated [default: detected].
+    /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; may be repeated [default:
+    /// detected].
     #[arg(long, value_name = "N=r|l|off")]
     pub(crate) plate: Vec<PlateFoot>,
-    /// Marker fit: frame by frame, or all frames together with a prior on the change of acceleration [default: frames for markers,
-    /// trajectory for keypoints of video].
+    /// Marker fit: frame by frame, or all frames together with a prior on the change of acceleration [default: frames
+    /// for markers, trajectory for keypoints of video].
     #[arg(long, value_name = "METHOD", value_parser = one_of(&MarkerFitting::ALL))]
     pub(crate) fit: Option<MarkerFitting>,
     /// Longest marker gap that is interpolated [s].
-    #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s, value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s,
+        value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
     pub(crate) max_gap: f64,
 }
 
 // How the orientations of sensors are read.
 #[derive(Debug, Clone, Default, ClapArgs)]
 pub(crate) struct SensorArgs {
-    /// Sensors: sensor and axis that point forward in the standing posture, such as pelvis_imu:-z (OpenSim's base_imu_label and
-    /// base_heading_axis) [default: direction in which the knees bend].
+    /// Sensors: sensor and axis that point forward in the standing posture, such as pelvis_imu:-z (OpenSim's
+    /// base_imu_label and base_heading_axis) [default: direction in which the knees bend].
     #[arg(long, value_name = "SENSOR:AXIS")]
     pub(crate) heading: Option<HeadingAxis>,
-    /// Sensors: rotation from the sensors' world axes to the axes of the model (y up): angles about the fixed axes x, y and z in degrees
-    /// (OpenSim's sensor_to_opensim_rotations) [default: -90,0,0, for a world with z up].
+    /// Sensors: rotation from the sensors' world axes to the axes of the model (y up): angles about the fixed axes x, y
+    /// and z in degrees (OpenSim's sensor_to_opensim_rotations) [default: -90,0,0, for a world with z up].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub(crate) earth: Option<EarthTurn>,
 }

@@ -47,11 +47,14 @@ pub(crate) enum Command {
     Forces(Box<ForcesArgs>),
     /// Calibrate the predicted ground forces of a person with trials on force plates, for `forces --person`.
     Calibrate(Box<CalibrateArgs>),
-    /// Compare predicted ground forces with force plates in a folder of recordings: per trial, person and activity, on one page.
+    /// Compare predicted ground forces with force plates in a folder of recordings: per trial, person and activity, on
+    /// one page.
     Validate(ValidateArgs),
-    /// Compute all recordings of a folder or a list into Parquet tables: in parallel, in shards, resumable after any interruption.
+    /// Compute all recordings of a folder or a list into Parquet tables: in parallel, in shards, resumable after any
+    /// interruption.
     Batch(BatchArgs),
-    /// Compute the trials of a visit with one body and show them on one page: all cycles, means, times and distances, gait profile score, before and after.
+    /// Compute the trials of a visit with one body and show them on one page: all cycles, means, times and distances,
+    /// gait profile score, before and after.
     Session(SessionArgs),
     /// Compute forces while a motion arrives: frames in, forces and joint moments out, over standard input, TCP or UDP.
     Stream(StreamArgs),

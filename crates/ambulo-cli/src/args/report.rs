@@ -18,7 +18,8 @@ pub(crate) struct ReportArgs {
     /// Another result folder to compare with; may be given twice.
     #[arg(long, value_name = "DIR")]
     pub(crate) compare: Vec<PathBuf>,
-    /// The page to write; an existing one is only overwritten with --force [default: report.html in the folder, which is replaced].
+    /// The page to write; an existing one is only overwritten with --force [default: report.html in the folder, which
+    /// is replaced].
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]

@@ -31,7 +31,8 @@ pub(crate) struct SessionArgs {
     /// Folder of an earlier session of the person, to show the changes.
     #[arg(long, value_name = "EARLIER")]
     pub(crate) compare: Option<PathBuf>,
-    /// Your own reference group: norm.json of an earlier run, or a folder with recordings or sessions of healthy subjects, one folder per subject [default: children of Schwartz et al. 2008].
+    /// Your own reference group: norm.json of an earlier run, or a folder with recordings or sessions of healthy
+    /// subjects, one folder per subject [default: children of Schwartz et al. 2008].
     #[arg(long, value_name = "FILE|DIR")]
     pub(crate) norm: Option<PathBuf>,
     /// Write no name, no path and no date into any file.

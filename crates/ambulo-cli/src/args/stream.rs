@@ -39,13 +39,16 @@ pub(crate) struct StreamArgs {
     /// Frame rate of the motion [Hz].
     #[arg(long, value_name = "HZ", value_parser = number)]
     pub(crate) rate: f64,
-    /// Delay from a frame to its forces [ms]: 0 is immediate; 70 is the most accurate without waiting for the next step.
+    /// Delay from a frame to its forces [ms]: 0 is immediate; 70 is the most accurate without waiting for the next
+    /// step.
     #[arg(long, value_name = "MS", default_value_t = 70.0, value_parser = milliseconds)]
     pub(crate) delay: f64,
-    /// Source of the frames: stdin, tcp:[IP:]PORT or udp:[IP:]PORT; without an address only this computer can connect (127.0.0.1).
+    /// Source of the frames: stdin, tcp:[IP:]PORT or udp:[IP:]PORT; without an address only this computer can connect
+    /// (127.0.0.1).
     #[arg(long, value_name = "SOURCE", default_value = "stdin", value_parser = endpoint)]
     pub(crate) input: Endpoint,
-    /// Frames are marker positions, to which the model is fitted; it must have these markers at their positions on the person, like subject.osim of `ambulo forces`.
+    /// Frames are marker positions, to which the model is fitted; it must have these markers at their positions on the
+    /// person, like subject.osim of `ambulo forces`.
     #[arg(long)]
     pub(crate) markers: bool,
     /// Unit of the markers, unless the first line states it.
@@ -57,8 +60,10 @@ pub(crate) struct StreamArgs {
     /// Form of frames and results.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: StreamFormat,
-    /// Show a page with the moving figure and the curves of the last seconds in the browser, at this port (0: the system chooses one); without an address only this computer can open it.
-    #[arg(long, value_name = "[IP:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = "0", value_parser = local_address)]
+    /// Show a page with the moving figure and the curves of the last seconds in the browser, at this port (0: the
+    /// system chooses one); without an address only this computer can open it.
+    #[arg(long, value_name = "[IP:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = "0",
+        value_parser = local_address)]
     pub(crate) page: Option<SocketAddr>,
     /// Print the coordinates of a frame and the columns of a result, and stop.
     #[arg(long)]

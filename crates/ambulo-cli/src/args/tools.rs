@@ -107,7 +107,8 @@ events, subject), problems, and a command to try next.")]
 pub(crate) struct InfoArgs {
     /// The file.
     pub(crate) file: PathBuf,
-    /// Write the markers of the file and their meaning as a marker set for `ambulo forces --markers FILE`: recognised by name, or proposed by position; an existing file is only overwritten with --force.
+    /// Write the markers of the file and their meaning as a marker set for `ambulo forces --markers FILE`: recognised
+    /// by name, or proposed by position; an existing file is only overwritten with --force.
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) markers: Option<PathBuf>,
     #[command(flatten)]

@@ -53,7 +53,8 @@ impl TrialWords {
         self.words.iter().flat_map(split).collect()
     }
 
-    /// The command that computes a trial alone, as it is typed into a shell: the words, and the files and sizes of the trial.
+    /// The command that computes a trial alone, as it is typed into a shell: the words, and the files and sizes of the
+    /// trial.
     pub(crate) fn command(&self, trial: &TrialFiles, output: &str) -> String {
         let TrialWords { words, job, .. } = self;
         let mut line: Vec<OsString> = ["ambulo", "forces"].map(OsString::from).to_vec();

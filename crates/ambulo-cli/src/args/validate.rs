@@ -29,10 +29,12 @@ pub(crate) struct ValidateArgs {
     /// The folder with the recordings.
     #[arg(value_name = "DIR")]
     pub(crate) folder: PathBuf,
-    /// Body mass of the person, if DIR has the trials of one person [kg] [default: as in trials.toml, measured by the force plates or stated in the recordings].
+    /// Body mass of the person, if DIR has the trials of one person [kg] [default: as in trials.toml, measured by the
+    /// force plates or stated in the recordings].
     #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
     pub(crate) mass: Option<f64>,
-    /// Stature of the person, if DIR has the trials of one person [m] [default: as in trials.toml, stated in the recordings or estimated].
+    /// Stature of the person, if DIR has the trials of one person [m] [default: as in trials.toml, stated in the
+    /// recordings or estimated].
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.

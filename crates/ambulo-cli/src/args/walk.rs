@@ -70,16 +70,19 @@ pub(crate) struct WalkArgs {
     pub(crate) figure: FigureArgs,
     #[command(flatten)]
     pub(crate) conditions: ConditionArgs,
-    /// How the walk is computed [default: optimal for a steady gait with normative curves; corrected for other gaits that repeat; else paper].
+    /// How the walk is computed [default: optimal for a steady gait with normative curves; corrected for other gaits
+    /// that repeat; else paper].
     #[arg(long, value_enum)]
     pub(crate) mode: Option<WalkMode>,
     /// Walk in the sagittal plane: the same as `--mode corrected`.
     #[arg(long, conflicts_with = "mode")]
     pub(crate) planar: bool,
-    /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac spines; `opensim`, the model's own axes.
+    /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac
+    /// spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = super::forces::AngleConvention::Clinical)]
     pub(crate) convention: super::forces::AngleConvention,
-    /// Replay torques without feedback, in the mode paper: a torques.toml of `ambulo reproduce` [--gait then defaults to standard].
+    /// Replay torques without feedback, in the mode paper: a torques.toml of `ambulo reproduce` [--gait then defaults
+    /// to standard].
     #[arg(long, value_name = "FILE")]
     pub(crate) torques: Option<PathBuf>,
     /// Whole gait cycles per foot, 1 to 1000.
@@ -88,7 +91,8 @@ pub(crate) struct WalkArgs {
     /// Frame rate of the results, 20 to 5000 Hz.
     #[arg(long, value_name = "HZ", default_value_t = 100.0, allow_negative_numbers = true, value_parser = number)]
     pub(crate) rate: f64,
-    /// Only print the state machines of the gait and each change of their states: time, machine, old and new state, and the condition that was true.
+    /// Only print the state machines of the gait and each change of their states: time, machine, old and new state, and
+    /// the condition that was true.
     #[arg(long)]
     pub(crate) states: bool,
     /// Limits of the feasibility checks: .toml (docs/JUDGEMENT.md) [default: built in].
@@ -169,7 +173,8 @@ pub(crate) struct SweepArgs {
 // The gait to synthesise.
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct GaitArgs {
-    /// Name of a gait (standard, long, short, goose, parade, slow, free, fast) or a gait file (docs/GAITS.md) [default: free].
+    /// Name of a gait (standard, long, short, goose, parade, slow, free, fast) or a gait file (docs/GAITS.md) [default:
+    /// free].
     #[arg(long, value_name = "NAME|FILE.toml")]
     pub(crate) gait: Option<String>,
     /// Walking speed, 0.05 to 5 m/s, or 0 to stand until the first change [default: the gait's].
@@ -181,7 +186,8 @@ pub(crate) struct GaitArgs {
     /// Steps per minute, 5 to 1000 [default: the gait's].
     #[arg(long, value_name = "STEPS/MIN", allow_negative_numbers = true, value_parser = number)]
     pub(crate) cadence: Option<f64>,
-    /// Change the speed on the way: at TIME [s] to SPEED [m/s], 0 to stand still, within DURATION [s]; repeatable [default: two steps].
+    /// Change the speed on the way: at TIME [s] to SPEED [m/s], 0 to stand still, within DURATION [s]; repeatable
+    /// [default: two steps].
     #[arg(long, value_name = "TIME:SPEED[:DURATION]", allow_negative_numbers = true, value_parser = timed_value)]
     pub(crate) speed_change: Vec<TimedValue>,
     /// Change the step length on the way, as with --speed-change [m].
@@ -201,7 +207,8 @@ pub(crate) struct GaitArgs {
 // Conditions of a predicted walk.
 #[derive(Debug, Clone, Default, PartialEq, ClapArgs)]
 pub(crate) struct ConditionArgs {
-    /// Slope of the ground, -40 to 40 percent; uphill is positive. This and the following options imply `--mode predict`.
+    /// Slope of the ground, -40 to 40 percent; uphill is positive. This and the following options imply
+    /// `--mode predict`.
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = number)]
     pub(crate) slope: Option<f64>,
     /// Carried load: on the back, half in each hand, or at the pelvis [default: back].

@@ -1,4 +1,5 @@
-//! A job of all trials as the words that would state it after `--`, for records and for the command that repeats a trial.
+//! A job of all trials as the words that would state it after `--`, for records and for the command that repeats a
+//! trial.
 
 use super::forces::Outputs;
 use ambulo::analysis::Adjustable;

@@ -63,7 +63,8 @@ fn coordinate_files(written: &[OutputFile<'_>]) -> Result<Vec<OutputFile<'static
     ])
 }
 
-/// The walk as a laboratory recording (markers and force plates) with a standing trial, as markers of the model and as a skeleton.
+/// The walk as a laboratory recording (markers and force plates) with a standing trial, as markers of the model and as
+/// a skeleton.
 fn recording_files(walk: &SyntheticWalk) -> Result<Vec<OutputFile<'static>>> {
     let SyntheticWalk { human, trajectory, loads, .. } = walk;
     let recording = laboratory_recording(human, trajectory, loads)?;

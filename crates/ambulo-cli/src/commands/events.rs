@@ -91,7 +91,8 @@ fn from_forces(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec
     let columns = vertical_columns(&table);
     if columns.is_empty() {
         bail!(
-            "no ground-force columns among {}; expected ground_force_r_vy and ground_force_l_vy, or similar. hint: `ambulo info` lists the columns",
+            "no ground-force columns among {}; expected ground_force_r_vy and ground_force_l_vy, or similar. hint: \
+             `ambulo info` lists the columns",
             table.names().join(", ")
         );
     }

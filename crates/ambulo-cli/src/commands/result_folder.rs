@@ -16,7 +16,8 @@ const OF_A_SWEEP: &str = "`ambulo sweep` wrote this folder, and its report.html 
 const OF_THE_PAPER: &str = "`ambulo reproduce` wrote this folder, and its report.html cannot be written again";
 const HINT: &str = "hint: `ambulo demo -o demo` writes one";
 
-/// A result folder whose files belong to one run. The error of a file that cannot be read is kept for [`ResultFolder::check`].
+/// A result folder whose files belong to one run. The error of a file that cannot be read is kept for
+/// [`ResultFolder::check`].
 pub(super) struct ResultFolder {
     path: PathBuf,
     summary: Vec<u8>,
@@ -48,13 +49,15 @@ impl ResultFolder {
         if !path.join(SUMMARY).is_file() {
             let other = if path.join(CLAIMS).is_file() { format!("; {OF_THE_PAPER}") } else { String::new() };
             bail!(
-                "{shown}: found no {SUMMARY}{other}; expected a folder that `ambulo forces`, `walk`, `demo` or `simulate` wrote. {HINT}"
+                "{shown}: found no {SUMMARY}{other}; expected a folder that `ambulo forces`, `walk`, `demo` or \
+                 `simulate` wrote. {HINT}"
             );
         }
         let summary = files::read(&path.join(SUMMARY))?;
         let Some(record) = Record::from_summary(&summary) else {
             bail!(
-                "{shown}/{SUMMARY}: found no valid `run_id` and `files`, so the file is damaged, or an earlier version of Ambulo wrote it. hint: run the command that wrote this folder again, with --force"
+                "{shown}/{SUMMARY}: found no valid `run_id` and `files`, so the file is damaged, or an earlier version \
+                 of Ambulo wrote it. hint: run the command that wrote this folder again, with --force"
             );
         };
         record.check_all_but(path, PAGE)?;
@@ -141,7 +144,8 @@ fn refuse_other_paths(path: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Reads a file; if it is part of a result folder (its own folder, or the one around it), it must be the one of the run there.
+/// Reads a file; if it is part of a result folder (its own folder, or the one around it), it must be the one of the run
+/// there.
 pub(super) fn read_checked(path: &Path) -> Result<Vec<u8>> {
     let bytes = files::read(path)?;
     for folder in &files::folders_around(path) {

@@ -9,7 +9,8 @@ pub(super) fn processors() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The results of `work` for the numbers from 0 to below `count`, in this order. Each thread takes the next number when it is done.
+/// The results of `work` for the numbers from 0 to below `count`, in this order. Each thread takes the next number when
+/// it is done.
 pub(super) fn side_by_side<T: Send>(count: usize, threads: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<Option<T>>> = Mutex::new((0..count).map(|_| None).collect());

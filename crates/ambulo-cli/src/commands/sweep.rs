@@ -207,7 +207,8 @@ impl Sweep {
             Walk::new(&gait, leg_length, &mut findings)?;
             let [slowest, fastest] = walking_speeds(leg_length);
             bail!(
-                "found {} m/s; expected {slowest:.2} to {fastest:.2} m/s, the speeds of walking on legs of {leg_length:.2} m",
+                "found {} m/s; expected {slowest:.2} to {fastest:.2} m/s, the speeds of walking on legs of \
+                 {leg_length:.2} m",
                 point.speed_m_s
             );
         }

@@ -92,7 +92,8 @@ impl SavedTuning {
             .with_context(|| format!("{shown}: this file was not written by `ambulo tune`"))?;
         if saved.version != self.version || saved.inputs != self.inputs {
             bail!(
-                "{shown}: that run had another scene, or another version of Ambulo; a run continues only with the same. hint: leave out --resume and use --force to start anew"
+                "{shown}: that run had another scene, or another version of Ambulo; a run continues only with the \
+                 same. hint: leave out --resume and use --force to start anew"
             );
         }
         let ([was, is], [had, has]) = ([&saved, &self].map(|run| run.tuning.pushes()), [&saved, &self]);

@@ -42,7 +42,8 @@ fn page(path: &Path) -> Result<PathBuf> {
         }
         "html" | "htm" => read_checked(path).map(|_| path.to_owned()),
         "c3d" | "trc" | "bvh" => bail!(
-            "{shown}: this is a recording, not a page; expected a result folder or .html. hint: `ambulo forces {shown} -o out`, then `ambulo view out`"
+            "{shown}: this is a recording, not a page; expected a result folder or .html. hint: `ambulo forces {shown} \
+             -o out`, then `ambulo view out`"
         ),
         _ => bail!("{shown}: this is not a page; expected a result folder or .html"),
     }

@@ -123,7 +123,8 @@ fn asked_mode(args: &WalkArgs, conditions: &WalkConditions) -> Result<Option<Syn
     match asked {
         None | Some(SyntheticMode::Predicted) => Ok(Some(SyntheticMode::Predicted)),
         Some(mode) => bail!(
-            "--slope, --load, --weak, --device, --step-width, --asymmetric: found the mode {mode}; expected the mode predict, because the other modes do not support them"
+            "--slope, --load, --weak, --device, --step-width, --asymmetric: found the mode {mode}; expected the mode \
+             predict, because the other modes do not support them"
         ),
     }
 }
@@ -330,7 +331,8 @@ fn gait(name: &str, args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, V
     if let (Some(machine), false) = (gait.machine_of_the_pace(), changes.is_empty()) {
         let name = &machine.name;
         bail!(
-            "found changes of pace on the command line; expected none, because the machine `{name}` of the gait drives the pace"
+            "found changes of pace on the command line; expected none, because the machine `{name}` of the gait drives \
+             the pace"
         );
     }
     gait.pace_changes.extend(changes);
@@ -355,8 +357,8 @@ fn recorded_angle(path: &Path, column: &str, findings: &mut Findings) -> Result<
     table.angle(column, findings).with_context(|| name)
 }
 
-/// Built-in gaits of style 1997 have zero acceleration at their knots; to be corrected, they take style knots unless the user chose a
-/// style. Changes of single knots are made for the style of the gait, so such gaits keep it.
+/// Built-in gaits of style 1997 have zero acceleration at their knots; to be corrected, they take style knots unless
+/// the user chose a style. Changes of single knots are made for the style of the gait, so such gaits keep it.
 fn style_for_correction(gait: Gait, name: &str, args: &GaitArgs) -> Gait {
     let takes_knots = args.style.is_none() && Gait::NAMES.contains(&name) && gait.changes.is_empty();
     if takes_knots { gait.in_style(Style::Knots) } else { gait }

@@ -86,7 +86,9 @@ pub(crate) fn batch_plan(trials: &[&PlannedTrial], others: &[(String, String)], 
     if print.json {
         let listed = trials.iter().map(|trial| {
             let files = &trial.files;
-            json!({ "trial": trial.name, "person": trial.person, "static": shown(&files.standing), "model": shown(&files.model), "grf": shown(&files.grf), "mass_kg": files.size.mass_kg, "error": trial.broken })
+            json!({ "trial": trial.name, "person": trial.person, "static": shown(&files.standing),
+                "model": shown(&files.model), "grf": shown(&files.grf), "mass_kg": files.size.mass_kg,
+                    "error": trial.broken })
         });
         let text = json!({ "listed": listed.collect::<Vec<_>>(), "not_computed": others });
         return print_line(&serde_json::to_string_pretty(&text)?);

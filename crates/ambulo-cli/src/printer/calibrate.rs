@@ -47,7 +47,8 @@ pub(crate) fn calibrate(person: &PersonalErrors, trials: usize, output: &Path, p
             continue;
         }
         print_line(&format!(
-            "  {word:<11}stances {stances}; mean error at most: vertical {up:.1}, fore-aft {forward:.1}, sideways {outwards:.1} % of body weight; centre of pressure along {along_mm:.0} mm"
+            "  {word:<11}stances {stances}; mean error at most: vertical {up:.1}, fore-aft {forward:.1}, sideways \
+             {outwards:.1} % of body weight; centre of pressure along {along_mm:.0} mm"
         ))?;
     }
     print_line(&format!("  written   {}", quoted(output)))?;

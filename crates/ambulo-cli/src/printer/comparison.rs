@@ -88,7 +88,8 @@ fn events(agreement: &EventAgreement) -> String {
     }
     let direction = if *bias_ms < 0.0 { "early" } else { "late" };
     format!(
-        "{kind}: {pairs} matched, {mean_absolute_ms:.1} ms apart, {:.1} ms {direction} on average; {missed} missed, {extra} extra",
+        "{kind}: {pairs} matched, {mean_absolute_ms:.1} ms apart, {:.1} ms {direction} on average; {missed} missed, \
+         {extra} extra",
         bias_ms.abs()
     )
 }

@@ -117,7 +117,8 @@ fn outline(summary: &Summary) -> Result<()> {
 fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
     let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, .. } = tracking;
     print_line(&format!(
-        "  tracking  motion changed by {rotations_rms_deg:.1} deg and {root_rms_mm:.1} mm rms, residual at most {:.3} % of body weight, {steps} steps",
+        "  tracking  motion changed by {rotations_rms_deg:.1} deg and {root_rms_mm:.1} mm rms, residual at most {:.3} \
+         % of body weight, {steps} steps",
         100.0 * residual_peak
     ))
 }

@@ -47,7 +47,8 @@ fn print_line(line: &str) -> Result<()> {
     }
 }
 
-/// Prints a line on standard error. The computation goes on if the line cannot be written, for example into a closed pipe.
+/// Prints a line on standard error. The computation goes on if the line cannot be written, for example into a closed
+/// pipe.
 fn say(line: Arguments<'_>) {
     let _ = writeln!(stderr(), "{line}");
 }
@@ -225,7 +226,8 @@ fn parts(message: &str, of_command: Option<&str>) -> (String, Option<String>) {
     (what.to_owned(), (!hints.is_empty()).then(|| hints.join("; ")))
 }
 
-/// Prints the verdict: feasible with the check that came closest to its limit, infeasible with the reasons, or why it is not judged.
+/// Prints the verdict: feasible with the check that came closest to its limit, infeasible with the reasons, or why it
+/// is not judged.
 fn print_verdict(verdict: &Verdict, print: PrintArgs) -> Result<()> {
     if verdict.state == VerdictState::NotJudged {
         return print_line(&format!("  verdict   not judged: {}", verdict.undecided.join("; ")));

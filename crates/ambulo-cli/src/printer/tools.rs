@@ -128,7 +128,8 @@ pub(crate) fn events(
     for SourceAgreement { found, reference, kinds } in agreements {
         for kind in kinds.iter().filter(|kind| kind.pairs > 0) {
             print_line(&format!(
-                "{found} compared with {reference}, {}: {} pair{}, {:.1} ms apart, {:.1} ms {} on average; {} missed, {} extra",
+                "{found} compared with {reference}, {}: {} pair{}, {:.1} ms apart, {:.1} ms {} on average; {} missed, \
+                 {} extra",
                 kind.kind,
                 kind.pairs,
                 if kind.pairs == 1 { "" } else { "s" },

@@ -54,7 +54,8 @@ impl TunedGains<'_> {
     fn kept(&self) -> String {
         match self.evaluations {
             0 => format!(
-                "no others were tried, because a generation needs {0} evaluations; give --evaluations {0} or more, or fewer --gains",
+                "no others were tried, because a generation needs {0} evaluations; give --evaluations {0} or more, or \
+                 fewer --gains",
                 self.of_generation
             ),
             _ => "no better ones were found; give more --evaluations, or other --gains".to_owned(),
@@ -104,7 +105,8 @@ pub(crate) fn tuning(
     ];
     let left = if left_s < 90.0 { format!("{left_s:.0} s") } else { format!("{:.0} min", left_s / 60.0) };
     say(format_args!(
-        "{done} of {most} evaluations: cost {:.4} (start {:.4}), pushes survived {} of {} (start {}), by this generation {survived} of {pushes}; {left} left",
+        "{done} of {most} evaluations: cost {:.4} (start {:.4}), pushes survived {} of {} (start {}), by this \
+         generation {survived} of {pushes}; {left} left",
         best.outcome.cost, start.outcome.cost, best.outcome.survived, best.outcome.pushes, start.outcome.survived
     ));
 }

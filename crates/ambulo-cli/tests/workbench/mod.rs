@@ -61,7 +61,8 @@ pub(crate) struct Run {
     pub(crate) took: Duration,
 }
 
-/// A new folder for this process. A number follows the id of the process, because the folder of an earlier one with this id may be left.
+/// A new folder for this process. A number follows the id of the process, because the folder of an earlier one with
+/// this id may be left.
 fn process_folder() -> &'static Path {
     static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
         let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join("program");
@@ -103,7 +104,8 @@ impl Workbench {
         bench
     }
 
-    /// An empty folder with this name, which no other test may use. Another process, also one of the same tests, has other folders.
+    /// An empty folder with this name, which no other test may use. Another process, also one of the same tests, has
+    /// other folders.
     pub(crate) fn empty(name: &str) -> Workbench {
         static NAMES: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
         let is_new = NAMES.lock().unwrap().insert(name.to_owned());
@@ -208,8 +210,8 @@ impl Workbench {
         self.run_after("ulimit -v 1048576", args)
     }
 
-    /// Runs the program with at most a gigabyte of address space and ten minutes of processor time, which ends a run that hangs. The longest of
-    /// these runs, a walk of a person of one metre, takes some seconds.
+    /// Runs the program with at most a gigabyte of address space and ten minutes of processor time, which ends a run
+    /// that hangs. The longest of these runs, a walk of a person of one metre, takes some seconds.
     pub(crate) fn run_within_limits(&self, args: &[&str]) -> Run {
         self.run_after("ulimit -v 1048576; ulimit -t 600", args)
     }

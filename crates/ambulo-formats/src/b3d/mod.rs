@@ -1,4 +1,5 @@
-//! Subjects of AddBiomechanics: `.b3d`, all trials of one person with markers, coordinates of a scaled model and ground forces.
+//! Subjects of AddBiomechanics: `.b3d`, all trials of one person with markers, coordinates of a scaled model and ground
+//! forces.
 //!
 //! ```text
 //! int64                    length of the header, little-endian
@@ -8,11 +9,13 @@
 //!     SubjectOnDiskProcessingPassFrame  in `processing_pass_frame_size` bytes, once for each pass of the trial: what was computed
 //! ```
 //!
-//! Lengths are metres, angles radians, forces newtons, in axes with y up; the ground acts on the bodies. Positions of markers that were
-//! not seen are not-a-number. A pass (kinematics, then dynamics, then a filter) has its own model, as the text of an `.osim`.
+//! Lengths are metres, angles radians, forces newtons, in axes with y up; the ground acts on the bodies. Positions of
+//! markers that were not seen are not-a-number. A pass (kinematics, then dynamics, then a filter) has its own model, as
+//! the text of an `.osim`.
 //!
-//! The frames of a trial can be read alone: [`Header::trial_place`] returns their position, so that a file of any size can be used.
-//! Not read: accelerometers, gyroscopes, EMG, exoskeletons, raw force plates, and quantities that follow from the others.
+//! The frames of a trial can be read alone: [`Header::trial_place`] returns their position, so that a file of any size
+//! can be used. Not read: accelerometers, gyroscopes, EMG, exoskeletons, raw force plates, and quantities that follow
+//! from the others.
 //!
 //! Source: keenon/nimblephysics, `dart/proto/SubjectOnDisk.proto` and `dart/biomechanics/SubjectOnDisk.cpp`.
 //! Pinned by: tests/subjects_b3d.rs
@@ -76,7 +79,8 @@ pub struct Layout {
     frames_start: usize,
 }
 
-/// Sex, mass, stature and age of the person, as the file states them. Where nothing was entered, the form of AddBiomechanics has written its defaults.
+/// Sex, mass, stature and age of the person, as the file states them. Where nothing was entered, the form of
+/// AddBiomechanics has written its defaults.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Person {
     /// Biological sex; empty if not stated.

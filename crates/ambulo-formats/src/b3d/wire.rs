@@ -1,9 +1,9 @@
 //! Protocol Buffers on the wire: the few rules that the schema of `.b3d` needs.
 //!
-//! A message is a sequence of fields. Each begins with a varint, `8 number + type`: type 0 is a varint, 1 are eight bytes, 2 is a length
-//! and that many bytes, 5 are four bytes. A repeated number is one field of type 2 with all values (packed), or one field per value. By
-//! hand, because a crate with generated code takes longer to compile than this file takes to read, and would read the fields that are
-//! not needed too.
+//! A message is a sequence of fields. Each begins with a varint, `8 number + type`: type 0 is a varint, 1 are eight
+//! bytes, 2 is a length and that many bytes, 5 are four bytes. A repeated number is one field of type 2 with all values
+//! (packed), or one field per value. By hand, because a crate with generated code takes longer to compile than this
+//! file takes to read, and would read the fields that are not needed too.
 //!
 //! Source: protobuf.dev/programming-guides/encoding.
 

@@ -23,13 +23,14 @@
 //! 7.8 35.1 41.8 0.1 0.0 0.0  5.9 2.1 -0.2
 //! ```
 //!
-//! A file states no unit of length, no upward direction and no mass: lengths are kept as they are, angles are degrees. The reader accepts
-//! any number of roots, joints without channels or of zero length, channels in any order, keywords in any case, names with
-//! spaces and colons, braces on the line of the name. One line is one frame.
+//! A file states no unit of length, no upward direction and no mass: lengths are kept as they are, angles are degrees.
+//! The reader accepts any number of roots, joints without channels or of zero length, channels in any order, keywords
+//! in any case, names with spaces and colons, braces on the line of the name. One line is one frame.
 //!
 //! The pose of a joint in its parent's frame: its position, then the rotations in the order of the channels, each about
 //! the axes turned by the rotations before it. Without position channels the position is the offset. With them,
-//! they replace the offset in most programs (and in both real files of the tests) and are added to it in a few; the file does not state which.
+//! they replace the offset in most programs (and in both real files of the tests) and are added to it in a few; the
+//! file does not state which.
 //!
 //! Not handled, and rejected: channels of scale, frames broken over several lines.
 //! Source: M. Meredith, S. Maddock, Motion capture file formats explained, University of Sheffield, 2001 (unverified).

@@ -6,8 +6,8 @@
 //! | header words 150 (key 12345), 151 (count), 153-188 (seconds), 189-197 (one byte each), 199-234 (4 letters each) | at most 18 |
 //!
 //! In the group, time zero is at frame 1. In the header it is at the first frame of the file; such
-//! times are shifted. Source: C3D user guide (c3d.org), "The EVENT group", "Header events". The meaning of the byte is stated in
-//! two ways there (0 on, 1 off; and the opposite), so the byte is kept as it is.
+//! times are shifted. Source: C3D user guide (c3d.org), "The EVENT group", "Header events". The meaning of the byte is
+//! stated in two ways there (0 on, 1 off; and the opposite), so the byte is kept as it is.
 
 use super::parameters::Parameters;
 use super::section::text;

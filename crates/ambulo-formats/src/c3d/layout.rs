@@ -250,7 +250,8 @@ fn choose_frame(layout: &mut Layout, question: &Question<'_>, remarks: &mut Vec<
     if samples.len() > 1 {
         let used = parameters.count("ANALOG", "USED").map_or("missing".into(), |used| used.to_string());
         let message = format!(
-            "the header has {} analog values per frame, {} per channel; ANALOG:USED is {used}; read {} channels with {} per frame",
+            "the header has {} analog values per frame, {} per channel; ANALOG:USED is {used}; read {} channels with \
+             {} per frame",
             header.analog_words, header.samples_per_frame, layout.channels, layout.samples_per_frame
         );
         remark(remarks, message);

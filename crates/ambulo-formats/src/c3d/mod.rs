@@ -1,4 +1,5 @@
-//! Recordings of movement in C3D files: points, analog channels, poses of segments, force platforms, events and all named parameters.
+//! Recordings of movement in C3D files: points, analog channels, poses of segments, force platforms, events and all
+//! named parameters.
 //!
 //! ```text
 //! block 1        header: counts, frames, rate, where the rest is
@@ -30,7 +31,8 @@
 //! ```
 //!
 //! Source: C3D user guide, c3d.org.
-//! Pinned by: tests/c3d_recordings.rs, tests/c3d_traps.rs, tests/c3d_damage.rs, tests/c3d_write.rs, tests/c3d_rotations.rs
+//! Pinned by: tests/c3d_recordings.rs, tests/c3d_traps.rs, tests/c3d_damage.rs, tests/c3d_write.rs,
+//! tests/c3d_rotations.rs
 
 mod analog;
 mod events;
@@ -70,7 +72,8 @@ pub struct C3d {
     pub first_frame: i64,
     /// Longest gap that was filled before the file was written [frames], from the header.
     pub longest_gap: u16,
-    /// Points, in the order of the file: markers, and quantities that programs store as points (angles, forces, moments, powers).
+    /// Points, in the order of the file: markers, and quantities that programs store as points (angles, forces,
+    /// moments, powers).
     pub points: Vec<Point>,
     /// Analog sample rate \[Hz\]; zero if there are no channels. A whole multiple of [`C3d::point_rate_hz`].
     pub analog_rate_hz: f64,
@@ -122,8 +125,9 @@ impl C3d {
         read::read(bytes, None)
     }
 
-    /// Reads a C3D file without those points that `wanted` refuses: programs store angles and forces as points too, often four times as many as
-    /// there are markers. `wanted` gets the names of all points and the parameters, and returns one value per name; a point without one is read.
+    /// Reads a C3D file without those points that `wanted` refuses: programs store angles and forces as points too,
+    /// often four times as many as there are markers. `wanted` gets the names of all points and the parameters, and
+    /// returns one value per name; a point without one is read.
     ///
     /// A file of which no point is wanted is read as by [`C3d::read`].
     pub fn read_points(
@@ -133,10 +137,12 @@ impl C3d {
         read::read(bytes, Some(&wanted))
     }
 
-    /// Writes a C3D file in the encoding [`C3d::encoding`]. A record that was read is written and read back without change.
+    /// Writes a C3D file in the encoding [`C3d::encoding`]. A record that was read is written and read back without
+    /// change.
     ///
-    /// Reals hold 24 bits; integers a whole number of steps of their scale. Parameters that repeat other fields are written
-    /// from those fields. Rejected is what the format cannot hold: records of different lengths, integers beyond 16 bits.
+    /// Reals hold 24 bits; integers a whole number of steps of their scale. Parameters that repeat other fields are
+    /// written from those fields. Rejected is what the format cannot hold: records of different lengths, integers
+    /// beyond 16 bits.
     pub fn write(&self) -> Result<Vec<u8>, Error> {
         write::write(self)
     }

@@ -34,7 +34,8 @@ pub struct Parameter {
     pub description: String,
     /// Whether the parameter is locked.
     pub locked: bool,
-    /// Shape, first index fastest (as Fortran has it); empty for a single value. For texts, the length of the texts is left out.
+    /// Shape, first index fastest (as Fortran has it); empty for a single value. For texts, the length of the texts is
+    /// left out.
     pub dimensions: Vec<usize>,
     /// The values, as many as the product of the dimensions.
     pub values: Values,
@@ -71,7 +72,8 @@ impl Values {
 }
 
 impl Parameter {
-    /// A parameter with one value or a list, without description, not locked. The only dimension is the number of values.
+    /// A parameter with one value or a list, without description, not locked. The only dimension is the number of
+    /// values.
     pub fn list(name: &str, values: Values) -> Parameter {
         let dimensions = vec![values.len()];
         Parameter { name: name.into(), description: String::new(), locked: false, dimensions, values }
@@ -100,7 +102,8 @@ impl Parameter {
         })
     }
 
-    /// All values as whole numbers from zero, integers read as unsigned; `None` for texts and if a value is not a whole number.
+    /// All values as whole numbers from zero, integers read as unsigned; `None` for texts and if a value is not a whole
+    /// number.
     pub fn counts(&self) -> Option<Vec<usize>> {
         match &self.values {
             Values::Texts(_) => None,

@@ -1,8 +1,8 @@
 //! Points: the first part of every frame.
 //!
-//! Four values per point: x, y, z and a word. Integer files: 16-bit integers, positions are multiplied by the scale; a negative word:
-//! missing. Real files: reals, and the word is a real that is converted to an integer. High byte of the word: one bit
-//! per camera; low byte: the residual divided by the scale.
+//! Four values per point: x, y, z and a word. Integer files: 16-bit integers, positions are multiplied by the scale; a
+//! negative word: missing. Real files: reals, and the word is a real that is converted to an integer. High byte of the
+//! word: one bit per camera; low byte: the residual divided by the scale.
 //!
 //! Real files also hold other words: -1.0 (missing), 65535.0 (all bits, missing: such points
 //! are at the origin), 32768.0 to 65534.0 (an eighth camera), reals beyond 16 bits (the word is the upper half of
@@ -28,8 +28,8 @@ pub struct Point {
     pub description: String,
     /// Position in the file's unit and axes, one per frame; not-a-number in all three where the marker is missing.
     pub positions: Vec<[f64; 3]>,
-    /// Residual: mean distance from the rays of the cameras, in the file's unit, one per frame; zero: filtered or filled;
-    /// not-a-number where the point is missing.
+    /// Residual: mean distance from the rays of the cameras, in the file's unit, one per frame; zero: filtered or
+    /// filled; not-a-number where the point is missing.
     pub residuals: Vec<f64>,
     /// Bit n: seen by camera n + 1; one value per frame; zero where the point is missing or cameras are not stated.
     pub cameras: Vec<u8>,

@@ -1,18 +1,19 @@
 //! Rotations: poses of segments, in a separate section.
 //!
-//! For each frame, and within it for each sample, all segments: sixteen reals of a 4 x 4 matrix, column by column, then one real that
-//! states the reliability. The matrix maps points of the segment to points of the laboratory; its last column is the origin of the
-//! segment in the unit of the points. The numbers are reals also in files with integer points.
+//! For each frame, and within it for each sample, all segments: sixteen reals of a 4 x 4 matrix, column by column, then
+//! one real that states the reliability. The matrix maps points of the segment to points of the laboratory; its last
+//! column is the origin of the segment in the unit of the points. The numbers are reals also in files with integer
+//! points.
 //!
-//! `ROTATION:DATA_START` is the block where the section begins, `USED` the number of segments, `RATIO` (or `RATE`) the samples per frame
-//! of the points, `FRAMES` the number of samples; Theia3D 2020 leaves `FRAMES` out. A file without points and channels has the number of
-//! frames in its header.
+//! `ROTATION:DATA_START` is the block where the section begins, `USED` the number of segments, `RATIO` (or `RATE`) the
+//! samples per frame of the points, `FRAMES` the number of samples; Theia3D 2020 leaves `FRAMES` out. A file without
+//! points and channels has the number of frames in its header.
 //!
-//! A pose is missing if its reliability is negative (Theia3D writes -1 with matrices of not-a-number), if a number is not finite, or if
-//! the rotation is all zeros.
+//! A pose is missing if its reliability is negative (Theia3D writes -1 with matrices of not-a-number), if a number is
+//! not finite, or if the rotation is all zeros.
 //!
-//! Source: wiki.has-motion.com, "ROTATION DATA TYPE"; `C3DRotationExample.c3d` of pyomeca/ezc3d-testFiles, written by Theia3D.
-//! Pinned by: tests/c3d_rotations.rs
+//! Source: wiki.has-motion.com, "ROTATION DATA TYPE"; `C3DRotationExample.c3d` of pyomeca/ezc3d-testFiles, written by
+//! Theia3D. Pinned by: tests/c3d_rotations.rs
 
 use super::header::{BLOCK, Header};
 use super::layout::{Extent, Layout, rotation_offset, stated_frames};
@@ -32,8 +33,8 @@ pub struct Rotation {
     pub name: String,
     /// Text of `ROTATION:DESCRIPTIONS`.
     pub description: String,
-    /// `laboratory_from_segment`, one per sample, rows of four; the translation is in the unit of the points. Not-a-number in all
-    /// sixteen where the pose is missing.
+    /// `laboratory_from_segment`, one per sample, rows of four; the translation is in the unit of the points.
+    /// Not-a-number in all sixteen where the pose is missing.
     pub matrices: Vec<[[f64; 4]; 4]>,
     /// Reliability, one per sample: in files of Theia3D zero, or -1 where the pose is missing.
     pub reliability: Vec<f64>,
@@ -85,7 +86,8 @@ pub(super) fn read(
     let Some(start) = rotation_offset(parameters).filter(|&start| start >= 2 * BLOCK && start < file.size) else {
         let found = parameters.get("ROTATION", "DATA_START").map_or("missing".into(), Parameter::to_string);
         let message = format!(
-            "ROTATION:USED is {used}, but ROTATION:DATA_START is {found}, which is no block of the file; the rotations were not read"
+            "ROTATION:USED is {used}, but ROTATION:DATA_START is {found}, which is no block of the file; the rotations \
+             were not read"
         );
         remarks.push(Remark::of_file(message));
         return Section::default();
@@ -150,7 +152,8 @@ fn samples(
     if layout.frames > 0 {
         if let Some(stated) = stated.filter(|&stated| stated != of_points && stated != layout.frames) {
             let message = format!(
-                "ROTATION:FRAMES is {stated}, but the points have {} frames with {per_frame} samples each; read {of_points}",
+                "ROTATION:FRAMES is {stated}, but the points have {} frames with {per_frame} samples each; read \
+                 {of_points}",
                 layout.frames
             );
             remarks.push(Remark::of_file(message));

@@ -64,8 +64,8 @@ impl Stated {
         self.texts("POINT", "DESCRIPTIONS", points.iter().map(|point| point.description.clone()));
     }
 
-    /// With more than 65535 frames POINT:FRAMES is 65535; the number is in POINT:LONG_FRAMES and in the group TRIAL. (The
-    /// user guide would have a real in POINT:FRAMES, which ezc3d 1.7.2 refuses.)
+    /// With more than 65535 frames POINT:FRAMES is 65535; the number is in POINT:LONG_FRAMES and in the group TRIAL.
+    /// (The user guide would have a real in POINT:FRAMES, which ezc3d 1.7.2 refuses.)
     fn frames(&mut self, record: &C3d) {
         let frames = record.frames() as i64;
         let last = record.first_frame + frames - 1;
@@ -120,7 +120,8 @@ impl Stated {
         self.texts("ROTATION", "DESCRIPTIONS", rotations.iter().map(|rotation| rotation.description.clone()));
     }
 
-    /// ANALOG:FORMAT, if it is present or needed: without it, an offset at the end of the signed range means unsigned numbers.
+    /// ANALOG:FORMAT, if it is present or needed: without it, an offset at the end of the signed range means unsigned
+    /// numbers.
     fn sign(&mut self, record: &C3d) {
         let unsigned = record.encoding.unsigned_analog;
         let at_end = |channel: &Channel| channel.offset.abs() > 32766.5;

@@ -29,7 +29,8 @@ pub(super) fn write(record: &C3d) -> Result<Vec<u8>, Error> {
     let mut bytes = header(record, data_block)?;
     bytes.extend(section);
     write_frames(record, &mut bytes)?;
-    // Of more frames than the header can count, ezc3d 1.7.2 reads as many as the file contains, so nothing may follow them.
+    // Of more frames than the header can count, ezc3d 1.7.2 reads as many as the file contains, so nothing may follow
+    // them.
     if record.frames() <= WORD || !record.rotations.is_empty() {
         bytes.resize(bytes.len().next_multiple_of(BLOCK), 0);
     }

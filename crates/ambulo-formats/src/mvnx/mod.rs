@@ -20,12 +20,13 @@
 //!       </frame>…
 //! ```
 //!
-//! Positions are in metres, with z up; the origin of a segment is its upper joint, and the time of a frame is its index divided by the
-//! frame rate (the attribute `time` is that in whole milliseconds). Velocities, accelerations, joint angles and sensors are not read.
+//! Positions are in metres, with z up; the origin of a segment is its upper joint, and the time of a frame is its index
+//! divided by the frame rate (the attribute `time` is that in whole milliseconds). Velocities, accelerations, joint
+//! angles and sensors are not read.
 //!
-//! Sources: MVN User Manual, document MV0319P.N (June 2015), MVNX and sections 19.5 to 19.7; Xsens' XML schema of version 3; the head and
-//! the first frames of an upper-body recording of MVN 2019 (version 4). No other file of MVN was seen.
-//! Pinned by: tests/motions_mvnx.rs
+//! Sources: MVN User Manual, document MV0319P.N (June 2015), MVNX and sections 19.5 to 19.7; Xsens' XML schema of
+//! version 3; the head and the first frames of an upper-body recording of MVN 2019 (version 4). No other file of MVN
+//! was seen. Pinned by: tests/motions_mvnx.rs
 
 mod read;
 

@@ -16,8 +16,8 @@ impl Mvnx {
     /// Reads a file.
     ///
     /// # Errors
-    /// A document that is no `.mvnx`, or that lacks segments, frame rate or frames; poses that do not belong to the segments; quaternions
-    /// that are no rotations; frames that repeat.
+    /// A document that is no `.mvnx`, or that lacks segments, frame rate or frames; poses that do not belong to the
+    /// segments; quaternions that are no rotations; frames that repeat.
     pub fn read(bytes: &[u8]) -> Result<(Mvnx, Vec<Remark>), Error> {
         let text = without_document_type(document_text(bytes));
         if text.trim().is_empty() {

@@ -3,9 +3,9 @@
 //! Numbers of any size and byte order become `f64`, truth values 0 and 1; texts become `String`s. Pickled objects are
 //! never unpickled: an entry that holds them is listed as [`Data::Other`].
 //!
-//! Not handled, and rejected: encrypted archives, archives in several parts or above 4 GB, other methods of compression.
-//! Source: numpy.org/doc/stable/reference/generated/numpy.lib.format.html; PKWARE, APPNOTE.TXT, 4.3 and 4.4 (from memory, unverified).
-//! Pinned by: tests/arrays_npz.rs
+//! Not handled, and rejected: encrypted archives, archives in several parts or above 4 GB, other methods of
+//! compression. Source: numpy.org/doc/stable/reference/generated/numpy.lib.format.html; PKWARE, APPNOTE.TXT, 4.3 and
+//! 4.4 (from memory, unverified). Pinned by: tests/arrays_npz.rs
 
 mod npy;
 mod zip;

@@ -6,8 +6,8 @@ use crate::error::Error;
 use crate::xml;
 use roxmltree::Node;
 
-/// A spring and a damper between two frames. It resists the body-fixed X-Y-Z angles of the second frame in the first, and the place of its
-/// origin there.
+/// A spring and a damper between two frames. It resists the body-fixed X-Y-Z angles of the second frame in the first,
+/// and the place of its origin there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OsimBushing {
     /// Name of the force.

@@ -53,7 +53,8 @@ pub(super) fn read(node: Node<'_, '_>) -> Result<OsimConstraint, Error> {
     let [independent] = leaders.split_whitespace().collect::<Vec<_>>()[..] else {
         let found =
             format!("{} in <independent_coordinate_names>, which {} follows", quoted(leaders), quoted(&dependent));
-        let expected = "one name. hint: keep the coordinate that moves the other one most, and write the function at the usual value of the rest";
+        let expected = "one name. hint: keep the coordinate that moves the other one most, and write the function at \
+            the usual value of the rest";
         return Err(xml::error_at(node, found, expected));
     };
     let holder = xml::child(node, "coupled_coordinates_function");

@@ -75,7 +75,8 @@ const KNOWN: &str = "Constant, LinearFunction, PolynomialFunction, SimmSpline, N
 /// Deepest nesting of functions that scale functions.
 pub(super) const DEEPEST: usize = 32;
 
-/// The function of a component: a direct child, under `<function>`, or as `<... name="function">`. `None` if there is none.
+/// The function of a component: a direct child, under `<function>`, or as `<... name="function">`. `None` if there is
+/// none.
 pub(super) fn held_by(node: Node<'_, '_>) -> Result<Option<OsimFunction>, Error> {
     held_at_depth(node, 0)
 }

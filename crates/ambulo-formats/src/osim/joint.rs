@@ -48,8 +48,8 @@ pub enum OsimJointKind {
         /// Half axes along x, y, z [m].
         radii_m: [f64; 3],
     },
-    /// The shoulder blade on the thorax: an ellipsoid whose first two coordinates move the blade along x and y of the frame on the parent,
-    /// turned by 90 degrees; then a rotation about an axis in the plane of the blade (winging).
+    /// The shoulder blade on the thorax: an ellipsoid whose first two coordinates move the blade along x and y of the
+    /// frame on the parent, turned by 90 degrees; then a rotation about an axis in the plane of the blade (winging).
     Scapulothoracic {
         /// Half axes of the thorax along x, y, z of the frame on the parent [m].
         radii_m: [f64; 3],
@@ -58,7 +58,8 @@ pub enum OsimJointKind {
         /// Angle of the winging axis from y of that frame about z [rad].
         winging_direction_rad: f64,
     },
-    /// Body-fixed X-Z-Y rotations, the origin at the end of an arc that leaves the parent along y and ends along y of the child.
+    /// Body-fixed X-Z-Y rotations, the origin at the end of an arc that leaves the parent along y and ends along y of
+    /// the child.
     ConstantCurvature {
         /// Angles about x, z and y where the coordinates are zero [rad].
         neutral_angle_rad: [f64; 3],
@@ -224,7 +225,8 @@ fn of_two_coordinates(axis: Node<'_, '_>, first: &str, second: &str) -> Error {
         quoted(first),
         quoted(second)
     );
-    let expected = "a function of one coordinate. hint: keep the coordinate that moves the axis most, and write the function at the usual \
+    let expected = "a function of one coordinate. hint: keep the coordinate that moves the axis most, and write the \
+        function at the usual \
                     value of the others, as a SimmSpline or PolynomialFunction";
     xml::error_at(axis, found, expected)
 }

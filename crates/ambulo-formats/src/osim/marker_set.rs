@@ -1,7 +1,7 @@
 //! OpenSim `MarkerSet` documents: markers for a model, in a separate file.
 //!
-//! Read: documents of all versions (`<body>`, or the name of a frame in a socket), also without the `<OpenSimDocument>` around the
-//! set, and models, of which only the markers are read.
+//! Read: documents of all versions (`<body>`, or the name of a frame in a socket), also without the `<OpenSimDocument>`
+//! around the set, and models, of which only the markers are read.
 //! Pinned by: tests/marker_sets.rs
 
 use super::frame::socket;
@@ -28,7 +28,8 @@ pub struct OsimSetMarker {
     pub name: String,
     /// Line of the element, counted from 1.
     pub line: usize,
-    /// Name or path of a body or of an offset frame of the model: `pelvis`, `/bodyset/pelvis`, `/jointset/hip/pelvis_offset`.
+    /// Name or path of a body or of an offset frame of the model: `pelvis`, `/bodyset/pelvis`,
+    /// `/jointset/hip/pelvis_offset`.
     pub frame: String,
     /// Place in that frame [m].
     pub location_m: [f64; 3],
@@ -103,7 +104,8 @@ fn read_marker(node: Node<'_, '_>) -> Result<OsimSetMarker, Error> {
 }
 
 impl OsimModel {
-    /// The model with the markers of a set, as OpenSim adds them: a marker replaces the one of its name, other markers of the model stay.
+    /// The model with the markers of a set, as OpenSim adds them: a marker replaces the one of its name, other markers
+    /// of the model stay.
     ///
     /// # Errors
     /// A marker on a body or frame that the model does not have; the line is that of the set's document.

@@ -1,8 +1,9 @@
-//! Set-up documents of OpenSim's tools: scaling, inverse kinematics from markers and from sensors, placement of sensors, inverse dynamics.
+//! Set-up documents of OpenSim's tools: scaling, inverse kinematics from markers and from sensors, placement of
+//! sensors, inverse dynamics.
 //!
-//! Read: documents of all versions, also without the `<OpenSimDocument>` around the tool, with the older names `IKTool` and
-//! `InverseKinemtaticsTool`, and with sets of tasks, measurements or scales in separate files (`file="..."`). Paths are as written, but
-//! with `/` between their parts; OpenSim resolves them from the folder of the document.
+//! Read: documents of all versions, also without the `<OpenSimDocument>` around the tool, with the older names `IKTool`
+//! and `InverseKinemtaticsTool`, and with sets of tasks, measurements or scales in separate files (`file="..."`). Paths
+//! are as written, but with `/` between their parts; OpenSim resolves them from the folder of the document.
 //! Not handled, and rejected: other tools, and several trials in one `IKTool`.
 //! Not handled, with a remark: every other element that is not read, by name.
 //! Pinned by: tests/setups.rs
@@ -51,14 +52,14 @@ impl Setup {
     /// Reads a set-up document that holds its sets.
     ///
     /// # Errors
-    /// XML that is not well formed, another tool, values that are not what the tool needs, sets in separate files. Each error names line and
-    /// element.
+    /// XML that is not well formed, another tool, values that are not what the tool needs, sets in separate files. Each
+    /// error names line and element.
     pub fn read(bytes: &[u8]) -> Result<(Setup, Vec<Remark>), Error> {
         Setup::read_with(bytes, &mut |_| Err("another file".to_owned()))
     }
 
-    /// Reads a set-up document. `load` reads a file that the document names for a set, by its path from the folder of the document, or states
-    /// why it cannot be read.
+    /// Reads a set-up document. `load` reads a file that the document names for a set, by its path from the folder of
+    /// the document, or states why it cannot be read.
     ///
     /// # Errors
     /// As [`Setup::read`], and files without the set.

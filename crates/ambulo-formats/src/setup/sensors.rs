@@ -1,4 +1,5 @@
-//! The set-ups of OpenSim's tools for inertial sensors: their placement on a model, and inverse kinematics from their orientations.
+//! The set-ups of OpenSim's tools for inertial sensors: their placement on a model, and inverse kinematics from their
+//! orientations.
 
 use super::elements::{Known, members, path, remark_on_others, time_range, weight};
 use crate::error::{Error, Remark, quoted};

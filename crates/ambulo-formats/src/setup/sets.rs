@@ -10,8 +10,8 @@ const SETS: [&str; 4] = ["IKTaskSet", "MeasurementSet", "ScaleSet", "Orientation
 /// Largest number of such sets in a document; a tool has at most three.
 const MOST_SETS: usize = 16;
 
-/// The text of a document with the sets of other files in their places; `load` reads a file by its path from the folder of the document. Each
-/// set is written without line breaks, so that the lines of the document stay the same.
+/// The text of a document with the sets of other files in their places; `load` reads a file by its path from the folder
+/// of the document. Each set is written without line breaks, so that the lines of the document stay the same.
 pub(super) fn included(
     text: &str,
     load: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,

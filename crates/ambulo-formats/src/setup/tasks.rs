@@ -38,7 +38,8 @@ pub struct CoordinateTask {
     pub coordinate: String,
     /// Line of the element, counted from 1.
     pub line: usize,
-    /// Weight of its squared difference [1/rad² or 1/m²], in the cost in which the weights of all markers are divided by their sum.
+    /// Weight of its squared difference [1/rad² or 1/m²], in the cost in which the weights of all markers are divided
+    /// by their sum.
     pub weight: f64,
     /// The value that is tracked.
     pub target: CoordinateTarget,

@@ -110,8 +110,8 @@ fn read_names(record: &ByteRecord, line: usize) -> Result<Vec<String>, Error> {
     Ok(names)
 }
 
-/// The name without blanks and byte order marks at its ends, a blank for each control character: a tab would be taken for
-/// a separator.
+/// The name without blanks and byte order marks at its ends, a blank for each control character: a tab would be taken
+/// for a separator.
 fn one_line(name: &str) -> String {
     let name: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     name.trim_matches(|c: char| c.is_whitespace() || c == '\u{feff}').to_owned()

@@ -132,7 +132,9 @@ fn special(word: &str) -> Option<f64> {
 pub(crate) fn expected_number(word: &str) -> String {
     let with_point = word.replacen(',', ".", 1);
     if word.contains(',') && with_point.parse::<f64>().is_ok() {
-        return "a number with a decimal point; the file appears to use a decimal comma; export it with a decimal point".into();
+        return "a number with a decimal point; the file appears to use a decimal comma; export it with a decimal \
+            point"
+            .into();
     }
     "a number".into()
 }

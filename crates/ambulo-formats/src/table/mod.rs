@@ -112,7 +112,8 @@ impl Table {
         self.columns().find(|(n, _)| *n == name).map(|(_, values)| values)
     }
 
-    /// Values of the first column \[s\] if its name is `time`, in upper or lower case. Every storage file has it, a CSV file may.
+    /// Values of the first column \[s\] if its name is `time`, in upper or lower case. Every storage file has it, a CSV
+    /// file may.
     pub fn times(&self) -> Option<&[f64]> {
         let (name, values) = self.columns().next()?;
         name.eq_ignore_ascii_case("time").then_some(values)

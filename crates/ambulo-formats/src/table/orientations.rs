@@ -27,7 +27,8 @@ pub struct OrientationTable {
     pub rate_hz: Option<f64>,
     /// Times [s], as in the file.
     pub times: Vec<f64>,
-    /// Names of the sensors with their unit quaternions w, x, y, z (earth from sensor); `None` where they are not numbers.
+    /// Names of the sensors with their unit quaternions w, x, y, z (earth from sensor); `None` where they are not
+    /// numbers.
     pub sensors: Vec<(String, Vec<Option<[f64; 4]>>)>,
     /// Line of the file of each row, counted from 1; empty for a table made in memory.
     pub lines: Vec<usize>,

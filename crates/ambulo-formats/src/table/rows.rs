@@ -58,7 +58,8 @@ impl<'a> TableRows<'a> {
         self.columns.iter().map(|(name, value)| (name.as_str(), (0..self.rows).map(value)))
     }
 
-    /// The first number that is not finite: its column, its row from 0 and itself. Of several columns with one, the leftmost counts.
+    /// The first number that is not finite: its column, its row from 0 and itself. Of several columns with one, the
+    /// leftmost counts.
     #[must_use]
     pub fn first_not_finite(&self) -> Option<(&str, usize, f64)> {
         // Row by row, because that is the order in which cells are cheap.

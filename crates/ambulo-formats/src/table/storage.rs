@@ -193,8 +193,8 @@ pub(super) fn read_names(lines: &mut Lines<'_>) -> Result<(usize, Vec<String>), 
     Ok((line.number, names))
 }
 
-/// Names are separated by tabs and may contain spaces, if that gives as many names as the first row has numbers; otherwise
-/// they are separated by any white space.
+/// Names are separated by tabs and may contain spaces, if that gives as many names as the first row has numbers;
+/// otherwise they are separated by any white space.
 fn split_names(text: &str, width: usize) -> Vec<String> {
     let between_tabs: Vec<&str> = text.split('\t').map(str::trim).filter(|name| !name.is_empty()).collect();
     if between_tabs.len() == width {

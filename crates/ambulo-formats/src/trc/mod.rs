@@ -42,7 +42,8 @@ pub struct Trc {
 pub struct Marker {
     /// Name as in the file.
     pub name: String,
-    /// Position x, y, z in the laboratory's axes, one per frame \[m\]; not-a-number in all three where the marker is missing.
+    /// Position x, y, z in the laboratory's axes, one per frame \[m\]; not-a-number in all three where the marker is
+    /// missing.
     pub positions_m: Vec<[f64; 3]>,
 }
 
@@ -83,8 +84,9 @@ impl LengthUnit {
         value / self.per_metre()
     }
 
-    /// The number that [`LengthUnit::metres`] converts to `metres`, to the same bits if there is one. Product and quotient are
-    /// each rounded by half a unit in the last place, so it differs from the product by at most two such units.
+    /// The number that [`LengthUnit::metres`] converts to `metres`, to the same bits if there is one. Product and
+    /// quotient are each rounded by half a unit in the last place, so it differs from the product by at most two such
+    /// units.
     fn value_of(self, metres: f64) -> f64 {
         let nearest = metres * self.per_metre();
         let (up, down) = (nearest.next_up(), nearest.next_down());
@@ -125,7 +127,8 @@ impl Trc {
 
     /// Writes a `.trc` file that OpenSim loads, positions in [`Trc::unit`]. Gaps become empty cells.
     ///
-    /// A record that was read from a file is written and read back to the same bits; positions made in memory are so in metres only.
+    /// A record that was read from a file is written and read back to the same bits; positions made in memory are so in
+    /// metres only.
     pub fn write(&self) -> Vec<u8> {
         write::write(self)
     }

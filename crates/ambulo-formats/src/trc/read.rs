@@ -30,7 +30,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Trc, Vec<Remark>), Error> {
     Ok((trc, remarks))
 }
 
-/// Number of frames to make room for: as stated, but no more than the file can contain; vectors that grow leave as much memory unused.
+/// Number of frames to make room for: as stated, but no more than the file can contain; vectors that grow leave as much
+/// memory unused.
 fn room(bytes: &[u8], stated: Option<usize>, markers: usize) -> usize {
     let shortest_line = "1\t0".len() + markers * "\t0\t0\t0".len() + 1;
     stated.unwrap_or(0).min(bytes.len() / shortest_line)
@@ -250,8 +251,8 @@ fn is_cut(line: &Line<'_>, width: usize, ended: bool) -> bool {
     count < width || (count == width && !ended && last_is_broken())
 }
 
-/// The cells of one row, which may be empty if they are separated by tabs. Tabs after the last column are ignored, and so are empty cells
-/// in columns that have no axis above them; `places` are the columns that have one.
+/// The cells of one row, which may be empty if they are separated by tabs. Tabs after the last column are ignored, and
+/// so are empty cells in columns that have no axis above them; `places` are the columns that have one.
 fn cells<'l>(line: &'l Line<'_>, width: usize, places: &[usize]) -> Result<Vec<&'l str>, Error> {
     let mut cells: Vec<&str> = match line.text.contains('\t') {
         true => line.text.split('\t').map(str::trim).collect(),

@@ -1,9 +1,10 @@
-//! Writes a synthetic walk as a laboratory recording: a C3D file with Plug-in-Gait markers and a force plate under every step.
+//! Writes a synthetic walk as a laboratory recording: a C3D file with Plug-in-Gait markers and a force plate under
+//! every step.
 //!
-//! Laboratory: millimetres, x to the right, y along the walk, z up. A plate is of type 2: forces on the foot [N] and moments about a
-//! sensor [N.mm] below the middle of its surface, in its own axes that look down: x_p = -x, y_p = y, z_p = -z. With o from
-//! the sensor to the surface's middle the sensor's moment is M - F × o, M being that about the middle.
-//! The data are synthetic, without noise.
+//! Laboratory: millimetres, x to the right, y along the walk, z up. A plate is of type 2: forces on the foot [N] and
+//! moments about a sensor [N.mm] below the middle of its surface, in its own axes that look down: x_p = -x, y_p = y,
+//! z_p = -z. With o from the sensor to the surface's middle the sensor's moment is M - F × o, M being that about the
+//! middle. The data are synthetic, without noise.
 //! Pinned by: tests/exchange.rs of the command
 
 use ambulo::kinematics::{Trajectory, TrajectoryError, each_body_motion};
@@ -38,7 +39,8 @@ pub enum LaboratoryError {
     Standing(#[from] TrajectoryError),
 }
 
-/// The recording of a walk: markers of the figure, forces on its feet (world axes, about given points), one plate per contact.
+/// The recording of a walk: markers of the figure, forces on its feet (world axes, about given points), one plate per
+/// contact.
 ///
 /// # Errors
 /// A built-in marker set that cannot be read, which a test rules out.
@@ -204,7 +206,8 @@ fn finite(v: &Vec3) -> Vec3 {
     v.map(|x| if x.is_finite() { x } else { 0.0 })
 }
 
-/// A plate around a point, with six channels that are zero except from sample `from` to `to`, including the edges of the load.
+/// A plate around a point, with six channels that are zero except from sample `from` to `to`, including the edges of
+/// the load.
 fn plate(c3d: &mut C3d, load: &Load, middle: Vec3, from: usize, to: usize) -> Platform {
     let plate_from_lab = Mat3::from_diagonal(&Vec3::new(-1.0, 1.0, -1.0));
     let to_surface = -Vec3::z() * SENSOR_DEPTH;

@@ -1,7 +1,7 @@
 //! Results over time as one long table with one number per row, for programs that group and draw by quantity.
 //!
-//! `time` [s], `quantity` (the column in its file), `unit`, `value`. Where a foot is unloaded its centre of pressure and free moment have
-//! no rows, because the zeros of `grf.mot` there are not measurements.
+//! `time` [s], `quantity` (the column in its file), `unit`, `value`. Where a foot is unloaded its centre of pressure
+//! and free moment have no rows, because the zeros of `grf.mot` there are not measurements.
 
 use crate::stage::folder_motion;
 use ambulo::model::{CoordinateKind, Model};

@@ -1,5 +1,6 @@
-//! Recordings and results in the formats of other programs: markers as TRC, C3D and tables, plates as OpenSim's ground reactions, a
-//! model's motion as a BVH skeleton, in the skeleton of the recording and as an animated glTF file, results as one long table.
+//! Recordings and results in the formats of other programs: markers as TRC, C3D and tables, plates as OpenSim's ground
+//! reactions, a model's motion as a BVH skeleton, in the skeleton of the recording and as an animated glTF file,
+//! results as one long table.
 
 mod folder;
 mod glb;

@@ -55,7 +55,8 @@ fn report_differences(differences: &RigDifferences, findings: &mut Findings) {
         .as_ref()
         .map_or_else(String::new, |(joint, angle)| format!(" and at most {:.2} degrees ({joint})", angle.to_degrees()));
     let message = format!(
-        "the joints that the body drives were turned by {:.2} degrees (RMS){most}, and mid-hip moved by at most {:.1} mm; all other joints keep their own rotation",
+        "the joints that the body drives were turned by {:.2} degrees (RMS){most}, and mid-hip moved by at most {:.1} \
+         mm; all other joints keep their own rotation",
         turned_rms_rad.to_degrees(),
         1e3 * most_moved_m
     );
@@ -83,7 +84,8 @@ fn report_limits(limits: &RigLimits, findings: &mut Findings) {
         findings.report(Code::ConvertRigLimits, message);
     }
     if *stays {
-        let message = "no joint from the pelvis to the root has three position channels, so the place of the pelvis was not changed";
+        let message = "no joint from the pelvis to the root has three position channels, so the place of the pelvis \
+            was not changed";
         findings.report(Code::ConvertRigLimits, message);
     }
 }

@@ -4,8 +4,8 @@
 //!
 //!   x = asin R₃₂        y = atan2(-R₃₁, R₃₃)        z = atan2(-R₁₂, R₂₂)
 //!
-//! Derived by multiplying out; at x = ±90° y and z are not unique. A joint that moves in its parent (a rolling knee) has
-//! position channels that replace its offset. Bodies of common models get the names that animation programs expect.
+//! Derived by multiplying out; at x = ±90° y and z are not unique. A joint that moves in its parent (a rolling knee)
+//! has position channels that replace its offset. Bodies of common models get the names that animation programs expect.
 
 use ambulo::kinematics::{Trajectory, each_body_motion};
 use ambulo::model::anatomy::Leg;
@@ -19,8 +19,8 @@ const CENTIMETRES: f64 = 100.0;
 /// A joint that moves by less than this in its parent has a constant offset [m].
 const FIXED: f64 = 1e-9;
 
-/// Bodies of trunk and arms in the usual models, and the joints that animation programs name after what they carry; `{}` is Right or
-/// Left.
+/// Bodies of trunk and arms in the usual models, and the joints that animation programs name after what they carry;
+/// `{}` is Right or Left.
 const NAMES: [(&str, &str); 6] = [
     ("pelvis", "Hips"),
     ("torso", "Spine"),

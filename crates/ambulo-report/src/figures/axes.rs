@@ -50,7 +50,8 @@ pub(super) struct AxisWords<'a> {
     pub(super) legend_height: f64,
 }
 
-/// Space for text and ticks outside of the rectangle [pt]: left, above, below (with and without the name of the abscissa).
+/// Space for text and ticks outside of the rectangle [pt]: left, above, below (with and without the name of the
+/// abscissa).
 pub(super) const LEFT: f64 = 31.0;
 pub(super) const ABOVE: f64 = 14.0;
 pub(super) const BELOW: f64 = 22.0;

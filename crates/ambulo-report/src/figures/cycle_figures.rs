@@ -134,8 +134,8 @@ fn rows(panels: &[CyclePanel<'_>], columns: usize) -> Vec<Range<usize>> {
 }
 
 impl CycleFigures<'_> {
-    /// The figures for which there are rows: `figures/kinematics.svg`, `moments.svg`, `powers.svg`, `ground_forces.svg` in the
-    /// width of two columns of a journal, and the sagittal plane in the width of two and of one.
+    /// The figures for which there are rows: `figures/kinematics.svg`, `moments.svg`, `powers.svg`, `ground_forces.svg`
+    /// in the width of two columns of a journal, and the sagittal plane in the width of two and of one.
     ///
     /// # Errors
     /// A style that cannot be read.

@@ -1,4 +1,5 @@
-//! Draws one quantity over the gait cycle: normative band, single cycles (thin), means (thick), foot off, infeasible parts.
+//! Draws one quantity over the gait cycle: normative band, single cycles (thin), means (thick), foot off, infeasible
+//! parts.
 
 use super::Mark;
 use super::axes::{Axes, AxisWords, range};

@@ -1,5 +1,5 @@
-//! Draws the joint angles of a walk over the gait cycle with the sub-cycles of its state machines below, as figure 1 of the 1997 paper, for
-//! any gait.
+//! Draws the joint angles of a walk over the gait cycle with the sub-cycles of its state machines below, as figure 1 of
+//! the 1997 paper, for any gait.
 
 use super::FigureError;
 use super::axes::{Axes, AxisWords, range};
@@ -52,8 +52,9 @@ struct Row {
     spans: Vec<Span>,
 }
 
-/// Hip, knee and ankle angle over the cycle of the right foot, in degrees, flexion and dorsiflexion positive; below, the sub-cycles of
-/// each joint, and stance and swing of both feet, from the walking machine at the initial speed of the walk.
+/// Hip, knee and ankle angle over the cycle of the right foot, in degrees, flexion and dorsiflexion positive; below,
+/// the sub-cycles of each joint, and stance and swing of both feet, from the walking machine at the initial speed of
+/// the walk.
 ///
 /// # Errors
 /// A style that cannot be read.
@@ -144,7 +145,8 @@ fn rows(walk: &Walk) -> Vec<Row> {
     joints.chain(feet.map(foot)).collect()
 }
 
-/// The parts of the window of a state between 0 % and 100 %; `late` [cycles] is how far the foot of the machine is behind the right foot.
+/// The parts of the window of a state between 0 % and 100 %; `late` [cycles] is how far the foot of the machine is
+/// behind the right foot.
 fn spans_of(row: &StateRow, late: f64) -> Vec<Span> {
     let Some(span) = row.span else { return Vec::new() };
     let [from, to] = span.window.map(|phase| phase + late);

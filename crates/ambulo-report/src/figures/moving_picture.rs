@@ -18,7 +18,8 @@ pub(crate) fn moving_picture(figure: &MovingFigure, label: &str) -> String {
     let [width, height] = SIZE;
     let ground = height - GROUND;
     let mut svg = format!(
-        "<svg role=\"img\" aria-label=\"{label}\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" fill=\"none\" \
+        "<svg role=\"img\" aria-label=\"{label}\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
+         height=\"{height}\" fill=\"none\" \
          stroke-linecap=\"round\" stroke-linejoin=\"round\"><path d=\"M0 {ground}H{width}\" stroke=\"#888\"/>"
     );
     svg += &marks(figure, ground);
@@ -31,7 +32,8 @@ pub(crate) fn moving_picture(figure: &MovingFigure, label: &str) -> String {
         };
         let _ = write!(
             svg,
-            "<path stroke=\"{colour}\" stroke-width=\"{thickness}\" d=\"{}\"><animate attributeName=\"d\" dur=\"{:.3}s\" \
+            "<path stroke=\"{colour}\" stroke-width=\"{thickness}\" d=\"{}\"><animate attributeName=\"d\" \
+             dur=\"{:.3}s\" \
              repeatCount=\"indefinite\" values=\"{}\"/></path>",
             paths.first().map_or("", String::as_str),
             figure.cycle_s,
@@ -85,7 +87,8 @@ fn marks(figure: &MovingFigure, ground: f64) -> String {
     }
     let moves: Vec<String> = figure.advance.iter().map(|x| format!("{:.1} 0", -SCALE * x)).collect();
     format!(
-        "<g><path d=\"{line}\" stroke=\"#888\"/><animateTransform attributeName=\"transform\" type=\"translate\" dur=\"{:.3}s\" \
+        "<g><path d=\"{line}\" stroke=\"#888\"/><animateTransform attributeName=\"transform\" type=\"translate\" \
+         dur=\"{:.3}s\" \
          repeatCount=\"indefinite\" values=\"{}\"/></g>",
         figure.cycle_s,
         moves.join(";")

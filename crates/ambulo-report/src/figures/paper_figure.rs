@@ -54,7 +54,8 @@ fn panel(panel: &PaperPanel) -> ChartPanel {
     }
 }
 
-/// A colour for each series: named lines take turns, points have the colour of the line before them, faint lines are grey.
+/// A colour for each series: named lines take turns, points have the colour of the line before them, faint lines are
+/// grey.
 fn colors(panel: &PaperPanel) -> Vec<&'static str> {
     let mut next = 0;
     let mut color_of = |series: &PaperSeries| match series.kind {

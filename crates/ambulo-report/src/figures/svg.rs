@@ -1,6 +1,7 @@
 //! Writes SVG: lines, areas and text as text, in points (1/72 inch), with the size of the drawing in millimetres.
 //!
-//! Coordinates keep two decimals, dashes are attributes and panels are groups, so that a figure can be scaled, edited and searched.
+//! Coordinates keep two decimals, dashes are attributes and panels are groups, so that a figure can be scaled, edited
+//! and searched.
 
 use std::fmt::Write as _;
 
@@ -151,19 +152,21 @@ impl Drawing {
         let weight = if letters.bold { " font-weight=\"bold\"" } else { "" };
         let (text, color) = (escaped(text), escaped(letters.color));
         self.write(format_args!(
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\"{weight} fill=\"{color}\"{turn}>{text}</text>\n"
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\"{weight} \
+             fill=\"{color}\"{turn}>{text}</text>\n"
         ));
     }
 
-    /// The file: `height` [pt], title and description for screen readers, background colour. It has no ids, so that several
-    /// drawings can be part of one page.
+    /// The file: `height` [pt], title and description for screen readers, background colour. It has no ids, so that
+    /// several drawings can be part of one page.
     pub(super) fn finish(self, height: f64, title: &str, description: &str, ground: &str) -> String {
         let mm = |length: f64| short(length / POINTS_PER_MM);
         let (w, h) = (short(self.width), short(height));
         let (title, description) = (escaped(title), escaped(description));
         let (family, ground) = (escaped(&self.family), escaped(ground));
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {w} {h}\" role=\"img\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {w} {h}\" \
+             role=\"img\" \
              font-family=\"{family}\" stroke-linejoin=\"round\">\n\
              <title>{title}</title>\n<desc>{description}</desc>\n\
              <rect width=\"{w}\" height=\"{h}\" fill=\"{ground}\"/>\n{}</svg>\n",

@@ -39,8 +39,8 @@ struct Panel<'a> {
     series: Vec<Series<'a>>,
 }
 
-/// `quality.svg`: magnitude of the residual force and moment at the root over time, relative to body weight. `None` if the ground forces are
-/// not known, or without frames.
+/// `quality.svg`: magnitude of the residual force and moment at the root over time, relative to body weight. `None` if
+/// the ground forces are not known, or without frames.
 ///
 /// # Errors
 /// A style that cannot be read.
@@ -59,7 +59,8 @@ pub(crate) fn residual_figure(
     let line = |values: Vec<f64>| vec![Series { role: "residual", side: None, values, spread: None, stroke }];
     let [force, moment] = [0, 1].map(|k| sizes.iter().map(|size| size[k]).collect::<Vec<f64>>());
     let note = format!(
-        "Root mean square {:.1} N ({:.1} % of body weight) and {:.1} N·m. The motion requires them, but neither joints nor ground supply them: errors of motion, body and forces.",
+        "Root mean square {:.1} N ({:.1} % of body weight) and {:.1} N·m. The motion requires them, but neither joints \
+         nor ground supply them: errors of motion, body and forces.",
         rms(&force),
         100.0 * rms(&force) / weight.max(f64::MIN_POSITIVE),
         rms(&moment)
@@ -99,7 +100,8 @@ pub(crate) struct PredictedMotion<'a> {
     pub measured: Option<&'a Analysis>,
 }
 
-/// `prediction.svg`: predicted ground forces over time with their uncertainty, and the measured forces if there are plates.
+/// `prediction.svg`: predicted ground forces over time with their uncertainty, and the measured forces if there are
+/// plates.
 ///
 /// # Errors
 /// A style that cannot be read.
@@ -141,7 +143,8 @@ pub(crate) fn prediction_figure(
         legend.push((Sample::Line(shown.measured(Side::Left)), "plates, left".to_owned()));
     }
     let notes = vec![format!(
-        "Bands: the prediction ± {DEVIATES} of its own standard deviations. Method for double support: {}. Measured forces are drawn while a plate is loaded.",
+        "Bands: the prediction ± {DEVIATES} of its own standard deviations. Method for double support: {}. Measured \
+         forces are drawn while a plate is loaded.",
         predicted.prediction.rule
     )];
     let figure = TimeFigure { style, title: "Predicted ground forces", caption, legend, notes };

@@ -1,8 +1,9 @@
 //! Stores the series of numbers of a page: quantised to 16 bits, coded as differences, compressed.
 //!
-//! The number x becomes q = round((x - low) / step) with step = (high - low) / 65534, so that the drawn value differs from x by half a
-//! step at most. 65535 marks a gap. Differences of neighbouring q (modulo 65536, over all series in turn) are written as
-//! bytes, the low ones of all numbers before the high ones, which compress better than pairs; zlib (RFC 1950), then base64.
+//! The number x becomes q = round((x - low) / step) with step = (high - low) / 65534, so that the drawn value differs
+//! from x by half a step at most. 65535 marks a gap. Differences of neighbouring q (modulo 65536, over all series in
+//! turn) are written as bytes, the low ones of all numbers before the high ones, which compress better than pairs; zlib
+//! (RFC 1950), then base64.
 
 use super::contract::Series;
 use base64::Engine;

@@ -1,7 +1,8 @@
 //! The content of a report page: the contract between this crate and `viewer/`.
 //!
-//! The viewer draws and never computes: these types contain curves, means, tables and sentences as displayed, with their units and in
-//! clinical signs. The test at the end of this file makes `viewer/src/contract.ts` from them, including the doc comments.
+//! The viewer draws and never computes: these types contain curves, means, tables and sentences as displayed, with
+//! their units and in clinical signs. The test at the end of this file makes `viewer/src/contract.ts` from them,
+//! including the doc comments.
 //!
 //! World: x forward, y up, z to the right, metres. Times are seconds of the recording.
 
@@ -25,7 +26,8 @@ pub struct Page {
     pub sessions: Vec<Session>,
 }
 
-/// Numbers in the page's block: `count` of them from number `at` on; `low + step q` for the 16-bit number q, and none where q is 65535.
+/// Numbers in the page's block: `count` of them from number `at` on; `low + step q` for the 16-bit number q, and none
+/// where q is 65535.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Series {
@@ -656,7 +658,8 @@ pub struct LiveFrame {
     pub time_s: f64,
     /// The values of its results.
     pub values: Vec<f32>,
-    /// Position [m] and orientation of every body of the view, as there: 7 numbers each; nothing while the body is not known.
+    /// Position [m] and orientation of every body of the view, as there: 7 numbers each; nothing while the body is not
+    /// known.
     pub poses: Vec<f32>,
     /// Frames that did not arrive so far.
     pub lost: u64,
@@ -683,7 +686,8 @@ mod tests {
     fn the_viewer_knows_the_contract() {
         let config = Config::new().with_large_int("number");
         let mut expected = format!(
-            "// Made from crates/ambulo-report/src/page/contract.rs by its test; do not edit.\n\n/** Version of the contract. */\nexport const FORMAT = {FORMAT};\n"
+            "// Made from crates/ambulo-report/src/page/contract.rs by its test; do not edit.\n\n/** Version of the \
+             contract. */\nexport const FORMAT = {FORMAT};\n"
         );
         let declarations = [
             Page::decl(&config),

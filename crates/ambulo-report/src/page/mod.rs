@@ -1,7 +1,8 @@
 //! The report page: one offline HTML file, made from the files of a result folder.
 //!
-//! [`Folder`] reads the files, `session` turns them into the content of the page, `block` stores the numbers, `shell` puts data and the viewer's
-//! bundle into one file. The bundle is built from `viewer/` (`npm run build` there) and committed, so that no Rust build needs npm.
+//! [`Folder`] reads the files, `session` turns them into the content of the page, `block` stores the numbers, `shell`
+//! puts data and the viewer's bundle into one file. The bundle is built from `viewer/` (`npm run build` there) and
+//! committed, so that no Rust build needs npm.
 
 mod block;
 mod contract;

@@ -1,7 +1,8 @@
 //! Puts data and viewer into one HTML file.
 //!
-//! Only inline script and style may run (Content-Security-Policy), so the page loads nothing from any network. The data are in a
-//! script element of type `application/json`, in which every `<` is written as `\\u003c`: no text can end the element.
+//! Only inline script and style may run (Content-Security-Policy), so the page loads nothing from any network. The data
+//! are in a script element of type `application/json`, in which every `<` is written as `\\u003c`: no text can end the
+//! element.
 
 use super::block::Block;
 use super::contract::{LivePage, Page};

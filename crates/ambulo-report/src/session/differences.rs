@@ -2,8 +2,8 @@
 //!
 //!   change(t) = x̄_after(t) - x̄_before(t)
 //!
-//! A change is larger than the variation between cycles where it exceeds two standard deviations of the difference of the means,
-//! √(s_before²/n_before + s_after²/n_after); of single cycles that is not known.
+//! A change is larger than the variation between cycles where it exceeds two standard deviations of the difference of
+//! the means, √(s_before²/n_before + s_after²/n_after); of single cycles that is not known.
 
 use super::{Norms, Session, SessionQuantity, all};
 use crate::validation::shown;
@@ -113,7 +113,8 @@ pub(super) fn time_changes(after: &Session, before: &Session) -> Vec<TimeChange>
 /// `differences.csv`: a row per quantity and side; curves first, then times and distances.
 pub(super) fn differences_csv(after: &Session, before: &Session, norms: &Norms) -> String {
     let mut text = String::from(
-        "quantity,unit,side,forces,n_before,n_after,mean_before,mean_after,change,rms_change,at_percent,clear_percent,from_normal_before,from_normal_after\n",
+        "quantity,unit,side,forces,n_before,n_after,mean_before,mean_after,change,rms_change,at_percent,clear_percent,\
+         from_normal_before,from_normal_after\n",
     );
     for change in changes(after, before, norms) {
         let [from_before, from_after] = change.from_normal.unwrap_or([f64::NAN; 2]).map(shown);

@@ -1,4 +1,5 @@
-//! A session of one person: trials pooled, compared with healthy people and with an earlier session, as tables and as a page.
+//! A session of one person: trials pooled, compared with healthy people and with an earlier session, as tables and as a
+//! page.
 //!
 //! | file | content |
 //! |---|---|
@@ -290,7 +291,8 @@ impl ComparedSession {
         self.session.summary.compared_with = Some(words);
         if earlier.summary.convention != self.session.summary.convention {
             self.session.summary.warnings.push(format!(
-                "the angles of pelvis and hips have the {} convention, those of the earlier session the {} convention: their differences are no changes of the person",
+                "the angles of pelvis and hips have the {} convention, those of the earlier session the {} convention: \
+                 their differences are no changes of the person",
                 self.session.summary.convention.word(),
                 earlier.summary.convention.word()
             ));
@@ -298,7 +300,8 @@ impl ComparedSession {
         let masses = self.session.summary.mass_kg.zip(earlier.summary.mass_kg);
         if let Some((now_kg, then_kg)) = masses.filter(|(now, then)| (now - then).abs() > OTHER_MASS * then) {
             self.session.summary.warnings.push(format!(
-                "the body mass is {now_kg:.1} kg, that of the earlier session {then_kg:.1} kg: if it is not the same person, the differences are not those of two visits"
+                "the body mass is {now_kg:.1} kg, that of the earlier session {then_kg:.1} kg: if it is not the same \
+                 person, the differences are not those of two visits"
             ));
         }
         ComparedSession { earlier: Some(earlier), ..self }

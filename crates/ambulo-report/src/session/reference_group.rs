@@ -1,7 +1,8 @@
-//! A user's reference group: mean and standard deviation between healthy subjects, from one session each; written as `norm.json`.
+//! A user's reference group: mean and standard deviation between healthy subjects, from one session each; written as
+//! `norm.json`.
 //!
-//! Each person counts once: the mean of the mean curves of both sides. Moments, powers and ground forces are those of people with measured
-//! forces, if there are at least two, otherwise predicted ones.
+//! Each person counts once: the mean of the mean curves of both sides. Moments, powers and ground forces are those of
+//! people with measured forces, if there are at least two, otherwise predicted ones.
 //!
 //! ```text
 //! { "format": "ambulo-reference-group", "version": 1, "persons": 12, "ages_years": [8, 14], "speed_m_s": [1.1, 1.4],
@@ -69,7 +70,8 @@ pub(crate) struct GroupCurve {
 pub enum ReferenceGroupError {
     /// Too few subjects.
     #[error(
-        "found {found} persons with cycles; expected at least {FEWEST}, because a standard deviation is computed between them"
+        "found {found} persons with cycles; expected at least {FEWEST}, because a standard deviation is computed \
+         between them"
     )]
     TooFew {
         /// Their number.
@@ -77,7 +79,8 @@ pub enum ReferenceGroupError {
     },
     /// People whose angles have different conventions.
     #[error(
-        "the angles of some persons have the clinical convention, those of others that of OpenSim; expected one convention"
+        "the angles of some persons have the clinical convention, those of others that of OpenSim; expected one \
+         convention"
     )]
     Conventions,
     /// A file that is none.

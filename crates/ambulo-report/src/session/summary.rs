@@ -1,4 +1,5 @@
-//! Content of `summary.json` of a session: the person, the trials, times and distances, the profile; read back by later sessions.
+//! Content of `summary.json` of a session: the person, the trials, times and distances, the profile; read back by later
+//! sessions.
 
 use ambulo::numerics::{mean, sample_deviation};
 use ambulo::study::session::VariableScore;

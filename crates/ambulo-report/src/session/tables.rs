@@ -69,7 +69,8 @@ pub fn session_from_files(summary: &[u8], cycles: &[u8]) -> Result<Session, Stri
         Some(SESSION_FORMAT) => {}
         Some(other) => {
             return Err(format!(
-                "summary.json: found a session of layout {other}; this version of Ambulo reads layout {SESSION_FORMAT}. hint: compute that session again"
+                "summary.json: found a session of layout {other}; this version of Ambulo reads layout \
+                 {SESSION_FORMAT}. hint: compute that session again"
             ));
         }
         None => {
@@ -167,7 +168,8 @@ pub(super) fn times_csv(compared: &ComparedSession) -> String {
 /// `deviations.csv`: a row per quantity and side.
 pub(super) fn deviations_csv(compared: &ComparedSession) -> String {
     let mut text = String::from(
-        "quantity,unit,side,forces,cycles,rms_between_cycles,rms_from_normal,expected_rms,largest,largest_sd,at_percent,outside_2_sd_percent\n",
+        "quantity,unit,side,forces,cycles,rms_between_cycles,rms_from_normal,expected_rms,largest,largest_sd,\
+         at_percent,outside_2_sd_percent\n",
     );
     for quantity in compared.shown() {
         for side in Side::BOTH {

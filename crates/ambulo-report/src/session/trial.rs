@@ -1,4 +1,5 @@
-//! One computed trial of a session: its cycles in clinical signs, its strides, and what decides whether its cycles count.
+//! One computed trial of a session: its cycles in clinical signs, its strides, and what decides whether its cycles
+//! count.
 
 use super::quantities::{FOOT_PROGRESSION, all};
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
@@ -46,8 +47,9 @@ pub struct ComputedTrial {
 }
 
 impl ComputedTrial {
-    /// Takes the cycles of an outcome whose ground forces were predicted, with measured forces where plates measured the whole stance of the
-    /// cycle. Angles of pelvis and hips are those of the chosen convention, where it is possible.
+    /// Takes the cycles of an outcome whose ground forces were predicted, with measured forces where plates measured
+    /// the whole stance of the cycle. Angles of pelvis and hips are those of the chosen convention, where it is
+    /// possible.
     #[must_use]
     pub fn of(outcome: &Outcome, chosen: Convention) -> ComputedTrial {
         let Outcome { body, person, analysis, quality, verdict, times_and_distances, activity, .. } = outcome;

@@ -5,8 +5,8 @@ use ambulo::model::Side;
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 
-/// Forces of a table with one row per instant: `ground_force_{s}_v` and `ground_force_{s}_p` with x, y, z. An unloaded foot has
-/// zeros in the table and no arrow.
+/// Forces of a table with one row per instant: `ground_force_{s}_v` and `ground_force_{s}_p` with x, y, z. An unloaded
+/// foot has zeros in the table and no arrow.
 pub(super) fn forces(table: &Table, role: ForceRole) -> Vec<StageForce> {
     Side::BOTH.into_iter().filter_map(|side| force(table, side, role)).collect()
 }

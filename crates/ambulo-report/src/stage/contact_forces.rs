@@ -1,5 +1,5 @@
-//! Forces between the bodies of a scene, from `contacts.csv`: one arrow per pair of bodies, the sum over their contact points, at
-//! the mean of the points weighted by the normal forces.
+//! Forces between the bodies of a scene, from `contacts.csv`: one arrow per pair of bodies, the sum over their contact
+//! points, at the mean of the points weighted by the normal forces.
 
 use super::StageForce;
 use super::csv_rows::Row;

@@ -1,9 +1,10 @@
 //! Soles and shapes of the feet.
 //!
-//! A foot is a triangle of capsules between heel, ankle and ball, as thick as the spheres of heel and ball in published foot models,
-//! with the toes in front. Soles of built-in figures are placed by their markers `heel_s`, `ball_s`, `toe_s`; those of other models
-//! by the proportions of a person of this stature ([`Sole`]), moved up or down so that they touch the floor while ground forces load
-//! the foot: the height of the ankle differs by a few centimetres between models.
+//! A foot is a triangle of capsules between heel, ankle and ball, as thick as the spheres of heel and ball in published
+//! foot models, with the toes in front. Soles of built-in figures are placed by their markers `heel_s`, `ball_s`,
+//! `toe_s`; those of other models by the proportions of a person of this stature ([`Sole`]), moved up or down so that
+//! they touch the floor while ground forces load the foot: the height of the ankle differs by a few centimetres between
+//! models.
 
 use super::capsule;
 use super::joint_places::JointPlaces;
@@ -36,8 +37,8 @@ pub(super) fn feet(places: &JointPlaces<'_>, stature: f64, size: &Dimensions, su
     sides.filter_map(|(side, sunk)| Foot::new(places, side, stature, size, sunk)).collect()
 }
 
-/// Distance by which the estimated soles of both feet are lowered to touch the floor: the median over all instants in which a fifth of the
-/// weight is on the foot, at most [`MOST_SUNK`].
+/// Distance by which the estimated soles of both feet are lowered to touch the floor: the median over all instants in
+/// which a fifth of the weight is on the foot, at most [`MOST_SUNK`].
 pub(super) fn sunk(stage: &Stage) -> [f64; 2] {
     Side::BOTH.map(|side| {
         let force = stage.forces.iter().find(|force| force.side == Some(side) && force.role == ForceRole::Main);
@@ -149,7 +150,8 @@ fn before_the_ball(places: &JointPlaces<'_>, point: SolePoint, rear: BodyId, toe
     SolePoint { body: toes, place: places.seen_from(toes, world(places, point)) }
 }
 
-/// The contact spheres of a built-in figure from its markers: the heel marker is at the rear of its sphere, the others at the centres.
+/// The contact spheres of a built-in figure from its markers: the heel marker is at the rear of its sphere, the others
+/// at the centres.
 fn spheres(places: &JointPlaces<'_>, side: Side, size: &Dimensions) -> Vec<ContactSphere> {
     let radii = [size.heel_radius, size.ball_radius, size.toe_radius];
     let sphere = |((part, stem), radius): ((SpherePart, &str), f64)| {

@@ -1,7 +1,8 @@
 //! Capsules for limbs: from joint to joint, with a thickness that follows from the mass.
 //!
-//! A capsule of length L between its centres and mass m has the radius r with m / density = pi r² L + 4/3 pi r³; solved by
-//! bisection. So a heavy thigh is thick and the thigh of a child is thin. The radius of bodies without mass is a share of their length.
+//! A capsule of length L between its centres and mass m has the radius r with m / density = pi r² L + 4/3 pi r³; solved
+//! by bisection. So a heavy thigh is thick and the thigh of a child is thin. The radius of bodies without mass is a
+//! share of their length.
 
 use super::capsule;
 use super::joint_places::JointPlaces;
@@ -11,7 +12,8 @@ use ambulo::model::BodyId;
 use ambulo::spatial::Vec3;
 use std::f64::consts::PI;
 
-/// Density of limbs [kg/m³]: Winter 2009, table 4.1, has 1050 for thighs, 1090 for shanks, 1070 for upper arms (unverified).
+/// Density of limbs [kg/m³]: Winter 2009, table 4.1, has 1050 for thighs, 1090 for shanks, 1070 for upper arms
+/// (unverified).
 const DENSITY: f64 = 1060.0;
 /// Radius over length of bodies without mass.
 const SLENDER: f64 = 0.1;
@@ -55,8 +57,8 @@ pub(super) fn dot(at: Vec3, stature: f64) -> ViewShape {
     capsule(at, at, DOT * stature)
 }
 
-/// Capsules from the joint of the body to those of its children; a body without children ends as far beyond its mass centre as
-/// its joint is on the other side.
+/// Capsules from the joint of the body to those of its children; a body without children ends as far beyond its mass
+/// centre as its joint is on the other side.
 pub(super) fn limb(places: &JointPlaces<'_>, body: BodyId, stature: f64) -> Vec<ViewShape> {
     let own = places.own(body);
     let ends = ends(places, body);

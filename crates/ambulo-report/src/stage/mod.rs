@@ -1,6 +1,7 @@
 //! Description of a motion for drawing: bodies with shapes and paths, ground forces, joint moments, plates, obstacles.
 //!
-//! Used by the 3-D view of the page (which quantises it) and by animation files. World axes: x forward, y up, z right, m.
+//! Used by the 3-D view of the page (which quantises it) and by animation files. World axes: x forward, y up, z right,
+//! m.
 
 mod arrow;
 mod contact_forces;

@@ -3,7 +3,8 @@
 use ambulo::spatial::{Pose, Vec3, rotation_between};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-/// A turn that takes the upward axis y to a direction: the smallest one, or half a turn about x if the direction is down.
+/// A turn that takes the upward axis y to a direction: the smallest one, or half a turn about x if the direction is
+/// down.
 pub(crate) fn upward_to(direction: &Vec3) -> UnitQuaternion<f64> {
     let half_a_turn = || Matrix3::from_diagonal(&Vec3::new(1.0, -1.0, -1.0));
     let turn = rotation_between(&Vec3::y(), direction).unwrap_or_else(half_a_turn);
@@ -40,8 +41,8 @@ impl BodyPath {
         self.push_turned(pose.translation, unit_quaternion(&pose.rotation));
     }
 
-    /// Adds the next instant. q and -q are the same orientation: the one nearer to the last is stored, so that linear interpolation between
-    /// neighbours takes the short way.
+    /// Adds the next instant. q and -q are the same orientation: the one nearer to the last is stored, so that linear
+    /// interpolation between neighbours takes the short way.
     pub(crate) fn push_turned(&mut self, position: Vec3, rotation: UnitQuaternion<f64>) {
         let flips = self.rotation.last().is_some_and(|last| last.coords.dot(&rotation.coords) < 0.0);
         self.position.push(position);

@@ -62,8 +62,10 @@ fn summary(height_m: f64) -> Vec<u8> {
     let off = json!({"kind": "off", "cutoff_hz": null, "order": null});
     let summary = json!({
         "version": "0.1.0", "input": {"motion": "walk.mot", "model": "built-in", "added_mass": []}, "model": "figure",
-        "mass_kg": 61.0, "gravity_m_s2": 9.80665, "mass": { "state": "unknown", "kg": 61.0, "source": "model", "normalised_by": "model", "plates_kg": null, "plates_error_kg": null, "sources": [] },
-        "height_m": height_m, "window_s": [0.5, 1.0], "requested_window_s": [null, null], "rate_hz": 100.0, "frames": FRAMES,
+        "mass_kg": 61.0, "gravity_m_s2": 9.80665, "mass": { "state": "unknown", "kg": 61.0, "source": "model",
+            "normalised_by": "model", "plates_kg": null, "plates_error_kg": null, "sources": [] },
+        "height_m": height_m, "window_s": [0.5, 1.0], "requested_window_s": [null, null], "rate_hz": 100.0,
+            "frames": FRAMES,
         "filter": {"motion": off, "force": off}, "ground": {"source": "none", "rule": null, "threshold_n": 20.0},
         "times_and_distances": {"quantities": []}, "peaks": [], "findings": [], "timing_ms": {},
     });
@@ -156,7 +158,8 @@ fn a_trunk_has_no_slit() {
     };
     let mut forwards = 0;
     for [a, b, c] in triangles.iter().map(|corners| corners.map(point)) {
-        // In axes of the trunk: x forward, y up, z right. A face looks away from the middle, which is behind or ahead of it.
+        // In axes of the trunk: x forward, y up, z right. A face looks away from the middle, which is behind or ahead
+        // of it.
         let normal = (b - a).cross(&(c - a)).normalize();
         assert!(normal.x.abs() > 0.9 && normal.x * a.x > 0.0, "{normal:?} at {a:?}");
         forwards += usize::from(normal.x > 0.0);

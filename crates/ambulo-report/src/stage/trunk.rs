@@ -1,8 +1,9 @@
 //! Shapes of pelvis, trunk and head.
 //!
-//! The pelvis is a capsule from hip to hip and one up to the joint of the trunk. The trunk is a slab with round edges that widens
-//! upwards, and a capsule from shoulder to shoulder; the head is above it on a neck. If a model has no arms or head, their positions come from the proportions of a
-//! person of the same stature (de Leva's table; shoulders: Dumas 2007).
+//! The pelvis is a capsule from hip to hip and one up to the joint of the trunk. The trunk is a slab with round edges
+//! that widens upwards, and a capsule from shoulder to shoulder; the head is above it on a neck. If a model has no arms
+//! or head, their positions come from the proportions of a person of the same stature (de Leva's table; shoulders:
+//! Dumas 2007).
 
 use super::capsule;
 use super::joint_places::JointPlaces;
@@ -12,10 +13,11 @@ use ambulo::model::anthropometry::Dimensions;
 use ambulo::model::{BodyId, Side};
 use ambulo::spatial::Vec3;
 
-/// Half breadth of a head over its height from chin to vertex: 155 of 230 mm (Drillis and Contini 1966, as in Winter, figure 4.1;
-/// unverified), widened by the depth.
+/// Half breadth of a head over its height from chin to vertex: 155 of 230 mm (Drillis and Contini 1966, as in Winter,
+/// figure 4.1; unverified), widened by the depth.
 const HEAD: f64 = 0.38;
-/// Thickness of the parts of the trunk over the stature of a person of [`USUAL_BUILD`], chosen so that chest and arms do not touch.
+/// Thickness of the parts of the trunk over the stature of a person of [`USUAL_BUILD`], chosen so that chest and arms
+/// do not touch.
 const CHEST: f64 = 0.062;
 const HIP: f64 = 0.05;
 const SHOULDER: f64 = 0.032;
@@ -65,8 +67,8 @@ pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -
     shapes
 }
 
-/// A flat body with round edges: a capsule along each edge of a trapezium, whose ends are `right` and `left`, and two faces that touch
-/// the capsules along a line.
+/// A flat body with round edges: a capsule along each edge of a trapezium, whose ends are `right` and `left`, and two
+/// faces that touch the capsules along a line.
 fn slab(right: [Vec3; 2], left: [Vec3; 2], thick: f64) -> Vec<ViewShape> {
     let corners = [right[0], right[1], left[1], left[0]];
     let mut shapes: Vec<ViewShape> = (0..4).map(|i| capsule(corners[i], corners[(i + 1) % 4], thick)).collect();
@@ -81,7 +83,8 @@ fn slab(right: [Vec3; 2], left: [Vec3; 2], thick: f64) -> Vec<ViewShape> {
     shapes
 }
 
-/// Shapes of a head that is a separate body: from its joint to the height above the shoulders that follows from the stature.
+/// Shapes of a head that is a separate body: from its joint to the height above the shoulders that follows from the
+/// stature.
 pub(super) fn head(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
     let own = places.own(body);
     let up = (places.mass_center(body) - own).try_normalize(1e-6).unwrap_or_else(|| places.up(body));
@@ -103,7 +106,8 @@ fn head_below(vertex: Vec3, foot: Vec3, size: &Dimensions) -> [ViewShape; 2] {
     [capsule(chin, vertex - up * thick, thick), capsule(foot, chin, NECK * size.height)]
 }
 
-/// The stature [m], decreased for thin and increased for heavy people: at equal length thickness grows with the root of mass.
+/// The stature [m], decreased for thin and increased for heavy people: at equal length thickness grows with the root of
+/// mass.
 fn girth(places: &JointPlaces<'_>, size: &Dimensions) -> f64 {
     let build = (places.model.mass() / size.height.powi(2) / USUAL_BUILD).sqrt();
     size.height * build.clamp(BUILDS[0], BUILDS[1])
@@ -144,7 +148,8 @@ fn pair(places: &JointPlaces<'_>, body: BodyId, part: Part) -> Option<[Vec3; 2]>
     Some([joint(Side::Right)?, joint(Side::Left)?])
 }
 
-/// Direction upwards along a trunk: the world's vertical at rest if it passes near the mass centre, otherwise towards the mass centre.
+/// Direction upwards along a trunk: the world's vertical at rest if it passes near the mass centre, otherwise towards
+/// the mass centre.
 fn upwards(places: &JointPlaces<'_>, body: BodyId) -> Vec3 {
     const NEAR: f64 = 0.8; // cosine of 37 degrees
     let up = places.up(body);

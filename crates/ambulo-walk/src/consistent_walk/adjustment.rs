@@ -42,8 +42,8 @@ impl Magnitude {
 /// Size of the change of a walk.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Adjustment {
-    /// Name and change of angle [rad] of each changed coordinate. Only the right side is listed if the left side is the same half a
-    /// cycle later.
+    /// Name and change of angle [rad] of each changed coordinate. Only the right side is listed if the left side is the
+    /// same half a cycle later.
     pub angles: Vec<(String, Magnitude)>,
     /// Change of the pelvis path relative to even forward motion at mean height: forwards and up [m].
     pub pelvis: [Magnitude; 2],

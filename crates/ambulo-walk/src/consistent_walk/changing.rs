@@ -1,7 +1,7 @@
 //! A consistent walk whose pace changes on the way.
 //!
-//! The walk is made consistent at every constant pace. Each change is one motion from the state of the walk before to that of the walk after
-//! (`Passage`), or from or to rest, so the whole walk is C² and needs no force from outside.
+//! The walk is made consistent at every constant pace. Each change is one motion from the state of the walk before to
+//! that of the walk after (`Passage`), or from or to rest, so the whole walk is C² and needs no force from outside.
 //! Pinned by: tests/walk_changes.rs
 
 use super::settings::{ConsistentWalkError, ConsistentWalkSettings};
@@ -148,7 +148,8 @@ impl ChangingWalk {
         }
     }
 
-    /// Writes coordinates, rates and accelerations at a time [s]. The place forward begins anew in every part of the walk.
+    /// Writes coordinates, rates and accelerations at a time [s]. The place forward begins anew in every part of the
+    /// walk.
     pub fn write(&self, time_s: f64, posture: &mut [Vec<f64>; 3]) {
         let begun = self.changes.partition_point(|change| change.start_s <= time_s).checked_sub(1);
         let (change, since_s) = match (begun, self.changes.first()) {
@@ -170,7 +171,8 @@ impl ChangingWalk {
         }
     }
 
-    /// The motion from `start_s`: one signal per coordinate of the model. The root's translations are zero, because forces move them.
+    /// The motion from `start_s`: one signal per coordinate of the model. The root's translations are zero, because
+    /// forces move them.
     ///
     /// # Panics
     /// If the duration is not above zero.
@@ -196,8 +198,8 @@ impl ChangingWalk {
         posture
     }
 
-    /// Simulates `duration_s` on the soft shoes of the settings, from the posture and with the velocity of the walk at time zero. Only joints and
-    /// trunk are driven.
+    /// Simulates `duration_s` on the soft shoes of the settings, from the posture and with the velocity of the walk at
+    /// time zero. Only joints and trunk are driven.
     ///
     /// # Errors
     /// If the model is not planar, or the duration has no whole step.

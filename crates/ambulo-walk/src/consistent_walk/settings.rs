@@ -35,7 +35,8 @@ pub enum ConsistentWalkError {
     Joint(#[from] CurvedJointError),
     /// Machines that do something else in every cycle.
     #[error(
-        "the gait `{gait}`: found machines that move joints otherwise from cycle to cycle; expected the same in every cycle, because one cycle is solved and repeated. hint: use the mode `paper`, in scenes `curves`"
+        "the gait `{gait}`: found machines that move joints otherwise from cycle to cycle; expected the same in every \
+         cycle, because one cycle is solved and repeated. hint: use the mode `paper`, in scenes `curves`"
     )]
     Machines {
         /// Name of the gait.

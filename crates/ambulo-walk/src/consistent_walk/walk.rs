@@ -21,12 +21,12 @@ pub struct ConsistentWalk {
     pub(super) solution: Solution,
 }
 
-/// Finds the motion near a gait at constant pace that ground forces explain without residual forces: half a cycle of it if both sides do the same,
-/// else a whole cycle.
+/// Finds the motion near a gait at constant pace that ground forces explain without residual forces: half a cycle of it
+/// if both sides do the same, else a whole cycle.
 ///
 /// # Errors
-/// If the figure has joints that are not hinges or slides, the machines of the gait do not repeat what they do, or the built-in laws cannot be
-/// read.
+/// If the figure has joints that are not hinges or slides, the machines of the gait do not repeat what they do, or the
+/// built-in laws cannot be read.
 pub fn make_consistent_walk(
     human: &Human,
     walk: &Walk,
@@ -55,7 +55,8 @@ impl ConsistentWalk {
         &self.solution
     }
 
-    /// Writes coordinates, rates and accelerations at one time [s]; each list has one entry per coordinate of the model.
+    /// Writes coordinates, rates and accelerations at one time [s]; each list has one entry per coordinate of the
+    /// model.
     pub fn write(&self, time_s: f64, posture: &mut [Vec<f64>; 3]) {
         self.solution.write(time_s, posture);
     }
@@ -68,8 +69,8 @@ impl ConsistentWalk {
         Ok(self.solution.samples(times_s)?)
     }
 
-    /// One signal per coordinate of the model, repeating every cycle. The root's translations have the height, but no forward
-    /// motion.
+    /// One signal per coordinate of the model, repeating every cycle. The root's translations have the height, but no
+    /// forward motion.
     #[must_use]
     pub fn signals(&self, model: &Model) -> Vec<Signal> {
         let count = model.coordinates().len();

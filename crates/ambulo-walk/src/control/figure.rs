@@ -1,4 +1,5 @@
-//! A figure in a world of its own, as the controller sees it: coordinates of its model, motors at its joints, loads under its feet.
+//! A figure in a world of its own, as the controller sees it: coordinates of its model, motors at its joints, loads
+//! under its feet.
 
 use super::settings::ControlError;
 use crate::consistent_walk::soft_ground;
@@ -16,7 +17,8 @@ use crate::walking::{WalkingError, sole_material};
 /// A figure on level ground.
 #[derive(Debug, Clone)]
 pub struct FigureWorld {
-    /// Bodies in the order of the model, then the links between hinges; surfaces are the soles in their order, then the ground.
+    /// Bodies in the order of the model, then the links between hinges; surfaces are the soles in their order, then the
+    /// ground.
     pub(super) world: World,
     pub(super) state: WorldState,
     pub(super) settings: StepSettings,

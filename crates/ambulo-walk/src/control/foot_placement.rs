@@ -4,12 +4,12 @@
 //!
 //!   Δθ = c_d (d - d*) + c_v (v - v*)
 //!
-//! with the distance d of the mass centre in front of the stance foot and its velocity v; a star marks the plan. The hip of the stance leg holds the
-//! pelvis upright in the world instead of following its own angle: its torque on the pelvis is k (θ* - θ) + d (θ̇* - θ̇) besides that of the plan, and it
-//! carries the reaction of the swing leg.
+//! with the distance d of the mass centre in front of the stance foot and its velocity v; a star marks the plan. The
+//! hip of the stance leg holds the pelvis upright in the world instead of following its own angle: its torque on the
+//! pelvis is k (θ* - θ) + d (θ̇* - θ̇) besides that of the plan, and it carries the reaction of the swing leg.
 //!
-//! Source: Yin, Loken, van de Panne 2007, SIMBICON, ACM Trans Graph 26(3):105 (unverified), with a plan in place of its fixed postures.
-//! Pinned by: docs/measured/PHYSICAL_WALK.md, which compares it with the feedback of the whole state.
+//! Source: Yin, Loken, van de Panne 2007, SIMBICON, ACM Trans Graph 26(3):105 (unverified), with a plan in place of its
+//! fixed postures. Pinned by: docs/measured/PHYSICAL_WALK.md, which compares it with the feedback of the whole state.
 
 use super::linear::Impedance;
 use super::settings::{ControlError, FootPlacement};

@@ -1,7 +1,7 @@
 //! Impedances of joints, and the derivatives of time steps of a figure.
 //!
-//! Derivatives are central differences of one step each, so they are exact to rounding also where feet touch the soft ground: a difference over many
-//! steps would jump over the instants at which spheres begin to carry load.
+//! Derivatives are central differences of one step each, so they are exact to rounding also where feet touch the soft
+//! ground: a difference over many steps would jump over the instants at which spheres begin to carry load.
 
 use super::figure::FigureWorld;
 use super::plan::{CyclePlan, PlannedStep};
@@ -16,7 +16,8 @@ use nalgebra::{DMatrix, DVector};
 /// Differences of coordinates [rad or m], rates [rad/s or m/s] and torques [N.m].
 const DIFFERENCES: [f64; 3] = [1e-6, 1e-5, 1e-2];
 
-/// Muscles need clearly more than they have from this share of their strength on. Push-off takes the ankle to its strength in every step.
+/// Muscles need clearly more than they have from this share of their strength on. Push-off takes the ankle to its
+/// strength in every step.
 const OVERLOAD: f64 = 1.2;
 
 /// Stiffness, damping and strength of the motor of a coordinate; no motor where the stiffness is zero.
@@ -52,8 +53,8 @@ impl Impedance {
         (motor.kp * (motor.target.at(0.0)[0] - q) - motor.kd * rate).abs() >= OVERLOAD * motor.max
     }
 
-    /// The motor whose torque at the target value and rate is `torque`. Its limit is the strength at the angle and the rate of `now`, in the direction in
-    /// which it acts there.
+    /// The motor whose torque at the target value and rate is `torque`. Its limit is the strength at the angle and the
+    /// rate of `now`, in the direction in which it acts there.
     pub(super) fn motor(&self, [target, target_rate]: [f64; 2], torque: f64, now: [f64; 2]) -> Motor {
         let [q, rate] = now;
         let ahead = (self.damping * target_rate + torque) / self.stiffness;
@@ -64,8 +65,8 @@ impl Impedance {
 }
 
 impl FigureWorld {
-    /// The maps of all time steps of a plan from state and torque of the joints to the next state. Where the second half of the cycle is the mirror image
-    /// of the first, so are its maps.
+    /// The maps of all time steps of a plan from state and torque of the joints to the next state. Where the second
+    /// half of the cycle is the mirror image of the first, so are its maps.
     pub fn maps(&mut self, plan: &CyclePlan, impedances: &[Impedance]) -> Result<Vec<StepMap>, ControlError> {
         let count = plan.steps.len();
         let first = if plan.mirror.is_some() { count / 2 } else { count };
@@ -151,8 +152,8 @@ fn mirrored(map: &StepMap, plan: &CyclePlan, mirror: &[(usize, f64)]) -> StepMap
 
 /// The maps of a figure whose joints have other impedances, from those with the impedances `before`.
 ///
-/// A motor acts by the value q at the start of a step and the rate q̇⁺ at its end: τ = c - k q - (k h + d) q̇⁺. With the changes Δk and Δd, and the torques
-/// u = e - Δk q - (Δk h + Δd) q̇⁺ =: e - V x - W x⁺ in x⁺ = A x + B u,
+/// A motor acts by the value q at the start of a step and the rate q̇⁺ at its end: τ = c - k q - (k h + d) q̇⁺. With
+/// the changes Δk and Δd, and the torques u = e - Δk q - (Δk h + Δd) q̇⁺ =: e - V x - W x⁺ in x⁺ = A x + B u,
 ///
 ///   S = I + W B      A' = A - B S⁻¹ (V + W A)      B' = B S⁻¹
 pub fn with_impedances(

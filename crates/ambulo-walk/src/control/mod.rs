@@ -1,27 +1,29 @@
-//! Figures that walk by their own torques: feedback keeps them near a planned walk, and nothing but their joints and the ground moves them.
+//! Figures that walk by their own torques: feedback keeps them near a planned walk, and nothing but their joints and
+//! the ground moves them.
 //!
-//! The plan is a dynamically consistent walk ([`crate::consistent_walk`]): postures q*, rates q̇* and joint torques τ* over a cycle. At every time
-//! step the torque of a joint is
+//! The plan is a dynamically consistent walk ([`crate::consistent_walk`]): postures q*, rates q̇* and joint torques τ*
+//! over a cycle. At every time step the torque of a joint is
 //!
 //!   τ = τ*(φ) + k (q*(φ) - q) + d (q̇*(φ) - q̇) - K(φ) (x - x*(φ))          within the strength of its muscles
 //!
-//! with the phase φ of the cycle, the impedance k, d of the joint, and the state x of the whole figure: all coordinates but the place along the
-//! ground, and all rates. Without K the figure falls within seconds. K comes from the walk itself: the derivatives of one time step of the
-//! simulator by state and torques, along the plan, are the matrices of a linear periodic system, and K minimises
+//! with the phase φ of the cycle, the impedance k, d of the joint, and the state x of the whole figure: all coordinates
+//! but the place along the ground, and all rates. Without K the figure falls within seconds. K comes from the walk
+//! itself: the derivatives of one time step of the simulator by state and torques, along the plan, are the matrices of
+//! a linear periodic system, and K minimises
 //!
 //!   Σ_steps (x - x*)ᵀ Q (x - x*) + Δτᵀ R Δτ
 //!
-//! which is the periodic Riccati equation (module `riccati`). The phase advances with time and is set to that of the plan when a foot strikes, early or
-//! late. A foot that strikes earlier or later than planned is what the linear system knows nothing of: with K alone (without k and d) the figure
-//! falls when it is pushed backwards.
+//! which is the periodic Riccati equation (module `riccati`). The phase advances with time and is set to that of the
+//! plan when a foot strikes, early or late. A foot that strikes earlier or later than planned is what the linear system
+//! knows nothing of: with K alone (without k and d) the figure falls when it is pushed backwards.
 //!
-//! The figure is planar, or has three dimensions ([`crate::optimal::OptimalWalk`]). Its legs pass through each other. Several plans make one
-//! controller whose speed can be changed on the way ([`WalkController::joined`]); it can stop, stand and walk off
-//! (`WalkController::with_standing`).
+//! The figure is planar, or has three dimensions ([`crate::optimal::OptimalWalk`]). Its legs pass through each other.
+//! Several plans make one controller whose speed can be changed on the way ([`WalkController::joined`]); it can stop,
+//! stand and walk off (`WalkController::with_standing`).
 //!
-//! Sources: the discrete periodic Riccati equation as in Bittanti, Colaneri, De Nicolao 1991 (unverified; derived here); phase reset at foot strike
-//! as in Aoi, Tsuchiya 2005 (unverified). docs/PHYSICAL_WALK.md has results and limits.
-//! Not handled: turning; activation of muscles.
+//! Sources: the discrete periodic Riccati equation as in Bittanti, Colaneri, De Nicolao 1991 (unverified; derived
+//! here); phase reset at foot strike as in Aoi, Tsuchiya 2005 (unverified). docs/PHYSICAL_WALK.md has results and
+//! limits. Not handled: turning; activation of muscles.
 
 mod controller;
 mod fall;

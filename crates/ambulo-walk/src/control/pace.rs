@@ -13,7 +13,8 @@ pub(super) struct Pace {
     pub(super) gains: Vec<DMatrix<f64>>,
     /// Height of the sole of the right and the left foot when it strikes [m].
     pub(super) soles_m: [f64; 2],
-    /// Matrix P of the Riccati equation where a start from standing joins the walk, later by the delay of feedback; none without gains.
+    /// Matrix P of the Riccati equation where a start from standing joins the walk, later by the delay of feedback;
+    /// none without gains.
     pub(super) value: Option<DMatrix<f64>>,
 }
 

@@ -33,7 +33,8 @@ pub struct Costs {
 }
 
 impl Costs {
-    /// Gains K_k of some steps; `value` is P after the last step and becomes P before the first. `None` if R + Bᵀ P B has no inverse.
+    /// Gains K_k of some steps; `value` is P after the last step and becomes P before the first. `None` if R + Bᵀ P B
+    /// has no inverse.
     pub(super) fn gains(&self, steps: &[StepMap], value: &mut DMatrix<f64>) -> Option<Vec<DMatrix<f64>>> {
         let mut gains = Vec::with_capacity(steps.len());
         for StepMap { by_state, by_input } in steps.iter().rev() {
@@ -62,8 +63,8 @@ impl Costs {
         None
     }
 
-    /// Gain K of a step that is repeated some times, and P before all of them. Unlike [`Costs::periodic`] it does not need to converge: deviations that
-    /// cost, but that no input can change, cost more with each repetition.
+    /// Gain K of a step that is repeated some times, and P before all of them. Unlike [`Costs::periodic`] it does not
+    /// need to converge: deviations that cost, but that no input can change, cost more with each repetition.
     pub fn repeated(&self, step: &StepMap, times: usize) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
         let mut value = self.state.clone();
         let mut last = None;
@@ -74,7 +75,8 @@ impl Costs {
     }
 }
 
-/// Gains for inputs that act `delay` steps later: the state then is foreseen by the closed system, u_{k+d} = -K_{k+d} (Π (A_j - B_j K_j)) x_k.
+/// Gains for inputs that act `delay` steps later: the state then is foreseen by the closed system, u_{k+d} = -K_{k+d}
+/// (Π (A_j - B_j K_j)) x_k.
 pub fn foreseen(steps: &[StepMap], gains: &[DMatrix<f64>], delay: usize) -> Vec<DMatrix<f64>> {
     if delay == 0 {
         return gains.to_vec();

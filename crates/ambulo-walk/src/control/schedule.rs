@@ -5,7 +5,8 @@ use super::controller::WalkController;
 /// Largest difference of speed between two plans of one controller [m/s].
 const PLANS_APART: f64 = 0.1;
 
-/// The speed of a walk over time. Speed 0 is standing: the figure slows down to its slowest speed, from which it stops, and walks off at it.
+/// The speed of a walk over time. Speed 0 is standing: the figure slows down to its slowest speed, from which it stops,
+/// and walks off at it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedSchedule {
     first: f64,
@@ -36,8 +37,8 @@ impl SpeedSchedule {
         SpeedSchedule { first: speed, stopping, changes: Vec::new() }
     }
 
-    /// Adds a change after those before: it begins at `start_s`, takes `duration_s` and ends at the speed `to` [m/s]. The figure stops after a change to
-    /// standing, and walks off before a change from standing.
+    /// Adds a change after those before: it begins at `start_s`, takes `duration_s` and ends at the speed `to` [m/s].
+    /// The figure stops after a change to standing, and walks off before a change from standing.
     pub fn change(&mut self, start_s: f64, duration_s: f64, to: f64) {
         let from = self.changes.last().map_or(self.first, |change| change.to);
         self.changes.push(SpeedChange { start_s, duration_s, from, to });
@@ -85,7 +86,8 @@ impl SpeedSchedule {
         from + share.clamp(0.0, 1.0) * (to - from)
     }
 
-    /// Speeds for which a controller of this schedule needs plans [m/s]: from the lowest to the highest, at most 0.1 m/s apart.
+    /// Speeds for which a controller of this schedule needs plans [m/s]: from the lowest to the highest, at most 0.1
+    /// m/s apart.
     #[must_use]
     pub fn plans(&self) -> Vec<f64> {
         let low = self.slowest();

@@ -5,10 +5,12 @@ use crate::engine::figure_tree::FigureJointError;
 use crate::optimal::StandingError;
 use crate::walking::{TorqueSeries, WalkingError};
 
-/// Settings of a [`WalkController`](super::WalkController). Torques are those of an adult of 75 kg and 1.75 m; they grow with mass times stature.
+/// Settings of a [`WalkController`](super::WalkController). Torques are those of an adult of 75 kg and 1.75 m; they
+/// grow with mass times stature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControlSettings {
-    /// Stiffness of the impedance of hips, knees, ankles and lumbar joint [N.m/rad]; arms have 0.3 and toes 0.2 times as much.
+    /// Stiffness of the impedance of hips, knees, ankles and lumbar joint [N.m/rad]; arms have 0.3 and toes 0.2 times
+    /// as much.
     pub stiffness: f64,
     /// Damping of the impedance over its stiffness [s].
     pub damping_s: f64,
@@ -97,9 +99,9 @@ impl Default for ControlSettings {
 }
 
 impl ControlSettings {
-    /// Gains that survive stronger pushes than the default ones, for planar figures whose feedback acts at once: found by [`crate::tuning`] for a
-    /// woman of 60 kg at 1.2 m/s. In three dimensions they survive fewer pushes from the side, and with feedback that acts 20 ms later figures fall
-    /// (docs/measured/PHYSICAL_WALK.md).
+    /// Gains that survive stronger pushes than the default ones, for planar figures whose feedback acts at once: found
+    /// by [`crate::tuning`] for a woman of 60 kg at 1.2 m/s. In three dimensions they survive fewer pushes from the
+    /// side, and with feedback that acts 20 ms later figures fall (docs/measured/PHYSICAL_WALK.md).
     #[must_use]
     pub fn tuned_in_the_plane() -> ControlSettings {
         let default = ControlSettings::default();
@@ -155,7 +157,8 @@ pub enum ControlError {
     NotPlanar,
     /// A torque curve of no joint of the figure.
     #[error(
-        "found a torque curve of `{coordinate}`; expected coordinates of joints of the figure. hint: curves of a walk in three dimensions need a figure in three dimensions, and those of a planar walk a planar figure"
+        "found a torque curve of `{coordinate}`; expected coordinates of joints of the figure. hint: curves of a walk \
+         in three dimensions need a figure in three dimensions, and those of a planar walk a planar figure"
     )]
     TorqueOf {
         /// The coordinate.
@@ -163,7 +166,8 @@ pub enum ControlError {
     },
     /// Torque curves of another walk.
     #[error(
-        "found torque curves of a cycle of {found_s:.3} s; expected that of the plan, {cycle_s:.3} s, of the same speed and figure"
+        "found torque curves of a cycle of {found_s:.3} s; expected that of the plan, {cycle_s:.3} s, of the same \
+         speed and figure"
     )]
     TorqueCycle {
         /// That of the curves [s].
@@ -173,7 +177,8 @@ pub enum ControlError {
     },
     /// Controllers that cannot be joined.
     #[error(
-        "found {found} among controllers to be joined; expected controllers of one figure, with the same settings, at several speeds"
+        "found {found} among controllers to be joined; expected controllers of one figure, with the same settings, at \
+         several speeds"
     )]
     Joined {
         /// What was found.
@@ -181,7 +186,8 @@ pub enum ControlError {
     },
     /// A speed that no plan of a controller has.
     #[error(
-        "found the speed {found} m/s; expected {slowest:.2} to {fastest:.2} m/s, the speeds of the plans of this controller"
+        "found the speed {found} m/s; expected {slowest:.2} to {fastest:.2} m/s, the speeds of the plans of this \
+         controller"
     )]
     Speed {
         /// The speed [m/s].
@@ -196,7 +202,8 @@ pub enum ControlError {
     NoStanding(#[from] StandingError),
     /// Standing of another walk, or without gains.
     #[error(
-        "found movements of standing of a walk at {found:.2} m/s; expected those of the slowest walk of the controller, at {slowest:.2} m/s, with feedback of the whole state"
+        "found movements of standing of a walk at {found:.2} m/s; expected those of the slowest walk of the \
+         controller, at {slowest:.2} m/s, with feedback of the whole state"
     )]
     Standing {
         /// Speed of the walk [m/s].
@@ -206,7 +213,8 @@ pub enum ControlError {
     },
     /// Movements that do not begin and end in the walk.
     #[error(
-        "found a stop or a start that does not join the walk at {speed:.2} m/s; expected those that `StandingMovements::find` returns for this walk"
+        "found a stop or a start that does not join the walk at {speed:.2} m/s; expected those that \
+         `StandingMovements::find` returns for this walk"
     )]
     Movements {
         /// Speed of the walk [m/s].

@@ -1,8 +1,8 @@
 //! Standing, and the ways from a walk there and back: their plans, their gains, and where on them a figure is.
 //!
-//! The gains of a stop are those of the Riccati equation backwards from standing, and the gains of a start backwards from the walk that it joins. Standing
-//! is a plan of one time step that repeats. Feet that stand cannot be moved by torques, so that a deviation of their place would cost for ever: standing
-//! looks ahead for some seconds only.
+//! The gains of a stop are those of the Riccati equation backwards from standing, and the gains of a start backwards
+//! from the walk that it joins. Standing is a plan of one time step that repeats. Feet that stand cannot be moved by
+//! torques, so that a deviation of their place would cost for ever: standing looks ahead for some seconds only.
 
 use super::figure::FigureWorld;
 use super::linear::Impedance;
@@ -94,7 +94,8 @@ pub(super) struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// Standing of a figure whose start joins a walk with the matrix P of the Riccati equation, `delay` steps later; `lowest` are heights of soles.
+    /// Standing of a figure whose start joins a walk with the matrix P of the Riccati equation, `delay` steps later;
+    /// `lowest` are heights of soles.
     pub(super) fn standing(
         &mut self,
         movements: &StandingMovements,

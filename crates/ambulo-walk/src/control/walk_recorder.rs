@@ -14,7 +14,8 @@ use crate::model::{BodyId, BySide, Side};
 use crate::motion::TimeGrid;
 use crate::walking::{FootRecord, GaitTargets, WalkRecording};
 
-/// A contact belongs to the ground if the vertical component of its normal is at least this: less than 45° from the vertical.
+/// A contact belongs to the ground if the vertical component of its normal is at least this: less than 45° from the
+/// vertical.
 const GROUND: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Radius of the spheres by which a fallen figure lies on the ground [m].
 const BODY_RADIUS_M: f64 = 0.08;
@@ -104,7 +105,8 @@ impl FigureRecorder {
         self.live.is_some()
     }
 
-    /// Sets drives and motors of the figure for a step that ends at a time [s]; machines and controllers read the figure as it is at its start.
+    /// Sets drives and motors of the figure for a step that ends at a time [s]; machines and controllers read the
+    /// figure as it is at its start.
     pub(crate) fn aim(&mut self, world: &mut World, state: &WorldState, end_s: f64) {
         match &mut self.live {
             Some(Live::Controller(_)) => self.control(world, end_s),
@@ -192,8 +194,8 @@ impl FigureRecorder {
         self.before = self.tree.read(world, state, &world.joint_of_body());
     }
 
-    /// Records a step; the wrenches of the workspace must have been read. The posture is that of its start; velocities belong to the middle
-    /// of steps.
+    /// Records a step; the wrenches of the workspace must have been read. The posture is that of its start; velocities
+    /// belong to the middle of steps.
     pub(crate) fn after_step(
         &mut self,
         world: &World,

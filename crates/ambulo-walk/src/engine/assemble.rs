@@ -4,9 +4,9 @@
 //!
 //!   M v = M v⁻ + h f + Jᵀ λ          λ: impulses
 //!
-//! where f is gravity, loads and the gyroscopic moment -ω × I ω. The gyroscopic moment is implicit, by one Newton step of
-//! I (ω - ω⁻) + h ω × I ω = 0, because an explicit one feeds energy to fast spins (Catto 2015, unverified). Springs, dampers
-//! and motors on coordinates are implicit too: with q + h q̇ at the end of the step,
+//! where f is gravity, loads and the gyroscopic moment -ω × I ω. The gyroscopic moment is implicit, by one Newton step
+//! of I (ω - ω⁻) + h ω × I ω = 0, because an explicit one feeds energy to fast spins (Catto 2015, unverified). Springs,
+//! dampers and motors on coordinates are implicit too: with q + h q̇ at the end of the step,
 //!
 //!   (.. + r + h d + h² k) q̇ = r q̇⁻ + h k (rest - q)
 //!
@@ -31,8 +31,8 @@ pub(crate) struct Span {
     pub(crate) h: f64,
     /// Whether the solve is for an instant, an impact.
     pub(crate) instant: bool,
-    /// Whether the velocities are those in the middle of a step of 2 h, and the laws of unilateral rows and of friction hold at its end
-    /// ([`super::midpoint`]).
+    /// Whether the velocities are those in the middle of a step of 2 h, and the laws of unilateral rows and of friction
+    /// hold at its end ([`super::midpoint`]).
     pub(crate) halfway: bool,
 }
 
@@ -95,7 +95,8 @@ pub(crate) struct Assembly {
     pub(crate) joint_of: Vec<Option<usize>>,
     /// First coordinate of the graph of each body.
     pub(crate) first: Vec<usize>,
-    /// Angular velocities at which the gyroscopic moments of bodies are taken [rad/s]; without one it is predicted from the body alone.
+    /// Angular velocities at which the gyroscopic moments of bodies are taken [rad/s]; without one it is predicted from
+    /// the body alone.
     pub(crate) spins: Vec<Option<Vec3>>,
 }
 
@@ -442,7 +443,8 @@ fn gyroscopic_change(inertia: &Mat3, before: &Vec3, h: f64, rounds: usize) -> Ve
     change
 }
 
-/// The twist of the child's mass centre relative to its parent that moves a following body to its prescribed pose in one step.
+/// The twist of the child's mass centre relative to its parent that moves a following body to its prescribed pose in
+/// one step.
 fn following(state: &WorldState, joint: &TreeJoint, goal: &Pose, h: f64) -> Six {
     let now = state.poses[joint.child];
     let goal = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]) * *goal;

@@ -24,8 +24,8 @@ impl Energy {
     }
 }
 
-/// Rise of the energy, as a share of the kinetic energy that the start allows, that is no error of time stepping: the first-order step of an
-/// oscillation of 100 rad/s exchanges 5 % at 1 ms.
+/// Rise of the energy, as a share of the kinetic energy that the start allows, that is no error of time stepping: the
+/// first-order step of an oscillation of 100 rad/s exchanges 5 % at 1 ms.
 const RISE: f64 = 0.1;
 /// Smallest rise that counts, as the whole weight lifted by this height [m].
 const LIFTED_M: f64 = 1e-3;

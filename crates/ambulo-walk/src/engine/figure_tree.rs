@@ -1,7 +1,9 @@
-//! The joints of a figure's model as joints of a world: every coordinate of the model is one of a joint, or of a free root.
+//! The joints of a figure's model as joints of a world: every coordinate of the model is one of a joint, or of a free
+//! root.
 //!
-//! Each rotation of a joint is a hinge of the world, so that every angle of the model has its own motor; between the hinges of one joint are
-//! links without mass. The root of a planar figure is a planar joint, that of a figure in three dimensions is a free body.
+//! Each rotation of a joint is a hinge of the world, so that every angle of the model has its own motor; between the
+//! hinges of one joint are links without mass. The root of a planar figure is a planar joint, that of a figure in three
+//! dimensions is a free body.
 
 use super::joint::JointKind;
 use super::state::rates;
@@ -47,8 +49,8 @@ pub(crate) struct FigureTree {
 }
 
 impl FigurePlace {
-    /// Joint of the world and coordinate of the joint; `None` for a free root and where the joint was removed. `joint_of` has the joint of every
-    /// body.
+    /// Joint of the world and coordinate of the joint; `None` for a free root and where the joint was removed.
+    /// `joint_of` has the joint of every body.
     pub(crate) fn joint(&self, joint_of: &[Option<usize>]) -> Option<(usize, usize)> {
         match *self {
             FigurePlace::Root(_) => None,
@@ -88,7 +90,8 @@ impl FigureTree {
         Ok(FigureTree { model: model.clone(), first_body, bodies: world.bodies.len() - first_body, places })
     }
 
-    /// Motions of the figure's bodies in a posture, in their order in the world. Links have no acceleration: nothing depends on it.
+    /// Motions of the figure's bodies in a posture, in their order in the world. Links have no acceleration: nothing
+    /// depends on it.
     pub(crate) fn motions(&self, world: &World, posture: Posture<'_>) -> Vec<BodyStart> {
         let of = |motion: BodyMotion| {
             let pose = Pose { rotation: motion.pose.rotation, translation: motion.center };
@@ -134,7 +137,8 @@ impl FigureTree {
         }
     }
 
-    /// Every body touches the ground from now on, by a sphere of some radius [m] about its mass centre; bodies of the figure pass through each other.
+    /// Every body touches the ground from now on, by a sphere of some radius [m] about its mass centre; bodies of the
+    /// figure pass through each other.
     pub(crate) fn touch_ground(&self, world: &mut World, radius_m: f64, material: usize) -> Result<(), ShapeError> {
         let own = self.first_body..self.first_body + self.model.bodies().len();
         for body in own.clone() {
@@ -151,7 +155,8 @@ impl FigureTree {
         Ok(())
     }
 
-    /// Value and rate of the angles and distances of a free root: R = R_z R_x R_y, and ω = e_z ȧ + R_z e_x ḃ + R_z R_x e_y ċ.
+    /// Value and rate of the angles and distances of a free root: R = R_z R_x R_y, and ω = e_z ȧ + R_z e_x ḃ + R_z R_x
+    /// e_y ċ.
     fn read_root(&self, state: &WorldState) -> [[f64; 2]; 6] {
         let joint = &self.model.bodies()[0].joint;
         let (pose, twist) = (state.poses[self.first_body], state.twists[self.first_body]);

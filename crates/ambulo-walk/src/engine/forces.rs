@@ -8,7 +8,8 @@ use crate::spatial::{Vec3, Wrench};
 pub struct StepForces {
     /// Wrench on each body by its joint, at the body's mass centre, world axes; zero for free bodies.
     pub joints: Vec<Wrench>,
-    /// Moment or force along each coordinate of each joint: drive, motor, spring, limits and friction together [N.m or N].
+    /// Moment or force along each coordinate of each joint: drive, motor, spring, limits and friction together [N.m or
+    /// N].
     pub efforts: Vec<Vec<f64>>,
     /// One entry per contact point.
     pub contacts: Vec<ContactForce>,

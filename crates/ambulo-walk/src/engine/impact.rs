@@ -60,8 +60,9 @@ impl StepWorkspace {
         self.impacts.twists_after.clone_from(&state.twists);
     }
 
-    /// Sticking impacts: every point that has come into contact since the last step loses all its velocity, one after the
-    /// other in the order in which they touched. Points that separate in the meantime, or are at rest already, are skipped.
+    /// Sticking impacts: every point that has come into contact since the last step loses all its velocity, one after
+    /// the other in the order in which they touched. Points that separate in the meantime, or are at rest already, are
+    /// skipped.
     pub(super) fn strike(
         &mut self,
         world: &World,

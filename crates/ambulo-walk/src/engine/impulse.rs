@@ -22,8 +22,8 @@ use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, Six, solve_g
 use crate::findings::{Code, Findings};
 use crate::spatial::STANDARD_GRAVITY;
 
-/// A force beyond this many times the total weight is a sign of contradictory constraints: drives without a limit give way
-/// there, and no force is larger where the solver fails.
+/// A force beyond this many times the total weight is a sign of contradictory constraints: drives without a limit give
+/// way there, and no force is larger where the solver fails.
 const UNREASONABLE_WEIGHTS: f64 = 1000.0;
 /// A residual above this means contradictory constraints; below, slow convergence, as in stretched loops.
 const CONTRADICTION: f64 = 1e-6;
@@ -185,9 +185,9 @@ impl StepWorkspace {
         }
     }
 
-    /// Whether a drive presses on another body, as the finger of a gripper does: contacts with bodies that the drive does not carry bear
-    /// at least half of its effort. The limit of such a drive is its intended force and is not reported. Obstacles do not count, so that a
-    /// leg that is too weak on the ground is still reported.
+    /// Whether a drive presses on another body, as the finger of a gripper does: contacts with bodies that the drive
+    /// does not carry bear at least half of its effort. The limit of such a drive is its intended force and is not
+    /// reported. Obstacles do not count, so that a leg that is too weak on the ground is still reported.
     fn presses_on_a_body(&self, world: &World, state: &WorldState, number: usize, coordinate: usize) -> bool {
         let child = world.joints[number].child;
         let carried = world.carried_by(child);

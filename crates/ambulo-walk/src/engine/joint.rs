@@ -176,8 +176,8 @@ impl JointKind {
         q
     }
 
-    /// The displacement along the free directions from `q` to `goal`: their difference; for rotation vectors, the rotation
-    /// between them.
+    /// The displacement along the free directions from `q` to `goal`: their difference; for rotation vectors, the
+    /// rotation between them.
     pub(crate) fn displacement(self, q: &[f64], goal: &Coordinates) -> Coordinates {
         let mut displacement = [0.0; MOST];
         for (displacement, (goal, q)) in displacement.iter_mut().zip(goal.iter().zip(q)) {
@@ -190,7 +190,8 @@ impl JointKind {
         displacement
     }
 
-    /// Coordinates after a displacement along the free directions: their sum; for rotation vectors, that of the rotation after the other.
+    /// Coordinates after a displacement along the free directions: their sum; for rotation vectors, that of the
+    /// rotation after the other.
     #[inline(always)]
     pub(crate) fn moved(self, q: &[f64], along: &Coordinates) -> Coordinates {
         let mut moved = [0.0; MOST];
@@ -223,8 +224,8 @@ impl JointKind {
         s
     }
 
-    /// The same from the axes of P and the second axis of C, of which only those that the joint needs are computed. Directions beyond
-    /// [`JointKind::freedom`] stay as they are.
+    /// The same from the axes of P and the second axis of C, of which only those that the joint needs are computed.
+    /// Directions beyond [`JointKind::freedom`] stay as they are.
     #[inline(always)]
     pub(crate) fn write_directions(
         self,

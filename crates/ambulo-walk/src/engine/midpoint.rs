@@ -1,4 +1,5 @@
-//! A step by the midpoint rule, of second order: an undamped motion keeps its energy, and contacts may open, close, stick and slip.
+//! A step by the midpoint rule, of second order: an undamped motion keeps its energy, and contacts may open, close,
+//! stick and slip.
 //!
 //! With h half of the step and u the velocities in its middle,
 //!
@@ -7,16 +8,17 @@
 //!   x⁺ = x⁻ + 2 h u                                       then drift is removed as in a step of impulses
 //!   v⁺ = 2 u - v⁻                                         angular velocities in the axes of the body
 //!
-//! Joints and closed loops do no work, because the change of the kinetic energy is uᵀ M (v⁺ - v⁻) = 2 h uᵀ f + uᵀ Jᵀ λ and J u = 0. The weight does
-//! that of the displacement 2 h u, and a linear spring that of its own energy. What is left is the removal of drift, of third order in a step.
+//! Joints and closed loops do no work, because the change of the kinetic energy is uᵀ M (v⁺ - v⁻) = 2 h uᵀ f + uᵀ Jᵀ λ
+//! and J u = 0. The weight does that of the displacement 2 h u, and a linear spring that of its own energy. What is
+//! left is the removal of drift, of third order in a step.
 //!
-//! Laws of contact, friction and limits hold for the velocities at the end of the step, so that sticking points stand still and an impact without
-//! restitution ends at once (Moreau's sweeping process with the theta method at one half):
+//! Laws of contact, friction and limits hold for the velocities at the end of the step, so that sticking points stand
+//! still and an impact without restitution ends at once (Moreau's sweeping process with the theta method at one half):
 //!
 //!   2 u_n - u_n⁻ ≥ -e u_n⁻,  λ_n ≥ 0, complementary        friction against 2 u_t - u_t⁻
 //!
-//! Source: Moreau 1999, "Numerical aspects of the sweeping process"; Acary and Brogliato 2008, "Numerical Methods for Nonsmooth Dynamical Systems"
-//! (both unverified).
+//! Source: Moreau 1999, "Numerical aspects of the sweeping process"; Acary and Brogliato 2008, "Numerical Methods for
+//! Nonsmooth Dynamical Systems" (both unverified).
 //! Pinned by: tests/simulation_midpoint.rs
 
 use super::assemble::{Span, twist};
@@ -31,9 +33,11 @@ use crate::dynamics::{BodyTerms, Convergence, LinkError};
 use crate::findings::Findings;
 use crate::spatial::Twist;
 
-/// Gyroscopic moments that change less than this share of the angular momentum in half a step are zero but for rounding.
+/// Gyroscopic moments that change less than this share of the angular momentum in half a step are zero but for
+/// rounding.
 const NEGLIGIBLE: f64 = 1e-12;
-/// A body that turns further in half a step [rad] keeps the gyroscopic moment that is predicted for it alone, which does no work on it.
+/// A body that turns further in half a step [rad] keeps the gyroscopic moment that is predicted for it alone, which
+/// does no work on it.
 const MOST_TURN: f64 = 0.2;
 
 /// Advances the state by one step.
@@ -55,8 +59,8 @@ pub(super) fn midpoint_step(
     Ok(w.equations.solution.convergence)
 }
 
-/// Whether a closed loop is new: velocities may contradict it. The midpoint rule would turn the contradiction around in every step, and a step of
-/// impulses removes it.
+/// Whether a closed loop is new: velocities may contradict it. The midpoint rule would turn the contradiction around in
+/// every step, and a step of impulses removes it.
 fn has_new_loop(world: &World, state: &WorldState) -> bool {
     let is_new = |number: usize| !state.guess.contains_key(&RowKey::Closure(number));
     world.closures.iter().enumerate().any(|(number, closure)| closure.active && is_new(number))
@@ -106,8 +110,8 @@ impl StepWorkspace {
         Ok(())
     }
 
-    /// Solves for the velocities in the middle. Joints and contacts change the spin of a body, so its gyroscopic moment is taken again at the spin
-    /// that the first solution has.
+    /// Solves for the velocities in the middle. Joints and contacts change the spin of a body, so its gyroscopic moment
+    /// is taken again at the spin that the first solution has.
     fn solve_halfway(
         &mut self,
         world: &World,

@@ -1,10 +1,12 @@
 //! The simulator: worlds of rigid bodies, driven joints, contacts and loops, stepped through time.
 //!
-//! A [`World`] describes bodies, the [`TreeJoint`]s that make trees of them, [`Closure`]s that close loops, and [`Surface`]s that
-//! may touch. A [`WorldState`] holds positions and velocities; [`step`] advances it, and [`StepWorkspace::forces`] returns the forces
-//! of the step, which are the multipliers of its constraints. Every body has six coordinates. Only memory limits their number.
+//! A [`World`] describes bodies, the [`TreeJoint`]s that make trees of them, [`Closure`]s that close loops, and
+//! [`Surface`]s that may touch. A [`WorldState`] holds positions and velocities; [`step`] advances it, and
+//! [`StepWorkspace::forces`] returns the forces of the step, which are the multipliers of its constraints. Every body
+//! has six coordinates. Only memory limits their number.
 //!
-//! A pendulum (a point of 1 kg on a rod of 1 m), released at the height of its hinge, has the speed √(2 g l) at its lowest point:
+//! A pendulum (a point of 1 kg on a rod of 1 m), released at the height of its hinge, has the speed √(2 g l) at its
+//! lowest point:
 //!
 //! ```
 //! use ambulo_walk::findings::Findings;

@@ -1,16 +1,19 @@
-//! Positions at the end of a step: bodies are placed along their trees, then moved until contact points and loops close.
+//! Positions at the end of a step: bodies are placed along their trees, then moved until contact points and loops
+//! close.
 //!
-//! **Trees.** Coordinates advance by their rates, q := q + h q̇, driven ones to the values of their drives, and every body is placed by its joint,
-//! parents first; a body without a joint moves by its own velocity. Joints are therefore closed to rounding, however far bodies turn in a step.
-//! Placed like this, the mass centre of a tree is off from where the velocities take it, to second order in h. If the root may translate, the
-//! tree is translated by the difference: nothing but forces from outside moves the mass centre.
+//! **Trees.** Coordinates advance by their rates, q := q + h q̇, driven ones to the values of their drives, and every
+//! body is placed by its joint, parents first; a body without a joint moves by its own velocity. Joints are therefore
+//! closed to rounding, however far bodies turn in a step. Placed like this, the mass centre of a tree is off from where
+//! the velocities take it, to second order in h. If the root may translate, the tree is translated by the difference:
+//! nothing but forces from outside moves the mass centre.
 //!
-//! **Contact points, limits, loops.** From the posture as placed, one solve of M δ = Jᵀ ν, J δ = -error with the factor of the velocities gives
-//! the displacements with the least motion of mass, and the trees are placed again by them. Gaps are those after bodies have turned, so loaded
-//! points lie on their surface to rounding, not to second order in the step.
+//! **Contact points, limits, loops.** From the posture as placed, one solve of M δ = Jᵀ ν, J δ = -error with the factor
+//! of the velocities gives the displacements with the least motion of mass, and the trees are placed again by them.
+//! Gaps are those after bodies have turned, so loaded points lie on their surface to rounding, not to second order in
+//! the step.
 //!
-//! **Loops that are still open** are solved again at the present positions, a few times (Gauss-Newton, moving the least mass): displacements along
-//! the directions at the start of a step suffice only while bodies turn little in it.
+//! **Loops that are still open** are solved again at the present positions, a few times (Gauss-Newton, moving the least
+//! mass): displacements along the directions at the start of a step suffice only while bodies turn little in it.
 
 use super::assemble::{Assembly, Prescribed, Span, twist};
 use super::joint::{Coordinates, Frames, JointKind, MOST, advance, drift, orthonormal};
@@ -32,7 +35,8 @@ const FAR: f64 = 1e-4;
 const ROUNDS: usize = 8;
 /// Errors up to this are the rounding of positions of some metres [m, rad].
 const ROUNDING: f64 = 1e-15;
-/// A driven angle of a rotation vector takes the value of its drive if it is this near to it [rad]: rates of rotation vectors are no velocities.
+/// A driven angle of a rotation vector takes the value of its drive if it is this near to it [rad]: rates of rotation
+/// vectors are no velocities.
 const NEARLY_DRIVEN: f64 = 1e-3;
 
 /// A motion of all trees: the parts of a solution, and the share of them to apply.
@@ -134,8 +138,8 @@ impl Trees<'_> {
         moved
     }
 
-    /// Translates the trees whose roots may translate, so that their mass centres are where they move to along straight lines; `off` has the
-    /// difference of each body from its own line, and becomes the sum over its tree.
+    /// Translates the trees whose roots may translate, so that their mass centres are where they move to along straight
+    /// lines; `off` has the difference of each body from its own line, and becomes the sum over its tree.
     fn center(&self, state: &mut WorldState, off: &mut [Vec3], masses: &mut Vec<f64>) {
         masses.clear();
         masses.extend(self.world.bodies.iter().map(|body| body.mass));
@@ -199,8 +203,8 @@ fn slides(joint: &TreeJoint) -> impl Iterator<Item = (usize, usize)> {
 }
 
 impl StepWorkspace {
-    /// Places all bodies at the end of a motion of duration `h` with the velocities of the last solution; contact points were found `step_s` before
-    /// its end.
+    /// Places all bodies at the end of a motion of duration `h` with the velocities of the last solution; contact
+    /// points were found `step_s` before its end.
     pub(super) fn place(&mut self, world: &World, state: &mut WorldState, h: f64) {
         let drives = Drives {
             prescribed: &self.prescribed,
@@ -350,8 +354,8 @@ pub(super) fn still_closing(world: &World, state: &WorldState) -> bool {
     (0..world.closures.len()).any(|number| world.closures[number].active && largest_error(world, state, number) > FAR)
 }
 
-/// The share of the displacements to apply: all of them, unless they are far larger than the errors that they remove. In
-/// stretched loops a small error along the loop needs a large displacement across it, beyond the linear range.
+/// The share of the displacements to apply: all of them, unless they are far larger than the errors that they remove.
+/// In stretched loops a small error along the loop needs a large displacement across it, beyond the linear range.
 fn share_of_displacements(targets: &[f64], displacements: &[Six]) -> f64 {
     let slide = |six: &Six| six.fixed_rows::<3>(3).amax();
     let error = targets.iter().map(|t| t.abs()).fold(0.0, f64::max);

@@ -1,9 +1,9 @@
 //! Sampled functions of time, periodic or over a span, interpolated with quintics.
 //!
-//! On each interval of length d, a polynomial of degree five matches value, rate and acceleration at both ends. The result is
-//! twice continuously differentiable, and its error falls with d⁶ where the function is smooth. Where the third derivative
-//! jumps by J inside an interval, the acceleration is off by less than J d/4 within that interval alone. One evaluation costs
-//! about 30 operations, whatever the function costs.
+//! On each interval of length d, a polynomial of degree five matches value, rate and acceleration at both ends. The
+//! result is twice continuously differentiable, and its error falls with d⁶ where the function is smooth. Where the
+//! third derivative jumps by J inside an interval, the acceleration is off by less than J d/4 within that interval
+//! alone. One evaluation costs about 30 operations, whatever the function costs.
 
 /// Samples of several functions at the same instants.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,8 +16,8 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Samples one period of `functions` from time zero, at most `step_s` apart. `functions` fills one entry (value, rate,
-    /// acceleration) per column.
+    /// Samples one period of `functions` from time zero, at most `step_s` apart. `functions` fills one entry (value,
+    /// rate, acceleration) per column.
     ///
     /// # Panics
     /// If the period or the step is not above zero.
@@ -30,7 +30,8 @@ impl Samples {
         Samples { rows: between(&instants, columns, step_s), step_s, columns, periodic: true }
     }
 
-    /// Samples functions from time zero to `span_s`, at most `step_s` apart. Before and after it they have the values of its ends.
+    /// Samples functions from time zero to `span_s`, at most `step_s` apart. Before and after it they have the values
+    /// of its ends.
     ///
     /// # Panics
     /// If the span or the step is not above zero.
@@ -63,7 +64,8 @@ impl Samples {
         self.rows[first + column].value(u)
     }
 
-    /// The place of an instant on the grid: the first entry at the start of its interval, and the elapsed share of the interval.
+    /// The place of an instant on the grid: the first entry at the start of its interval, and the elapsed share of the
+    /// interval.
     pub(super) fn place(&self, t: f64) -> (usize, f64) {
         let intervals = self.rows.len() / self.columns;
         let count = intervals as f64;

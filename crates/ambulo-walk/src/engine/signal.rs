@@ -42,8 +42,8 @@ pub enum Signal {
 const SAMPLE_STEP_S: f64 = 1e-3;
 
 impl Signal {
-    /// One signal per column of a motion that repeats every `cycle_s`; `motion` fills one entry (value, rate, acceleration)
-    /// per column.
+    /// One signal per column of a motion that repeats every `cycle_s`; `motion` fills one entry (value, rate,
+    /// acceleration) per column.
     ///
     /// The motion is sampled every millisecond: between samples of a gait, angles differ by less than 1e-9 rad, and
     /// accelerations by what a jump of the third derivative makes in a millisecond.
@@ -56,7 +56,8 @@ impl Signal {
         (0..columns).map(|column| Signal::Sampled(Arc::clone(&samples), column)).collect()
     }
 
-    /// One signal per column of a motion from time zero to `span_s`, sampled like [`Signal::periodic`]; constant after it.
+    /// One signal per column of a motion from time zero to `span_s`, sampled like [`Signal::periodic`]; constant after
+    /// it.
     ///
     /// # Panics
     /// If the span is not above zero.

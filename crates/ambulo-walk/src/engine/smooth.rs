@@ -1,23 +1,25 @@
 //! A fourth-order step without contacts: Runge-Kutta on the coordinates of the kinematic trees.
 //!
-//! The unknowns are a displacement δ and a rate q̇ of each coordinate; a body without a joint has six. For joints that rotate
-//! freely, R = exp(δ) R₀, and δ̇ is not the rate but (Munthe-Kaas)
+//! The unknowns are a displacement δ and a rate q̇ of each coordinate; a body without a joint has six. For joints that
+//! rotate freely, R = exp(δ) R₀, and δ̇ is not the rate but (Munthe-Kaas)
 //!
 //!   δ̇ = ω - ½ δ × ω + 1/12 δ × (δ × ω)
 //!
-//! with a next term of the order of δ⁴. Poses and twists follow from the coordinates, from the root outwards, so tree joints are
-//! exact; the accelerations q̈ come from the constraint graph with
+//! with a next term of the order of δ⁴. Poses and twists follow from the coordinates, from the root outwards, so tree
+//! joints are exact; the accelerations q̈ come from the constraint graph with
 //!
 //!   a_c = X a_p + S q̈ + w      w: b_α, and b_α × r + ω_p × (ω_p × s) + 2 ω_p × ṫ + ω_c × (ω_c × r)
 //!
-//! where r leads from the origin of C to the child's mass centre, s from the parent's mass centre to the origin of C, ṫ is the
-//! translation rate of C in P, and b_α = Σ ė q̇ is the rotation of the joint's axes. Loops are closed at the level of
-//! accelerations; after the step, positions and velocities are projected once onto the closures.
+//! where r leads from the origin of C to the child's mass centre, s from the parent's mass centre to the origin of C, ṫ
+//! is the translation rate of C in P, and b_α = Σ ė q̇ is the rotation of the joint's axes. Loops are closed at the
+//! level of accelerations; after the step, positions and velocities are projected once onto the closures.
 //!
-//! The tree of this file is not `kinematics::plan`: that one belongs to a model whose axes are functions of coordinates, while
-//! here bodies come in any order, joints are of seven fixed kinds, and free rotations are integrated on the rotation group.
+//! The tree of this file is not `kinematics::plan`: that one belongs to a model whose axes are functions of
+//! coordinates, while here bodies come in any order, joints are of seven fixed kinds, and free rotations are integrated
+//! on the rotation group.
 //!
-//! Source: the classical method of Runge and Kutta; Munthe-Kaas 1998, "Runge-Kutta methods on Lie groups" (unverified page).
+//! Source: the classical method of Runge and Kutta; Munthe-Kaas 1998, "Runge-Kutta methods on Lie groups" (unverified
+//! page).
 
 use super::assemble::{Assembly, Slot, closing_rows, twist};
 use super::joint::{Frames, JointKind, MOST, orthonormal};
@@ -56,8 +58,8 @@ struct Motion {
     rates: Vec<f64>,
 }
 
-/// The motion that a figure prescribes for a joint: pose of the child's mass centre frame in the parent's, with rates and
-/// accelerations.
+/// The motion that a figure prescribes for a joint: pose of the child's mass centre frame in the parent's, with rates
+/// and accelerations.
 struct Goal {
     pose: Pose,
     rates: [f64; MOST],

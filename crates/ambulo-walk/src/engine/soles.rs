@@ -8,8 +8,8 @@ use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{BodyId, Side};
 use crate::spatial::Pose;
 
-/// Adds the soles of a figure whose first body is `first_body`, in their order. Feet do not touch each other, nor do the parts of one foot. Returns
-/// the indices of the surfaces with their sides.
+/// Adds the soles of a figure whose first body is `first_body`, in their order. Feet do not touch each other, nor do
+/// the parts of one foot. Returns the indices of the surfaces with their sides.
 pub(crate) fn add_soles(
     world: &mut World,
     human: &Human,

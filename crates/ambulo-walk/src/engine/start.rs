@@ -1,12 +1,12 @@
 //! The start of a world: velocities that agree with its joints and closed loops, and surfaces that overlap.
 //!
-//! Given velocities v⁻ may contradict the joints, J v⁻ ≠ 0, or the rates of their drives. The nearest ones by mass minimise
-//! ½ (v - v⁻)ᵀ M (v - v⁻):
+//! Given velocities v⁻ may contradict the joints, J v⁻ ≠ 0, or the rates of their drives. The nearest ones by mass
+//! minimise ½ (v - v⁻)ᵀ M (v - v⁻):
 //!
 //!   M v = M v⁻ + Jᵀ λ          J v = 0, or the rate of a drive
 //!
-//! as if the joints took hold with an impulse. Without drives this removes the energy ½ (v⁻ - v)ᵀ M (v⁻ - v), so it never adds any
-//! (Carnot). Both integrators begin there.
+//! as if the joints took hold with an impulse. Without drives this removes the energy ½ (v⁻ - v)ᵀ M (v⁻ - v), so it
+//! never adds any (Carnot). Both integrators begin there.
 //!
 //! Pinned by: tests/scene_start.rs
 
@@ -19,18 +19,20 @@ use crate::dynamics::{GraphSolution, GraphWorkspace, LinkError, Six, SolverSetti
 use crate::findings::{Code, Findings};
 use std::collections::BTreeMap;
 
-/// Velocities agree if the energy of their change is below this share of the kinetic energy: the solver's 1e-10, squared, is far
-/// below it, and a rate that was given with five digits is not.
+/// Velocities agree if the energy of their change is below this share of the kinetic energy: the solver's 1e-10,
+/// squared, is far below it, and a rate that was given with five digits is not.
 const AGREES: f64 = 1e-12;
 /// Rigid surfaces that overlap by more than this are pushed apart visibly [m].
 const DEEP_M: f64 = 1e-3;
-/// Soft surfaces that overlap by more than this begin with a large force [m]: the sole of a standing person yields half as much.
+/// Soft surfaces that overlap by more than this begin with a large force [m]: the sole of a standing person yields half
+/// as much.
 const DEEP_SOFT_M: f64 = 0.02;
 /// Duration of the instant for which moving obstacles are placed [s].
 const INSTANT_S: f64 = 1e-9;
 
-/// Prepares a state for its first [`step`](super::step()): velocities that contradict joints, drives or closed loops are replaced by
-/// the nearest ones by mass, and surfaces that overlap deeply are reported. Scenes do this by themselves.
+/// Prepares a state for its first [`step`](super::step()): velocities that contradict joints, drives or closed loops
+/// are replaced by the nearest ones by mass, and surfaces that overlap deeply are reported. Scenes do this by
+/// themselves.
 ///
 /// # Errors
 /// Joints that do not form trees.
@@ -75,7 +77,8 @@ fn project_velocities(
     findings.report(
         Code::StartContradictory,
         format!(
-            "the initial velocities contradict the joints, most at `{}`; the nearest ones by mass are used: kinetic energy \
+            "the initial velocities contradict the joints, most at `{}`; the nearest ones by mass are used: kinetic \
+             energy \
              {after:.4} J instead of {before:.4} J",
             world.bodies[most].name
         ),

@@ -42,8 +42,8 @@ pub enum RowKey {
 }
 
 impl WorldState {
-    /// The initial state of a world: bodies as described, coordinates measured from their poses. [`start`](super::start()) prepares it
-    /// for the first step.
+    /// The initial state of a world: bodies as described, coordinates measured from their poses.
+    /// [`start`](super::start()) prepares it for the first step.
     #[must_use]
     pub fn new(world: &World) -> WorldState {
         let mut state = WorldState {
@@ -87,7 +87,8 @@ impl WorldState {
     }
 }
 
-/// Motion of C relative to P, world axes: relative angular velocity [rad/s], velocity of C's origin relative to the parent [m/s].
+/// Motion of C relative to P, world axes: relative angular velocity [rad/s], velocity of C's origin relative to the
+/// parent [m/s].
 fn relative(state: &WorldState, joint: &TreeJoint, frames: &Frames) -> (Vec3, Vec3) {
     let child = &state.twists[joint.child];
     let origin = frames.child.translation;

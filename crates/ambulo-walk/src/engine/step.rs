@@ -1,8 +1,9 @@
 //! One time step of a world.
 //!
-//! [`Integrator::Impulse`] is of first order and handles contacts, impacts, friction and limits. [`Integrator::RungeKutta`] is of
-//! fourth order where there is no contact, dry friction or active limit. Where surfaces meet within its step, it finds the
-//! instant, computes the impact there and continues. A step in which they stay in contact is a step of impulses.
+//! [`Integrator::Impulse`] is of first order and handles contacts, impacts, friction and limits.
+//! [`Integrator::RungeKutta`] is of fourth order where there is no contact, dry friction or active limit. Where
+//! surfaces meet within its step, it finds the instant, computes the impact there and continues. A step in which they
+//! stay in contact is a step of impulses.
 
 use super::impact::impact;
 use super::impulse::impulse_step;
@@ -24,16 +25,16 @@ const MOST_IMPACTS: usize = 8;
 /// Bisections of the instant of contact: a step of 1 ms comes down to 1e-18 s.
 const BISECTIONS: usize = 50;
 
-/// If a body turns further than this in a smooth step [rad], the step is divided, since its error grows with the fifth power
-/// of the angle.
+/// If a body turns further than this in a smooth step [rad], the step is divided, since its error grows with the fifth
+/// power of the angle.
 const MOST_TURN: f64 = 0.1;
 /// Largest number of parts of a smooth step.
 const MOST_PARTS: f64 = 64.0;
 
 /// Advances a world by one step.
 ///
-/// Contradictory constraints produce findings: drives give way beyond their limit (or beyond any reasonable force), and the
-/// constraint that is violated most is named.
+/// Contradictory constraints produce findings: drives give way beyond their limit (or beyond any reasonable force), and
+/// the constraint that is violated most is named.
 ///
 /// # Errors
 /// Joints that do not form trees.

@@ -9,8 +9,8 @@
 //!
 //!   R = 1 / (h (h k + d))          target = -h k g R
 //!
-//! A Hunt-Crossley contact is the same with k and d the slopes of its law at the start of the step, and F its force there.
-//! Its friction is a damper whose constant is the secant |F_t|/|v| of the law.
+//! A Hunt-Crossley contact is the same with k and d the slopes of its law at the start of the step, and F its force
+//! there. Its friction is a damper whose constant is the secant |F_t|/|v| of the law.
 //!
 //! Source: Faure, Debunne, Cani, Multon 1997, section 3.3 (contact as a joint that is destroyed when it would pull;
 //! restitution zero by default).
@@ -27,8 +27,8 @@ const MARGIN_M: f64 = 1e-4;
 /// Slip below which the secant of smooth friction is taken at its start [m/s].
 const STILL_M_S: f64 = 1e-6;
 
-/// Gaps below this count as closed [m]: the solver's tolerance divided by the step would otherwise set the points of one body
-/// against each other. Position projection removes such gaps.
+/// Gaps below this count as closed [m]: the solver's tolerance divided by the step would otherwise set the points of
+/// one body against each other. Position projection removes such gaps.
 const CLOSED_M: f64 = 1e-10;
 /// Surfaces this near touch at an instant of contact [m].
 const MEETING_M: f64 = 1e-7;
@@ -140,8 +140,8 @@ impl TouchWorkspace {
         }
     }
 
-    /// Gap of a contact point at the present poses of the bodies [m], `h` after detection. To first order in the turn of a surface; exact for the centres
-    /// of spheres.
+    /// Gap of a contact point at the present poses of the bodies [m], `h` after detection. To first order in the turn
+    /// of a surface; exact for the centres of spheres.
     pub(crate) fn gap_now(&self, world: &World, state: &WorldState, touch: &Touch, h: f64) -> f64 {
         let moved = |surface: usize| {
             let about = &world.surfaces[surface];
@@ -293,8 +293,8 @@ impl RowWriter<'_> {
         true
     }
 
-    /// Aims the normal row of a rigid point at the velocity that its law asks for; returns whether the point acts in this step. `u` is the normal
-    /// velocity at the start of the step.
+    /// Aims the normal row of a rigid point at the velocity that its law asks for; returns whether the point acts in
+    /// this step. `u` is the normal velocity at the start of the step.
     fn aim(&self, touch: &mut Touch, row: &mut Constraint, u: f64, restitution: f64) -> bool {
         let (gap, h) = (touch.at.gap, self.span.h);
         // An approach faster than gravity gives within a few steps is an impact.
@@ -490,8 +490,8 @@ fn combined(a: &Material, b: &Material) -> Material {
     Material { friction: (a.friction * b.friction).sqrt(), restitution: a.restitution.max(b.restitution), law }
 }
 
-/// Two unit vectors that form a right-handed frame with a unit normal (Duff et al. 2017, "Building an orthonormal basis,
-/// revisited", unverified page).
+/// Two unit vectors that form a right-handed frame with a unit normal (Duff et al. 2017, "Building an orthonormal
+/// basis, revisited", unverified page).
 fn tangents(n: &Vec3) -> [Vec3; 2] {
     let sign = 1.0_f64.copysign(n.z);
     let a = -1.0 / (sign + n.z);

@@ -29,8 +29,8 @@ pub struct StepSettings {
 pub enum Integrator {
     /// First order, with impulses at velocity level; handles contacts, impacts, friction and limits.
     Impulse,
-    /// Second order, by the midpoint rule: an undamped motion keeps its energy. Handles contacts, impacts, friction and limits; steps of impulses
-    /// where a coordinate is driven.
+    /// Second order, by the midpoint rule: an undamped motion keeps its energy. Handles contacts, impacts, friction and
+    /// limits; steps of impulses where a coordinate is driven.
     Midpoint,
     /// Fourth order (Runge-Kutta) where motion is smooth; impulses where surfaces stay in contact.
     RungeKutta,
@@ -133,8 +133,8 @@ pub struct StepWorkspace {
 }
 
 impl StepWorkspace {
-    /// The forces of the last step: their means over the step for [`Integrator::Impulse`] and [`Integrator::Midpoint`], their values at its start for
-    /// [`Integrator::RungeKutta`].
+    /// The forces of the last step: their means over the step for [`Integrator::Impulse`] and [`Integrator::Midpoint`],
+    /// their values at its start for [`Integrator::RungeKutta`].
     #[must_use]
     pub fn forces(&self, world: &World) -> StepForces {
         let (graph, h) = (&self.equations.assembly.graph, self.step_s);
@@ -181,8 +181,8 @@ impl StepWorkspace {
         }
     }
 
-    /// Closures with forces that the motion of the last step does not determine, because their rows repeat others. Their
-    /// forces are the least-squares ones.
+    /// Closures with forces that the motion of the last step does not determine, because their rows repeat others.
+    /// Their forces are the least-squares ones.
     #[must_use]
     pub(crate) fn undetermined_closures(&mut self) -> Vec<usize> {
         let rows = undetermined_rows(&self.equations.assembly.graph, &mut self.solver);

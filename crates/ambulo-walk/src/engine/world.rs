@@ -261,20 +261,20 @@ pub struct Surface {
 /// Impact law: the velocity of a contact point after it strikes another surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ImpactLaw {
-    /// Restitution decides the normal velocity; Coulomb's law decides the tangential impulse, as it does for forces. Impacts
-    /// are part of the step in which surfaces meet.
+    /// Restitution decides the normal velocity; Coulomb's law decides the tangential impulse, as it does for forces.
+    /// Impacts are part of the step in which surfaces meet.
     #[default]
     Coulomb,
-    /// The whole velocity is cancelled, tangential part included, whatever the friction (section 3.3 of the 1997 paper).
-    /// Surfaces touch once their gap has closed. A point that was not in contact before strikes at a separate instant,
-    /// while points at rest obey Coulomb's law; the step then continues from there. `StepWorkspace::impacts` lists the
-    /// impacts, separately from the forces. Restitution has no effect, and compliant materials have no impacts. Only
-    /// [`Integrator::Impulse`](super::Integrator::Impulse) supports this law.
+    /// The whole velocity is cancelled, tangential part included, whatever the friction (section 3.3 of the 1997
+    /// paper). Surfaces touch once their gap has closed. A point that was not in contact before strikes at a separate
+    /// instant, while points at rest obey Coulomb's law; the step then continues from there. `StepWorkspace::impacts`
+    /// lists the impacts, separately from the forces. Restitution has no effect, and compliant materials have no
+    /// impacts. Only [`Integrator::Impulse`](super::Integrator::Impulse) supports this law.
     Sticking,
 }
 
-/// Contact properties of a surface. A pair of surfaces has the geometric mean of the frictions, the larger restitution and the
-/// softer of the two laws.
+/// Contact properties of a surface. A pair of surfaces has the geometric mean of the frictions, the larger restitution
+/// and the softer of the two laws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Coefficient of friction μ.

@@ -1,6 +1,7 @@
 //! Arm swing opposite to the legs, after Boulic, Magnenat-Thalmann, Thalmann 1990, made C².
 //!
-//! With relative speed R = V/H [1/s], H = thigh + shank, t [cycles] from foot strike of the same side; angles in degrees:
+//! With relative speed R = V/H [1/s], H = thigh + shank, t [cycles] from foot strike of the same side; angles in
+//! degrees:
 //!
 //! ```text
 //! shoulder flexion = 3 - 4.94 R - 9.88 R cos(2π t)        backwards at foot strike of the same side
@@ -9,11 +10,12 @@
 //!                    (5 %, 14 - 6 w) (51 %, 44 + 26 w) (90 %, 17 - 6 w), w = (R - 1.3)/1.7, above
 //! ```
 //!
-//! The formulas are from a public port of that paper (a MATLAB function that cites it). The port joins the points of the elbow by monotone
-//! cubics, whose acceleration is not continuous, and its lines in R have kinks. Here quintics pass through the points with zero slope and
-//! the mean curvature of the cosine arcs on both sides. One quadratic through R = 0.46, 1.3 and 2.53 (0.4, 1.1 and 2.2 m/s) replaces the
-//! lines, with an error of at most 2.7°. Times are constant (in the paper they vary by 1 % and, above R = 1.3, by up to 7 %). The R of the
-//! paper is not dimensionless. Here R is computed for an adult with H = 0.884 m and L = H/0.926 (H is 0.491, L 0.530 of stature), so that equal
+//! The formulas are from a public port of that paper (a MATLAB function that cites it). The port joins the points of
+//! the elbow by monotone cubics, whose acceleration is not continuous, and its lines in R have kinks. Here quintics
+//! pass through the points with zero slope and the mean curvature of the cosine arcs on both sides. One quadratic
+//! through R = 0.46, 1.3 and 2.53 (0.4, 1.1 and 2.2 m/s) replaces the lines, with an error of at most 2.7°. Times are
+//! constant (in the paper they vary by 1 % and, above R = 1.3, by up to 7 %). The R of the paper is not dimensionless.
+//! Here R is computed for an adult with H = 0.884 m and L = H/0.926 (H is 0.491, L 0.530 of stature), so that equal
 //! dimensionless speeds give equal angles: R = V* √(gL)/H.
 
 use super::cyclic_curve::{CyclicCurve, Knot};
@@ -95,7 +97,8 @@ fn parabola([x0, x1, x2]: [f64; 3], [y0, y1, y2]: [f64; 3]) -> SpeedLaw {
     SpeedLaw { coefficients: [y0 - first * x0 + bend * x0 * x1, first - bend * (x0 + x1), bend] }
 }
 
-/// Curvature at `here` of the cosine arc to `there` of a duration of `time` cycles (without whole cycles): π² (there - here)/(2 time²).
+/// Curvature at `here` of the cosine arc to `there` of a duration of `time` cycles (without whole cycles): π² (there -
+/// here)/(2 time²).
 fn cosine_curvature(here: &SpeedLaw, there: &SpeedLaw, time: f64) -> SpeedLaw {
     let time = time - time.round();
     let factor = 0.5 * (PI / time).powi(2);

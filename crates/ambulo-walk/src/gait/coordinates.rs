@@ -1,9 +1,9 @@
 //! Converts a posture to coordinates of a model, by their names.
 //!
-//! The signs of the models (docs/CONVENTIONS.md) differ from clinical ones at the knee (extension +), at the pelvis and at the
-//! lumbar joint (backwards +). The pelvic tilt of a model is 0 in upright standing; the clinical tilt is then
-//! [`STANDING_TILT`](super::STANDING_TILT) forwards, which is subtracted. The direction of the thigh, hip flexion minus pelvic tilt, is the
-//! same in all conventions.
+//! The signs of the models (docs/CONVENTIONS.md) differ from clinical ones at the knee (extension +), at the pelvis and
+//! at the lumbar joint (backwards +). The pelvic tilt of a model is 0 in upright standing; the clinical tilt is then
+//! [`STANDING_TILT`](super::STANDING_TILT) forwards, which is subtracted. The direction of the thigh, hip flexion minus
+//! pelvic tilt, is the same in all conventions.
 //!
 //! ```text
 //! thigh = hip - tilt                                                     forward of the vertical

@@ -1,5 +1,5 @@
-//! Checks of a joint curve: knots in order and angles in the range of the joint; in style 1997 also that a sub-cycle that extends at one
-//! speed extends at every speed.
+//! Checks of a joint curve: knots in order and angles in the range of the joint; in style 1997 also that a sub-cycle
+//! that extends at one speed extends at every speed.
 
 use super::cyclic_curve::{CyclicCurve, SteadyCurve};
 use super::jet::Jet;
@@ -35,7 +35,8 @@ fn check_order(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
         if here - before < CLOSEST_KNOTS {
             let [before, here] = [before, here].map(|phase| 100.0 * phase);
             let message = format!(
-                "found {here:.1} % after {before:.1} % at dimensionless speed {speed:.3}; expected knots in the order of \
+                "found {here:.1} % after {before:.1} % at dimensionless speed {speed:.3}; expected knots in the order \
+                 of \
                  their times, at least {} % apart, within one cycle",
                 100.0 * CLOSEST_KNOTS
             );
@@ -53,7 +54,8 @@ fn check_angles(curve: &CyclicCurve, joint: LegJoint, speed: f64) -> Result<(), 
         let angle = steady.at(Jet::constant(phase), Jet::constant(speed)).value;
         if !(low..=high).contains(&angle) {
             let message = format!(
-                "found {:.1}° at {:.1} % of the cycle (dimensionless speed {speed:.3}); expected {} angles from {:.0}° to {:.0}°",
+                "found {:.1}° at {:.1} % of the cycle (dimensionless speed {speed:.3}); expected {} angles from {:.0}° \
+                 to {:.0}°",
                 angle.to_degrees(),
                 100.0 * phase,
                 joint.name(),
@@ -78,7 +80,8 @@ fn check_sense(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
         let (here, usual) = (turn(k, speed), turn(k, FREE_SPEED));
         if here * usual < 0.0 {
             let message = format!(
-                "found a sub-cycle that turns by {:.2}° at dimensionless speed {speed:.3} and by {:.2}° at {FREE_SPEED}; \
+                "found a sub-cycle that turns by {:.2}° at dimensionless speed {speed:.3} and by {:.2}° at \
+                 {FREE_SPEED}; \
                  expected the same direction at every speed",
                 here.to_degrees(),
                 usual.to_degrees()

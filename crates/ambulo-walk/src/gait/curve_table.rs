@@ -1,7 +1,7 @@
 //! Reads curves from TOML: `[[knee.knot]]` and `[[knee.sub_cycle]]`, in built-in files and files of users.
 //!
-//! Numbers are constants or polynomials of dimensionless speed, `[c0, c1, c2]`; times in percent of the cycle, angles in
-//! degrees, slopes in degrees per cycle, curvatures in degrees per cycle². docs/GAITS.md describes the keys.
+//! Numbers are constants or polynomials of dimensionless speed, `[c0, c1, c2]`; times in percent of the cycle, angles
+//! in degrees, slopes in degrees per cycle, curvatures in degrees per cycle². docs/GAITS.md describes the keys.
 
 use super::curve_check::{check, check_senses};
 use super::cyclic_curve::{CyclicCurve, Knot};
@@ -61,7 +61,10 @@ pub(super) fn read_knots(table: &Table<'_>, [low, high]: [f64; 2]) -> Result<Cyc
     for (k, entry) in entries.iter().enumerate() {
         let width = curve.knot_phase(k + 1, MIDDLE) - curve.knot_phase(k, MIDDLE);
         if width < LEAST_WIDTH {
-            return Err(entry.wrong("found a knot less than 0.5 % of the cycle before the next one; expected knots in the order of their times, within one cycle"));
+            return Err(entry.wrong(
+                "found a knot less than 0.5 % of the cycle before the next one; expected knots in \
+                the order of their times, within one cycle",
+            ));
         }
         let angle = curve.knots()[k].angle.at(MIDDLE);
         if !(low..=high).contains(&angle) {
@@ -184,7 +187,8 @@ fn follows(before: &Span, here: &Span) -> Result<(), String> {
         let gap = 100.0 * (gap - whole);
         let kind = if gap < 0.0 { "overlaps" } else { "leaves a gap after" };
         return Err(format!(
-            "sub-cycle {} {kind} sub-cycle {} (by {:.1} % of the cycle at free speed); expected `from_percent` to be equal to \
+            "sub-cycle {} {kind} sub-cycle {} (by {:.1} % of the cycle at free speed); expected `from_percent` to be \
+             equal to \
              `to_percent` of the previous one",
             here.name,
             before.name,
@@ -193,7 +197,8 @@ fn follows(before: &Span, here: &Span) -> Result<(), String> {
     }
     if differ(&here.from_angle, &before.to_angle) {
         return Err(format!(
-            "sub-cycle {} starts at another angle than the end of sub-cycle {}; expected `from_deg` to be equal to `to_deg` of the previous one",
+            "sub-cycle {} starts at another angle than the end of sub-cycle {}; expected `from_deg` to be equal to \
+             `to_deg` of the previous one",
             here.name, before.name
         ));
     }

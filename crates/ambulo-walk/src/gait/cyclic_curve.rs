@@ -6,11 +6,11 @@
 //! w = p_{k+1}(V*) - p_k(V*),   u = (φ - p_k(V*)) / w,   angle = h(u; a_k, s_k w, c_k w²; a_{k+1}, s_{k+1} w, c_{k+1} w²)
 //! ```
 //!
-//! **C² in φ and V* together.** Each segment is a smooth function of (φ, V*), because w is above zero. Let D be the difference
-//! of the segments on both sides of knot k. On the line φ = p_k(V*) both sides have angle a_k, slope s_k and curvature c_k,
-//! so D = ∂D/∂φ = ∂²D/∂φ² = 0 there for every V*. By Taylor's theorem D = (φ - p_k(V*))³ E(φ, V*) with E smooth, and
-//! every derivative of D up to the second, in φ, in V* or mixed, has a factor φ - p_k(V*) and vanishes on the line. Hence
-//! angle(φ(t), V*(t)) is C² in t if φ and V* are.
+//! **C² in φ and V* together.** Each segment is a smooth function of (φ, V*), because w is above zero. Let D be the
+//! difference of the segments on both sides of knot k. On the line φ = p_k(V*) both sides have angle a_k, slope s_k and
+//! curvature c_k, so D = ∂D/∂φ = ∂²D/∂φ² = 0 there for every V*. By Taylor's theorem D = (φ - p_k(V*))³ E(φ, V*) with E
+//! smooth, and every derivative of D up to the second, in φ, in V* or mixed, has a factor φ - p_k(V*) and vanishes on
+//! the line. Hence angle(φ(t), V*(t)) is C² in t if φ and V* are.
 //!
 //! | code | symbol | unit |
 //! |---|---|---|
@@ -170,8 +170,8 @@ impl Segment {
     }
 }
 
-/// A curve with the numbers of all its segments at one speed, for walks whose speed is that one most of the time. It gives the same bits as
-/// the curve; at any other speed it computes them.
+/// A curve with the numbers of all its segments at one speed, for walks whose speed is that one most of the time. It
+/// gives the same bits as the curve; at any other speed it computes them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteadyCurve {
     curve: CyclicCurve,

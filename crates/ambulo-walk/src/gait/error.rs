@@ -32,7 +32,8 @@ pub enum GaitError {
     },
     /// Speed, step length and step frequency contradict each other.
     #[error(
-        "speed {speed:.4} m/s: found a step length of {step_length:.4} m and {step_frequency:.4} steps/s, whose product is {:.4} m/s; \
+        "speed {speed:.4} m/s: found a step length of {step_length:.4} m and {step_frequency:.4} steps/s, whose \
+         product is {:.4} m/s; \
          expected speed = step length × step frequency. hint: leave out one of the three", step_length * step_frequency
     )]
     Contradiction {
@@ -65,7 +66,8 @@ pub enum GaitError {
     },
     /// A change of a whole joint, or a machine that scales its curve, exceeds the range of human joints.
     #[error(
-        "{joint}, with its scale and offset: found {found_deg:.0}° in the cycle; expected angles from {:.0}° to {:.0}°. hint: use a scale nearer to 1 or a smaller offset", allowed_deg[0], allowed_deg[1]
+        "{joint}, with its scale and offset: found {found_deg:.0}° in the cycle; expected angles from {:.0}° to \
+         {:.0}°. hint: use a scale nearer to 1 or a smaller offset", allowed_deg[0], allowed_deg[1]
     )]
     JointAngle {
         /// Joint.
@@ -77,12 +79,14 @@ pub enum GaitError {
     },
     /// A figure that stands at the start and never walks.
     #[error(
-        "speed: found 0 m/s at the start and no change to a walking speed after it; expected such a change, or a speed of 0.05 to 5 m/s, because a figure that only stands has no cycle"
+        "speed: found 0 m/s at the start and no change to a walking speed after it; expected such a change, or a speed \
+         of 0.05 to 5 m/s, because a figure that only stands has no cycle"
     )]
     StandsForever,
     /// A change of pace begins before the previous one has ended.
     #[error(
-        "change of pace: found a start at {start_s} s; expected {earliest_s} s or later, after the end of the previous change"
+        "change of pace: found a start at {start_s} s; expected {earliest_s} s or later, after the end of the previous \
+         change"
     )]
     OverlappingChange {
         /// Its start [s].

@@ -156,7 +156,8 @@ fn pace(root: &Table<'_>, base: Pace) -> Result<Pace, TomlError> {
     Ok(pace)
 }
 
-/// The number of a key; times its factor it must be in the range. A figure with a speed of 0 stands until the first change of pace.
+/// The number of a key; times its factor it must be in the range. A figure with a speed of 0 stands until the first
+/// change of pace.
 fn within(root: &Table<'_>, key: &str, range: &Range, factor: f64) -> Result<Option<f64>, TomlError> {
     let Some(value) = root.get(key) else { return Ok(None) };
     if key == "speed" && root.get("pace_change").is_some() && value.number()? == 0.0 {
@@ -277,7 +278,8 @@ fn read_change(table: &Table<'_>, gait: &Gait, laws: &Laws) -> Result<(KnotChang
     if gait.style == Style::Paper1997
         && let Some(value) = table.get("slope_deg").or(table.get("curvature_deg"))
     {
-        let message = "found a change of slope or curvature in style \"1997\"; expected none, because both are zero at every bound in this style";
+        let message = "found a change of slope or curvature in style \"1997\"; expected none, because both are zero at \
+            every bound in this style";
         return Err(value.place().error(message));
     }
     let number = |key: &str, unit: f64| Ok::<f64, TomlError>(table.number_or(key, 0.0)? * unit);

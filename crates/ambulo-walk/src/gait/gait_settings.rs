@@ -34,8 +34,8 @@ pub struct Gait {
     pub machines: Vec<MachineSettings>,
 }
 
-/// Speed, step length and step frequency, as far as they are given. With V = step length × frequency, two of them determine the third;
-/// if one is given, the cadence exponent determines the others; none means free walking.
+/// Speed, step length and step frequency, as far as they are given. With V = step length × frequency, two of them
+/// determine the third; if one is given, the cadence exponent determines the others; none means free walking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
     /// Walking speed.
@@ -53,8 +53,8 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// This pace with other speed [m/s], step length [m] and step frequency [steps/s]. If one of them is given, all three are replaced; the
-    /// factors remain in force, so the results have the given values.
+    /// This pace with other speed [m/s], step length [m] and step frequency [steps/s]. If one of them is given, all
+    /// three are replaced; the factors remain in force, so the results have the given values.
     #[must_use]
     pub fn with(self, speed: Option<f64>, step_length: Option<f64>, step_frequency: Option<f64>) -> Pace {
         if speed.is_none() && step_length.is_none() && step_frequency.is_none() {
@@ -84,11 +84,13 @@ pub enum Speed {
 pub enum Pelvis {
     /// The pelvis tilts and the trunk leans as measured; hip angles are relative to the pelvis.
     Moving,
-    /// Pelvis and trunk are held upright; hip angles are relative to the vertical: reduced by the mean pelvic tilt at that speed.
+    /// Pelvis and trunk are held upright; hip angles are relative to the vertical: reduced by the mean pelvic tilt at
+    /// that speed.
     Vertical,
 }
 
-/// A change of one knot in both legs: angle, slope and curvature are scaled about upright standing, then the offsets are added.
+/// A change of one knot in both legs: angle, slope and curvature are scaled about upright standing, then the offsets
+/// are added.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnotChange {
     /// Joint.
@@ -144,7 +146,8 @@ impl Default for Pace {
 pub enum Style {
     /// Knots with angle, velocity and acceleration, at extremes and velocity peaks.
     Knots,
-    /// The interpolation of the 1997 paper: sub-cycles between extremes, zero velocity and acceleration at their bounds, linear laws.
+    /// The interpolation of the 1997 paper: sub-cycles between extremes, zero velocity and acceleration at their
+    /// bounds, linear laws.
     Paper1997,
 }
 
@@ -180,16 +183,16 @@ const STANDARD_PERIOD_S: f64 = 1.0;
 /// Periods of the paper's other gaits (section 4.5).
 const SHORT_PERIOD_S: f64 = 0.62;
 const GOOSE_PERIOD_S: f64 = 0.82;
-/// Long steps: the paper gives no length. A fifth longer than standard, 0.90 m: near the longest step for which the linear laws keep
-/// every joint within the measured range of fast walking (hip 45°, knee 62°).
+/// Long steps: the paper gives no length. A fifth longer than standard, 0.90 m: near the longest step for which the
+/// linear laws keep every joint within the measured range of fast walking (hip 45°, knee 62°).
 const LONG_STEP: f64 = 1.2;
-/// Goose step: section 2.2 makes gaits from step length, frequency and height. The paper gives the period alone; a goose step is a high
-/// step, here half as high again as the standard one, of the standard length.
+/// Goose step: section 2.2 makes gaits from step length, frequency and height. The paper gives the period alone; a
+/// goose step is a high step, here half as high again as the standard one, of the standard length.
 const GOOSE_HEIGHT: f64 = 1.5;
-/// Parade step, which is not in the paper: nearly straight knees (a fifth of their flexion) and twice the largest hip flexion, which comes
-/// 10 % of the cycle earlier, so that the leg is not lowered faster than raised. It is a slow march, 72 steps a minute of 0.7 times the
-/// standard length: from about 96 steps a minute on, straight legs cannot be swung and set down without flight (`ambulo walk`, mode
-/// `corrected`).
+/// Parade step, which is not in the paper: nearly straight knees (a fifth of their flexion) and twice the largest hip
+/// flexion, which comes 10 % of the cycle earlier, so that the leg is not lowered faster than raised. It is a slow
+/// march, 72 steps a minute of 0.7 times the standard length: from about 96 steps a minute on, straight legs cannot be
+/// swung and set down without flight (`ambulo walk`, mode `corrected`).
 const PARADE_KNEE: f64 = 0.2;
 const PARADE_HIP: f64 = 2.0;
 const PARADE_EARLIER: f64 = 0.10;
@@ -228,7 +231,8 @@ impl Gait {
             "fast" => Ok(at_speed(FAST_SPEED)),
             "standard" => Ok(standard()),
             "long" => Ok(paced(LONG_STEP, STANDARD_PERIOD_S)),
-            // The paper gives no length. At the mean speed of `standard`, the step length is proportional to the period.
+            // The paper gives no length. At the mean speed of `standard`, the step length is proportional to the
+            // period.
             "short" => Ok(paced(SHORT_PERIOD_S / STANDARD_PERIOD_S, SHORT_PERIOD_S)),
             "goose" => Ok(Gait { step_height: GOOSE_HEIGHT, ..paced(1.0, GOOSE_PERIOD_S) }),
             "parade" => Ok(Gait { changes: parade_changes(), ..paced(PARADE_STEP, PARADE_PERIOD_S) }),
@@ -290,7 +294,8 @@ impl Gait {
         conditions.any(|transition| transition.when.reads_simulation())
     }
 
-    /// Whether left and right do the same half a cycle apart: no machine drives a joint, and both sides have the same changes of joints.
+    /// Whether left and right do the same half a cycle apart: no machine drives a joint, and both sides have the same
+    /// changes of joints.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {
         let changes = |side: Side| {
@@ -303,7 +308,8 @@ impl Gait {
             && !self.machines.iter().any(|machine| machine.drives.moves_a_joint())
     }
 
-    /// Whether joint angles are the normative curves at the speed of the gait, without a change of curve, joint or step; the pace may differ.
+    /// Whether joint angles are the normative curves at the speed of the gait, without a change of curve, joint or
+    /// step; the pace may differ.
     #[must_use]
     pub(crate) fn follows_people(&self) -> bool {
         let pace = Pace { length_scale: 1.0, cadence_scale: 1.0, ..self.pace };

@@ -1,8 +1,8 @@
 //! Mean ground forces of people against speed, for one foot over its cycle.
 //!
-//! Dynamically consistent walks ([`crate::consistent_walk`]) use them as targets. The laws are quadratics through three of the
-//! five speeds of Schwartz, Rozumalski, Trost 2008 (very slow, free, very fast); the other two speeds test them. Made by `cargo xtask
-//! fit-gait`; the header of the file gives source, licence and errors.
+//! Dynamically consistent walks ([`crate::consistent_walk`]) use them as targets. The laws are quadratics through three
+//! of the five speeds of Schwartz, Rozumalski, Trost 2008 (very slow, free, very fast); the other two speeds test them.
+//! Made by `cargo xtask fit-gait`; the header of the file gives source, licence and errors.
 
 use super::jet::Jet;
 use super::laws::{RATIO, read_waves};

@@ -7,8 +7,8 @@
 //! f(x)''    = f''(x) x'² + f'(x) x''
 //! ```
 //!
-//! Curves that are evaluated in this arithmetic give angle, angular velocity and angular acceleration at once, exact to rounding, also
-//! while the speed changes. Pinned by: tests/gait_curves.rs.
+//! Curves that are evaluated in this arithmetic give angle, angular velocity and angular acceleration at once, exact to
+//! rounding, also while the speed changes. Pinned by: tests/gait_curves.rs.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 

@@ -41,8 +41,8 @@ impl LegJoint {
         }
     }
 
-    /// Accepted angles [rad]; angles outside are probably typing errors. The range has a margin around the passive ranges of adults in
-    /// textbooks (hip -30°..120°, knee -10°..150°, ankle -50°..30°; unverified).
+    /// Accepted angles [rad]; angles outside are probably typing errors. The range has a margin around the passive
+    /// ranges of adults in textbooks (hip -30°..120°, knee -10°..150°, ankle -50°..30°; unverified).
     #[must_use]
     pub(crate) fn plausible(self) -> [f64; 2] {
         match self {

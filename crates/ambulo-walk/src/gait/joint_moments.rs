@@ -1,7 +1,7 @@
 //! Mean joint moments of healthy people as functions of speed, for one leg over its cycle.
 //!
-//! Optimal walks ([`crate::optimal`]) use them as targets. Made by `cargo xtask fit-gait`; the header of the file gives source, licence
-//! and fit.
+//! Optimal walks ([`crate::optimal`]) use them as targets. Made by `cargo xtask fit-gait`; the header of the file gives
+//! source, licence and fit.
 
 use super::jet::Jet;
 use super::laws::{RATIO, read_waves};

@@ -1,7 +1,8 @@
 //! The laws of walking against speed: joint curves, waves of the trunk, duration of stance.
 //!
-//! The numbers are data, not code: `crates/ambulo-walk/data/gait/*.toml`, written by `cargo xtask fit-gait` from the mean curves of
-//! Schwartz, Rozumalski, Trost 2008 (five speeds). The header of each file gives source, licence, fit and errors.
+//! The numbers are data, not code: `crates/ambulo-walk/data/gait/*.toml`, written by `cargo xtask fit-gait` from the
+//! mean curves of Schwartz, Rozumalski, Trost 2008 (five speeds). The header of each file gives source, licence, fit
+//! and errors.
 
 use super::curve_table::{law_of, read_curve};
 use super::cyclic_curve::CyclicCurve;
@@ -53,8 +54,8 @@ impl LegCurves {
     }
 }
 
-/// Duration of stance against duration of the cycle, both in leg times √(L/g): linear, as found by Nilsson, Thorstensson,
-/// Halbertsma 1985 (abstract).
+/// Duration of stance against duration of the cycle, both in leg times √(L/g): linear, as found by Nilsson,
+/// Thorstensson, Halbertsma 1985 (abstract).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SupportLaw {
     /// Increase of stance per increase of the cycle.

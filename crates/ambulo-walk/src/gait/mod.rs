@@ -1,13 +1,14 @@
 //! Synthetic walking: joint angles with velocity and acceleration, from speed and style.
 //!
-//! A [`Gait`] has the settings of a walk, by name or from TOML (docs/GAITS.md). A [`Walk`] is a gait for a leg length; [`Walk::at`] returns
-//! the posture at any time, and the speed may change while walking. Hierarchical state machines ([`machine`]) give the same postures.
-//! [`coordinates`] converts a posture to coordinates of a model.
+//! A [`Gait`] has the settings of a walk, by name or from TOML (docs/GAITS.md). A [`Walk`] is a gait for a leg length;
+//! [`Walk::at`] returns the posture at any time, and the speed may change while walking. Hierarchical state machines
+//! ([`machine`]) give the same postures. [`coordinates`] converts a posture to coordinates of a model.
 //!
-//! Clinical signs throughout: hip flexion +, knee flexion +, ankle dorsiflexion +, pelvis tilt anterior +, trunk lean forward +,
-//! shoulder and elbow flexion + [rad].
+//! Clinical signs throughout: hip flexion +, knee flexion +, ankle dorsiflexion +, pelvis tilt anterior +, trunk lean
+//! forward +, shoulder and elbow flexion + [rad].
 //!
-//! Start reading at `cyclic_curve` (how the curve of a joint depends on phase and speed), then `walk`, `pace_plan`, `stride`.
+//! Start reading at `cyclic_curve` (how the curve of a joint depends on phase and speed), then `walk`, `pace_plan`,
+//! `stride`.
 //!
 //! ```
 //! use ambulo_walk::findings::Findings;

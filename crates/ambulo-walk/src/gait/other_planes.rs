@@ -1,7 +1,7 @@
 //! Mean angles of healthy people in the frontal and the transverse plane as functions of speed: pelvis, trunk and hips.
 //!
-//! Walks in three dimensions ([`crate::optimal`]) use them as targets. Made by `cargo xtask fit-gait`; the header of the file gives
-//! source, licence and fit.
+//! Walks in three dimensions ([`crate::optimal`]) use them as targets. Made by `cargo xtask fit-gait`; the header of
+//! the file gives source, licence and fit.
 
 use super::jet::Jet;
 use super::laws::{ANGLE, read_waves};
@@ -11,8 +11,8 @@ use std::sync::LazyLock;
 
 const PLANES: &str = include_str!("../../data/gait/other_planes.toml");
 
-/// Angles as functions of phase and dimensionless speed. Angles of pelvis and trunk use the phase of the right foot and have odd harmonics
-/// only: half a cycle later they have the opposite sign.
+/// Angles as functions of phase and dimensionless speed. Angles of pelvis and trunk use the phase of the right foot and
+/// have odd harmonics only: half a cycle later they have the opposite sign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OtherPlaneLaws {
     /// Pelvic obliquity, right side up.

@@ -8,9 +8,10 @@
 //! | step length and frequency, style 1997 | the speed at which the step is preferred | preferred | as given |
 //! | two of the three otherwise, or all | speed | as given or V / frequency | as given or V / step length |
 //!
-//! The factors on step length and frequency are applied to these results and scale the speed as well. The curves are evaluated at the law
-//! speed; a step length that differs from the preferred one scales them ([`Walk`](super::Walk)). Given and resulting numbers must be in the
-//! ranges of walking, which are wide: they exclude typing errors, and walks with too many or too few time steps to compute.
+//! The factors on step length and frequency are applied to these results and scale the speed as well. The curves are
+//! evaluated at the law speed; a step length that differs from the preferred one scales them ([`Walk`](super::Walk)).
+//! Given and resulting numbers must be in the ranges of walking, which are wide: they exclude typing errors, and walks
+//! with too many or too few time steps to compute.
 
 use super::error::GaitError;
 use super::gait_settings::{Gait, Pace, Speed, Style};

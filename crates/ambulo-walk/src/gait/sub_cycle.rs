@@ -1,8 +1,8 @@
 //! Sub-cycles: the flexions and extensions in the cycle of a joint.
 //!
-//! Names after Philippson 1905 as Nilsson, Thorstensson, Halbertsma 1985 use them (from memory, unverified): F flexion, from
-//! before foot off; E1 extension in late swing until foot strike; E2 yield under load; E3 extension in later stance. The joints
-//! have these sub-cycles:
+//! Names after Philippson 1905 as Nilsson, Thorstensson, Halbertsma 1985 use them (from memory, unverified): F flexion,
+//! from before foot off; E1 extension in late swing until foot strike; E2 yield under load; E3 extension in later
+//! stance. The joints have these sub-cycles:
 //!
 //! | joint | sub-cycle | from | to |
 //! |---|---|---|---|
@@ -67,8 +67,8 @@ impl SubCycle {
         [self.from, self.to].map(|k| knots[k % knots.len()].angle.at(speed))
     }
 
-    /// The segment of this sub-cycle that is evaluated where the phase is on segment `at` of a curve: this one, or the last one of the
-    /// sub-cycle.
+    /// The segment of this sub-cycle that is evaluated where the phase is on segment `at` of a curve: this one, or the
+    /// last one of the sub-cycle.
     #[must_use]
     pub fn segment(&self, at: usize, knots: usize) -> usize {
         if self.has_segment(at, knots) { at } else { (self.to - 1) % knots }

@@ -1,14 +1,15 @@
 //! A gait for a leg length: joint angles with velocity and acceleration at any time.
 //!
-//! All angles are functions of the phase of the right foot and the pace. Both are C² in time while the pace changes ([`PaceChange`]). The
-//! left leg is half a cycle behind. Sub-cycles and states remain synchronised because their bounds are evaluated at the current speed.
-//! Between walking and standing, every angle is
+//! All angles are functions of the phase of the right foot and the pace. Both are C² in time while the pace changes
+//! ([`PaceChange`]). The left leg is half a cycle behind. Sub-cycles and states remain synchronised because their
+//! bounds are evaluated at the current speed. Between walking and standing, every angle is
 //!
 //! ```text
 //! angle = standing + w (walking - standing),    leg joints in walking = neutral + l (curve - neutral)
 //! ```
 //!
-//! with the share of walking w and the relative step length l of the [`Clock`]. Pinned by: tests/gait_walk.rs, tests/gait_speed.rs.
+//! with the share of walking w and the relative step length l of the [`Clock`]. Pinned by: tests/gait_walk.rs,
+//! tests/gait_speed.rs.
 
 use super::arms::ArmCurves;
 use super::curve_check::check;
@@ -91,7 +92,8 @@ impl Walk {
     /// A gait for a leg length, hip to floor [m], with the gait's changes of pace.
     ///
     /// # Errors
-    /// Numbers that are not possible, contradictions, curves outside of the range of a joint, changes of pace that overlap.
+    /// Numbers that are not possible, contradictions, curves outside of the range of a joint, changes of pace that
+    /// overlap.
     pub fn new(gait: &Gait, leg_length: f64, findings: &mut Findings) -> Result<Walk, GaitError> {
         let stands = gait.pace.speed == Some(Speed::MetersPerSecond(0.0));
         let first = PaceOf { gait, leg_length }.walking(&gait.pace_at_start()?)?;
@@ -169,7 +171,8 @@ impl Walk {
         self.plan.is_constant() && self.gait.machines.is_empty()
     }
 
-    /// The same walk with another time at which the machines of the gait begin [s]; before it the curves of the gait are followed.
+    /// The same walk with another time at which the machines of the gait begin [s]; before it the curves of the gait
+    /// are followed.
     #[must_use]
     pub(crate) fn with_machines_from(mut self, begin_s: f64) -> Walk {
         self.machines_begin_s = begin_s;
@@ -188,8 +191,8 @@ impl Walk {
         self.plan.end_s()
     }
 
-    /// The constant paces before, between and after the changes as gaits without changes, and for each change its start and duration [s].
-    /// While the figure stands, the gait of the change from or to standing.
+    /// The constant paces before, between and after the changes as gaits without changes, and for each change its start
+    /// and duration [s]. While the figure stands, the gait of the change from or to standing.
     #[must_use]
     pub fn pace_ramps(&self) -> Vec<PaceRamp> {
         let ramps = self.plan.ramps();
@@ -202,8 +205,8 @@ impl Walk {
             .collect()
     }
 
-    /// The last change of [`Walk::pace_ramps`] that has begun at a time [s], and how much of it the angles have taken, 0 to 1; `None`
-    /// before the first change.
+    /// The last change of [`Walk::pace_ramps`] that has begun at a time [s], and how much of it the angles have taken,
+    /// 0 to 1; `None` before the first change.
     #[must_use]
     pub(crate) fn change_progress(&self, time_s: f64) -> Option<(usize, Jet)> {
         self.plan.progress(time_s)
@@ -399,7 +402,8 @@ impl Walk {
         (self.part_angle(part, clock) - upright) * scale + (upright + offset)
     }
 
-    /// Refuses changes of whole joints, and activities of machines that scale a curve, that no joint can follow at the first pace.
+    /// Refuses changes of whole joints, and activities of machines that scale a curve, that no joint can follow at the
+    /// first pace.
     fn refuse_far_angles(&self) -> Result<(), GaitError> {
         let changed = self.gait.joints.iter().map(|change| (change.part, 1.0, 0.0));
         let driven = self.gait.machines.iter().flat_map(MachineSettings::altered_curves);
@@ -433,7 +437,8 @@ impl Walk {
         !self.plan.is_constant() || self.gait.machines.iter().any(|machine| machine.drives == Driven::Pace)
     }
 
-    /// Whether left and right do the same half a cycle apart, without machines or changes of single joints that make them differ.
+    /// Whether left and right do the same half a cycle apart, without machines or changes of single joints that make
+    /// them differ.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {
         self.gait.is_symmetric()
@@ -511,7 +516,8 @@ pub struct PaceRamp {
     pub start_s: f64,
     /// Duration [s].
     pub duration_s: f64,
-    /// The walk at the pace before and at the pace after the change. Where the figure stands, the pace on the other side of the change.
+    /// The walk at the pace before and at the pace after the change. Where the figure stands, the pace on the other
+    /// side of the change.
     pub paces: [Walk; 2],
 }
 
@@ -598,7 +604,8 @@ fn report_range(speed: f64, leg_length: f64, findings: &mut Findings) {
         findings.report(
             Code::GaitSpeedRange,
             format!(
-                "a speed of {speed:.2} m/s is outside walking on a leg of {leg_length:.2} m, {slowest:.2} to {fastest:.2} m/s; the \
+                "a speed of {speed:.2} m/s is outside walking on a leg of {leg_length:.2} m, {slowest:.2} to \
+                 {fastest:.2} m/s; the \
                  joint curves are those of the nearest speed of the data"
             ),
         );

@@ -58,14 +58,15 @@ pub struct Device {
     pub rest: f64,
     /// Damping d [N.m.s/rad].
     pub damping: f64,
-    /// Moment u at equal shares of the cycle of its leg, which begins with foot strike (of the right leg for joints of the trunk) [N.m]. Linear
-    /// in between; none if empty.
+    /// Moment u at equal shares of the cycle of its leg, which begins with foot strike (of the right leg for joints of
+    /// the trunk) [N.m]. Linear in between; none if empty.
     pub moments: Vec<f64>,
 }
 
 /// Smallest and largest slope [%].
 const STEEPEST: [f64; 2] = [-40.0, 40.0];
-/// Distance of the mass centre of a backpack behind that of trunk and head, as a share of stature: our choice, 0.2 m for a man of 1.75 m.
+/// Distance of the mass centre of a backpack behind that of trunk and head, as a share of stature: our choice, 0.2 m
+/// for a man of 1.75 m.
 const BACKPACK: f64 = 0.115;
 
 impl LoadPlace {
@@ -98,8 +99,8 @@ impl LoadPlace {
 }
 
 impl Device {
-    /// Reads devices: tables `[[device]]` with the coordinate of a `joint` (without its side: on both sides), `stiffness` [N.m/rad], `rest_deg` or
-    /// `rest_rad`, `damping` [N.m.s/rad] and `moments` [N.m].
+    /// Reads devices: tables `[[device]]` with the coordinate of a `joint` (without its side: on both sides),
+    /// `stiffness` [N.m/rad], `rest_deg` or `rest_rad`, `damping` [N.m.s/rad] and `moments` [N.m].
     ///
     /// # Errors
     /// Anything else, with line and key.
@@ -176,7 +177,8 @@ impl WalkConditions {
         self.of_joints(model)
     }
 
-    /// The conditions with the names of coordinates of a model for all joints: `ankle` stands for `ankle_angle_r` and `ankle_angle_l`.
+    /// The conditions with the names of coordinates of a model for all joints: `ankle` stands for `ankle_angle_r` and
+    /// `ankle_angle_l`.
     ///
     /// # Errors
     /// A joint that the model does not have.
@@ -213,7 +215,8 @@ impl WalkConditions {
         self.strengths.iter().filter(|(name, _)| name == coordinate).map(|(_, share)| share).product()
     }
 
-    /// The figure with its load, on a ground that is the plane y = 0 of its frame: x points along the slope and gravity is inclined.
+    /// The figure with its load, on a ground that is the plane y = 0 of its frame: x points along the slope and gravity
+    /// is inclined.
     ///
     /// # Errors
     /// A load that is too heavy, or a mass below zero.
@@ -231,7 +234,8 @@ impl WalkConditions {
     }
 }
 
-/// Coordinates of the joint with a name: the coordinate itself, or, with a shorter name, flexion, on both sides if the name has none.
+/// Coordinates of the joint with a name: the coordinate itself, or, with a shorter name, flexion, on both sides if the
+/// name has none.
 fn coordinates_of(model: &Model, joint: &str) -> Result<Vec<String>, OptimalWalkError> {
     let known = || {
         let moving = model.bodies().iter().filter(|body| body.joint.parent.is_some());

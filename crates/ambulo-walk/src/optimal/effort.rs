@@ -33,7 +33,8 @@ pub struct Exponential {
     pub rates: Vec<(CoordinateId, f64)>,
 }
 
-/// Exponent above which a passive force grows linearly: above 245 times its scale. The first guesses of a solver may bend joints too far.
+/// Exponent above which a passive force grows linearly: above 245 times its scale. The first guesses of a solver may
+/// bend joints too far.
 const STEEPEST: f64 = 5.5;
 
 impl Exponential {
@@ -92,8 +93,8 @@ struct TissueLaw {
     constant: f64,
 }
 
-/// Moments of flexion and dorsiflexion of an adult's leg. Source: Riener and Edrich 1999 (J Biomech 32:539), as transcribed, with the sign of the
-/// ankle changed, in published Matlab functions (read; the paper itself was not).
+/// Moments of flexion and dorsiflexion of an adult's leg. Source: Riener and Edrich 1999 (J Biomech 32:539), as
+/// transcribed, with the sign of the ankle changed, in published Matlab functions (read; the paper itself was not).
 const TISSUE: [TissueLaw; 3] = [
     TissueLaw {
         movement: Movement::HipFlexion,
@@ -116,7 +117,8 @@ const TISSUE: [TissueLaw; 3] = [
     },
 ];
 
-/// Passive moment about a joint of a leg of an adult: its exponentials, and its constant part [N.m]. `None` for other joints.
+/// Passive moment about a joint of a leg of an adult: its exponentials, and its constant part [N.m]. `None` for other
+/// joints.
 pub fn tissue_of(anatomy: &Anatomy, movement: Movement, side: Side) -> Option<(Vec<Exponential>, f64)> {
     let law = TISSUE.iter().find(|law| law.movement == movement)?;
     let (_, sign) = anatomy.coordinate(movement, Some(side))?;

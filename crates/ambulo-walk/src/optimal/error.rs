@@ -7,8 +7,9 @@ use crate::model::anthropometry::BuildError;
 use crate::numerics::Shown;
 use crate::toml_reader::TomlError;
 
-/// Largest root mean square of the forces at the root between the instants of a problem [body weights, body weights × leg length]. Walks of people
-/// leave at most 0.003 (docs/measured/OPTIMAL_WALK.md); a body that hops between the instants leaves more.
+/// Largest root mean square of the forces at the root between the instants of a problem [body weights, body weights ×
+/// leg length]. Walks of people leave at most 0.003 (docs/measured/OPTIMAL_WALK.md); a body that hops between the
+/// instants leaves more.
 pub const LARGEST_BETWEEN: f64 = 0.01;
 
 /// Why a figure cannot walk by optimal motion.
@@ -26,7 +27,8 @@ pub enum OptimalWalkError {
     Joint(#[from] CurvedJointError),
     /// No motion without outside forces was found.
     #[error(
-        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force from outside: {worst}"
+        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force \
+         from outside: {worst}"
     )]
     NotConverged {
         /// Speed [m/s].
@@ -40,7 +42,9 @@ pub enum OptimalWalkError {
     },
     /// The motion needs forces from outside between the instants at which it was solved.
     #[error(
-        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force from outside: between the instants of the solution {:.1} % of body weight remain (rms); expected at most {:.1} %",
+        "found no walk at {speed:.2} m/s with {cadence:.0} steps/min on a leg of {leg_length:.2} m that needs no force \
+         from outside: between the instants of the solution {:.1} % of body weight remain (rms); expected at most \
+         {:.1} %",
         100.0 * share,
         100.0 * LARGEST_BETWEEN
     )]
@@ -77,7 +81,8 @@ pub enum OptimalWalkError {
     },
     /// The muscles of a joint are too weak.
     #[error(
-        "found no walk at {speed:.2} m/s that the muscles can do: {} needs {:.0} N.m at {:.3} s; expected at most {:.0} N.m, its strength",
+        "found no walk at {speed:.2} m/s that the muscles can do: {} needs {:.0} N.m at {:.3} s; expected at most \
+         {:.0} N.m, its strength",
         overload.coordinate,
         overload.moment.abs(),
         overload.time_s,

@@ -14,11 +14,13 @@ use crate::gait::Walk;
 use crate::model::anthropometry::{Build, Human};
 use crate::model::full_body::full_body;
 
-/// Larger forces at the root mean that no walk was found [body weights, body weights × leg length]; those between are reported with the walk.
+/// Larger forces at the root mean that no walk was found [body weights, body weights × leg length]; those between are
+/// reported with the walk.
 const LARGEST_ROOT_FORCE: f64 = 1e-3;
 /// Instants per knot interval at which the forces at the root between the instants of the problem are judged.
 const BETWEEN: usize = 10;
-/// Share of its strength by which the muscles of a joint may exceed it: the cost of weakness is steep, but no constraint.
+/// Share of its strength by which the muscles of a joint may exceed it: the cost of weakness is steep, but no
+/// constraint.
 const LARGEST_OVERLOAD: f64 = 0.05;
 
 /// An optimal walk of a figure.
@@ -35,8 +37,8 @@ pub struct OptimalWalk {
 }
 
 impl OptimalWalk {
-    /// Finds the walk of a figure in three dimensions on soft shoes: a built-in plan where one is for this walk; else a solution from the plan
-    /// with the nearest speed; else a solution from the laws.
+    /// Finds the walk of a figure in three dimensions on soft shoes: a built-in plan where one is for this walk; else a
+    /// solution from the plan with the nearest speed; else a solution from the laws.
     ///
     /// # Errors
     /// A figure that cannot be built; no motion without outside forces.
@@ -98,8 +100,8 @@ impl OptimalWalk {
         OptimalWalk { human, problem, solution, conditions: WalkConditions::default() }
     }
 
-    /// Predicts the walk of a figure under some conditions, without normative curves as targets. If the conditions differ between the sides, so
-    /// does the walk.
+    /// Predicts the walk of a figure under some conditions, without normative curves as targets. If the conditions
+    /// differ between the sides, so does the walk.
     ///
     /// # Errors
     /// As [`OptimalWalk::find`]; conditions that do not fit the figure; muscles that are too weak.

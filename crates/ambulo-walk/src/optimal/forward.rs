@@ -1,11 +1,13 @@
-//! Forward simulation of a solution: joints follow the planned motion, and the root moves freely under the resulting forces.
+//! Forward simulation of a solution: joints follow the planned motion, and the root moves freely under the resulting
+//! forces.
 //!
-//! With the residual forces τ_r at the root for the planned accelerations, the accelerations of the root change by a, where
+//! With the residual forces τ_r at the root for the planned accelerations, the accelerations of the root change by a,
+//! where
 //!
 //!   M_rr a = -τ_r        M_rr = ∂τ_r/∂q̈_r
 //!
-//! They are integrated by the Runge-Kutta method of order 4. Nothing corrects the root, so residual forces, both at the instants of the
-//! problem and between them, appear as drift.
+//! They are integrated by the Runge-Kutta method of order 4. Nothing corrects the root, so residual forces, both at the
+//! instants of the problem and between them, appear as drift.
 
 use super::instant::{Evaluator, Instant};
 use super::solution::Solution;
@@ -25,8 +27,8 @@ pub struct Drift {
 type RootState = [Vec<f64>; 2];
 
 impl Solution {
-    /// Simulates the motion from its first state for a duration, in steps of `step_s`, with driven joints and a free root. Returns the
-    /// maximum difference from the planned motion.
+    /// Simulates the motion from its first state for a duration, in steps of `step_s`, with driven joints and a free
+    /// root. Returns the maximum difference from the planned motion.
     ///
     /// # Errors
     /// Does not fail for a solved problem.

@@ -1,13 +1,15 @@
-//! Forces at one instant of a motion: contact forces of the soles on flat ground, inverse dynamics with these, and all derivatives.
+//! Forces at one instant of a motion: contact forces of the soles on flat ground, inverse dynamics with these, and all
+//! derivatives.
 //!
 //! With the spatial wrench W of the ground on a foot and the axes S of the links that carry it (as in
 //! [`crate::dynamics::inverse_derivatives`]), the ground force adds to the generalised forces and their derivatives
 //!
 //!   τ_j = ... - S_jᵀ W        ∂τ_j/∂q_k = ... - S_jᵀ ∂W/∂q_k - (S_k × S_j)ᵀ W  if k carries j        ∂τ_j/∂q̇_k = ... - S_jᵀ ∂W/∂q̇_k
 //!
-//! The contact point of a sphere with radius r and centre p is c = (p_x, (p_y - r)/2, p_z), midway between both surfaces as in the
-//! simulator (above a surface at height h it is higher by h); its velocity is u = v + ω × c, that of the body. Coordinate q_k of link k moves the centre by ∂p/∂q_k, the velocity of S_k at p,
-//! and changes the velocity of the body by ∂V/∂q_k = S_k × (V - V_k). An axis that follows a curve f of its coordinate adds s f'' q̇_k to the
+//! The contact point of a sphere with radius r and centre p is c = (p_x, (p_y - r)/2, p_z), midway between both
+//! surfaces as in the simulator (above a surface at height h it is higher by h); its velocity is u = v + ω × c, that of
+//! the body. Coordinate q_k of link k moves the centre by ∂p/∂q_k, the velocity of S_k at p, and changes the velocity
+//! of the body by ∂V/∂q_k = S_k × (V - V_k). An axis that follows a curve f of its coordinate adds s f'' q̇_k to the
 //! latter, and -(s f'')ᵀ W to ∂τ_k/∂q_k.
 
 use crate::contact::{ContactSlopes, HuntCrossley};
@@ -64,7 +66,8 @@ pub struct Contact {
     pub place: Vec3,
     /// The quantities themselves.
     pub values: ContactValues,
-    /// Per link that carries the foot: its coordinate, and the derivatives of the values by position and by rate of the coordinate.
+    /// Per link that carries the foot: its coordinate, and the derivatives of the values by position and by rate of the
+    /// coordinate.
     pub slopes: Vec<(usize, [ContactValues; 2])>,
 }
 
@@ -110,7 +113,8 @@ impl One {
     }
 }
 
-/// A sphere on the ground at one instant: its centre, the contact point, the velocity of the body, and the force on the sphere.
+/// A sphere on the ground at one instant: its centre, the contact point, the velocity of the body, and the force on the
+/// sphere.
 #[derive(Debug, Clone, Copy)]
 struct Touch {
     center: Vec3,
@@ -150,8 +154,8 @@ impl Evaluator {
         Ok(Evaluator { kernel, soles: soles.to_vec(), levels, chains, couplers })
     }
 
-    /// Numbers of the coordinates on which the force of a coordinate depends: those of links that carry its link or are carried by it. Forces of the
-    /// ground depend on the links that carry the foot, which all carry each other.
+    /// Numbers of the coordinates on which the force of a coordinate depends: those of links that carry its link or are
+    /// carried by it. Forces of the ground depend on the links that carry the foot, which all carry each other.
     pub(super) fn related(&self, coordinate: usize) -> Vec<usize> {
         let links = &self.kernel.links;
         let chain = |link: usize| std::iter::successors(Some(link), |&carried| links[carried].before);
@@ -291,7 +295,8 @@ impl Evaluator {
         Touch { center, place, motion, found }
     }
 
-    /// Computes the contact of one sphere. Returns its wrench at the origin of the world, with derivatives per link of the chain.
+    /// Computes the contact of one sphere. Returns its wrench at the origin of the world, with derivatives per link of
+    /// the chain.
     fn touch(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> (One, Vec<WrenchSlopes>) {
         let touch = self.meet(law, lane, sphere, contact);
         let Touch { center, place, motion, found } = touch;

@@ -1,8 +1,10 @@
-//! The unknowns: coefficients of quintic B-splines of every coordinate over a span of time, and the continuation beyond the span.
+//! The unknowns: coefficients of quintic B-splines of every coordinate over a span of time, and the continuation beyond
+//! the span.
 //!
-//! Knots are uniform. Over knot interval i, coordinate c is q_c(s) = Σ_j w_j(u) x_{i+j, c}, j = 0..5, with the cardinal splines w_j
-//! of [`crate::numerics::quintic_splines`] and u the position in the interval. Block k of the unknowns has coefficient k of every
-//! coordinate. In a repeated motion, blocks beyond the last knot equal those of the start, or their mirror images.
+//! Knots are uniform. Over knot interval i, coordinate c is q_c(s) = Σ_j w_j(u) x_{i+j, c}, j = 0..5, with the cardinal
+//! splines w_j of [`crate::numerics::quintic_splines`] and u the position in the interval. Block k of the unknowns has
+//! coefficient k of every coordinate. In a repeated motion, blocks beyond the last knot equal those of the start, or
+//! their mirror images.
 
 use crate::model::{CoordinateId, Model, Movement, Side};
 use crate::numerics::{OVERLAP, quintic_splines};
@@ -94,7 +96,8 @@ impl Layout {
         (0..self.extended_blocks()).flat_map(|block| (0..self.width).map(move |c| place(block, c))).collect()
     }
 
-    /// Weights at a share of the span (0 to 1) in knot interval `interval`. A knot belongs to the intervals on both of its sides.
+    /// Weights at a share of the span (0 to 1) in knot interval `interval`. A knot belongs to the intervals on both of
+    /// its sides.
     pub(super) fn weights(&self, share: f64, interval: usize) -> Weights {
         let place = share * self.knots as f64 - interval as f64;
         Weights { first: interval, values: quintic_splines(place, self.knots as f64) }
@@ -112,7 +115,8 @@ impl Layout {
     }
 }
 
-/// Per coordinate: the coordinate on the other side, and its sign. Coordinates of pelvis and trunk outside the sagittal plane change sign.
+/// Per coordinate: the coordinate on the other side, and its sign. Coordinates of pelvis and trunk outside the sagittal
+/// plane change sign.
 pub fn mirror(model: &Model) -> Vec<(usize, f64)> {
     let anatomy = model.anatomy();
     let sign = |id: CoordinateId| anatomy.meaning(id).map_or(1.0, |meaning| meaning.sign);

@@ -1,16 +1,17 @@
 //! Optimal motion: computes the motion of a body on the ground that minimises an objective, without residual forces.
 //!
-//! A [`Problem`] has a body on soft shoes, a span of time and an objective. Its unknowns are splines of all coordinates, including those of
-//! the root. Each posture determines its contact forces, and inverse dynamics computes the joint forces from both, so neither forces nor
-//! velocities are unknown. The residual forces at the root must be zero at all instants.
+//! A [`Problem`] has a body on soft shoes, a span of time and an objective. Its unknowns are splines of all
+//! coordinates, including those of the root. Each posture determines its contact forces, and inverse dynamics computes
+//! the joint forces from both, so neither forces nor velocities are unknown. The residual forces at the root must be
+//! zero at all instants.
 //!
 //! ```text
 //! WalkProblem ──> Problem ──> Transcription ──> NormalEquations ──> steps ──> Solution
 //! targets         terms       instants          band with border    solve     samples, forward simulation
 //! ```
 //!
-//! Cost: one inverse dynamics with derivatives per step and instant, and one factorisation of a band with a border per step.
-//! Not handled: obstacles, unknown durations; slopes are inclined gravity.
+//! Cost: one inverse dynamics with derivatives per step and instant, and one factorisation of a band with a border per
+//! step. Not handled: obstacles, unknown durations; slopes are inclined gravity.
 //! Pinned by: tests/optimal.rs, tests/optimal_prediction.rs, tests/optimal_movements.rs
 
 pub(crate) mod layout;

@@ -1,8 +1,9 @@
-//! Movements that do not repeat: a figure that begins and ends at rest, such as a squat, a jump, or standing up from a chair.
+//! Movements that do not repeat: a figure that begins and ends at rest, such as a squat, a jump, or standing up from a
+//! chair.
 //!
-//! Key postures give the first guess: joint angles change smoothly from one to the next, the soles are level, and the lowest sphere touches the
-//! ground. Only the first and the last key are part of the problem: there the figure rests. What happens in between is decided by
-//! requirements and by what muscles cost.
+//! Key postures give the first guess: joint angles change smoothly from one to the next, the soles are level, and the
+//! lowest sphere touches the ground. Only the first and the last key are part of the problem: there the figure rests.
+//! What happens in between is decided by requirements and by what muscles cost.
 
 use super::conditions::WalkConditions;
 use super::instant::{Evaluator, Instant};
@@ -21,11 +22,14 @@ use crate::model::{Coordinate, CoordinateId, CoordinateKind, Model, Movement, Si
 use std::fmt;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
-/// Deviations that cost 1 in the first and the last instant: joint angles [rad]; rates [rad/s, m/s]; accelerations [rad/s², m/s²].
+/// Deviations that cost 1 in the first and the last instant: joint angles [rad]; rates [rad/s, m/s]; accelerations
+/// [rad/s², m/s²].
 const REST: [f64; 3] = [3.0 * DEGREE, 0.005, 0.02];
-/// Deviations that cost 1 where a movement begins or ends in another motion: coordinates [rad, m] and rates [rad/s, m/s].
+/// Deviations that cost 1 where a movement begins or ends in another motion: coordinates [rad, m] and rates [rad/s,
+/// m/s].
 const JOINED: [f64; 2] = [0.0005, 0.004];
-/// Deviations from the first guess that cost 1 while the solver is still guided by it: angles [rad], positions of the pelvis [m].
+/// Deviations from the first guess that cost 1 while the solver is still guided by it: angles [rad], positions of the
+/// pelvis [m].
 const GUIDE: [f64; 2] = [10.0 * DEGREE, 0.1];
 /// Weight of the first guess in the second round of stages; it is 1 in the first and 0 in the last.
 const LESS_GUIDED: f64 = 0.1;
@@ -38,8 +42,8 @@ const BEYOND: f64 = DEGREE;
 /// Instants per knot interval.
 const PER_KNOT: usize = 2;
 
-/// A posture at a time: joint angles [deg] by clinical movement, the same on both sides; what is not named is 0. Without
-/// [`Movement::PelvicTilt`], the pelvis tilts so that the soles are level.
+/// A posture at a time: joint angles [deg] by clinical movement, the same on both sides; what is not named is 0.
+/// Without [`Movement::PelvicTilt`], the pelvis tilts so that the soles are level.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Key {
     /// Time [s].
@@ -61,7 +65,8 @@ impl Key {
 pub struct MovementSettings {
     /// Costs of muscles.
     pub costs: EffortCosts,
-    /// Spheres that touch other level surfaces than the ground, such as a chair, each with the height of its surface [m].
+    /// Spheres that touch other level surfaces than the ground, such as a chair, each with the height of its surface
+    /// [m].
     pub surfaces: Vec<(ContactSphere, f64)>,
     /// Times [s] between which the first guess flies as a thrown body does; elsewhere a foot is on the ground.
     pub flights_s: Vec<[f64; 2]>,
@@ -123,7 +128,8 @@ impl MovementProblem {
         Ok(movement)
     }
 
-    /// The movement with coordinates of a first guess at all instants, and with the costs of muscles that `add` adds. `problem` has no terms.
+    /// The movement with coordinates of a first guess at all instants, and with the costs of muscles that `add` adds.
+    /// `problem` has no terms.
     pub(super) fn of_guess(
         human: &Human,
         costs: &EffortCosts,
@@ -144,8 +150,8 @@ impl MovementProblem {
         Ok(MovementProblem { problem, guess })
     }
 
-    /// Requires a quantity to have a value, or a bound, from one time to another [s]; `deviation` costs 1 for an instant. Times between two instants
-    /// are moved to the nearest ones.
+    /// Requires a quantity to have a value, or a bound, from one time to another [s]; `deviation` costs 1 for an
+    /// instant. Times between two instants are moved to the nearest ones.
     pub fn require(&mut self, [from_s, to_s]: [f64; 2], quantity: Quantity, bound: Bound, value: f64, deviation: f64) {
         let last = (self.problem.instants() - 1) as f64;
         let place = |time_s: f64| (time_s / self.problem.duration_s * last).round().clamp(0.0, last) as usize;
@@ -161,8 +167,8 @@ impl MovementProblem {
         anatomy.coordinate(movement, None).or_else(|| anatomy.coordinate(movement, Some(Side::Right)))
     }
 
-    /// Solves the problem: first near the first guess, then without it. Check [`Solution::unbalanced`] for forces that nothing supplies and
-    /// [`Solution::overload`] for muscles that are too weak.
+    /// Solves the problem: first near the first guess, then without it. Check [`Solution::unbalanced`] for forces that
+    /// nothing supplies and [`Solution::overload`] for muscles that are too weak.
     ///
     /// # Errors
     /// If the figure has joints that are not hinges or slides.
@@ -302,8 +308,8 @@ fn first_guess(
     Ok(instants.iter().zip(&times).map(placed).collect())
 }
 
-/// Values at `times` of a curve through `values` at `knots`: cubic between two knots, without overshoot, at rest at both ends (slopes are the
-/// harmonic means of Fritsch and Butland 1984; unverified).
+/// Values at `times` of a curve through `values` at `knots`: cubic between two knots, without overshoot, at rest at
+/// both ends (slopes are the harmonic means of Fritsch and Butland 1984; unverified).
 fn between(knots: &[f64], values: &[f64], times: &[f64]) -> Vec<f64> {
     let last = knots.len() - 1;
     let secant = |k: usize| (values[k + 1] - values[k]) / (knots[k + 1] - knots[k]);
@@ -348,7 +354,8 @@ pub(super) struct End<'a> {
     /// Coordinates [rad, m] and rates [rad/s, m/s].
     pub(super) place: &'a [f64],
     pub(super) rates: &'a [f64],
-    /// Whether all coordinates but the place forward are required nearly exactly; otherwise only those of joints, roughly.
+    /// Whether all coordinates but the place forward are required nearly exactly; otherwise only those of joints,
+    /// roughly.
     pub(super) is_exact: bool,
 }
 

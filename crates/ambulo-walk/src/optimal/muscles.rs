@@ -1,8 +1,8 @@
 //! The part of an objective that muscles have: metabolic power, moments relative to strength, and smooth motion.
 //!
-//! The largest costs are metabolic power by the efficiencies of muscles (Margaria 1968; unverified), 0.25 for positive and 1.2 for negative work, and
-//! muscle moments relative to strength. All costs are relative to the size of the body (mass m, leg length l, gravity g), so that they mean
-//! the same for a child.
+//! The largest costs are metabolic power by the efficiencies of muscles (Margaria 1968; unverified), 0.25 for positive
+//! and 1.2 for negative work, and muscle moments relative to strength. All costs are relative to the size of the body
+//! (mass m, leg length l, gravity g), so that they mean the same for a child.
 
 use super::conditions::{Device, WalkConditions};
 use super::effort::{Effort, tissue_of};
@@ -60,16 +60,19 @@ impl Default for EffortCosts {
     }
 }
 
-/// Stiffness of the toes [N.m/rad] and their damping [N.m.s/rad] in an adult. Falisse et al. 2022 (PLOS One 17:e0256311; unverified) have 25 N.m/rad.
+/// Stiffness of the toes [N.m/rad] and their damping [N.m.s/rad] in an adult. Falisse et al. 2022 (PLOS One
+/// 17:e0256311; unverified) have 25 N.m/rad.
 const TOES: [f64; 2] = [25.0, 0.5];
 /// Damping of shoulders and elbows in an adult [N.m.s/rad]: our choice.
 const ARM_DAMPING: f64 = 0.3;
 /// Body weight times stature of the adult of these laws [N.m].
 const ADULT: f64 = 75.0 * 9.80665 * 1.75;
-/// Mechanical power below which muscles cost more than their work [W/kg]: smooths the cost where the power changes its sign.
+/// Mechanical power below which muscles cost more than their work [W/kg]: smooths the cost where the power changes its
+/// sign.
 const SMOOTH: f64 = 0.067;
-/// Isometric strength of muscles, positive and negative moments of the movement, as shares of body weight times stature. Hip, knee and ankle: the
-/// largest moments of Gait2392 near the postures of walking (strength.csv); the others are our estimates.
+/// Isometric strength of muscles, positive and negative moments of the movement, as shares of body weight times
+/// stature. Hip, knee and ankle: the largest moments of Gait2392 near the postures of walking (strength.csv); the
+/// others are our estimates.
 pub(super) fn strength_of(movement: Option<Movement>) -> [f64; 2] {
     match movement {
         Some(Movement::HipFlexion) => [0.157, 0.274],
@@ -250,8 +253,8 @@ pub(super) fn ahead_of(name: &str) -> f64 {
 const OVERLOAD: &str = "overload";
 
 impl Solution {
-    /// The largest muscle moment above the strength of its joint, if it exceeds it by more than the share `more`. Problems without costs of
-    /// muscles have none.
+    /// The largest muscle moment above the strength of its joint, if it exceeds it by more than the share `more`.
+    /// Problems without costs of muscles have none.
     #[must_use]
     pub fn overload(&self, more: f64) -> Option<Overload> {
         let problem = self.problem();

@@ -1,9 +1,10 @@
-//! A walk from the solution of a similar one: another speed, or a figure of another size with the same joints or some of them.
+//! A walk from the solution of a similar one: another speed, or a figure of another size with the same joints or some
+//! of them.
 //!
-//! The start differs from the new first guess as the known solution differs from its own guess; translations grow with leg length. So what the
-//! solver found out about the walk is kept, and what the targets say about the change is added. Feet of this start slip by some mm/s and
-//! their soles are too deep or too high by fractions of a millimetre, which costs much with the final friction and slack; the first stages
-//! have less of both.
+//! The start differs from the new first guess as the known solution differs from its own guess; translations grow with
+//! leg length. So what the solver found out about the walk is kept, and what the targets say about the change is added.
+//! Feet of this start slip by some mm/s and their soles are too deep or too high by fractions of a millimetre, which
+//! costs much with the final friction and slack; the first stages have less of both.
 
 use super::solution::Solution;
 use super::solve::Continuation;
@@ -22,8 +23,8 @@ pub const NEAR_STAGES: [Continuation; 5] = [
 
 /// Factors of the deviation of slip in these stages, for a walk in three dimensions.
 const NEAR_SLIP: [f64; 5] = [4.0, 4.0, 3.0, 1.7, 1.0];
-/// Steps of the solver before an update, and factor of the gain below which a stage ends, where the objective changes more than near a known
-/// walk.
+/// Steps of the solver before an update, and factor of the gain below which a stage ends, where the objective changes
+/// more than near a known walk.
 const LONGER: (usize, f64) = (3, 0.3);
 
 /// Stages with more steps.
@@ -34,10 +35,10 @@ pub(super) fn longer(stages: &[Continuation]) -> Vec<Continuation> {
 }
 
 impl WalkProblem {
-    /// Solves the problem from the solution of a similar walk, in fewer steps than from the first guess: another speed (steps of up to 0.2 m/s
-    /// were tried) or cadence, another mass and height, fewer joints. `unknowns` solve `known` ([`Solution::unknowns`]): knot after knot, one number
-    /// per coordinate [rad or m], without forward motion. If `known` lacks coordinates of this walk, or if span or knots are not the same, it starts
-    /// from the first guess.
+    /// Solves the problem from the solution of a similar walk, in fewer steps than from the first guess: another speed
+    /// (steps of up to 0.2 m/s were tried) or cadence, another mass and height, fewer joints. `unknowns` solve `known`
+    /// ([`Solution::unknowns`]): knot after knot, one number per coordinate [rad or m], without forward motion. If
+    /// `known` lacks coordinates of this walk, or if span or knots are not the same, it starts from the first guess.
     ///
     /// Check [`Solution::progress`] or [`Solution::unbalanced`], as after [`WalkProblem::solve`].
     ///
@@ -55,7 +56,8 @@ impl WalkProblem {
         self.problem.balanced(found, &[&Continuation::on(&stages)], &self.kept)
     }
 
-    /// The start of this problem near a solution of a similar one; `None` if its splines do not determine all coordinates.
+    /// The start of this problem near a solution of a similar one; `None` if its splines do not determine all
+    /// coordinates.
     fn start_near(&self, known: &WalkProblem, unknowns: &[f64]) -> Result<Option<Vec<f64>>, CurvedJointError> {
         let (own, other) = (&self.problem, &known.problem);
         let coordinates = own.model.coordinates();

@@ -1,12 +1,14 @@
 //! Normal equations of the least-squares problem, assembled per instant and solved as a band with a border.
 //!
-//! At one instant all residuals depend on z = (q, q̇, q̈) of all coordinates. Their matrix H = Σ rᵀr in z is summed first; then the splines map it to
-//! the unknowns, all coordinates at once, because every coordinate has the same weights:
+//! At one instant all residuals depend on z = (q, q̇, q̈) of all coordinates. Their matrix H = Σ rᵀr in z is summed
+//! first; then the splines map it to the unknowns, all coordinates at once, because every coordinate has the same
+//! weights:
 //!
 //!   block(k, l) += Σ_de W_dk W_el H_de          d, e: value, rate, acceleration; k, l: the six blocks of the interval
 //!
-//! Rates of forces, which depend on two instants of one interval and on few coordinates, are mapped first and multiplied then ([`IntervalRows`]).
-//! Blocks beyond the last knot are then added to those that they repeat ([`Layout::origin`]).
+//! Rates of forces, which depend on two instants of one interval and on few coordinates, are mapped first and
+//! multiplied then ([`IntervalRows`]). Blocks beyond the last knot are then added to those that they repeat
+//! ([`Layout::origin`]).
 
 use super::layout::{Layout, Weights};
 use crate::numerics::{OVERLAP, ProfileMatrix};
@@ -89,7 +91,8 @@ impl InstantSums {
         self.right.fill(0.0);
     }
 
-    /// Adds residuals that depend on everything. Only the lower half of the matrix is filled; see [`InstantSums::complete`].
+    /// Adds residuals that depend on everything. Only the lower half of the matrix is filled; see
+    /// [`InstantSums::complete`].
     #[inline(always)]
     fn add_rows(&mut self, residuals: &[f64], rows: &[f64]) {
         let width = self.width;

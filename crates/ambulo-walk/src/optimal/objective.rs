@@ -17,8 +17,8 @@ pub enum Quantity {
     Force(CoordinateId),
     /// Muscle moment or force at a joint [N.m or N].
     Effort(Effort),
-    /// Square root of the power that muscles cost at a joint, √(p₊ P₊ + p₋ P₋) [√W], where P₊ and P₋ are positive and negative mechanical
-    /// power. Both are smoothed: P₊ = (P + √(P² + `smooth_w`²)) / 2, P₋ = P₊ - P.
+    /// Square root of the power that muscles cost at a joint, √(p₊ P₊ + p₋ P₋) [√W], where P₊ and P₋ are positive and
+    /// negative mechanical power. Both are smoothed: P₊ = (P + √(P² + `smooth_w`²)) / 2, P₋ = P₊ - P.
     RootPower {
         /// Action of the muscles at the joint.
         effort: Effort,
@@ -29,10 +29,11 @@ pub enum Quantity {
     },
     /// Rate of a generalised force [N.m/s or N/s].
     ForceRate(CoordinateId),
-    /// Sum of the ground forces on some spheres along x (0), y (1) or z (2) [N]. Spheres are numbered as in the problem.
+    /// Sum of the ground forces on some spheres along x (0), y (1) or z (2) [N]. Spheres are numbered as in the
+    /// problem.
     GroundForce(Vec<usize>, usize),
-    /// Moment of the vertical ground forces on some spheres about a point that moves: Σ N (c - p), with the positions c of the spheres along x
-    /// (0) or z (2) [N.m]. It is zero if the centre of pressure is at the point.
+    /// Moment of the vertical ground forces on some spheres about a point that moves: Σ N (c - p), with the positions c
+    /// of the spheres along x (0) or z (2) [N.m]. It is zero if the centre of pressure is at the point.
     LoadOffset {
         /// Numbers of the spheres.
         spheres: Vec<usize>,
@@ -45,7 +46,8 @@ pub enum Quantity {
     Height(usize),
     /// Sideways position of the centre of a sphere, along z [m].
     Sideways(usize),
-    /// Slip velocity of a sphere along x (0) or z (1) [m/s], multiplied by N / (N + `light_n`), where N is the vertical force on it [N].
+    /// Slip velocity of a sphere along x (0) or z (1) [m/s], multiplied by N / (N + `light_n`), where N is the vertical
+    /// force on it [N].
     Slip {
         /// Number of the sphere.
         sphere: usize,

@@ -1,8 +1,8 @@
 //! Solved walks of the built-in figures, which ship with the library.
 //!
-//! data/walks has the spline coefficients of solved walks of the built-in figures. A walk of the same figure, speed and cadence needs no
-//! solution; a test checks that the files solve the present problem. Other walks are solved from the plan with the nearest speed. Made by
-//! `cargo xtask walk-plans`.
+//! data/walks has the spline coefficients of solved walks of the built-in figures. A walk of the same figure, speed and
+//! cadence needs no solution; a test checks that the files solve the present problem. Other walks are solved from the
+//! plan with the nearest speed. Made by `cargo xtask walk-plans`.
 
 use super::solution::Solution;
 use crate::findings::Findings;
@@ -57,8 +57,8 @@ impl WalkPlan {
         Ok(WalkPlan::built_in(build.table)?.into_iter().find(|plan| plan.build == *build && plan.is_for(walk)))
     }
 
-    /// The built-in plan of a figure with the same table of segments whose dimensionless speed is nearest to that of a walk, and its walk; none
-    /// for a gait without normative curves.
+    /// The built-in plan of a figure with the same table of segments whose dimensionless speed is nearest to that of a
+    /// walk, and its walk; none for a gait without normative curves.
     ///
     /// # Errors
     /// None of the built-in plans; a test reads them.
@@ -160,7 +160,9 @@ impl WalkPlan {
         };
         let rows: String = self.coefficients.chunks(names.len().max(1)).map(row).collect();
         format!(
-            "# Optimal walk of a built-in figure: spline coefficients of half a cycle [rad or m], docs/OPTIMAL.md. Made by `cargo xtask walk-plans`.\nfigure = \"{}\"\nmass = {mass}\nheight = {height}\nspeed = {}\ncycle_s = {}\ncoordinates = [{}]\ncoefficients = [\n{rows}]\n",
+            "# Optimal walk of a built-in figure: spline coefficients of half a cycle [rad or m], docs/OPTIMAL.md. \
+             Made by `cargo xtask walk-plans`.\nfigure = \"{}\"\nmass = {mass}\nheight = {height}\nspeed = {}\ncycle_s \
+             = {}\ncoordinates = [{}]\ncoefficients = [\n{rows}]\n",
             table.name(),
             self.speed,
             self.cycle_s,

@@ -1,7 +1,7 @@
 //! Predicted walks: they minimise muscle effort. No recorded curve is a target.
 //!
-//! From recordings come speed and cadence, the instants at which the feet must be clear of the ground, and the start of the solver: the
-//! walk near normative curves, whose weight falls to zero stage by stage.
+//! From recordings come speed and cadence, the instants at which the feet must be clear of the ground, and the start of
+//! the solver: the walk near normative curves, whose weight falls to zero stage by stage.
 //!
 //! The costs are those of `muscles`, and the rates of joint moments.
 
@@ -31,9 +31,11 @@ pub struct Prediction {
 }
 
 impl WalkProblem {
-    /// Predicts the walk of a figure under some conditions, starting from a walk near normative curves: `unknowns` solve this problem.
+    /// Predicts the walk of a figure under some conditions, starting from a walk near normative curves: `unknowns`
+    /// solve this problem.
     ///
-    /// `human` is the figure of this problem; the conditions change it. Check [`Solution::unbalanced`] and [`Solution::overload`].
+    /// `human` is the figure of this problem; the conditions change it. Check [`Solution::unbalanced`] and
+    /// [`Solution::overload`].
     ///
     /// # Errors
     /// If the figure has joints that are not hinges or slides.
@@ -94,7 +96,8 @@ pub fn flatter_slopes(slope: f64) -> impl Iterator<Item = f64> {
 const KEPT: [&str; 2] = ["place", "clearance"];
 
 impl MuscleTerms<'_> {
-    /// Keeps the terms of feet, limits of joints and, with the weights of muscles, slip and rates of moments, and normative terms with their weight.
+    /// Keeps the terms of feet, limits of joints and, with the weights of muscles, slip and rates of moments, and
+    /// normative terms with their weight.
     fn keep(&mut self, terms: &[Term], people: f64) {
         for term in terms {
             let own = match term.quantity {
@@ -143,8 +146,9 @@ const RESTING: f64 = 1.4;
 /// Instants of a cycle at which power is computed.
 const POWER_INSTANTS: usize = 400;
 
-/// Metabolic power of a walk by a simple formula [W/kg of the body without a load]: positive joint work costs [`WORK_PRICES`], negative work
-/// less, and 1.4 W/kg are always needed. Joint power is that of the joint moments without devices.
+/// Metabolic power of a walk by a simple formula [W/kg of the body without a load]: positive joint work costs
+/// [`WORK_PRICES`], negative work less, and 1.4 W/kg are always needed. Joint power is that of the joint moments
+/// without devices.
 ///
 /// # Errors
 /// Does not fail for a solved problem.

@@ -1,11 +1,12 @@
 //! A problem of optimal motion: a body on soft shoes, a span of time, an objective; and its transcription.
 //!
-//! The unknowns are the spline coefficients x of all coordinates ([`Layout`]). With instants t_p, p = 0 .. P, the motion minimises
+//! The unknowns are the spline coefficients x of all coordinates ([`Layout`]). With instants t_p, p = 0 .. P, the
+//! motion minimises
 //!
 //!   1/P Σ_p Σ_terms ((quantity - target) / deviation)²     subject to     c_p = τ_root(t_p) / scale = 0
 //!
-//! where τ_root are the residual forces at the root. The augmented Lagrangian adds 1/P Σ |c_p + m_p|² / s² with the multipliers m and the
-//! slack s; after each minimisation m grows by c (Hestenes 1969, Powell 1969; unverified).
+//! where τ_root are the residual forces at the root. The augmented Lagrangian adds 1/P Σ |c_p + m_p|² / s² with the
+//! multipliers m and the slack s; after each minimisation m grows by c (Hestenes 1969, Powell 1969; unverified).
 
 mod bending;
 
@@ -25,7 +26,8 @@ pub struct Problem {
     pub model: Model,
     /// Spheres under its feet.
     pub soles: Vec<ContactSphere>,
-    /// Height of the level surface that each sphere touches [m], for spheres above a chair or a step; the ground, 0, where there is none.
+    /// Height of the level surface that each sphere touches [m], for spheres above a chair or a step; the ground, 0,
+    /// where there is none.
     pub levels_m: Vec<f64>,
     /// Contact law between the spheres and these surfaces.
     pub shoes: HuntCrossley,
@@ -50,7 +52,8 @@ pub struct Problem {
 pub struct Stage {
     /// The law of contact.
     pub shoes: HuntCrossley,
-    /// Slack s of the residual forces at the root [body weights, body weights × length]: the residual at which an instant costs 1.
+    /// Slack s of the residual forces at the root [body weights, body weights × length]: the residual at which an
+    /// instant costs 1.
     pub slack: f64,
     /// Factor of the deviation of slip.
     pub slip: f64,
@@ -377,13 +380,14 @@ impl<'a> Transcription<'a> {
         self.rate_rows(normal);
     }
 
-    /// Exchanges the evaluated instants with those at which the normal equations were computed, so that a trial does not overwrite these.
+    /// Exchanges the evaluated instants with those at which the normal equations were computed, so that a trial does
+    /// not overwrite these.
     pub(super) fn exchange_base(&mut self) {
         std::mem::swap(&mut self.instants, &mut self.base);
     }
 
-    /// Sets the right-hand side to the second-order part of the residual forces at the root: their values now, minus the linear prediction from
-    /// the base for a change of the unknowns.
+    /// Sets the right-hand side to the second-order part of the residual forces at the root: their values now, minus
+    /// the linear prediction from the base for a change of the unknowns.
     pub(super) fn curvature_of_root(&self, change: &[f64], normal: &mut NormalEquations) {
         let (n, width) = (self.layout.width, 3 * self.layout.width);
         let extended = self.layout.extended(change);

@@ -1,8 +1,9 @@
 //! Newton's method: a solution that is nearly found becomes exact.
 //!
-//! Steps of Gauss and Newton leave out the second derivatives of the residuals, so with large residuals they converge slowly. Newton's
-//! method converges quadratically, but each step needs as many evaluations as there are positions and rates. As in [`super::solve`], an augmented
-//! Lagrangian contains the forces at the root. Its slack stays large, because with a small one the cost is a narrow curved valley.
+//! Steps of Gauss and Newton leave out the second derivatives of the residuals, so with large residuals they converge
+//! slowly. Newton's method converges quadratically, but each step needs as many evaluations as there are positions and
+//! rates. As in [`super::solve`], an augmented Lagrangian contains the forces at the root. Its slack stays large,
+//! because with a small one the cost is a narrow curved valley.
 
 use super::normal::{NormalEquations, empty_matrix};
 use super::problem::{Problem, Stage, Transcription};
@@ -15,7 +16,8 @@ const SLACK: f64 = 0.02;
 /// Gradient at which the multipliers are updated first, and its factor after each update.
 const FIRST_GRADIENT: f64 = 1.0;
 const GRADIENT_FACTOR: f64 = 0.1;
-/// Dampings, as shares of the diagonal: the first one after a step that fails, the last one, and the factor between them.
+/// Dampings, as shares of the diagonal: the first one after a step that fails, the last one, and the factor between
+/// them.
 const FIRST_DAMPING: f64 = 1e-6;
 const LAST_DAMPING: f64 = 1e6;
 const DAMPING_FACTOR: f64 = 10.0;
@@ -25,9 +27,10 @@ const ROUNDING: f64 = 1e-13;
 impl Problem {
     /// The solution near given unknowns, with Newton's method.
     ///
-    /// It ends when the gradient of the Lagrangian is at most `accuracy` for every unknown [1/rad or 1/m] and the forces at the root are at most
-    /// `accuracy` [body weights, body weights × length]; or after `steps` steps and updates of the multipliers; or when no step lowers the cost. The
-    /// Lagrangian is the objective plus these forces times their multipliers. Check [`Solution::progress`].
+    /// It ends when the gradient of the Lagrangian is at most `accuracy` for every unknown [1/rad or 1/m] and the
+    /// forces at the root are at most `accuracy` [body weights, body weights × length]; or after `steps` steps and
+    /// updates of the multipliers; or when no step lowers the cost. The Lagrangian is the objective plus these forces
+    /// times their multipliers. Check [`Solution::progress`].
     ///
     /// # Errors
     /// If the model has joints that are not hinges or slides.
@@ -87,7 +90,8 @@ impl<'a> Newton<'a> {
         self.transcription.update_multipliers();
     }
 
-    /// Half the gradient of the cost at the instants that were evaluated: the right-hand side, because the cost is a sum of squares.
+    /// Half the gradient of the cost at the instants that were evaluated: the right-hand side, because the cost is a
+    /// sum of squares.
     pub fn half_gradient(&mut self) -> Vec<f64> {
         self.transcription.linearise(&mut self.normal);
         self.normal.fold_right(&self.transcription.layout)

@@ -156,7 +156,8 @@ impl Solution {
     }
 
     /// Residual forces at the root at `per_knot` instants per knot interval: root mean square and maximum
-    /// [body weights, body weights × length]. With more instants than the problem has, this includes the residual between its instants.
+    /// [body weights, body weights × length]. With more instants than the problem has, this includes the residual
+    /// between its instants.
     ///
     /// # Errors
     /// Does not fail for a solved problem.
@@ -167,7 +168,8 @@ impl Solution {
         Ok(transcription.root_forces())
     }
 
-    /// The largest force at the root at the instants of the problem, if it exceeds `share` [body weights, body weights × length].
+    /// The largest force at the root at the instants of the problem, if it exceeds `share` [body weights, body weights
+    /// × length].
     #[must_use]
     pub fn unbalanced(&self, share: f64) -> Option<Unbalanced> {
         let step_s = self.problem.duration_s / (self.instants.len() - 1) as f64;

@@ -1,10 +1,11 @@
 //! The solution: Levenberg and Marquardt's method inside an augmented Lagrangian.
 //!
-//! A step solves (A + λ diag A) Δ = -b with the normal equations A, b of the residuals. The damping λ changes with the ratio of the decrease of
-//! the cost to that of its quadratic model, -bᵀΔ + λ Δᵀ diag A Δ (Levenberg 1944, Marquardt 1963; unverified).
+//! A step solves (A + λ diag A) Δ = -b with the normal equations A, b of the residuals. The damping λ changes with the
+//! ratio of the decrease of the cost to that of its quadratic model, -bᵀΔ + λ Δᵀ diag A Δ (Levenberg 1944, Marquardt
+//! 1963; unverified).
 //!
-//! A multiplier m stands for the force m / s² of its constraint, where s is the slack. This force is kept from stage to stage, so m changes
-//! with s².
+//! A multiplier m stands for the force m / s² of its constraint, where s is the slack. This force is kept from stage to
+//! stage, so m changes with s².
 
 use super::normal::{NormalEquations, empty_matrix};
 use super::problem::{Problem, Stage, Transcription};
@@ -110,7 +111,8 @@ impl Problem {
 }
 
 impl Problem {
-    /// A solution as it is, or solved on by one attempt after the other while it leaves forces at the root. Its progress is that of all attempts.
+    /// A solution as it is, or solved on by one attempt after the other while it leaves forces at the root. Its
+    /// progress is that of all attempts.
     pub(super) fn balanced(
         &self,
         mut solution: Solution,

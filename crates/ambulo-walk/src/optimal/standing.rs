@@ -1,11 +1,12 @@
 //! Coming to a stand from a walk, and walking off: two movements that join a walk and standing.
 //!
-//! A stop begins in a walk, when the left foot has left the ground, and ends at rest on both feet; a start ends in the walk before the left
-//! foot strikes. In between, what muscles cost decides, as in other movements. The first guess mixes the walk, which slows down or speeds up, with the
-//! posture of standing, and keeps the right foot where it is. Without bounds of the load on the ground, some starts hop, which is a local minimum.
+//! A stop begins in a walk, when the left foot has left the ground, and ends at rest on both feet; a start ends in the
+//! walk before the left foot strikes. In between, what muscles cost decides, as in other movements. The first guess
+//! mixes the walk, which slows down or speeds up, with the posture of standing, and keeps the right foot where it is.
+//! Without bounds of the load on the ground, some starts hop, which is a local minimum.
 //!
-//! The right foot alone is on the ground while the body slows down, so fast walks cannot be stopped in this way: the extrapolated mass centre
-//! x + v √(l/g) must not be beyond the toes (Hof, Gazendam, Sinke 2005; unverified).
+//! The right foot alone is on the ground while the body slows down, so fast walks cannot be stopped in this way: the
+//! extrapolated mass centre x + v √(l/g) must not be beyond the toes (Hof, Gazendam, Sinke 2005; unverified).
 
 use super::instant::{Evaluator, Instant};
 use super::layout::Span;
@@ -31,7 +32,8 @@ const CLEARANCE: [f64; 2] = [0.03, 0.005];
 const KNOTS_PER_S: f64 = 40.0;
 /// Acceleration of the pelvis that costs 1 [g].
 const PELVIS: f64 = 0.2;
-/// Share of the body weight that the ground carries at least, unless the figure hops; below and above the other shares, [`LOAD_COST`] is paid.
+/// Share of the body weight that the ground carries at least, unless the figure hops; below and above the other shares,
+/// [`LOAD_COST`] is paid.
 const CARRIED: f64 = 0.05;
 const LOADS: [f64; 2] = [0.5, 1.4];
 /// Deviation from these shares of the body weight that costs 1.
@@ -83,7 +85,8 @@ pub enum StandingError {
     },
     /// A movement that does not reach the walk.
     #[error(
-        "no {movement} was found for a walk at {speed:.2} m/s: it would have another posture or another speed where it joins the walk"
+        "no {movement} was found for a walk at {speed:.2} m/s: it would have another posture or another speed where it \
+         joins the walk"
     )]
     Misses {
         /// `stop` or `start`.
@@ -111,7 +114,8 @@ impl StandingMovements {
         STOPPING_SPEED * (human.model.gravity().norm() * human.dimensions.leg_length).sqrt()
     }
 
-    /// The movements of a figure between a walk and standing. The walk must be slow, as at [`StandingMovements::speed`].
+    /// The movements of a figure between a walk and standing. The walk must be slow, as at
+    /// [`StandingMovements::speed`].
     ///
     /// # Errors
     /// Joints that are not hinges or slides; no movement was found, because the walk is too fast.
@@ -220,7 +224,8 @@ fn joining(human: &Human, walk: &Solution, standing: Option<&[f64]>) -> Result<M
     Ok(movement)
 }
 
-/// Moves the pelvis in all postures so that the right foot stays where it is in the first one, with the lowest sole as high as there.
+/// Moves the pelvis in all postures so that the right foot stays where it is in the first one, with the lowest sole as
+/// high as there.
 fn on_right_foot(problem: &Problem, postures: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, CurvedJointError> {
     let anatomy = problem.model.anatomy();
     let still = vec![0.0; problem.model.coordinates().len()];

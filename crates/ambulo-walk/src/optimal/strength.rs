@@ -1,7 +1,7 @@
 //! Strength of a joint as a function of angle and speed.
 //!
-//! The isometric moment of `strength.csv` (its header names the source) is scaled with body mass times stature, as is usual in
-//! dynamometry (Anderson 2007: share of body weight times height).
+//! The isometric moment of `strength.csv` (its header names the source) is scaled with body mass times stature, as is
+//! usual in dynamometry (Anderson 2007: share of body weight times height).
 //!
 //! Speed multiplies it by Hill's factor. With w > 0 the speed at which the muscles shorten:
 //!
@@ -13,9 +13,9 @@
 //! | `at_50`     | c₅     | rad/s | speed at which 1/2 of it remains                     |
 //! | `eccentric` | e      | 1     | largest moment while the muscle is stretched         |
 //!
-//! Source: Anderson, Madigan, Nussbaum 2007, J Biomech 40:3105, equation and table 3 (men of 18 to 25), the table as transcribed in
-//! RBDL's `Millard2016TorqueMuscle` (read). e = 1.4: Thelen 2003 (unverified). The stretching branch is ours.
-//! Not handled: tendons that recoil, two-joint muscles whose length the other joint changes.
+//! Source: Anderson, Madigan, Nussbaum 2007, J Biomech 40:3105, equation and table 3 (men of 18 to 25), the table as
+//! transcribed in RBDL's `Millard2016TorqueMuscle` (read). e = 1.4: Thelen 2003 (unverified). The stretching branch is
+//! ours. Not handled: tendons that recoil, two-joint muscles whose length the other joint changes.
 //! Pinned by: tests/feasibility.rs
 
 use super::muscles::strength_of;
@@ -48,7 +48,8 @@ const DORSIFLEXORS: Hill = Hill { at_75: 0.699, at_50: 1.940 };
 const PLANTARFLEXORS: Hill = Hill { at_75: 0.987, at_50: 3.558 };
 
 impl Hill {
-    /// Share of the isometric moment at a speed of shortening [rad/s], which is negative while the muscles are stretched.
+    /// Share of the isometric moment at a speed of shortening [rad/s], which is negative while the muscles are
+    /// stretched.
     #[must_use]
     pub fn factor(self, speed: f64, eccentric: f64) -> f64 {
         let product = 2.0 * self.at_75 * self.at_50;
@@ -77,7 +78,8 @@ pub struct StrengthCurve {
 }
 
 impl StrengthCurve {
-    /// Largest moment [N.m] at an angle [rad] and a rate [rad/s], in the direction of `sign`. Constant beyond the ends of the table.
+    /// Largest moment [N.m] at an angle [rad] and a rate [rad/s], in the direction of `sign`. Constant beyond the ends
+    /// of the table.
     #[must_use]
     pub fn available(&self, angle: f64, rate: f64, sign: f64, eccentric: f64) -> f64 {
         let hill = self.hill.unwrap_or(Hill::UNKNOWN);
@@ -98,7 +100,8 @@ impl StrengthCurve {
         }
     }
 
-    /// The built-in curve of a movement for a person, positive in the direction of the movement; `None` if the table has none.
+    /// The built-in curve of a movement for a person, positive in the direction of the movement; `None` if the table
+    /// has none.
     #[must_use]
     pub fn built_in(movement: Movement, mass_kg: f64, height_m: f64) -> Option<StrengthCurve> {
         let (_, coordinate, sign) = *COORDINATES.iter().find(|(of, ..)| *of == movement)?;
@@ -130,8 +133,8 @@ impl Hill {
     #[doc(hidden)]
     pub const UNKNOWN: [Hill; 2] = [HIP_EXTENSORS; 2];
 
-    /// The muscles of the positive and of the negative moment of a coordinate that increases (`sign` above zero) or decreases during a
-    /// movement.
+    /// The muscles of the positive and of the negative moment of a coordinate that increases (`sign` above zero) or
+    /// decreases during a movement.
     #[must_use]
     pub fn of_direction(movement: Movement, sign: f64) -> [Hill; 2] {
         let [agonists, antagonists] = match movement {

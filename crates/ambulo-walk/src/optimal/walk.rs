@@ -33,10 +33,11 @@ pub struct WalkProblem {
     pub kept: Vec<usize>,
 }
 
-/// Contact spheres of a figure in three dimensions: each sphere of the planar figure is replaced by a medial and a lateral one.
+/// Contact spheres of a figure in three dimensions: each sphere of the planar figure is replaced by a medial and a
+/// lateral one.
 ///
-/// Under ball and toes, each pair is as wide as the foot, measured between its outer edges; under the heel, 0.7 times as wide (our
-/// choice, after the ratio of heel to ball in Gait2392's foot).
+/// Under ball and toes, each pair is as wide as the foot, measured between its outer edges; under the heel, 0.7 times
+/// as wide (our choice, after the ratio of heel to ball in Gait2392's foot).
 #[must_use]
 pub fn soles_with_width(human: &Human) -> Vec<ContactSphere> {
     let width = human.dimensions.foot_width;
@@ -82,15 +83,18 @@ pub struct WalkCosts {
     pub hip_adduction: f64,
     /// The same for hip rotation [rad].
     pub hip_rotation: f64,
-    /// The same for the ground force of a foot, forward and up [body weights]; forward in free walking if it depends on the speed.
+    /// The same for the ground force of a foot, forward and up [body weights]; forward in free walking if it depends on
+    /// the speed.
     pub force: [f64; 2],
     /// Power of the dimensionless speed that the deviation of the forward force grows with.
     pub force_exponent: f64,
     /// Weight of the normative ground forces in a gait without normative curves; 0 leaves them out.
     pub others: f64,
-    /// Sideways ground force of a foot that costs 1 [body weights]: it should be small. People's sideways forces are no target.
+    /// Sideways ground force of a foot that costs 1 [body weights]: it should be small. People's sideways forces are no
+    /// target.
     pub sideways_force: f64,
-    /// Deviation of a joint moment from that of [`JointMomentLaws`] that costs 1: extension of hip, knee and ankle [body weight × leg length].
+    /// Deviation of a joint moment from that of [`JointMomentLaws`] that costs 1: extension of hip, knee and ankle
+    /// [body weight × leg length].
     pub moment: f64,
     /// The same for hip abduction [body weight × leg length].
     pub abduction: f64,
@@ -105,10 +109,11 @@ pub struct WalkCosts {
 }
 
 impl WalkCosts {
-    /// For a figure in the sagittal plane that walks in any gait at a constant pace. Fewer splines with more instants each leave less of the forces at
-    /// the root between the instants, which a simulation feels. Toes and arms must be slow: they are so light that shaking them, toes by 1,000 to
-    /// 5,000 rad/s², is the cheapest way to supply what the splines leave at the root, and the solver then finds no smoother walk. Forward forces are
-    /// followed more closely in slow walking, where they are small and yet make the speed rise and fall the most.
+    /// For a figure in the sagittal plane that walks in any gait at a constant pace. Fewer splines with more instants
+    /// each leave less of the forces at the root between the instants, which a simulation feels. Toes and arms must be
+    /// slow: they are so light that shaking them, toes by 1,000 to 5,000 rad/s², is the cheapest way to supply what the
+    /// splines leave at the root, and the solver then finds no smoother walk. Forward forces are followed more closely
+    /// in slow walking, where they are small and yet make the speed rise and fall the most.
     #[must_use]
     pub fn planar() -> WalkCosts {
         WalkCosts {
@@ -127,8 +132,8 @@ impl WalkCosts {
         }
     }
 
-    /// For a figure in the sagittal plane whose pace changes. Toes must be slower still, or the last swing of some halts folds them by more than 100°.
-    /// From 1.2 to 1.6 m/s within two steps, soles slip by at most 2 mm.
+    /// For a figure in the sagittal plane whose pace changes. Toes must be slower still, or the last swing of some
+    /// halts folds them by more than 100°. From 1.2 to 1.6 m/s within two steps, soles slip by at most 2 mm.
     #[must_use]
     pub(crate) fn change_of_pace() -> WalkCosts {
         WalkCosts {
@@ -196,8 +201,9 @@ pub const STAGES: [Continuation; 8] = [
     Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.00003, updates: 6, steps: 10, gain: 1e-3 },
 ];
 
-/// Stages of the solution of a walk in three dimensions: as [`STAGES`], but slip of soles becomes expensive as friction becomes steep. Before that,
-/// soles must creep to transmit forces, and a high cost of slip leads to motions that avoid forces.
+/// Stages of the solution of a walk in three dimensions: as [`STAGES`], but slip of soles becomes expensive as friction
+/// becomes steep. Before that, soles must creep to transmit forces, and a high cost of slip leads to motions that avoid
+/// forces.
 pub const SPATIAL_STAGES: [Continuation; 8] = {
     let factors = [4.0, 4.0, 4.0, 4.0, 4.0, 3.0, 1.7, 1.0];
     let (mut stages, mut k) = (STAGES, 0);
@@ -209,8 +215,8 @@ pub const SPATIAL_STAGES: [Continuation; 8] = {
     stages
 };
 
-/// Stages of the solution of a gait far from normative gaits, such as a step with straight knees: friction becomes steeper in more stages of
-/// more steps.
+/// Stages of the solution of a gait far from normative gaits, such as a step with straight knees: friction becomes
+/// steeper in more stages of more steps.
 pub const FINE_STAGES: [Continuation; 11] = [
     Continuation { stiffness: 0.25, creep: 50.0, slip: 1.0, slack: 0.05, updates: 0, steps: 30, gain: 1e-3 },
     Continuation { stiffness: 0.5, creep: 25.0, slip: 1.0, slack: 0.02, updates: 0, steps: 30, gain: 1e-3 },
@@ -279,7 +285,8 @@ impl WalkProblem {
         Ok(WalkProblem::guessed(builder.problem(empty, walk, &costs), &coordinates))
     }
 
-    /// A problem with the first guess that fits coordinates at its instants, at the height at which the ground carries the body.
+    /// A problem with the first guess that fits coordinates at its instants, at the height at which the ground carries
+    /// the body.
     fn guessed(problem: Problem, coordinates: &[Vec<f64>]) -> WalkProblem {
         let mut guess = problem.fitted(coordinates);
         if let Some((height, _)) = problem.model.anatomy().coordinate(Movement::PelvisUp, None) {
@@ -288,15 +295,15 @@ impl WalkProblem {
         WalkProblem { problem, guess, kept: Vec::new() }
     }
 
-    /// The stages in which a walk from a first guess is solved: [`SPATIAL_STAGES`] for a figure that can move sideways, [`STAGES`] for one in the
-    /// sagittal plane.
+    /// The stages in which a walk from a first guess is solved: [`SPATIAL_STAGES`] for a figure that can move sideways,
+    /// [`STAGES`] for one in the sagittal plane.
     #[must_use]
     pub fn stages(&self) -> &'static [Continuation] {
         if moves_sideways(&self.problem.model) { &SPATIAL_STAGES } else { &STAGES }
     }
 
-    /// Solves the problem from its first guess. If forces at the root remain, it goes on with the last stage, then from the middle stage on, and
-    /// then with the last one again.
+    /// Solves the problem from its first guess. If forces at the root remain, it goes on with the last stage, then from
+    /// the middle stage on, and then with the last one again.
     ///
     /// # Errors
     /// If the figure has joints that are not hinges or slides.
@@ -306,8 +313,9 @@ impl WalkProblem {
         self.problem.balanced(found, &[&longer, softer, &longer], &self.kept)
     }
 
-    /// As [`WalkProblem::solve`], in less time where a knot interval has many instants: the first stages, which only make a better guess, count every
-    /// second instant. All count from the last stage before the first update of multipliers on.
+    /// As [`WalkProblem::solve`], in less time where a knot interval has many instants: the first stages, which only
+    /// make a better guess, count every second instant. All count from the last stage before the first update of
+    /// multipliers on.
     ///
     /// # Errors
     /// As [`WalkProblem::solve`].

@@ -19,8 +19,8 @@ pub struct BodyEntry {
     pub inertia: Inertia,
     /// `world_from_body` at the start.
     pub start: Pose,
-    /// Velocity of the mass centre at the start, world axes [m/s]. `None`: from the parent's motion and the rates of the joint's
-    /// coordinates; at rest without a joint.
+    /// Velocity of the mass centre at the start, world axes [m/s]. `None`: from the parent's motion and the rates of
+    /// the joint's coordinates; at rest without a joint.
     pub velocity: Option<Vec3>,
     /// Angular velocity at the start, world axes [rad/s]. `None`: as for `velocity`.
     pub angular_velocity: Option<Vec3>,
@@ -40,7 +40,8 @@ const KEYS: &[&str] = &[
     "shape",
 ];
 
-/// Allowed distance of the shapes' common centre from the body's origin, as a share of their radius of gyration: for rounded numbers.
+/// Allowed distance of the shapes' common centre from the body's origin, as a share of their radius of gyration: for
+/// rounded numbers.
 const CENTER_SLACK: f64 = 1e-3;
 /// Allowed asymmetry of an inertia matrix, as a share of its largest entry.
 const SYMMETRY_SLACK: f64 = 1e-9;

@@ -71,12 +71,12 @@ pub struct SceneSettings {
 }
 
 impl Scene {
-    /// Builds the world of a scene. `load` reads the files that it names: it takes a path as written in the scene and returns bytes or an
-    /// error message.
+    /// Builds the world of a scene. `load` reads the files that it names: it takes a path as written in the scene and
+    /// returns bytes or an error message.
     ///
     /// # Errors
-    /// Files that cannot be read or do not fit, bodies that a figure lacks, joints of a figure that the simulator does not support; each
-    /// with line and key.
+    /// Files that cannot be read or do not fit, bodies that a figure lacks, joints of a figure that the simulator does
+    /// not support; each with line and key.
     ///
     /// A ball that falls for a tenth of a second:
     ///
@@ -159,8 +159,8 @@ pub(super) fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings
     }
 }
 
-/// Gives figures whose motion before the start is known the velocities of half a time step earlier, where velocities are those of the middle of a
-/// step (`Walker::moving_as`).
+/// Gives figures whose motion before the start is known the velocities of half a time step earlier, where velocities
+/// are those of the middle of a step (`Walker::moving_as`).
 fn start_half_a_step_earlier(state: &mut WorldState, figures: &[PlacedFigure], settings: &StepSettings) {
     if settings.integrator != Integrator::Impulse {
         return;
@@ -386,7 +386,8 @@ fn report_untouchable(world: &World, findings: &mut Findings) {
                 findings.report(
                     Code::ContactNotRound,
                     format!(
-                        "`{a}` and `{b}` pass through each other: the law hunt-crossley requires a sphere or a capsule on one \
+                        "`{a}` and `{b}` pass through each other: the law hunt-crossley requires a sphere or a capsule \
+                         on one \
                          side. hint: law = \"regularised\""
                     ),
                 );

@@ -11,7 +11,8 @@ use crate::model::anthropometry::{Build, Human, SegmentTable};
 use crate::model::{CoordinateId, CoordinateKind as ModelKind, Side};
 use crate::toml_reader::{Place, Table, Value};
 
-/// A figure of [`crate::model::anthropometry`]: planar, in a vertical plane through `at`, or in three dimensions ([`FigureWalkMode::Optimal`]).
+/// A figure of [`crate::model::anthropometry`]: planar, in a vertical plane through `at`, or in three dimensions
+/// ([`FigureWalkMode::Optimal`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuiltFigure {
     /// Place of `build` in the file.
@@ -182,7 +183,10 @@ fn gains(table: &Table<'_>, is_spatial: bool) -> Result<ControlSettings, SceneEr
     let Some(value) = table.get("gains") else { return Ok(ControlSettings::default()) };
     let is_tuned = value.choice(&[("usual", false), ("tuned", true)])?;
     if is_tuned && (is_spatial || table.get("delay").is_some()) {
-        return Err(value.wrong("\"usual\" in three dimensions and with a `delay`: tuned gains are for planar figures whose feedback acts at once"));
+        return Err(value.wrong(
+            "\"usual\" in three dimensions and with a `delay`: tuned gains are for planar figures \
+            whose feedback acts at once",
+        ));
     }
     Ok(if is_tuned { ControlSettings::tuned_in_the_plane() } else { ControlSettings::default() })
 }

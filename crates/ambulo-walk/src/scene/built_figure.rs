@@ -1,7 +1,8 @@
 //! Adds built-in figures to the world: every coordinate of the model becomes a coordinate of a joint.
 //!
-//! The root moves in the vertical plane through the figure's position: its translations forwards and up are free; its rotation is driven and
-//! holds the trunk upright, as in section 4.1 of Faure, Debunne, Cani, Multon 1997. The reaction of this joint keeps the figure in its plane.
+//! The root moves in the vertical plane through the figure's position: its translations forwards and up are free; its
+//! rotation is driven and holds the trunk upright, as in section 4.1 of Faure, Debunne, Cani, Multon 1997. The reaction
+//! of this joint keeps the figure in its plane.
 
 use super::acting::acting;
 use super::built_entry::{BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
@@ -182,7 +183,8 @@ fn changing(
     let wrong = |e: &dyn std::error::Error| entry.place.error(chain(e));
     if entry.duration_s > LONGEST_CHANGING_WALK_S {
         let message = format!(
-            "found a scene of {} s with changes of pace; expected at most {LONGEST_CHANGING_WALK_S} s, because the whole walk is computed before the scene begins",
+            "found a scene of {} s with changes of pace; expected at most {LONGEST_CHANGING_WALK_S} s, because the \
+             whole walk is computed before the scene begins",
             entry.duration_s
         );
         return Err(entry.place.error(message));
@@ -276,8 +278,8 @@ fn along_plan(PlannedWalk { human, solution, .. }: &PlannedWalk, phase: f64) -> 
     Motion { signals, start: [q, qd], accelerations: Some(qdd), live: None }
 }
 
-/// A periodic motion as signals that begin at a phase, with coordinates, rates and accelerations at the start. The signals of the root's
-/// translations are not used, because forces move them.
+/// A periodic motion as signals that begin at a phase, with coordinates, rates and accelerations at the start. The
+/// signals of the root's translations are not used, because forces move them.
 fn sampled(
     model: &Model,
     cycle_s: f64,

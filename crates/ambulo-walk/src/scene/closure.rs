@@ -62,7 +62,8 @@ impl Anchor {
 }
 
 const KEYS: &[&str] = &["name", "kind", "first", "second", "at", "on_first", "on_second", "active"];
-/// Largest initial distance of the points of an active closure [m]: the sum of rounding a few lengths to a tenth of a millimetre.
+/// Largest initial distance of the points of an active closure [m]: the sum of rounding a few lengths to a tenth of a
+/// millimetre.
 const LARGEST_GAP: f64 = 1e-3;
 
 impl ClosureEntry {

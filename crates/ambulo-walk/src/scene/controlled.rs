@@ -33,8 +33,8 @@ pub struct ControlledFigure {
 }
 
 impl ControlledFigure {
-    /// The figure of a scene with this name; without one, the first figure that has a controller. `load` reads the files that the walk names, as in
-    /// [`Scene::build`](super::Scene::build).
+    /// The figure of a scene with this name; without one, the first figure that has a controller. `load` reads the
+    /// files that the walk names, as in [`Scene::build`](super::Scene::build).
     ///
     /// # Errors
     /// No such figure, one without a controller, a walk that is not found.

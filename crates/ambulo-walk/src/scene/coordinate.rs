@@ -14,9 +14,11 @@ pub struct CoordinateEntry {
     pub line: usize,
     /// Rotation or translation.
     pub kind: MotionKind,
-    /// The value that belongs to the initial positions of the bodies. Not used with a `drive`, whose value at time zero it is.
+    /// The value that belongs to the initial positions of the bodies. Not used with a `drive`, whose value at time zero
+    /// it is.
     pub start: f64,
-    /// Rate at the start [rad/s or m/s]. Not used if the child's velocity is given, nor with a `drive`, whose rate at time zero it is.
+    /// Rate at the start [rad/s or m/s]. Not used if the child's velocity is given, nor with a `drive`, whose rate at
+    /// time zero it is.
     pub rate: f64,
     /// A spring and damper.
     pub spring: Option<Spring>,

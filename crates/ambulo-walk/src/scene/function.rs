@@ -19,10 +19,11 @@ pub enum TimeFunction {
         /// Mean value.
         offset: f64,
     },
-    /// Stops at these times, at least one, with increasing times: (time [s], value). Between them quintics with zero velocity and
-    /// acceleration at their ends; constant before the first and after the last.
+    /// Stops at these times, at least one, with increasing times: (time [s], value). Between them quintics with zero
+    /// velocity and acceleration at their ends; constant before the first and after the last.
     Stops(Vec<(f64, f64)>),
-    /// The natural cubic spline through at least two points with increasing times, which cover the whole scene: (time [s], value).
+    /// The natural cubic spline through at least two points with increasing times, which cover the whole scene: (time
+    /// [s], value).
     Points(Vec<(f64, f64)>),
     /// A column of a recording, in the unit stated in the file.
     Motion {

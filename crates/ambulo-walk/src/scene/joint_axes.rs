@@ -13,8 +13,8 @@ pub enum MotionKind {
     Translation,
 }
 
-/// The free motions of a joint or closure. Directions are unit vectors in the world at the start (for a closure that is added later: when
-/// it becomes active).
+/// The free motions of a joint or closure. Directions are unit vectors in the world at the start (for a closure that is
+/// added later: when it becomes active).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointAxes {
     /// None.
@@ -45,7 +45,8 @@ pub enum JointAxes {
         /// In the plane, fixed in the parent.
         along: Vec3,
     },
-    /// All motions: rotations as for a ball joint, then translations along x, y, z of the parent, which are the world's axes at the start.
+    /// All motions: rotations as for a ball joint, then translations along x, y, z of the parent, which are the world's
+    /// axes at the start.
     Free,
 }
 
@@ -129,7 +130,8 @@ fn square(direction: Vec3, to: Vec3) -> Option<Vec3> {
     (cosine.abs() <= SQUARE_SLACK).then(|| (direction - to * cosine).normalize())
 }
 
-/// The first translation axis: `second_axis`, or world x projected onto the plane, or world y if x is nearly the normal.
+/// The first translation axis: `second_axis`, or world x projected onto the plane, or world y if x is nearly the
+/// normal.
 fn along(table: &Table<'_>, normal: Vec3) -> Result<Vec3, SceneError> {
     const NEARLY: f64 = 0.99;
     if let Some(value) = table.get("second_axis") {

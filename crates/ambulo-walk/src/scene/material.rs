@@ -33,7 +33,8 @@ pub enum MaterialLaw {
         /// Per contact point [N.s/m], zero or more.
         damping: f64,
     },
-    /// Hunt and Crossley's law as in OpenSim's `SmoothSphereHalfSpaceForce`: a force that depends on the depth, no constraint.
+    /// Hunt and Crossley's law as in OpenSim's `SmoothSphereHalfSpaceForce`: a force that depends on the depth, no
+    /// constraint.
     HuntCrossley {
         /// Plane strain modulus [N/m²], above zero.
         stiffness: f64,

@@ -1,8 +1,9 @@
 //! Scenes: a world, its outputs and its duration as a TOML file (docs/SCENES.md).
 //!
-//! [`SceneFile::parse`] converts text to records in SI units and radians; references are resolved and numbers are checked. A
-//! [`SceneError`] states line and key. Files that a scene names (models, motions) are not opened here: the caller reads them for
-//! [`Scene::build`], which builds a world from the records. [`Scene::run`] simulates it to its end.
+//! [`SceneFile::parse`] converts text to records in SI units and radians; references are resolved and numbers are
+//! checked. A [`SceneError`] states line and key. Files that a scene names (models, motions) are not opened here: the
+//! caller reads them for [`Scene::build`], which builds a world from the records. [`Scene::run`] simulates it to its
+//! end.
 
 mod acting;
 mod body;

@@ -1,8 +1,8 @@
 //! Adds figures from OpenSim models to the world.
 //!
-//! If all coordinates of a joint follow the recording, the joint prescribes all six directions between its bodies, whatever its kind. Other
-//! joints must be of a kind that the simulator supports: rotations about one fixed axis, two perpendicular axes or three, a translation along
-//! one axis, planar, or free.
+//! If all coordinates of a joint follow the recording, the joint prescribes all six directions between its bodies,
+//! whatever its kind. Other joints must be of a kind that the simulator supports: rotations about one fixed axis, two
+//! perpendicular axes or three, a translation along one axis, planar, or free.
 
 use super::figure::{DrivenCoordinates, FigureEntry, RootMotion};
 use super::joint_axes::JointAxes;
@@ -315,7 +315,8 @@ impl FigureAssembly<'_> {
         let of_root = body.joint.parent.is_none();
         let advice = if of_root { "root = \"driven\"" } else { "drive all coordinates of the joint, or none" };
         let message = format!(
-            "found the joint `{}` of the model free to move, but {why}; expected one that is driven, or rotates about one \
+            "found the joint `{}` of the model free to move, but {why}; expected one that is driven, or rotates about \
+             one \
              axis, two perpendicular axes or three, translates along one axis, is planar, or is free",
             body.joint.name
         );

@@ -1,8 +1,9 @@
 //! Records a figure of a scene that follows a recording, step by step, for its verdict.
 //!
-//! Coordinates that follow the recording are those of their signals. The others, of passive joints and of a free root, are found from
-//! the pose T of a body on its parent: Newton steps on J Δq = the rotation and translation that T(q) lacks, where J is the motion of the
-//! joint per unit rate of its coordinates, and J q̇ = relative velocity of the bodies for the rates.
+//! Coordinates that follow the recording are those of their signals. The others, of passive joints and of a free root,
+//! are found from the pose T of a body on its parent: Newton steps on J Δq = the rotation and translation that T(q)
+//! lacks, where J is the motion of the joint per unit rate of its coordinates, and J q̇ = relative velocity of the
+//! bodies for the rates.
 //!
 //! Pinned by: tests/scene_verdict.rs
 
@@ -67,7 +68,8 @@ pub(super) struct MotionRecorder {
     start_s: f64,
     /// Joints with coordinates that follow no signal.
     passive: Vec<PassiveJoint>,
-    /// Coordinates and rates at the end of the last recorded step, which is the start of the next: events between steps move no body.
+    /// Coordinates and rates at the end of the last recorded step, which is the start of the next: events between steps
+    /// move no body.
     now: [Vec<f64>; 2],
     columns: Vec<[Vec<f64>; 3]>,
     /// Force and moment about the world's origin on each body, from obstacles and from everything else.

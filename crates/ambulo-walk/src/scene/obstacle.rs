@@ -37,7 +37,8 @@ pub enum ObstacleShape {
     },
     /// Terrain: a grid of heights, centred at the origin.
     HeightField {
-        /// Heights along y [m]: at least two rows of equal length, at least two each; rows are along x, the first one at -z/2.
+        /// Heights along y [m]: at least two rows of equal length, at least two each; rows are along x, the first one
+        /// at -z/2.
         heights: Vec<Vec<f64>>,
         /// Whole length along x [m].
         size_x: f64,
@@ -46,8 +47,8 @@ pub enum ObstacleShape {
     },
 }
 
-/// A prescribed motion: `world_from_obstacle(t)` is `pose`, rotated by `angle` about `axis` through its own origin, then translated by
-/// `displacement`.
+/// A prescribed motion: `world_from_obstacle(t)` is `pose`, rotated by `angle` about `axis` through its own origin,
+/// then translated by `displacement`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObstacleMotion {
     /// Line of its header.

@@ -44,7 +44,8 @@ impl Recorder {
         matches!(self, Recorder::Walk(recorder) if recorder.fall().is_some())
     }
 
-    /// Time of the fall of a figure that walks by its own torques [s]; infinite while it is up. `None` for other figures.
+    /// Time of the fall of a figure that walks by its own torques [s]; infinite while it is up. `None` for other
+    /// figures.
     pub(super) fn falls_at(&self) -> Option<f64> {
         let Recorder::Walk(recorder) = self else { return None };
         recorder.is_controlled().then(|| recorder.fall().map_or(f64::INFINITY, |fall| fall.time_s))

@@ -35,7 +35,8 @@ pub enum RunError {
     #[error(transparent)]
     Links(#[from] LinkError),
     /// No time step, or too many.
-    #[error("the time step is {} s, the duration {} s; expected 1 to 1e9 time steps", Shown(*step_s), Shown(*duration_s))]
+    #[error("the time step is {} s, the duration {} s; expected 1 to 1e9 time steps", Shown(*step_s),
+        Shown(*duration_s))]
     Steps {
         /// Time step [s].
         step_s: f64,
@@ -44,7 +45,9 @@ pub enum RunError {
     },
     /// More output than fits into memory.
     #[error(
-        "a duration of {} s gives {rows:.1e} rows of output for each of {things} bodies, joints and closures; expected at most {MOST_ROWS:e} rows together, because of memory. hint: simulate a shorter time, or lower `output_rate`", Shown(*duration_s)
+        "a duration of {} s gives {rows:.1e} rows of output for each of {things} bodies, joints and closures; expected \
+         at most {MOST_ROWS:e} rows together, because of memory. hint: simulate a shorter time, or lower `output_rate`",
+             Shown(*duration_s)
     )]
     TooLong {
         /// Duration [s].
@@ -165,11 +168,12 @@ impl Scene {
         (self.duration_s / self.settings.step_s - SAME_INSTANT).ceil().max(0.0) as usize
     }
 
-    /// Simulates to the end and calls back at the output rate. The first frame is the start, except for a resumed scene, where the earlier
-    /// run had this frame.
+    /// Simulates to the end and calls back at the output rate. The first frame is the start, except for a resumed
+    /// scene, where the earlier run had this frame.
     ///
     /// # Errors
-    /// No time step or too many, more output than fits into memory, joints that do not form trees, motion that is not finite.
+    /// No time step or too many, more output than fits into memory, joints that do not form trees, motion that is not
+    /// finite.
     pub fn run(
         &mut self,
         findings: &mut Findings,
@@ -277,7 +281,8 @@ impl Scene {
         self.workspace.forces(&self.world)
     }
 
-    /// Recordings of the figures that walk or follow a recording since the scene was built or resumed, in the order of the file.
+    /// Recordings of the figures that walk or follow a recording since the scene was built or resumed, in the order of
+    /// the file.
     ///
     /// # Errors
     /// If no step was made yet.
@@ -330,8 +335,8 @@ impl Scene {
         self.state.guess = guess.into_iter().filter_map(|(key, rows)| Some((without(key, number)?, rows))).collect();
     }
 
-    /// Value, rate and generalised force [N.m or N] of every coordinate of each figure's model. The force is zero for joints without
-    /// constraint or drive; values of figures from a model file are those of the recording.
+    /// Value, rate and generalised force [N.m or N] of every coordinate of each figure's model. The force is zero for
+    /// joints without constraint or drive; values of figures from a model file are those of the recording.
     #[must_use]
     pub fn generalized_forces(&self, forces: &StepForces) -> Vec<Vec<[f64; 3]>> {
         self.walkers.iter().map(|walker| self.of_walker(walker, forces)).collect()

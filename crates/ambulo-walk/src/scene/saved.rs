@@ -51,7 +51,8 @@ pub enum ResumeError {
     },
     /// Machines or controllers, whose states are not saved.
     #[error(
-        "a figure of the scene has a controller, or machines that read loads, angles or joints, and their states are not saved; expected figures that follow the clock alone. hint: simulate the scene from its start"
+        "a figure of the scene has a controller, or machines that read loads, angles or joints, and their states are \
+         not saved; expected figures that follow the clock alone. hint: simulate the scene from its start"
     )]
     Machines,
 }

@@ -144,7 +144,8 @@ fn convex(table: &Table<'_>) -> Result<Solid, SceneError> {
     if flat(&points) { Err(value.wrong(expected)) } else { Ok(Solid::Convex { points }) }
 }
 
-/// Whether points lie in one plane, determined with the farthest point from the first one, from their line, and from that plane.
+/// Whether points lie in one plane, determined with the farthest point from the first one, from their line, and from
+/// that plane.
 fn flat(points: &[Vec3]) -> bool {
     let Some(origin) = points.first() else { return true };
     let farthest = |distance: &dyn Fn(&Vec3) -> f64| {

@@ -132,7 +132,8 @@ impl<'a, 'f> InputFiles<'a, 'f> {
         const ROUNDED_CLOCK_S: f64 = 1e-4;
         if start + self.duration_s > last + ROUNDED_CLOCK_S {
             let message = format!(
-                "{file} ends {:.3} s after the scene begins; its last values are used from then on, so the motion stops within \
+                "{file} ends {:.3} s after the scene begins; its last values are used from then on, so the motion \
+                 stops within \
                  one step",
                 last - start
             );
@@ -149,7 +150,8 @@ fn four_or_more(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
         [(t0, y0), (t1, y1)] => {
             [0.0, 1.0, 2.0, 3.0].map(|k| (t0 + (t1 - t0) * k / 3.0, y0 + (y1 - y0) * k / 3.0)).to_vec()
         }
-        // 2 (h₁ + h₂) y₁'' = 6 ((y₂ - y₁)/h₂ - (y₁ - y₀)/h₁); in the middle of the first piece (y₀ + y₁)/2 - y₁'' h₁²/16.
+        // 2 (h₁ + h₂) y₁'' = 6 ((y₂ - y₁)/h₂ - (y₁ - y₀)/h₁); in the middle of the first piece (y₀ + y₁)/2 - y₁''
+        // h₁²/16.
         [first @ (t0, y0), second @ (t1, y1), third @ (t2, y2)] => {
             let (h1, h2) = (t1 - t0, t2 - t1);
             let bend = 3.0 * ((y2 - y1) / h2 - (y1 - y0) / h1) / (h1 + h2);

@@ -110,7 +110,9 @@ fn report_residuals<'a>(
             continue;
         }
         let message = format!(
-            "found no motion near this gait that needs no force from outside: {:.1} % of body weight (rms) are left at the root; expected at most {:.1} %. The walk gets them from outside, and the verdict judges it. hint: choose another speed, step length or style",
+            "found no motion near this gait that needs no force from outside: {:.1} % of body weight (rms) are left at \
+             the root; expected at most {:.1} %. The walk gets them from outside, and the verdict judges it. hint: \
+             choose another speed, step length or style",
             100.0 * left,
             100.0 * LARGEST_BETWEEN
         );
@@ -119,7 +121,8 @@ fn report_residuals<'a>(
     Ok(())
 }
 
-/// The paper's mode: joints follow the gait, the trunk is held upright, and impacts of the rigid soles cancel the whole velocity.
+/// The paper's mode: joints follow the gait, the trunk is held upright, and impacts of the rigid soles cancel the whole
+/// velocity.
 fn paper(
     settings: &SyntheticWalkSettings<'_>,
     human: Human,
@@ -169,8 +172,9 @@ fn paper_run(
     Ok((recording, kept.traced(settings, targets.trace(), targets.machine())))
 }
 
-/// Tells of the run of states of a walk while it happens: the first state of each machine, then every change in order of time. Only a gait
-/// whose machines read the simulation, in the paper's mode, is simulated for it; otherwise the machines run alone.
+/// Tells of the run of states of a walk while it happens: the first state of each machine, then every change in order
+/// of time. Only a gait whose machines read the simulation, in the paper's mode, is simulated for it; otherwise the
+/// machines run alone.
 ///
 /// # Errors
 /// As [`synthesise`].
@@ -200,8 +204,9 @@ pub fn run_of_states(
     Ok(())
 }
 
-/// Replays torques without feedback: the gait is walked in the paper's mode, then its joints and its trunk are let go at a nominal strike of the
-/// right foot, and the torques act instead. The walk ends shortly after the figure falls; the kept part begins a cycle before the release.
+/// Replays torques without feedback: the gait is walked in the paper's mode, then its joints and its trunk are let go
+/// at a nominal strike of the right foot, and the torques act instead. The walk ends shortly after the figure falls;
+/// the kept part begins a cycle before the release.
 ///
 /// # Errors
 /// As [`synthesise`]; torques of coordinates that the figure does not have; a gait whose cycles differ.
@@ -232,7 +237,8 @@ pub fn replay(
         Code::WalkReplayFell,
         match released.fell_after_s {
             Some(after_s) => format!(
-                "the torques act without feedback from {:.2} s on, and nothing holds the trunk; the figure falls {after_s:.2} s later",
+                "the torques act without feedback from {:.2} s on, and nothing holds the trunk; the figure falls \
+                 {after_s:.2} s later",
                 release_s - first as f64 * step.step_s
             ),
             None => format!("the torques act without feedback; the figure is still up after {free_s:.2} s"),
@@ -255,7 +261,8 @@ fn report_other_figure(torques: &[TorqueSeries], body_kg: f64, findings: &mut Fi
     let is_other = |series: &&TorqueSeries| (series.body_kg / body_kg - 1.0).abs() > SAME_FIGURE;
     if let Some(series) = torques.iter().find(is_other) {
         let message = format!(
-            "the torques were computed for a figure of {:.1} kg, this one has {body_kg:.1} kg: they do not carry it as they carried the other. hint: use that figure, or compute the torques for this one",
+            "the torques were computed for a figure of {:.1} kg, this one has {body_kg:.1} kg: they do not carry it as \
+             they carried the other. hint: use that figure, or compute the torques for this one",
             series.body_kg
         );
         findings.report(Code::WalkReplayFigure, message);

@@ -1,4 +1,5 @@
-//! The optimal mode: a walk in three dimensions, read from its solution. Nothing is simulated, because the solution has no force from outside.
+//! The optimal mode: a walk in three dimensions, read from its solution. Nothing is simulated, because the solution has
+//! no force from outside.
 
 use super::settings::{SyntheticError, SyntheticWalkSettings};
 use super::walk::{CORRECTED_SKIPPED, KeptPart, PredictionReport, SyntheticWalk, WalkReport, timed};

@@ -16,7 +16,8 @@ use std::ops::RangeInclusive;
 /// How a walk is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SyntheticMode {
-    /// In three dimensions, found by optimal motion on soft shoes: no force but those of its own joints and of the ground.
+    /// In three dimensions, found by optimal motion on soft shoes: no force but those of its own joints and of the
+    /// ground.
     Optimal,
     /// In three dimensions, predicted: minimises muscle effort instead of following normative curves.
     Predicted,
@@ -24,14 +25,15 @@ pub enum SyntheticMode {
     Corrected,
     /// As in the 1997 paper: rigid soles, and the trunk is held upright.
     Paper,
-    /// In three dimensions, on soft shoes, by torques of a controller that follows the optimal walk; the figure may fall.
+    /// In three dimensions, on soft shoes, by torques of a controller that follows the optimal walk; the figure may
+    /// fall.
     Physical,
 }
 
 impl SyntheticMode {
-    /// The default mode of a gait: optimal for a steady normative gait on a figure with toe joints, in the range of walking
-    /// speeds and with steps near the preferred length; the paper's for a gait whose machines move joints otherwise from cycle to cycle;
-    /// else corrected.
+    /// The default mode of a gait: optimal for a steady normative gait on a figure with toe joints, in the range of
+    /// walking speeds and with steps near the preferred length; the paper's for a gait whose machines move joints
+    /// otherwise from cycle to cycle; else corrected.
     #[must_use]
     pub fn of(gait: &Gait, build: &Build, leg_length: f64) -> SyntheticMode {
         let is_optimal = gait.follows_people() && gait.pace_changes.is_empty() && build.toe_joint;
@@ -57,8 +59,8 @@ impl SyntheticMode {
     }
 }
 
-/// Steps that optimal walks can have, as shares of the preferred step at the same speed. Figures with longer ones hop; shorter ones were not
-/// tried.
+/// Steps that optimal walks can have, as shares of the preferred step at the same speed. Figures with longer ones hop;
+/// shorter ones were not tried.
 const STEPS: RangeInclusive<f64> = 0.7..=1.12;
 
 /// Whether a gait does the same in every cycle, apart from changes of pace.
@@ -137,14 +139,16 @@ pub enum SyntheticError {
         found: usize,
     },
     /// A frame rate outside the allowed range.
-    #[error("found a frame rate of {} Hz; expected {} to {} Hz, because a slower rate misses foot strikes and a faster one needs too much memory", Shown(*found_hz), RATES_HZ[0], RATES_HZ[1])]
+    #[error("found a frame rate of {} Hz; expected {} to {} Hz, because a slower rate misses foot strikes and a faster \
+        one needs too much memory", Shown(*found_hz), RATES_HZ[0], RATES_HZ[1])]
     Rate {
         /// Frame rate [Hz].
         found_hz: f64,
     },
     /// An optimal walk repeats one cycle.
     #[error(
-        "the gait `{gait}`: found machines, changes of pace or sides that differ; expected equal cycles and sides half a cycle apart, because an optimal walk is computed for half a cycle. hint: use the mode `corrected` or `paper`"
+        "the gait `{gait}`: found machines, changes of pace or sides that differ; expected equal cycles and sides half \
+         a cycle apart, because an optimal walk is computed for half a cycle. hint: use the mode `corrected` or `paper`"
     )]
     Changing {
         /// Name of the gait.
@@ -152,7 +156,8 @@ pub enum SyntheticError {
     },
     /// Optimal walks follow normative forces, which belong to the normative joint curves.
     #[error(
-        "the gait `{gait}`: found curves, joints or steps that are changed; expected the normative curves (style knots), because an optimal walk also follows normative forces. hint: use the mode `corrected`"
+        "the gait `{gait}`: found curves, joints or steps that are changed; expected the normative curves (style \
+         knots), because an optimal walk also follows normative forces. hint: use the mode `corrected`"
     )]
     NotOfPeople {
         /// Name of the gait.
@@ -160,7 +165,9 @@ pub enum SyntheticError {
     },
     /// A controller follows one gait and changes its speed.
     #[error(
-        "the gait `{gait}`: found machines, sides that differ, standing at the start, or changes of step length or step frequency; expected equal cycles and changes of speed alone, because a controller follows optimal walks. hint: use the mode `corrected` or `paper`"
+        "the gait `{gait}`: found machines, sides that differ, standing at the start, or changes of step length or \
+         step frequency; expected equal cycles and changes of speed alone, because a controller follows optimal walks. \
+         hint: use the mode `corrected` or `paper`"
     )]
     NotControlled {
         /// Name of the gait.
@@ -171,12 +178,14 @@ pub enum SyntheticError {
     Control(#[from] ControlError),
     /// Figures in three dimensions have toe joints.
     #[error(
-        "found a figure without toe joints; expected toe joints, because the figure in three dimensions has them. hint: use the mode `corrected` or `paper`"
+        "found a figure without toe joints; expected toe joints, because the figure in three dimensions has them. \
+         hint: use the mode `corrected` or `paper`"
     )]
     NoToeJoint,
     /// Torques of one cycle cannot replay a gait whose cycles differ.
     #[error(
-        "the gait `{gait}`: found machines or changes of pace; expected equal cycles, because the torques are those of one cycle"
+        "the gait `{gait}`: found machines or changes of pace; expected equal cycles, because the torques are those of \
+         one cycle"
     )]
     Replay {
         /// Name of the gait.

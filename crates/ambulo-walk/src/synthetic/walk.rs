@@ -29,7 +29,8 @@ pub struct SyntheticWalk {
     pub states: Vec<StatePeriod>,
     /// The same states as changes in order of time, beginning with the first state of each machine.
     pub state_changes: Vec<StateChange>,
-    /// Torques of the joints along the plan of a controller, without its impedance and feedback; empty in the other modes.
+    /// Torques of the joints along the plan of a controller, without its impedance and feedback; empty in the other
+    /// modes.
     pub torques: Vec<TorqueSeries>,
     /// How the walk was made, in numbers.
     pub report: WalkReport,
@@ -70,8 +71,8 @@ pub struct WalkReport {
     pub flight_s: f64,
     /// Number of impacts of rigid soles, and the largest impulse on a foot [N.s]; zero on soft shoes.
     pub impacts: (usize, f64),
-    /// Largest difference of the mid-hip's speed from one cycle to the next [m/s] where the pace is constant, from one cycle after a change of pace
-    /// on. The angles are prescribed and repeat exactly.
+    /// Largest difference of the mid-hip's speed from one cycle to the next [m/s] where the pace is constant, from one
+    /// cycle after a change of pace on. The angles are prescribed and repeat exactly.
     pub speed_drift: f64,
     /// Step rate of the simulator [Hz].
     pub steps_hz: f64,
@@ -103,7 +104,8 @@ pub struct PaceReached {
     pub step_frequency: f64,
 }
 
-/// The kept part begins this share of a cycle before the nominal strike of the right foot, so that the strike is inside.
+/// The kept part begins this share of a cycle before the nominal strike of the right foot, so that the strike is
+/// inside.
 const LEAD_IN: f64 = 0.2;
 
 /// Standing after the last change that is kept [s].
@@ -111,7 +113,8 @@ const STANDING_S: f64 = 1.0;
 /// Cycles after the last change that are kept.
 const CYCLES_AFTER_CHANGE: f64 = 2.0;
 
-/// Cycles before the dynamically consistent walk is steady; it starts with the planned motion. An optimal walk begins with the same phase.
+/// Cycles before the dynamically consistent walk is steady; it starts with the planned motion. An optimal walk begins
+/// with the same phase.
 pub(super) const CORRECTED_SKIPPED: usize = 1;
 /// Longest walk with machines [s].
 const LONGEST_PLAN_S: f64 = 300.0;
@@ -127,8 +130,8 @@ pub(super) struct KeptPart {
 }
 
 impl KeptPart {
-    /// The first row of the simulation that is kept: shortly before a strike of the right foot. All rows of a figure that stands at the
-    /// start are kept.
+    /// The first row of the simulation that is kept: shortly before a strike of the right foot. All rows of a figure
+    /// that stands at the start are kept.
     pub(super) fn first_row(settings: &SyntheticWalkSettings<'_>, walk: &Walk, skipped: usize) -> usize {
         if walk.clock(0.0).stands() {
             return 0;
@@ -136,8 +139,8 @@ impl KeptPart {
         ((skipped as f64 - LEAD_IN) * walk.cycle_s() / settings.step_s()).max(0.0) as usize
     }
 
-    /// Of a walk of constant pace. One cycle more than asked, because the cycles of the left foot begin half a cycle later and the last
-    /// strike must be inside.
+    /// Of a walk of constant pace. One cycle more than asked, because the cycles of the left foot begin half a cycle
+    /// later and the last strike must be inside.
     pub(super) fn of_steady(settings: &SyntheticWalkSettings<'_>, walk: &Walk, skipped: usize) -> KeptPart {
         let kept = (settings.cycles + 1) as f64 * walk.cycle_s();
         KeptPart {
@@ -160,8 +163,8 @@ impl KeptPart {
         KeptPart { first, frames, simulated_s: start_s + (frames as f64 + 1.0) / settings.rate_hz }
     }
 
-    /// Of a walk whose pace changes: as many cycles of the first pace, and at least two cycles, or one second of standing, after the last
-    /// change.
+    /// Of a walk whose pace changes: as many cycles of the first pace, and at least two cycles, or one second of
+    /// standing, after the last change.
     pub(super) fn of_changing(settings: &SyntheticWalkSettings<'_>, walk: &Walk, first: usize) -> KeptPart {
         let start_s = first as f64 * settings.step_s();
         let last_s = walk.last_change_s().unwrap_or(0.0);
@@ -223,7 +226,8 @@ impl KeptPart {
     }
 }
 
-/// The walk of the settings, and the part of its simulation that is kept. Times of changes of pace count from the start of the kept part.
+/// The walk of the settings, and the part of its simulation that is kept. Times of changes of pace count from the start
+/// of the kept part.
 pub(super) fn timed(
     settings: &SyntheticWalkSettings<'_>,
     gait: &Gait,

@@ -42,7 +42,8 @@ pub enum GainError {
         found: String,
     },
     /// A gain starts outside its bounds.
-    #[error("found `{name}` = {} {unit}; expected {} to {} {unit}, between which it is tuned", Shown(*value), Shown(bounds[0]), Shown(bounds[1]))]
+    #[error("found `{name}` = {} {unit}; expected {} to {} {unit}, between which it is tuned", Shown(*value),
+        Shown(bounds[0]), Shown(bounds[1]))]
     Bounds {
         /// Its name.
         name: &'static str,
@@ -110,8 +111,8 @@ impl Gain {
         if gains.is_empty() { Err(GainError::Count { found: "no gain".to_owned() }) } else { Ok(gains) }
     }
 
-    /// The gains that are usually tuned. Without the torque: all costs times one number are the same costs, so one of them is their unit. A planar
-    /// figure has no place sideways.
+    /// The gains that are usually tuned. Without the torque: all costs times one number are the same costs, so one of
+    /// them is their unit. A planar figure has no place sideways.
     #[must_use]
     pub fn usual(in_three_dimensions: bool) -> Vec<Gain> {
         let is_usual = |gain: &Gain| match gain.name {
@@ -152,8 +153,8 @@ impl Gain {
         digits.find(|short| (short * self.scale).to_bits() == wanted).unwrap_or(value)
     }
 
-    /// The key `control` of a scene with these settings and the file of torque curves that the scene names. Settings that have their usual values and are
-    /// not listed are left out.
+    /// The key `control` of a scene with these settings and the file of torque curves that the scene names. Settings
+    /// that have their usual values and are not listed are left out.
     #[must_use]
     pub fn table(settings: &ControlSettings, torques: Option<&str>, listed: &[Gain]) -> String {
         let default = ControlSettings::default();

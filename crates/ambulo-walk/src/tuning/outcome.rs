@@ -15,8 +15,9 @@ const SPEED: f64 = 0.5;
 ///
 ///   cost = mean over pushes of { 0 if it is survived, else 2 - t/T } + 10 D² + E²/2 + V/2
 ///
-/// D is the root mean square deviation of hips, knees, ankles and the lumbar joint from the plan [rad], E that of their torques as shares of their strength,
-/// V the mean difference of the speed from that of the plan, as a share of it. These three are those of level walking and of the pushes that were survived.
+/// D is the root mean square deviation of hips, knees, ankles and the lumbar joint from the plan [rad], E that of their
+/// torques as shares of their strength, V the mean difference of the speed from that of the plan, as a share of it.
+/// These three are those of level walking and of the pushes that were survived.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TrialOutcome {
     /// The cost; without a number if there are no gains.

@@ -19,7 +19,8 @@ const SPEED_FROM: f64 = 0.5;
 /// Time steps between samples of deviation and effort.
 const EVERY: usize = 10;
 
-/// A figure, its plan and its settings, of which some gains are tuned: on level ground, alone, at the speed of the plan.
+/// A figure, its plan and its settings, of which some gains are tuned: on level ground, alone, at the speed of the
+/// plan.
 #[derive(Debug, Clone)]
 pub struct TuningProblem {
     human: Human,
@@ -36,8 +37,8 @@ pub struct TuningProblem {
 }
 
 impl TuningProblem {
-    /// A problem whose search starts from settings with feedback. Gains that are tuned start with the digits that gains are written with, so that what is
-    /// judged is what is written.
+    /// A problem whose search starts from settings with feedback. Gains that are tuned start with the digits that gains
+    /// are written with, so that what is judged is what is written.
     ///
     /// # Errors
     /// A gain that starts outside its bounds; a walk without a controller.
@@ -83,8 +84,8 @@ impl TuningProblem {
         &self.start
     }
 
-    /// Settings at a point of the search, which has the natural logarithm of each gain over its start, and the square of the distance by which the
-    /// point lies outside the bounds. At zero they are exactly those at the start.
+    /// Settings at a point of the search, which has the natural logarithm of each gain over its start, and the square
+    /// of the distance by which the point lies outside the bounds. At zero they are exactly those at the start.
     #[must_use]
     pub fn settings_at(&self, point: &[f64]) -> (ControlSettings, f64) {
         let (mut settings, mut outside) = (self.start.clone(), 0.0);
@@ -133,7 +134,8 @@ impl TuningProblem {
         Ok(sums.outcome())
     }
 
-    /// A push at the present state of a walk, which goes on without it. Deviation and effort of a walk that ends in a fall do not count: the fall does.
+    /// A push at the present state of a walk, which goes on without it. Deviation and effort of a walk that ends in a
+    /// fall do not count: the fall does.
     fn pushed(&self, level: &PhysicalWalk, push: &Push, sums: &mut Sums) -> Result<(), ControlError> {
         let (mut walk, mut own) = (level.clone(), Sums::default());
         let (start_s, after_s) = (walk.time_s(), AFTER * self.plan.cycle_s());

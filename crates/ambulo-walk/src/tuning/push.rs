@@ -10,10 +10,12 @@ use std::f64::consts::{PI, TAU};
 pub(super) const PUSHED_KG: f64 = 75.0;
 /// Duration of a push [s].
 pub(super) const PUSH_S: f64 = 0.2;
-/// Steps of directions and of forces, as shares of their ranges, so that any number of pushes fills phases, directions and forces evenly together: 1/g and 1/g² with
-/// g³ = g + 1, the plastic ratio (Roberts 2018, The unreasonable effectiveness of quasirandom sequences; unverified).
+/// Steps of directions and of forces, as shares of their ranges, so that any number of pushes fills phases, directions
+/// and forces evenly together: 1/g and 1/g² with g³ = g + 1, the plastic ratio (Roberts 2018, The unreasonable
+/// effectiveness of quasirandom sequences; unverified).
 const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053];
-/// The smallest force of a set, as a share of the largest. With the largest alone, gains were found that lose the smaller ones.
+/// The smallest force of a set, as a share of the largest. With the largest alone, gains were found that lose the
+/// smaller ones.
 const SMALLEST: f64 = 0.4;
 
 /// A push at the mass centre of the trunk for 0.2 s.
@@ -84,8 +86,9 @@ impl PushUse {
 }
 
 impl PushSettings {
-    /// Pushes in the order of their phases: one in each of equal parts of the cycle, at a random phase of it. Forces are from 0.4 times the largest one
-    /// to it. In the plane every second push is backward; in three dimensions directions fill the circle.
+    /// Pushes in the order of their phases: one in each of equal parts of the cycle, at a random phase of it. Forces
+    /// are from 0.4 times the largest one to it. In the plane every second push is backward; in three dimensions
+    /// directions fill the circle.
     #[must_use]
     pub fn pushes(&self, of: PushUse) -> Vec<Push> {
         let mut random = Random::new(self.seed, of.sequence());

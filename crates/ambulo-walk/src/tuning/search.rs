@@ -13,9 +13,9 @@ const FIRST_SIGMA: f64 = 0.3;
 
 /// The state of a search: plain numbers, from which it goes on as if it had not been interrupted.
 ///
-/// Candidates of a generation are compared by pushes that no other generation has. The mean of each generation is judged by one set of pushes that is always
-/// the same, and the mean that costs least there is the result; the first mean is the start itself. So gains that are not better than those at the
-/// start are not chosen.
+/// Candidates of a generation are compared by pushes that no other generation has. The mean of each generation is
+/// judged by one set of pushes that is always the same, and the mean that costs least there is the result; the first
+/// mean is the start itself. So gains that are not better than those at the start are not chosen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Tuning {
     pushes: PushSettings,

@@ -18,8 +18,8 @@ pub struct FootRecord {
     pub point: Vec<Vec3>,
     /// Forward velocity of the most loaded point of the sole relative to the ground [m/s]; zero without load.
     pub slip: Vec<f64>,
-    /// Whether a loaded point of the sole is at the friction limit of the ground. Not meaningful for Hunt and Crossley's law,
-    /// which has its own friction.
+    /// Whether a loaded point of the sole is at the friction limit of the ground. Not meaningful for Hunt and
+    /// Crossley's law, which has its own friction.
     pub at_limit: Vec<bool>,
     /// The part of the reaction that acts on the toes, if they are a separate body.
     pub(crate) toes: Option<ToeRecord>,
@@ -117,7 +117,8 @@ impl FootRecord {
         self.force[row].y > 0.0
     }
 
-    /// The reaction as a force plate would record it. The free moment is zero because contact points transmit no moment.
+    /// The reaction as a force plate would record it. The free moment is zero because contact points transmit no
+    /// moment.
     #[must_use]
     pub(crate) fn as_recording(&self, name: &str, times: Vec<f64>) -> ForceRecording {
         let rows = self.force.len();

@@ -54,8 +54,8 @@ pub(super) struct Placed {
 /// A figure on flat ground (y = 0), ready to walk.
 #[derive(Debug, Clone)]
 pub struct Walker {
-    /// The world. Bodies have the model's order, and body n is the child of joint n. Surfaces are the soles in their order,
-    /// then the ground.
+    /// The world. Bodies have the model's order, and body n is the child of joint n. Surfaces are the soles in their
+    /// order, then the ground.
     pub world: World,
     pub(super) model: Model,
     /// One signal per coordinate of the model.
@@ -73,9 +73,9 @@ pub struct Walker {
 }
 
 impl Walker {
-    /// Places a figure on the ground in the posture of its signals at time zero, with the mid-hip above x = 0 and moving
-    /// forwards at `speed_m_s`. `signals` has one entry per coordinate of the model [rad]; those of the root's translations
-    /// are not used.
+    /// Places a figure on the ground in the posture of its signals at time zero, with the mid-hip above x = 0 and
+    /// moving forwards at `speed_m_s`. `signals` has one entry per coordinate of the model [rad]; those of the root's
+    /// translations are not used.
     ///
     /// # Errors
     /// If the model is not planar, or the number of signals does not match.
@@ -123,10 +123,12 @@ impl Walker {
         self
     }
 
-    /// States that the walk goes on before its start, where it has this posture with rates and accelerations of all coordinates.
+    /// States that the walk goes on before its start, where it has this posture with rates and accelerations of all
+    /// coordinates.
     ///
-    /// The simulator stores velocities at the middle of a time step, so the walk starts with velocities of half a step earlier. Otherwise the
-    /// first step has half of the change of velocity, and its joint forces lack half of the forces of inertia.
+    /// The simulator stores velocities at the middle of a time step, so the walk starts with velocities of half a step
+    /// earlier. Otherwise the first step has half of the change of velocity, and its joint forces lack half of the
+    /// forces of inertia.
     #[must_use]
     pub(crate) fn moving_as(mut self, [q, qd, qdd]: &[Vec<f64>; 3]) -> Walker {
         let motions = body_motion(&self.model, Posture { q, qd, qdd });
@@ -275,7 +277,8 @@ pub(crate) fn half_a_step_earlier(twist: Twist, acceleration: Twist, step_s: f64
 pub enum WalkingError {
     /// A joint that moves out of the plane.
     #[error(
-        "joint `{joint}`: {found}; expected one hinge about z, and for the root a turn about z with slides along x and y"
+        "joint `{joint}`: {found}; expected one hinge about z, and for the root a turn about z with slides along x and \
+         y"
     )]
     Joint {
         /// The joint.
@@ -315,7 +318,8 @@ pub enum WalkingError {
     },
     /// A machine that reads a signal that does not exist.
     #[error(
-        "the machine `{machine}` reads the signal `{found}`; expected {expected}. hint: joints of a scene are signals; a walk without a scene has none"
+        "the machine `{machine}` reads the signal `{found}`; expected {expected}. hint: joints of a scene are signals; \
+         a walk without a scene has none"
     )]
     Signal {
         /// Name of the machine.
@@ -343,7 +347,8 @@ pub enum WalkingError {
     },
     /// A walk with more time steps than fit into memory.
     #[error(
-        "a walk of {duration_s:.1} s in steps of {step_s} s; expected at most {most} steps, because of memory. hint: compute fewer cycles or a lower frame rate"
+        "a walk of {duration_s:.1} s in steps of {step_s} s; expected at most {most} steps, because of memory. hint: \
+         compute fewer cycles or a lower frame rate"
     )]
     TooLong {
         /// Duration [s].

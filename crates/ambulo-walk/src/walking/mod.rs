@@ -1,12 +1,15 @@
-//! Walking figures: a [`Human`](crate::model::anthropometry::Human) walks in a world, and its joint and ground forces are recorded.
+//! Walking figures: a [`Human`](crate::model::anthropometry::Human) walks in a world, and its joint and ground forces
+//! are recorded.
 //!
-//! All joints are driven, and so is the rotation of the root, which holds the trunk. The two translations of the root are free, so
-//! the ground decides where the figure goes, as in section 4.1 of Faure, Debunne, Cani, Multon 1997. [`Walker`] makes the world,
-//! and [`Walker::walk`] steps it and returns a [`WalkRecording`] for tables, figures and `analysis`.
+//! All joints are driven, and so is the rotation of the root, which holds the trunk. The two translations of the root
+//! are free, so the ground decides where the figure goes, as in section 4.1 of Faure, Debunne, Cani, Multon 1997.
+//! [`Walker`] makes the world, and [`Walker::walk`] steps it and returns a [`WalkRecording`] for tables, figures and
+//! `analysis`.
 //!
-//! Times: a step of impulses from t to t + h has its velocities in the middle of the step, so its forces belong to the posture at
-//! t (leapfrog). Row n of a recording is the posture at t_n and the forces of the step that begins there. Impulses of impacts
-//! ([`ImpactLaw::Sticking`](crate::engine::ImpactLaw::Sticking)) are recorded separately from forces.
+//! Times: a step of impulses from t to t + h has its velocities in the middle of the step, so its forces belong to the
+//! posture at t (leapfrog). Row n of a recording is the posture at t_n and the forces of the step that begins there.
+//! Impulses of impacts ([`ImpactLaw::Sticking`](crate::engine::ImpactLaw::Sticking)) are recorded separately from
+//! forces.
 
 mod signals;
 

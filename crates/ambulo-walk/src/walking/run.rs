@@ -77,7 +77,8 @@ impl Walker {
         self.walk_with(None, settings, duration_s, findings)
     }
 
-    /// The same with targets that are computed from step to step: their machines read the loads on the feet in the step before.
+    /// The same with targets that are computed from step to step: their machines read the loads on the feet in the step
+    /// before.
     ///
     /// # Errors
     /// As [`Walker::walk`].
@@ -116,7 +117,8 @@ impl Walker {
         recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: rows })
     }
 
-    /// Walks until the drives let go, then with torques that know nothing of the motion, until the figure falls or for `duration_s`.
+    /// Walks until the drives let go, then with torques that know nothing of the motion, until the figure falls or for
+    /// `duration_s`.
     ///
     /// # Errors
     /// As [`Walker::walk`], and torques of a coordinate that no drive moves.

@@ -13,7 +13,8 @@ pub struct GaitTargets {
     coordinates: WalkCoordinates,
     /// The coordinates that machines of the gait drive, in the order of [`WalkMachine::coordinates`].
     driven: Vec<CoordinateId>,
-    /// Coordinates whose angles the machines read, and the sense of the angle, in the order of [`Sensed::angles`](crate::gait::machine::Sensed).
+    /// Coordinates whose angles the machines read, and the sense of the angle, in the order of
+    /// [`Sensed::angles`](crate::gait::machine::Sensed).
     read: Vec<(CoordinateId, f64)>,
     /// Coordinates of the model, without the gait.
     defaults: Vec<f64>,
@@ -27,8 +28,8 @@ impl GaitTargets {
     /// The targets of a walk.
     ///
     /// # Errors
-    /// A machine that drives or reads a coordinate that the model does not have, or reads a signal that does not exist; `signals` are the names
-    /// of those that do.
+    /// A machine that drives or reads a coordinate that the model does not have, or reads a signal that does not exist;
+    /// `signals` are the names of those that do.
     pub fn new(walk: &Walk, model: &Model, signals: &[String]) -> Result<GaitTargets, WalkingError> {
         let defaults: Vec<f64> = model.coordinates().iter().map(|coordinate| coordinate.default_value).collect();
         let of_machine = |machine: &MachineSettings| match &machine.drives {
@@ -81,7 +82,8 @@ impl GaitTargets {
         self.write(&posture, time_s);
     }
 
-    /// Sets what the machines read of the figure: the values of the model's coordinates, by number, and the signals in their order.
+    /// Sets what the machines read of the figure: the values of the model's coordinates, by number, and the signals in
+    /// their order.
     pub fn measure(&mut self, value: impl Fn(usize) -> f64, signals: impl Fn(usize) -> f64) {
         let sensed = self.machine.sensed_mut();
         for ((id, sense), (_, angle)) in self.read.iter().zip(&mut sensed.angles) {
@@ -145,8 +147,8 @@ impl GaitTargets {
     }
 }
 
-/// The coordinate of an angle that a machine reads, and its sense. Hip, pelvis and trunk are parts of several coordinates: their angle is that
-/// of the machine that drives them.
+/// The coordinate of an angle that a machine reads, and its sense. Hip, pelvis and trunk are parts of several
+/// coordinates: their angle is that of the machine that drives them.
 fn read_angle(
     settings: &MachineSettings,
     name: &str,
@@ -170,11 +172,11 @@ fn read_angle(
     model.coordinate(&coordinate).map(|id| Some((id, sense))).ok_or_else(unknown)
 }
 
-/// The targets as signals in the order of the model's coordinates, beginning `start_s` after the start of the walk. A walk whose cycles
-/// differ is sampled for `duration_s`.
+/// The targets as signals in the order of the model's coordinates, beginning `start_s` after the start of the walk. A
+/// walk whose cycles differ is sampled for `duration_s`.
 ///
-/// The state machine of the walk computes the targets, from step to step of the samples; steps of a simulation read samples, so their number
-/// per second does not change the motion.
+/// The state machine of the walk computes the targets, from step to step of the samples; steps of a simulation read
+/// samples, so their number per second does not change the motion.
 ///
 /// # Errors
 /// A machine that drives a coordinate that the model does not have.

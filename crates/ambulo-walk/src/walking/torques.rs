@@ -1,5 +1,5 @@
-//! Torques of the gait cycle as harmonics. Those of `ambulo reproduce` are replayed by a walker without feedback, those of a walk by own torques by a
-//! controller.
+//! Torques of the gait cycle as harmonics. Those of `ambulo reproduce` are replayed by a walker without feedback, those
+//! of a walk by own torques by a controller.
 //!
 //!   τ(t) = mean + Σ_k (cosine_k cos(2π k t/T) + sine_k sin(2π k t/T))          t from the nominal foot strike of the right foot
 
@@ -53,7 +53,8 @@ impl TorqueSeries {
     pub fn text<'a>(gaits: impl IntoIterator<Item = (&'a str, &'a str, Vec<TorqueSeries>)>) -> String {
         let mut text = String::from(
             "# Torques as harmonics of the gait cycle, N.m, with the sign of the model's coordinate:\n\
-             # torque(t) = mean + sum over k of cosine[k-1] cos(2 pi k t / cycle_s) + sine[k-1] sin(2 pi k t / cycle_s),\n\
+             # torque(t) = mean + sum over k of cosine[k-1] cos(2 pi k t / cycle_s) + sine[k-1] sin(2 pi k t / \
+             cycle_s),\n\
              # t from the right foot's nominal contact. Impacts are not included.\n",
         );
         for (mode, gait, torques) in gaits {
@@ -61,7 +62,8 @@ impl TorqueSeries {
                 let list = |values: &[f64]| values.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
                 let _ = write!(
                     text,
-                    "\n[[torque]]\nmode = \"{mode}\"\ngait = \"{gait}\"\ncoordinate = \"{}\"\ncycle_s = {:?}\nbody_kg = {:.3}\nmean = {:.6}\n\
+                    "\n[[torque]]\nmode = \"{mode}\"\ngait = \"{gait}\"\ncoordinate = \"{}\"\ncycle_s = {:?}\nbody_kg \
+                     = {:.3}\nmean = {:.6}\n\
                      cosine = [{}]\nsine = [{}]\nr_squared = {:.6}\n",
                     series.coordinate,
                     series.cycle_s,

@@ -38,7 +38,8 @@ pub struct Agreement {
 pub enum ComparisonError {
     /// The curves do not overlap in time.
     #[error(
-        "no common time: one curve covers {first_from} s to {first_to} s, the other {second_from} s to {second_to} s; expected an overlap"
+        "no common time: one curve covers {first_from} s to {first_to} s, the other {second_from} s to {second_to} s; \
+         expected an overlap"
     )]
     NoOverlap {
         /// Start of the first [s].
@@ -60,7 +61,8 @@ pub enum ComparisonError {
     },
     /// A value that is not finite.
     #[error(
-        "a value is not a finite number at {time_s:.4} s; expected finite curves. hint: choose a time range without this sample"
+        "a value is not a finite number at {time_s:.4} s; expected finite curves. hint: choose a time range without \
+         this sample"
     )]
     NotFinite {
         /// Its time [s].

@@ -32,8 +32,8 @@ pub struct EventAgreement {
     pub bias_ms: f64,
 }
 
-/// Agreement of foot strikes, then of foot offs. Found events more than 0.15 s before the first or after the last one of the reference are
-/// not counted, because the reference does not show whether they are right.
+/// Agreement of foot strikes, then of foot offs. Found events more than 0.15 s before the first or after the last one
+/// of the reference are not counted, because the reference does not show whether they are right.
 #[must_use]
 pub fn event_agreement(reference: &[Event], found: &[Event]) -> [EventAgreement; 2] {
     [EventKind::Strike, EventKind::Off].map(|kind| of_kind(reference, found, kind))

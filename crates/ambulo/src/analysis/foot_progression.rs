@@ -9,8 +9,9 @@
 //! | F | axes in the foot: in the neutral posture from the rear of the sole to the ball without the vertical part, up, right |
 //! | φ | turn about the upright axis of the foot [rad]; internal (toes towards the other foot) is positive |
 //!
-//! While the foot is flat, φ is the angle between its direction and the walking direction, seen from above. While it points down, as at foot off,
-//! that angle would be one between short projections; φ is then still the turn of the foot itself, as angles of the pelvis are (`clinical_angles`).
+//! While the foot is flat, φ is the angle between its direction and the walking direction, seen from above. While it
+//! points down, as at foot off, that angle would be one between short projections; φ is then still the turn of the foot
+//! itself, as angles of the pelvis are (`clinical_angles`).
 //!
 //! Source: the sign is that of Schwartz, Rozumalski, Trost 2008 (docs/SESSION.md).
 //! Not handled: cycles in which the pelvis stays within 0.2 m; they have no walking direction.

@@ -7,9 +7,9 @@
 //! | sagittal moments of a leg: RMSE, r | the instrumented window, swing included, and whole stances of that leg |
 //! | foot strikes and foot offs: mean absolute error | events detected by force plates |
 //!
-//! Stances shorter than 0.2 s are left out. Vertical is against gravity; fore-aft and lateral follow [`super::walking_direction`].
-//! rRMSE and r: [`super::comparison`]. Bands: the share of samples within 1.645 standard deviations, which would be 90 % for a normal
-//! distribution, and the width of the band relative to the RMSE.
+//! Stances shorter than 0.2 s are left out. Vertical is against gravity; fore-aft and lateral follow
+//! [`super::walking_direction`]. rRMSE and r: [`super::comparison`]. Bands: the share of samples within 1.645 standard
+//! deviations, which would be 90 % for a normal distribution, and the width of the band relative to the RMSE.
 //! Pinned by: tests/ground_agreement.rs
 
 use super::comparison::agreement;
@@ -172,8 +172,8 @@ pub struct MomentAgreement {
 }
 
 impl PlateCoverage {
-    /// Coverage without markers to tell which foot was on which plate: stances are the times in which a foot's sensor was loaded, and
-    /// stances that are detected in the motion but not by a sensor are excluded from the window.
+    /// Coverage without markers to tell which foot was on which plate: stances are the times in which a foot's sensor
+    /// was loaded, and stances that are detected in the motion but not by a sensor are excluded from the window.
     #[must_use]
     pub fn by_load(measured: &Analysis, plates: &[ForceRecording], footfalls: &Footfalls) -> PlateCoverage {
         let grid = measured.trajectory.grid();
@@ -224,7 +224,8 @@ pub struct ComparedStance {
     pub samples: Vec<ComparedSample>,
 }
 
-/// One frame of a stance. Forces are vertical, fore-aft, lateral (to the right) [N]; centres of pressure fore-aft, lateral [m].
+/// One frame of a stance. Forces are vertical, fore-aft, lateral (to the right) [N]; centres of pressure fore-aft,
+/// lateral [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ComparedSample {
     /// Elapsed share of the stance by the plates.
@@ -261,8 +262,9 @@ impl ComparedStance {
         ComparedStance { samples: self.samples.iter().filter(is_inside).copied().collect(), ..*self }
     }
 
-    /// Errors over the stance as detected, in the order of [`StanceErrors`](crate::ground::predict::StanceErrors): forces in body weights, centres of pressure in statures, sideways
-    /// is outwards. The samples of a component have a weight of 1 together, those of a centre of pressure more where the foot is loaded.
+    /// Errors over the stance as detected, in the order of [`StanceErrors`](crate::ground::predict::StanceErrors):
+    /// forces in body weights, centres of pressure in statures, sideways is outwards. The samples of a component have a
+    /// weight of 1 together, those of a centre of pressure more where the foot is loaded.
     #[must_use]
     pub fn errors(&self, weight_n: f64, stature_m: f64) -> [Vec<ErrorSample>; 5] {
         let mut all: [Vec<ErrorSample>; 5] = Default::default();

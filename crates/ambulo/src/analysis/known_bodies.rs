@@ -10,8 +10,8 @@ use std::sync::{Mutex, PoisonError};
 /// Bodies that are kept; trials that weigh the person anew need a body each.
 const MOST: usize = 4;
 
-/// The bodies of one standing trial. A body is calibrated once for each marker set and each statement about the person, a model is scaled once for
-/// each mass.
+/// The bodies of one standing trial. A body is calibrated once for each marker set and each statement about the person,
+/// a model is scaled once for each mass.
 #[derive(Debug, Default)]
 pub struct KnownBodies(Mutex<Vec<KnownBody>>);
 

@@ -37,8 +37,8 @@ impl LaboratoryRecording {
         self.turned(axes)
     }
 
-    /// As [`LaboratoryRecording::in_world`] for a recording in the axes of the ground of a model. If the person is upright along another axis
-    /// than y, the axes are those that were detected, with a warning.
+    /// As [`LaboratoryRecording::in_world`] for a recording in the axes of the ground of a model. If the person is
+    /// upright along another axis than y, the axes are those that were detected, with a warning.
     pub(super) fn in_ground(&self, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
         let mut of_detection = Findings::default();
         let landmarks = Landmarks::named(&self.markers, None);

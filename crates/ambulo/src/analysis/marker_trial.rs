@@ -1,7 +1,9 @@
-//! From the markers and force plates of a laboratory to a body in motion with ground forces, ready for [`super::analyse`].
+//! From the markers and force plates of a laboratory to a body in motion with ground forces, ready for
+//! [`super::analyse`].
 //!
-//! Steps: detect the laboratory's axes ([`crate::motion::laboratory`]); calibrate or scale the body from a standing trial, or take it
-//! unchanged; fit its coordinates to the markers; assign the measured forces to the feet on the plates.
+//! Steps: detect the laboratory's axes ([`crate::motion::laboratory`]); calibrate or scale the body from a standing
+//! trial, or take it unchanged; fit its coordinates to the markers; assign the measured forces to the feet on the
+//! plates.
 
 use super::ground_agreement::PlateCoverage;
 use super::known_bodies::KnownBodies;
@@ -96,7 +98,8 @@ pub(crate) fn fit_body_to_markers(
         _ => calibrated(findings)?,
     };
     progress.end(Stage::Body)?;
-    // The author of a given model decides which coordinates are clamped; the built-in body needs its ranges to keep arm angles unique.
+    // The author of a given model decides which coordinates are clamped; the built-in body needs its ranges to keep arm
+    // angles unique.
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
     let settings = FitSettings { weights: weights.clone(), limits, ..settings.clone() };
@@ -245,7 +248,8 @@ impl BodyInMotion {
         }
     }
 
-    /// The longest time without a gap in any fitted coordinate: start and end [s]. `None` if there is none, or if no coordinate has a gap.
+    /// The longest time without a gap in any fitted coordinate: start and end [s]. `None` if there is none, or if no
+    /// coordinate has a gap.
     #[must_use]
     pub(crate) fn longest_without_gap_s(&self) -> Option<[f64; 2]> {
         let motion = &self.fit.motion;
@@ -275,7 +279,8 @@ fn trimmed_to_visible(markers: MarkerRecording, findings: &mut Findings) -> Mark
     let visible = markers.trimmed_to_visible();
     if let (true, [first, .., last]) = (visible.frames() < markers.frames(), &visible.times[..]) {
         let message = format!(
-            "less than half of the markers are visible before {first:.3} s or after {last:.3} s; these {} of {} frames were left out",
+            "less than half of the markers are visible before {first:.3} s or after {last:.3} s; these {} of {} frames \
+             were left out",
             markers.frames() - visible.frames(),
             markers.frames()
         );

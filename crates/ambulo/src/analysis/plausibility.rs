@@ -18,7 +18,10 @@ pub(super) fn report_residual(weight_n: f64, residual: Option<Residual>, finding
     let share = residual.force_rms_n / weight_n;
     if share > LARGE_RESIDUAL_BW {
         let message = format!(
-            "the residual force at the root is {:.0} % of body weight (about 10 % in walking data with every foot on a plate): forces, motion and model do not belong together, a foot was outside the plates, or the motion is not filtered; the joint moments are not reliable. hint: check files, sides and time origin; choose the time in which every loaded foot is on a plate",
+            "the residual force at the root is {:.0} % of body weight (about 10 % in walking data with every foot on a \
+             plate): forces, motion and model do not belong together, a foot was outside the plates, or the motion is \
+             not filtered; the joint moments are not reliable. hint: check files, sides and time origin; choose the \
+             time in which every loaded foot is on a plate",
             100.0 * share
         );
         findings.report(Code::ResidualLarge, message);
@@ -38,7 +41,8 @@ fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, findings: &mu
         if mean < -CENTER_OF_PRESSURE_LOAD_N {
             let name = &model.bodies()[body.body.index()].name;
             let message = format!(
-                "the ground force pulls `{name}` down (mean vertical force {mean:.0} N); it is probably the force on the plate. hint: reverse the sign of forces and torques"
+                "the ground force pulls `{name}` down (mean vertical force {mean:.0} N); it is probably the force on \
+                 the plate. hint: reverse the sign of forces and torques"
             );
             findings.report(Code::LoadsDownward, message);
         }
@@ -71,7 +75,8 @@ fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces
         {
             let name = &model.bodies()[foot.body.index()].name;
             let message = format!(
-                "the force on `{name}` acts {own:.2} m from it and {other:.2} m from the other foot (medians); right and left may be exchanged. hint: exchange the bodies on which the loads act"
+                "the force on `{name}` acts {own:.2} m from it and {other:.2} m from the other foot (medians); right \
+                 and left may be exchanged. hint: exchange the bodies on which the loads act"
             );
             findings.report(Code::LoadsFarFromFoot, message);
         }
@@ -89,7 +94,8 @@ pub(super) fn report_ranges(model: &Model, trajectory: &Trajectory, findings: &m
         if largest > high + RANGE_SLACK_RAD || smallest < low - RANGE_SLACK_RAD {
             let [smallest, largest, low, high] = [smallest, largest, low, high].map(f64::to_degrees);
             let message = format!(
-                "`{}` ranges from {smallest:.0} to {largest:.0} deg; the model allows {low:.0} to {high:.0} deg. hint: is this the motion of another model? Knee flexion is positive in some models and negative in others",
+                "`{}` ranges from {smallest:.0} to {largest:.0} deg; the model allows {low:.0} to {high:.0} deg. hint: \
+                 is this the motion of another model? Knee flexion is positive in some models and negative in others",
                 coordinate.name
             );
             findings.report(Code::MotionOutOfRange, message);

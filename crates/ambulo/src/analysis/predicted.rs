@@ -41,8 +41,9 @@ pub struct PredictedAnalysis {
     pub measured: Option<Analysis>,
 }
 
-/// Analyses a recording with predicted ground forces, otherwise as [`super::analyse`]. Measured forces in `plates` are only used for
-/// comparison. A motion that is not borrowed is dropped before the forces are computed: a long recording needs its memory for them.
+/// Analyses a recording with predicted ground forces, otherwise as [`super::analyse`]. Measured forces in `plates` are
+/// only used for comparison. A motion that is not borrowed is dropped before the forces are computed: a long recording
+/// needs its memory for them.
 pub(crate) fn predict_and_analyse(
     model: &Model,
     motion: impl Borrow<Motion>,
@@ -67,9 +68,9 @@ pub(crate) fn predict_and_analyse(
     with_plates(model, trajectory, prediction, plates, settings.instrumented, input, findings, progress)
 }
 
-/// Predicts from the whole recording, also outside the window, and with the low-pass filter that was used to fit the parameters of the
-/// estimator ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md), whatever the filter of the motion is. `None` if the recording outside the
-/// window cannot be used, or parts of the result are given.
+/// Predicts from the whole recording, also outside the window, and with the low-pass filter that was used to fit the
+/// parameters of the estimator ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md), whatever the filter of the motion
+/// is. `None` if the recording outside the window cannot be used, or parts of the result are given.
 fn prediction_of_whole_motion(
     model: &Model,
     motion: &Motion,
@@ -145,8 +146,8 @@ fn with_plates(
     Ok(PredictedAnalysis { analysis, prediction, measured })
 }
 
-/// Checks the measured forces that the prediction is compared with. If the instrumented window is unknown, a residual may be due to a foot
-/// outside the plates and is not reported. The range of the motion is checked with the prediction.
+/// Checks the measured forces that the prediction is compared with. If the instrumented window is unknown, a residual
+/// may be due to a foot outside the plates and is not reported. The range of the motion is checked with the prediction.
 fn report_plates(model: &Model, measured: &Analysis, window_is_known: bool, findings: &mut Findings) {
     if window_is_known {
         plausibility::report_residual(measured.mass.kg * model.gravity().norm(), measured.residual, findings);

@@ -30,14 +30,15 @@ pub struct AnalysisSettings {
     pub window: Window,
     /// Frame rate of the results [Hz]; `None` keeps the value of the recording.
     pub rate_hz: Option<f64>,
-    /// The instrumented window, if known: outside it forces may be missing and the residual is not evaluated. `None`: the measured forces are
-    /// complete at all times.
+    /// The instrumented window, if known: outside it forces may be missing and the residual is not evaluated. `None`:
+    /// the measured forces are complete at all times.
     pub instrumented: Option<Window>,
 }
 
 impl AnalysisSettings {
-    /// Whether ground forces are predicted from the same motion that is analysed: the whole recording, with the low-pass filter that was used
-    /// to fit the parameters of the estimator ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md).
+    /// Whether ground forces are predicted from the same motion that is analysed: the whole recording, with the
+    /// low-pass filter that was used to fit the parameters of the estimator ([`LowPass::MOTION`],
+    /// docs/measured/GROUND_FIT.md).
     pub(crate) fn filters_as_the_prediction(&self) -> bool {
         self.smoother == Smoother::Butterworth(LowPass::MOTION) && self.window == Window::default()
     }
@@ -136,8 +137,8 @@ pub(super) const WHOLE_BODY_SHARE: f64 = 0.05;
 /// A larger difference between plates and model gives a warning (an issue of scaling or of the plates).
 const MASS_MISMATCH: f64 = 0.03;
 
-/// Analyses recorded coordinates with measured forces: smoothing, inverse dynamics, events, cycles, body mass and residual. It is the
-/// inner step of [`crate::study::run`] for measured forces.
+/// Analyses recorded coordinates with measured forces: smoothing, inverse dynamics, events, cycles, body mass and
+/// residual. It is the inner step of [`crate::study::run`] for measured forces.
 ///
 /// The window is limited to the time that the force recordings cover, with a finding.
 ///
@@ -283,7 +284,8 @@ pub(super) fn with_forces(
     Ok(Analysis { trajectory, adjusted: false, ground, forces, events, cycles, mass, speed_m_s, residual })
 }
 
-/// Puts the requested time range into the error of a range that is too short, with the time that motion and forces both cover.
+/// Puts the requested time range into the error of a range that is too short, with the time that motion and forces both
+/// cover.
 fn with_requested_window(
     error: MotionError,
     requested: Window,
@@ -379,7 +381,8 @@ fn cycles_for_mass(cycles: &[Cycle], events: &[Event], findings: &mut Findings) 
     let (whole, partial): (Vec<&Cycle>, Vec<&Cycle>) = cycles.iter().partition(is_complete);
     for cycle in partial {
         let message = format!(
-            "{} cycle {} ({:.3} to {:.3} s): no foot off and foot strike of the other foot were measured; it may have been outside the plates, so this cycle does not give the body mass",
+            "{} cycle {} ({:.3} to {:.3} s): no foot off and foot strike of the other foot were measured; it may have \
+             been outside the plates, so this cycle does not give the body mass",
             cycle.side, cycle.number, cycle.start_s, cycle.end_s
         );
         findings.report(Code::CyclesOtherFootUnseen, message);
@@ -400,7 +403,8 @@ fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findin
     }
     if (mean / stated - 1.0).abs() > MASS_MISMATCH {
         let message = format!(
-            "the force plates measure {mean:.1} kg over whole cycles, the model has {stated:.1} kg; results are normalised by the measured mass, the dynamics use the model's. hint: scale the model to this person"
+            "the force plates measure {mean:.1} kg over whole cycles, the model has {stated:.1} kg; results are \
+             normalised by the measured mass, the dynamics use the model's. hint: scale the model to this person"
         );
         findings.report(Code::MassMismatch, message);
     }

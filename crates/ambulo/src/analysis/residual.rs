@@ -19,8 +19,8 @@ pub struct Residual {
 
 /// The residual: sum of the wrenches at the joints to ground along their free directions. `None` without frames.
 ///
-/// The constraint forces that hold a planar figure in its plane are not part of the residual. For a body that is fixed to ground (a robot
-/// arm) the residual is the load on its foundation.
+/// The constraint forces that hold a planar figure in its plane are not part of the residual. For a body that is fixed
+/// to ground (a robot arm) the residual is the load on its foundation.
 #[must_use]
 pub fn residual(model: &Model, forces: &Forces) -> Option<Residual> {
     residual_within(model, forces, 0..forces.reactions.first()?.len())

@@ -26,11 +26,12 @@ impl Adjustable {
         [("motion", Adjustable::Motion), ("body", Adjustable::MotionAndBody)];
 }
 
-/// A filter mixes samples within half a period of its cut-off frequency, so the equations of motion only hold this far inside the window.
+/// A filter mixes samples within half a period of its cut-off frequency, so the equations of motion only hold this far
+/// inside the window.
 const FILTER_REACH_PERIODS: f64 = 0.5;
 
-/// Changes the motion of an analysis within its noise until it agrees with the ground forces, during the instrumented window. Returns the
-/// analysis of the changed motion and body, and the changes.
+/// Changes the motion of an analysis within its noise until it agrees with the ground forces, during the instrumented
+/// window. Returns the analysis of the changed motion and body, and the changes.
 ///
 /// # Errors
 /// A motion without forces, a window that is too short: see [`ResidualReductionError`].
@@ -63,7 +64,8 @@ pub(crate) fn reduce_residual(
     Ok((analysis, done))
 }
 
-/// The instrumented window (or the whole motion if it is unknown) without its ends, where the filters mix in unmeasured forces.
+/// The instrumented window (or the whole motion if it is unknown) without its ends, where the filters mix in unmeasured
+/// forces.
 fn inside(grid: TimeGrid, settings: &AnalysisSettings) -> Window {
     let cutoff = |filter: LowPass| filter.cutoff_hz;
     let of_motion = match settings.smoother {

@@ -33,14 +33,16 @@ pub enum BodySource<'a> {
         model: &'a Model,
         /// Body mass [kg]; `None` keeps the model's.
         mass: Option<f64>,
-        /// The statements of a laboratory that works with OpenSim; `None` detects the axes of the recording, and sizes from the standing trial.
+        /// The statements of a laboratory that works with OpenSim; `None` detects the axes of the recording, and sizes
+        /// from the standing trial.
         protocol: Option<&'a ModelProtocol>,
     },
     /// A body from an earlier calibration or scaling.
     Calibrated(&'a Subject),
 }
 
-/// How a laboratory that works with OpenSim uses a model: its recordings are in the axes of the model's ground, y upwards.
+/// How a laboratory that works with OpenSim uses a model: its recordings are in the axes of the model's ground, y
+/// upwards.
 #[derive(Debug, Clone, Default)]
 pub struct ModelProtocol {
     /// How the model is scaled; `None` uses it as it is.
@@ -50,7 +52,8 @@ pub struct ModelProtocol {
 }
 
 impl<'a> BodySource<'a> {
-    /// A recording in world axes: those of the ground of the model if a protocol says how its markers are used, otherwise those that are detected.
+    /// A recording in world axes: those of the ground of the model if a protocol says how its markers are used,
+    /// otherwise those that are detected.
     pub(super) fn turned(
         &self,
         recording: &LaboratoryRecording,
@@ -108,7 +111,8 @@ pub enum MarkerTrialError {
     Poses(#[from] JointCentreError),
     /// Poses of segments for a model that has other segments.
     #[error(
-        "the recording has poses of segments, which drive the built-in body; the model `{model}` has its own segments and needs markers. hint: leave the model out"
+        "the recording has poses of segments, which drive the built-in body; the model `{model}` has its own segments \
+         and needs markers. hint: leave the model out"
     )]
     PosesForModel {
         /// Name of the model.
@@ -254,7 +258,8 @@ fn scaling_message(sized: &SizedModel) -> String {
     let most = sized.factors.iter().map(size).fold(0.0, f64::max);
     let fitted = match (sized.rms_before_m, sized.rms_m) {
         (Some(before_m), Some(after_m)) => format!(
-            " to the standing trial: factors {least:.3} to {most:.3}, marker error {:.1} mm before and {:.1} mm after; then the markers were moved to their measured positions",
+            " to the standing trial: factors {least:.3} to {most:.3}, marker error {:.1} mm before and {:.1} mm after; \
+             then the markers were moved to their measured positions",
             1e3 * before_m,
             1e3 * after_m
         ),

@@ -1,4 +1,5 @@
-//! Times and distances of walking for every stride: speed, cadence, step and stride length, step width, stance, swing and support.
+//! Times and distances of walking for every stride: speed, cadence, step and stride length, step width, stance, swing
+//! and support.
 //!
 //! | quantity              | definition                                                                                        |
 //! |-----------------------|---------------------------------------------------------------------------------------------------|
@@ -10,9 +11,10 @@
 //! | stride length         | displacement of the heel (rear point of the sole) over the floor from strike to strike             |
 //! | step length and width | from the other heel at its strike to this heel at its strike, along and across the walking direction |
 //!
-//! On a treadmill, positions are relative to the belt; its velocity is taken from the loaded feet. The walking direction of a step is the
-//! direction of the strides around it, so turning does not change the step width. The path is the pelvis path relative to the same floor.
-//! Pinned by: tests/analysis_times_and_distances.rs, tests/times_and_distances.rs
+//! On a treadmill, positions are relative to the belt; its velocity is taken from the loaded feet. The walking
+//! direction of a step is the direction of the strides around it, so turning does not change the step width. The path
+//! is the pelvis path relative to the same floor. Pinned by: tests/analysis_times_and_distances.rs,
+//! tests/times_and_distances.rs
 
 use super::events::{Event, EventKind};
 use super::feasibility::over_ground;
@@ -42,7 +44,8 @@ const PIECE_S: f64 = 0.5;
 pub struct TimesAndDistances {
     /// Mean speed over the floor or belt [m/s].
     pub speed_m_s: Option<f64>,
-    /// Mean speed along the path of the pelvis [m/s], where a curved path makes it more than 5 % larger than the straight one.
+    /// Mean speed along the path of the pelvis [m/s], where a curved path makes it more than 5 % larger than the
+    /// straight one.
     pub path_speed_m_s: Option<f64>,
     /// Speed of the belt of a treadmill [m/s]; `None` on a floor that does not move.
     pub belt_speed_m_s: Option<f64>,
@@ -205,8 +208,8 @@ impl TimesAndDistances {
         })
     }
 
-    /// Symmetry index of the means of both feet: (right - left) over their mean. 0 is symmetric, positive if the right one is larger. `None`
-    /// for values with different signs or near zero, whose ratio has no meaning.
+    /// Symmetry index of the means of both feet: (right - left) over their mean. 0 is symmetric, positive if the right
+    /// one is larger. `None` for values with different signs or near zero, whose ratio has no meaning.
     #[must_use]
     pub fn symmetry(&self, quantity: StrideQuantity) -> Option<f64> {
         let [right, left] = [Side::Right, Side::Left].map(|side| Some(self.spread(quantity, Some(side))?.mean));
@@ -309,7 +312,8 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// A belt moves with the feet that carry the body; a floor that moves slower than a share of the walking speed is still.
+    /// A belt moves with the feet that carry the body; a floor that moves slower than a share of the walking speed is
+    /// still.
     pub(super) fn of(model: &Model, analysis: &Analysis) -> Floor {
         let up = model.up();
         let still = Floor { up, velocity: Vec3::zeros() };
@@ -422,9 +426,10 @@ impl Places {
         Some(Placed { stride_m: line.norm(), step_m: step.map(|step| step[0]), width_m: step.map(|step| step[1]) })
     }
 
-    /// The walking direction in the step from the strike of the `other` foot to the one that ends the stride `line`. A stride has the walking
-    /// direction of its middle: this foot's stride that of half a step before, the other foot's next stride that of half a step after. If
-    /// there is no next one, the other foot's last stride is used, one and a half steps before.
+    /// The walking direction in the step from the strike of the `other` foot to the one that ends the stride `line`. A
+    /// stride has the walking direction of its middle: this foot's stride that of half a step before, the other foot's
+    /// next stride that of half a step after. If there is no next one, the other foot's last stride is used, one and a
+    /// half steps before.
     fn heading(&self, line: Vec3, other: &Strike, stride_s: f64) -> Vec3 {
         let of_other = |from_s: f64, to_s: f64| {
             let same_foot = |s: &&Strike| s.side == other.side && s.time_s > from_s && s.time_s < to_s;

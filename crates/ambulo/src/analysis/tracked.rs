@@ -11,10 +11,11 @@ use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
 use crate::optimal::{FootGuide, TRACK_STAGES, TrackError, TrackProblem, TrackSettings, TrackedFoot, TrackedMotion};
 
-/// Changes a motion until feet on soft ground supply its external forces ([`TrackProblem`]), near the recorded motion and near predicted ground
-/// forces. `analysis` is that of the recorded motion with these forces.
+/// Changes a motion until feet on soft ground supply its external forces ([`TrackProblem`]), near the recorded motion
+/// and near predicted ground forces. `analysis` is that of the recorded motion with these forces.
 ///
-/// Returns the analysis of the changed motion, and what the solver found. Events and cycles stay those of the recorded motion.
+/// Returns the analysis of the changed motion, and what the solver found. Events and cycles stay those of the recorded
+/// motion.
 ///
 /// # Errors
 /// Models, floors and durations that are not supported: see [`TrackError`].

@@ -1,8 +1,8 @@
 //! The walking direction of each stance.
 //!
-//! Fore-aft is along world x, the direction of straight walking. In a turn it is the displacement of the pelvis over the floor from foot
-//! strike to foot off of that stance, if this differs from x by more than 20 degrees; a smaller angle may be sway of the pelvis.
-//! Pinned by: tests/analysis_walking_direction.rs, tests/ground_agreement.rs
+//! Fore-aft is along world x, the direction of straight walking. In a turn it is the displacement of the pelvis over
+//! the floor from foot strike to foot off of that stance, if this differs from x by more than 20 degrees; a smaller
+//! angle may be sway of the pelvis. Pinned by: tests/analysis_walking_direction.rs, tests/ground_agreement.rs
 
 use crate::ground::footfalls::Footfalls;
 use crate::kinematics::{Trajectory, each_body_motion};

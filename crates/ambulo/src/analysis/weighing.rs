@@ -6,8 +6,8 @@ use super::recording::{Analysis, Mass, MassSource, WHOLE_BODY_SHARE};
 use crate::model::{Model, Side};
 use crate::motion::Window;
 
-/// Sets the body mass from one gait cycle anywhere inside the `instrumented` window, if no cycle from strike to strike gave it: walking is
-/// periodic, so the mean vertical force over a cycle is m g from any instant on.
+/// Sets the body mass from one gait cycle anywhere inside the `instrumented` window, if no cycle from strike to strike
+/// gave it: walking is periodic, so the mean vertical force over a cycle is m g from any instant on.
 pub(crate) fn weighed_within(analysis: Analysis, model: &Model, instrumented: Window) -> Analysis {
     let mass = cycle_mass_kg(&analysis, model, instrumented).map(|kg| Mass { kg, source: MassSource::Plates });
     with_mass(analysis, mass)
@@ -19,8 +19,8 @@ pub(crate) fn weighed_standing(analysis: Analysis, standing_kg: Option<f64>) -> 
 }
 
 impl PredictedAnalysis {
-    /// Sets the body mass from the force plates: over a whole gait cycle inside the instrumented window [s], otherwise in a standing trial
-    /// [kg]. Without either, the mass of the model remains.
+    /// Sets the body mass from the force plates: over a whole gait cycle inside the instrumented window [s], otherwise
+    /// in a standing trial [kg]. Without either, the mass of the model remains.
     #[must_use]
     pub fn weighed(self, model: &Model, window_s: Option<[f64; 2]>, standing_kg: Option<f64>) -> PredictedAnalysis {
         let PredictedAnalysis { mut analysis, prediction, measured } = self;
@@ -39,7 +39,8 @@ impl PredictedAnalysis {
     }
 }
 
-/// Mean vertical force over g, over one mean gait cycle from the beginning of a window [kg]; `None` if the window is shorter.
+/// Mean vertical force over g, over one mean gait cycle from the beginning of a window [kg]; `None` if the window is
+/// shorter.
 fn cycle_mass_kg(analysis: &Analysis, model: &Model, window: Window) -> Option<f64> {
     let (from, to) = (window.from_s?, window.to_s?);
     let strikes = |side: Side| {
@@ -64,8 +65,8 @@ fn cycle_mass_kg(analysis: &Analysis, model: &Model, window: Window) -> Option<f
     Some(mean / model.gravity().norm())
 }
 
-/// Replaces the model's mass. A mass that differs by more than 5 % is rejected: part of the weight was not on the plates, or the model is of
-/// another person.
+/// Replaces the model's mass. A mass that differs by more than 5 % is rejected: part of the weight was not on the
+/// plates, or the model is of another person.
 fn with_mass(analysis: Analysis, mass: Option<Mass>) -> Analysis {
     let accepted = mass.filter(|mass| {
         analysis.mass.source == MassSource::Model && (mass.kg / analysis.mass.kg - 1.0).abs() <= WHOLE_BODY_SHARE

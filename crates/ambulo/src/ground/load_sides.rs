@@ -1,9 +1,10 @@
-//! Which foot is under a measured load, by its centre of pressure: for force tables, whose columns do not show the corners of plates.
+//! Which foot is under a measured load, by its centre of pressure: for force tables, whose columns do not show the
+//! corners of plates.
 //!
-//! As for force plates of a C3D ([`super::plates`]), each time during which a load carries more than 20 N belongs to the foot that is
-//! nearest to the centre of pressure, averaged over the load, within 0.2 m. Height counts, as on stairs; only where no foot is near does a foot
-//! above or below the centre of pressure carry the load, because forces act on the person. The feet are the soles of the model.
-//! Pinned by: ambulo-cli/tests/plates.rs
+//! As for force plates of a C3D ([`super::plates`]), each time during which a load carries more than 20 N belongs to
+//! the foot that is nearest to the centre of pressure, averaged over the load, within 0.2 m. Height counts, as on
+//! stairs; only where no foot is near does a foot above or below the centre of pressure carry the load, because forces
+//! act on the person. The feet are the soles of the model. Pinned by: ambulo-cli/tests/plates.rs
 
 use super::measured::{Surface, center_of_pressure};
 use super::phases::contacts_from_force;
@@ -109,14 +110,16 @@ impl FootPaths {
         })
     }
 
-    /// Distances of a centre of pressure from both feet, with and without height [m]; `None` outside the motion or without a centre of pressure.
+    /// Distances of a centre of pressure from both feet, with and without height [m]; `None` outside the motion or
+    /// without a centre of pressure.
     fn distances(&self, center: Vec3, time_s: f64) -> Option<BySide<[f64; 2]>> {
         let frame = ((time_s - self.grid.start_s) / self.grid.step_s).round();
         let is_known = center.iter().all(|x| x.is_finite()) && frame >= 0.0 && frame < self.grid.frames as f64;
         is_known.then(|| BySide::from_fn(|side| self.distance(&self.lines[side][frame as usize], center)))
     }
 
-    /// Distance along the ground and by how much the foot is too high or too low for the surface, together; then only the first [m].
+    /// Distance along the ground and by how much the foot is too high or too low for the surface, together; then only
+    /// the first [m].
     fn distance(&self, [rear, tip]: &[Vec3; 2], center: Vec3) -> [f64; 2] {
         let above = (rear - center).dot(&self.up).min((tip - center).dot(&self.up));
         let level = level_distance(center, [*rear, *tip], self.up);

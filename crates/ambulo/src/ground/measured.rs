@@ -1,9 +1,9 @@
 //! Ground forces from force plates or other sensors, resampled to the frames of a trajectory.
 //!
-//! The wrench of each sensor is first expressed about the world's origin, M₀ = p × F + T. There it can be filtered, interpolated
-//! and added to those of other sensors; a centre of pressure cannot (it jumps, and is undefined without load). The
-//! centre of pressure and the free moment are computed at the end, with u the upward unit vector and h the height of the
-//! surface of the plate:
+//! The wrench of each sensor is first expressed about the world's origin, M₀ = p × F + T. There it can be filtered,
+//! interpolated and added to those of other sensors; a centre of pressure cannot (it jumps, and is undefined without
+//! load). The centre of pressure and the free moment are computed at the end, with u the upward unit vector and h the
+//! height of the surface of the plate:
 //!
 //!   p = (u × M₀ + h F) / (u · F)            free moment = u · (M₀ - p × F)
 //!
@@ -66,7 +66,8 @@ impl GroundForces {
     }
 }
 
-/// Ground reaction force on each foot: the sum over the bodies of that side, assigned to the most loaded one. A single body is borrowed.
+/// Ground reaction force on each foot: the sum over the bodies of that side, assigned to the most loaded one. A single
+/// body is borrowed.
 #[must_use]
 pub fn feet<'a>(model: &Model, ground: &'a GroundForces) -> Vec<(Side, Cow<'a, BodyForces>)> {
     let up = model.up();
@@ -85,8 +86,8 @@ pub fn feet<'a>(model: &Model, ground: &'a GroundForces) -> Vec<(Side, Cow<'a, B
 }
 
 impl BodyForces {
-    /// Computes centres of pressure from forces and moments about the world's origin, one entry per frame. The ground is at
-    /// `surface_height` along `up` [m]. Series of different length are cut to the shortest.
+    /// Computes centres of pressure from forces and moments about the world's origin, one entry per frame. The ground
+    /// is at `surface_height` along `up` [m]. Series of different length are cut to the shortest.
     #[must_use]
     pub fn on_level_ground(body: BodyId, force: &[Vec3], moment: &[Vec3], up: Vec3, surface_height: f64) -> BodyForces {
         BodyForces::on_ground(body, force, moment, up, &vec![surface_height; force.len()])
@@ -288,7 +289,8 @@ fn low_pass_all(recording: &ForceRecording, columns: &mut [Vec<f64>; 6], filter:
     Ok(())
 }
 
-/// Height of the surface under a load, which changes from contact to contact if one load carries feet on several steps of stairs.
+/// Height of the surface under a load, which changes from contact to contact if one load carries feet on several steps
+/// of stairs.
 pub(super) struct Surface {
     /// Loaded times with their heights, in order of time.
     contacts: Vec<([f64; 2], f64)>,

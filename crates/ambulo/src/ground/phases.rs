@@ -1,8 +1,8 @@
 //! When a foot is on the ground, from its vertical force or from a list of events.
 //!
-//! A foot is loaded while the vertical force exceeds [`CENTER_OF_PRESSURE_LOAD_N`]; the time of crossing is interpolated
-//! linearly between two samples. Contacts and breaks shorter than [`SHORTEST_CONTACT_S`] are noise: breaks are
-//! closed first, then contacts that remain too short are dropped.
+//! A foot is loaded while the vertical force exceeds [`CENTER_OF_PRESSURE_LOAD_N`]; the time of crossing is
+//! interpolated linearly between two samples. Contacts and breaks shorter than [`SHORTEST_CONTACT_S`] are noise: breaks
+//! are closed first, then contacts that remain too short are dropped.
 
 use crate::model::Side;
 use crate::motion::force_plate::CENTER_OF_PRESSURE_LOAD_N;
@@ -77,8 +77,9 @@ fn is_long_enough(contact: &Contact) -> bool {
     }
 }
 
-/// Contacts of one foot from strikes and offs in order of time. An off before the first strike ends a contact that began before the
-/// recording. Of several strikes without an off between them the first counts; likewise of several offs.
+/// Contacts of one foot from strikes and offs in order of time. An off before the first strike ends a contact that
+/// began before the recording. Of several strikes without an off between them the first counts; likewise of several
+/// offs.
 #[must_use]
 pub fn contacts_from_events(events: &[Event], side: Side) -> Vec<Contact> {
     let mut found: Vec<Contact> = Vec::new();

@@ -1,6 +1,7 @@
 //! Holds loaded feet still: a motion whose feet slide on the floor is changed as little as the floor requires.
 //!
-//! Joint angles that a program fitted without knowledge of the floor let loaded feet slide. The coordinates that move the soles are changed by δ:
+//! Joint angles that a program fitted without knowledge of the floor let loaded feet slide. The coordinates that move
+//! the soles are changed by δ:
 //!
 //!   δ = argmin Σ_frames ( Σ_points w |h(p(q + δ) - v t - p̄)|² / σ_p² + Σ_coordinates (δ_i / σ_i)² + (δ_i'' / (ω² σ_i))² )
 //!
@@ -15,8 +16,8 @@
 //!
 //! Heights are not changed. Animation knows the same task as the clean-up of sliding feet.
 //!
-//! Solved by two Gauss-Newton steps with numerical derivatives of the poses, over all frames at once: a band matrix with 2 n bands for n coordinates.
-//! Cost: about 0.3 ms and 16 n² bytes per frame.
+//! Solved by two Gauss-Newton steps with numerical derivatives of the poses, over all frames at once: a band matrix
+//! with 2 n bands for n coordinates. Cost: about 0.3 ms and 16 n² bytes per frame.
 //! Not handled: slipping that is real, such as on ice; belts of different speed under the two feet.
 //! Pinned by: tests/refit.rs
 
@@ -58,8 +59,8 @@ pub struct Refit {
     pub largest_shift_m: f64,
 }
 
-/// Changes a motion so that loaded feet do not slide. `trajectory` is the same motion, smoothed, with the stances `falls`; `None` if no foot
-/// rests on the floor, or no recorded coordinate moves it.
+/// Changes a motion so that loaded feet do not slide. `trajectory` is the same motion, smoothed, with the stances
+/// `falls`; `None` if no foot rests on the floor, or no recorded coordinate moves it.
 #[must_use]
 pub fn hold_loaded_feet(
     model: &Model,

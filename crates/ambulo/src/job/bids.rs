@@ -19,7 +19,8 @@ pub struct BidsFiles {
     pub beside: Vec<PathBuf>,
 }
 
-/// Paths of the `_channels.tsv` and `_motion.json` that describe the motion at a path; `None` if it is not named like a motion.
+/// Paths of the `_channels.tsv` and `_motion.json` that describe the motion at a path; `None` if it is not named like a
+/// motion.
 #[must_use]
 pub fn bids_files_beside(path: &Path) -> Option<[PathBuf; 2]> {
     let name = last(path);

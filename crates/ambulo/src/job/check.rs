@@ -6,8 +6,8 @@ use crate::motion::filter::MAX_ORDER;
 use crate::study::GroundSettings;
 
 impl Job {
-    /// Rejects statements of one caller that contradict each other, before anything is read. A job that was completed by a set-up or by the
-    /// files of a trial may have them.
+    /// Rejects statements of one caller that contradict each other, before anything is read. A job that was completed
+    /// by a set-up or by the files of a trial may have them.
     ///
     /// # Errors
     /// The first contradiction, or a number out of range.

@@ -49,6 +49,8 @@ fn unknown(ending: &str) -> String {
         other => format!("unknown kind of recording `.{other}`"),
     };
     format!(
-        "{found}; expected .c3d, .trc or .csv (markers), .mvnx (Xsens), .mot, .sto or .csv (coordinates), .sto with quaternions (sensors), _motion.tsv (BIDS), .bvh (a skeleton), .npz (a motion of the SMPL family) or .b3d (a subject of AddBiomechanics)"
+        "{found}; expected .c3d, .trc or .csv (markers), .mvnx (Xsens), .mot, .sto or .csv (coordinates), .sto with \
+         quaternions (sensors), _motion.tsv (BIDS), .bvh (a skeleton), .npz (a motion of the SMPL family) or .b3d (a \
+         subject of AddBiomechanics)"
     )
 }

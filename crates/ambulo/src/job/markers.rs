@@ -54,7 +54,8 @@ pub(super) fn check(job: &Job) -> Result<(), JobError> {
     }
     if job.model_file().is_none() {
         if job.marker_set.is_some() {
-            let what = "a marker set (.xml) places markers on the bodies of a model; expected an .osim as the model. hint: for the built-in body, a set of docs/MARKERS.md can be named";
+            let what = "a marker set (.xml) places markers on the bodies of a model; expected an .osim as the model. \
+                hint: for the built-in body, a set of docs/MARKERS.md can be named";
             return Err(JobError::new(&[Field::MarkerSet, Field::Model], what));
         }
         return Ok(());
@@ -68,7 +69,8 @@ pub(super) fn check(job: &Job) -> Result<(), JobError> {
     match of_the_built_in_body.into_iter().find(|(_, given)| *given) {
         Some((field, _)) => {
             let what = format!(
-                "the {} has no effect with a model, which has its own segments and markers; it is for the built-in body. hint: a standing trial scales the model to the person, body mass and height set its size",
+                "the {} has no effect with a model, which has its own segments and markers; it is for the built-in \
+                 body. hint: a standing trial scales the model to the person, body mass and height set its size",
                 field.name()
             );
             Err(JobError::new(&[field, Field::Standing, Field::Mass, Field::Height], what))

@@ -8,7 +8,8 @@
 //! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files that were read
 //! ```
 //!
-//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] decides which body and mass the trials of a visit have.
+//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] decides which body and mass the trials of
+//! a visit have.
 //!
 //! The joint moments of a recording in a laboratory:
 //!
@@ -74,11 +75,12 @@ use std::path::{Path, PathBuf};
 
 /// A request for the forces of a recording. Files are named; [`Job::read`] reads them.
 ///
-/// Fields that are left open are filled by the set-ups, if there are any, and then have the defaults of their documentation.
+/// Fields that are left open are filled by the set-ups, if there are any, and then have the defaults of their
+/// documentation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Job {
-    /// The recording: markers, poses of segments, coordinates, orientations of sensors, a skeleton, a motion of the SMPL family or a subject
-    /// of AddBiomechanics. Only a set-up makes it unnecessary.
+    /// The recording: markers, poses of segments, coordinates, orientations of sensors, a skeleton, a motion of the
+    /// SMPL family or a subject of AddBiomechanics. Only a set-up makes it unnecessary.
     pub recording: Option<PathBuf>,
     /// The trial of a `.b3d`: its name, or its number counted from 1. Needed if there are several.
     pub trial: Option<String>,
@@ -119,7 +121,8 @@ pub struct Job {
 /// How orientations of sensors are read.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SensorStatements {
-    /// The axis of a sensor that points forward in the standing posture. By default the bending of the knees shows the direction.
+    /// The axis of a sensor that points forward in the standing posture. By default the bending of the knees shows the
+    /// direction.
     pub heading: Option<HeadingAxis>,
     /// From the earth of the sensors to the axes of the model. By default z is up.
     pub earth: Option<EarthTurn>,

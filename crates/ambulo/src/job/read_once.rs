@@ -1,4 +1,5 @@
-//! Files that several jobs have: standing trials and models, read once for the jobs that follow each other with the same one.
+//! Files that several jobs have: standing trials and models, read once for the jobs that follow each other with the
+//! same one.
 
 use super::error::JobError;
 use super::files::Files;

@@ -67,7 +67,8 @@ fn stand_as_placed(sensors: &mut SensorSource, document: &OsimModel, reading: &m
             sensors.axes.heading = SensorHeading::OfModel;
         }
         None => {
-            let message = "the model has none of the sensors of the recording; they are placed in its default posture by the first frame";
+            let message = "the model has none of the sensors of the recording; they are placed in its default posture \
+                by the first frame";
             reading.findings.report(Code::SetupUnused, message);
         }
     }

@@ -144,7 +144,8 @@ impl Setups {
             return refused(
                 &[],
                 format!(
-                    "{} is for sensors, and another set-up is for markers; expected one of both. hint: scale the model first, and place the sensors on the subject.osim of that run",
+                    "{} is for sensors, and another set-up is for markers; expected one of both. hint: scale the model \
+                     first, and place the sensors on the subject.osim of that run",
                     sensors.display()
                 ),
             );
@@ -154,7 +155,8 @@ impl Setups {
             return refused(&[Field::Height], format!("{what}; expected one of both"));
         }
         if self.scale.is_none() && job.standing.is_some() && self.kinematics.is_some() {
-            let what = "the standing trial would scale the model, which a set-up of InverseKinematicsTool uses as it is; expected a set-up of ScaleTool as well, or none";
+            let what = "the standing trial would scale the model, which a set-up of InverseKinematicsTool uses as it \
+                is; expected a set-up of ScaleTool as well, or none";
             return refused(&[Field::Standing], what.to_owned());
         }
         if let (Some(scale), None, Some(dynamics), None) =
@@ -163,7 +165,8 @@ impl Setups {
             return refused(
                 &[Field::Recording],
                 format!(
-                    "{} names coordinates, and {} scales a model by markers; expected a set-up of InverseKinematicsTool, or the recorded markers, as well",
+                    "{} names coordinates, and {} scales a model by markers; expected a set-up of \
+                     InverseKinematicsTool, or the recorded markers, as well",
                     dynamics.path.display(),
                     scale.path.display()
                 ),
@@ -218,8 +221,8 @@ impl Setups {
         scaled.or(placed)
     }
 
-    /// The recording: markers or sensors of inverse kinematics, coordinates of inverse dynamics, or the standing trial of scaling or placing
-    /// alone.
+    /// The recording: markers or sensors of inverse kinematics, coordinates of inverse dynamics, or the standing trial
+    /// of scaling or placing alone.
     fn fill_recording(&self, job: &mut Job, findings: &mut Findings) -> Result<(), JobError> {
         let markers = self.kinematics.as_ref().and_then(|s| s.file(s.setup.marker_file.as_ref()));
         let coordinates = self.dynamics.as_ref().and_then(|s| s.file(s.setup.coordinates_file.as_ref()));
@@ -239,7 +242,8 @@ impl Setups {
         match &job.recording {
             Some(_) => Ok(()),
             None => {
-                let what = "the set-up names no recording (<marker_file>, <orientations_file> or <coordinates_file>); expected one";
+                let what = "the set-up names no recording (<marker_file>, <orientations_file> or <coordinates_file>); \
+                    expected one";
                 Err(JobError::new(&[Field::Recording], what))
             }
         }
@@ -258,7 +262,8 @@ impl Setups {
         match set {
             Some(file) if ending(&file) != "xml" && ending(&file) != "osim" => {
                 let message = format!(
-                    "{} is no file of a marker set, and OpenSim adds no marker from it either; the markers are those of the model",
+                    "{} is no file of a marker set, and OpenSim adds no marker from it either; the markers are those \
+                     of the model",
                     file.display()
                 );
                 findings.report(Code::SetupUnused, message);
@@ -284,7 +289,8 @@ impl Setups {
             && EarthTurn(used) != EarthTurn(other)
         {
             let message = format!(
-                "sensor_to_opensim_rotations {other:?} of IMUInverseKinematicsTool were not used: those of IMUPlacer, {used:?}, apply to both"
+                "sensor_to_opensim_rotations {other:?} of IMUInverseKinematicsTool were not used: those of IMUPlacer, \
+                 {used:?}, apply to both"
             );
             findings.report(Code::SetupUnused, message);
         }
@@ -303,7 +309,8 @@ impl Setups {
         if let (Some(used), Some([from, to])) = (of_dynamics, of_kinematics.filter(|range| of_dynamics != Some(*range)))
         {
             let message = format!(
-                "the time range {from} to {to} s of inverse kinematics was not used: all is computed in that of InverseDynamicsTool, {} to {} s",
+                "the time range {from} to {to} s of inverse kinematics was not used: all is computed in that of \
+                 InverseDynamicsTool, {} to {} s",
                 used[0], used[1]
             );
             findings.report(Code::SetupUnused, message);

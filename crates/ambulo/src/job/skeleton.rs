@@ -1,4 +1,5 @@
-//! Reads a skeleton in motion (`.bvh`), or a motion of the SMPL family (`.npz`), for the built-in body. Neither has forces or a mass.
+//! Reads a skeleton in motion (`.bvh`), or a motion of the SMPL family (`.npz`), for the built-in body. Neither has
+//! forces or a mass.
 
 use super::error::{At, Field, JobError};
 use super::files::{ending, note_remarks, read as read_file};
@@ -80,7 +81,8 @@ fn reject_unused_fields(job: &Job) -> Result<(), JobError> {
     ];
     let Some((field, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
     let what = format!(
-        "the {} has no effect for a .{}, which is fitted with the built-in body and has no measured forces; expected body mass and height",
+        "the {} has no effect for a .{}, which is fitted with the built-in body and has no measured forces; expected \
+         body mass and height",
         field.name(),
         ending(job.recording())
     );

@@ -1,4 +1,5 @@
-//! Reads a trial of an AddBiomechanics subject (`.b3d`). Header and trial are read alone, so that files of any size can be used.
+//! Reads a trial of an AddBiomechanics subject (`.b3d`). Header and trial are read alone, so that files of any size can
+//! be used.
 
 use super::error::{At, Field, JobError};
 use super::files::Files;
@@ -95,7 +96,8 @@ fn check(job: &Job) -> Result<(), JobError> {
     match of_markers.into_iter().find(|(_, given)| *given) {
         Some((field, _)) => {
             let what = format!(
-                "the {} is for markers, but the file's own model and coordinates are used; expected a model, or the built-in body, to fit the markers",
+                "the {} is for markers, but the file's own model and coordinates are used; expected a model, or the \
+                 built-in body, to fit the markers",
                 field.name()
             );
             Err(JobError::new(&[field, Field::Model], what).within(job.shown()))

@@ -2,8 +2,9 @@
 //!
 //! 1. Every trial is computed with a body of its own.
 //! 2. Where the bodies are the same, because a model or a standing trial with a known mass gives them, this is all.
-//! 3. Otherwise the mass is the median of the trials whose data are not bad. The body is calibrated once with this mass, from the standing trial or,
-//!    without one, from the trial whose markers lie nearest to their body; the other trials are computed again with it.
+//! 3. Otherwise the mass is the median of the trials whose data are not bad. The body is calibrated once with this
+//!    mass, from the standing trial or, without one, from the trial whose markers lie nearest to their body; the other
+//!    trials are computed again with it.
 
 use super::Job;
 use super::trials::PlannedTrial;
@@ -118,7 +119,8 @@ fn again_with_one_body<R: AsRef<Outcome>>(
     let of_first = runs[first].as_ref().ok().map(|run| every_number(&run.as_ref().body));
     let refused = runs.into_iter().map(|run| match run {
         Ok(run) if Some(every_number(&run.as_ref().body)) != of_first => Err(format!(
-            "its body is another one than that of {}: a session has one body. hint: state the same model for all trials, or leave this one out (`exclude` in trials.toml)",
+            "its body is another one than that of {}: a session has one body. hint: state the same model for all \
+             trials, or leave this one out (`exclude` in trials.toml)",
             trials[first].name
         )),
         run => run,

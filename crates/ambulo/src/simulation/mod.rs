@@ -1,8 +1,8 @@
 //! Worlds of bodies stepped through time, figures that walk in them, and the verdict on a scene.
 //!
-//! [`World`], [`step`] and what belongs to them are the simulator. [`walking`] and [`consistent_walk`] have figures that walk,
-//! [`control`] figures that walk by their own torques, [`scene`] worlds from files, [`synthetic`] walks from a gait and a body size.
-//! [`scene_verdict`] judges the figures of a scene.
+//! [`World`], [`step`] and what belongs to them are the simulator. [`walking`] and [`consistent_walk`] have figures
+//! that walk, [`control`] figures that walk by their own torques, [`scene`] worlds from files, [`synthetic`] walks from
+//! a gait and a body size. [`scene_verdict`] judges the figures of a scene.
 
 mod verdict;
 

@@ -27,8 +27,8 @@ pub enum B3dSourceError {
 }
 
 impl Source {
-    /// The coordinates of the last pass with the file's own model. Ground forces are those of the longest time within `window` in which none
-    /// is missing; without such a time they are predicted.
+    /// The coordinates of the last pass with the file's own model. Ground forces are those of the longest time within
+    /// `window` in which none is missing; without such a time they are predicted.
     ///
     /// # Errors
     /// A model that cannot be computed, coordinates that do not belong to the model.
@@ -68,7 +68,8 @@ impl Source {
     }
 }
 
-/// Reports a stated mass that is not that of the model. The forces are computed with the model; the plates show which is right.
+/// Reports a stated mass that is not that of the model. The forces are computed with the model; the plates show which
+/// is right.
 fn report_stated_mass(trial: &B3dTrial<'_>, model: &Model, findings: &mut Findings) {
     let Some(stated_kg) = trial.person(findings).mass_kg else { return };
     let model_kg = model.mass();

@@ -91,8 +91,8 @@ pub enum Input {
 }
 
 impl StudyError {
-    /// The part of the source that the error is about; `None` if it is about none or about all of them. A standing trial is named where
-    /// the body was looked for in it: without one, the same errors are about the motion.
+    /// The part of the source that the error is about; `None` if it is about none or about all of them. A standing
+    /// trial is named where the body was looked for in it: without one, the same errors are about the motion.
     #[must_use]
     pub fn input(&self) -> Option<Input> {
         match self {

@@ -1,14 +1,16 @@
 //! Foot strikes and foot offs from all sources of a recording of markers, and the gait cycles between them.
 //!
-//! Two plates catch one stance of each foot: no plate sees the next strike, but markers and the file's own list do. A cycle that
-//! begins with a strike on a plate is whole for the leg of that foot if the next strike of the foot is known from any source.
+//! Two plates catch one stance of each foot: no plate sees the next strike, but markers and the file's own list do. A
+//! cycle that begins with a strike on a plate is whole for the leg of that foot if the next strike of the foot is known
+//! from any source.
 
 use crate::analysis::{Analysis, BodyInMotion, Cycle, Event, EventKind, cycles};
 
 /// Events of one foot and kind closer than this are one event [s].
 const SAME_S: f64 = 0.15;
 
-/// An analysis with the events of plates, of the file's list (if it has one) and of the markers; with the events that the plates saw.
+/// An analysis with the events of plates, of the file's list (if it has one) and of the markers; with the events that
+/// the plates saw.
 pub(super) fn with_events_of_markers(
     analysis: Analysis,
     body: &BodyInMotion,
@@ -22,8 +24,8 @@ pub(super) fn with_events_of_markers(
     (with_events(analysis, &measured, &body.events(seen)), measured)
 }
 
-/// Replaces the events that the forces alone show. `measured` are those among `all` that plates saw. Cycles begin with measured
-/// strikes, because the moments of a leg that stood off the plates mean little.
+/// Replaces the events that the forces alone show. `measured` are those among `all` that plates saw. Cycles begin with
+/// measured strikes, because the moments of a leg that stood off the plates mean little.
 fn with_events(analysis: Analysis, measured: &[Event], all: &[Event]) -> Analysis {
     let grid = analysis.trajectory.grid();
     let inside = |e: &&Event| (grid.start_s..=grid.end_s()).contains(&e.time_s);

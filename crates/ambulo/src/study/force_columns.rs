@@ -1,9 +1,9 @@
 //! Finds the loads in a force table by the names of its columns.
 //!
-//! A load is a force, a point and a moment of three columns each, whose names differ in one word: `ground_force_vx`, `ground_force_px`,
-//! `ground_torque_x`; `ground_force_2_vx`, `ground_force_2_px`, `ground_force_2_mx`; `1_ground_force_vx`; `R_ground_force_vx`. Without these
-//! words, a name holds what belongs to this load alone: a number, a side in any spelling, or nothing. This may also follow the axis, as in
-//! `ground_force_vx_r` and `Fx1`.
+//! A load is a force, a point and a moment of three columns each, whose names differ in one word: `ground_force_vx`,
+//! `ground_force_px`, `ground_torque_x`; `ground_force_2_vx`, `ground_force_2_px`, `ground_force_2_mx`;
+//! `1_ground_force_vx`; `R_ground_force_vx`. Without these words, a name holds what belongs to this load alone: a
+//! number, a side in any spelling, or nothing. This may also follow the axis, as in `ground_force_vx_r` and `Fx1`.
 //! Pinned by: ambulo-cli/tests/plates.rs
 
 use crate::model::Side;
@@ -73,8 +73,8 @@ impl LoadColumns {
     }
 }
 
-/// The table with the axis at the end of each name: the number or side of a load may follow the axis, as in `ground_force_vx_r` or `Fx1`,
-/// and is put before the name. `None` if no name has such a part.
+/// The table with the axis at the end of each name: the number or side of a load may follow the axis, as in
+/// `ground_force_vx_r` or `Fx1`, and is put before the name. `None` if no name has such a part.
 pub fn with_axis_last(table: &Table) -> Option<Table> {
     let (names, columns): (Vec<&str>, Vec<&[f64]>) = table.columns().unzip();
     let has = |name: &str| names.contains(&name);
@@ -102,8 +102,8 @@ pub fn with_axis_last(table: &Table) -> Option<Table> {
     is_new.then(|| Table::new("ground forces", columns).ok()).flatten()
 }
 
-/// The loads of a table, in the order of their forces. A load needs a force, and a point or a moment; one whose names are a single letter
-/// with its number or side, such as `F1x`, needs a point.
+/// The loads of a table, in the order of their forces. A load needs a force, and a point or a moment; one whose names
+/// are a single letter with its number or side, such as `F1x`, needs a point.
 pub fn load_columns(table: &Table) -> Vec<LoadColumns> {
     let stems = table.names().iter().skip(1).filter_map(|name| name.strip_suffix('x'));
     let is_vector = |stem: &&str| ["y", "z"].iter().all(|axis| table.column(&format!("{stem}{axis}")).is_some());
@@ -165,7 +165,8 @@ fn is_bare(words: &[String]) -> bool {
     words.iter().filter(is_letter).count() == 1 && words.iter().all(|word| is_letter(&word) || is_key(word))
 }
 
-/// The words of a name in lower case: parts between other signs than letters and digits, between letters and digits, and in camel case.
+/// The words of a name in lower case: parts between other signs than letters and digits, between letters and digits,
+/// and in camel case.
 fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut last = ' ';

@@ -1,13 +1,14 @@
 //! Low-pass filter of the measured forces: given, or chosen by the movement.
 //!
-//! - **Walking**: 25 Hz. Plates record frequencies that markers lose. At the 6 Hz of the motion, hip and knee moments after foot strike are
-//!   too small; the loss is larger than the artefact of unequal filters (docs/PLUG_IN_GAIT.md has the comparison).
-//! - **Running, jumps and landings**: as the motion, at least 8 Hz. At impacts a force that is sharper than the accelerations makes peaks of
-//!   hip and knee moments that the person did not make (Bisseling and Hof 2006, Kristianslund 2012; unverified). 6 Hz would take 5 % of the peak
-//!   force of a run, 8 Hz takes 1 %.
+//! - **Walking**: 25 Hz. Plates record frequencies that markers lose. At the 6 Hz of the motion, hip and knee moments
+//!   after foot strike are too small; the loss is larger than the artefact of unequal filters (docs/PLUG_IN_GAIT.md has
+//!   the comparison).
+//! - **Running, jumps and landings**: as the motion, at least 8 Hz. At impacts a force that is sharper than the
+//!   accelerations makes peaks of hip and knee moments that the person did not make (Bisseling and Hof 2006,
+//!   Kristianslund 2012; unverified). 6 Hz would take 5 % of the peak force of a run, 8 Hz takes 1 %.
 //!
-//! The movement is a run, jump or landing if the feet together carry more than 1.8 times the body weight; walks on level ground and stairs
-//! stay below 1.6 (unverified for stairs).
+//! The movement is a run, jump or landing if the feet together carry more than 1.8 times the body weight; walks on
+//! level ground and stairs stay below 1.6 (unverified for stairs).
 //! Pinned by: tests/force_filter.rs
 
 use crate::model::Model;
@@ -18,7 +19,8 @@ use crate::spatial::Vec3;
 /// How measured forces are filtered.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ForceFilter {
-    /// By the movement: 25 Hz for walking; for running and landing as the motion, at least 8 Hz. Not filtered if the motion is not.
+    /// By the movement: 25 Hz for walking; for running and landing as the motion, at least 8 Hz. Not filtered if the
+    /// motion is not.
     #[default]
     ByMovement,
     /// This filter.

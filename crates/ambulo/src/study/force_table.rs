@@ -75,7 +75,8 @@ impl Walker<'_> {
         Ok(forces)
     }
 
-    /// Loads of a side that their names state, or else under the foot that is nearest to the centre of pressure. `None` if nothing shows the feet.
+    /// Loads of a side that their names state, or else under the foot that is nearest to the centre of pressure. `None`
+    /// if nothing shows the feet.
     fn on_feet(
         &self,
         forces: Vec<ForceRecording>,
@@ -134,7 +135,9 @@ impl Walker<'_> {
             };
             let (name, body) = (&force.name, &self.model.bodies()[force.body.index()].name);
             let message = format!(
-                "the {} load (`{name}`) lies under the {} foot{when} ({:.2} m from it, {:.2} m from the {stated} foot), but acts on `{body}`; it was used as stated. hint: correct the body, or leave out the statement, so that the centre of pressure decides",
+                "the {} load (`{name}`) lies under the {} foot{when} ({:.2} m from it, {:.2} m from the {stated} \
+                 foot), but acts on `{body}`; it was used as stated. hint: correct the body, or leave out the \
+                 statement, so that the centre of pressure decides",
                 ordinal(k),
                 stated.other(),
                 first.distance_m[stated.other()],
@@ -150,7 +153,8 @@ fn ordinal(index: usize) -> String {
     WORDS.get(index).map_or_else(|| format!("{}th", index + 1), ToString::to_string)
 }
 
-/// The side by the habit of OpenSim's examples, if nothing else shows it: of two loads, one without a number or letter is the right foot's.
+/// The side by the habit of OpenSim's examples, if nothing else shows it: of two loads, one without a number or letter
+/// is the right foot's.
 fn usual_side(load: &LoadColumns, all: &[LoadColumns]) -> Option<Side> {
     let is_plain = |load: &LoadColumns| load.key.is_empty();
     let [first, second] = all else { return None };
@@ -169,7 +173,8 @@ fn divided(
         spans.iter().filter(|s| s.side().is_none())
     {
         let message = format!(
-            "`{}...`, {from:.3}-{to:.3} s: its load was not assigned to a foot: no foot is near its centre of pressure (right {:.0} mm, left {:.0} mm)",
+            "`{}...`, {from:.3}-{to:.3} s: its load was not assigned to a foot: no foot is near its centre of pressure \
+             (right {:.0} mm, left {:.0} mm)",
             load.prefix,
             1000.0 * right,
             1000.0 * left
@@ -198,16 +203,19 @@ fn report_other_heights(load: &LoadColumns, spans: &[LoadedSpan], findings: &mut
         spans.iter().filter_map(|span| Some((span, span.at_another_height()?))).collect();
     let Some((LoadedSpan { span: [from, to], .. }, (side, off_m))) = found.first() else { return };
     let message = format!(
-        "`{}...`, {from:.3}-{to:.3} s: the sole of the {side} foot is {off_m:.2} m above or below its centre of pressure{}; the load acts on this foot. hint: check that forces and motion have the same origin",
+        "`{}...`, {from:.3}-{to:.3} s: the sole of the {side} foot is {off_m:.2} m above or below its centre of \
+         pressure{}; the load acts on this foot. hint: check that forces and motion have the same origin",
         load.prefix,
         and_more_times(found.len())
     );
     findings.report(Code::LoadsOtherHeight, message);
 }
 
-/// Brings forces of a table to the axes of the world: from those of the markers, or not at all where they are upright as they are.
+/// Brings forces of a table to the axes of the world: from those of the markers, or not at all where they are upright
+/// as they are.
 fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3, findings: &mut Findings) {
-    /// Share of the mean force that points up where the axes are right: walking sums to nearly none forwards and sideways.
+    /// Share of the mean force that points up where the axes are right: walking sums to nearly none forwards and
+    /// sideways.
     const UPRIGHT: f64 = 0.9;
     let sum: Vec3 = plates.iter().flat_map(|p| &p.force).filter(|f| f.iter().all(|x| x.is_finite())).sum();
     let is_upright = |sum: &Vec3| sum.y > UPRIGHT * sum.norm();

@@ -1,7 +1,8 @@
-//! Measured forces that do not belong to the motion: loads under no foot, and plates that measure no load although a foot stands on them.
+//! Measured forces that do not belong to the motion: loads under no foot, and plates that measure no load although a
+//! foot stands on them.
 //!
-//! They come from another trial or from other plates, or the plates were switched off. The ground forces are then predicted from the
-//! motion where none are left, but nothing is called feasible on them.
+//! They come from another trial or from other plates, or the plates were switched off. The ground forces are then
+//! predicted from the motion where none are left, but nothing is called feasible on them.
 //! Pinned by: tests/quality.rs, ambulo-cli/tests/plates.rs
 
 use super::force_table::TableForces;
@@ -59,7 +60,8 @@ impl IdleForces {
         }
     }
 
-    /// The share of the loaded time in which loads lie under no foot, with the first of these times; `None` if there is none.
+    /// The share of the loaded time in which loads lie under no foot, with the first of these times; `None` if there is
+    /// none.
     pub(super) fn unassigned(&self) -> Option<(f64, [f64; 2])> {
         Some((self.unassigned_share, *self.unassigned.first()?))
     }
@@ -73,7 +75,8 @@ impl IdleForces {
     pub(super) fn undecided(&self) -> Option<String> {
         if let Some((share, [from, to])) = self.unassigned().filter(|(share, _)| *share > MOST_UNASSIGNED) {
             return Some(format!(
-                "{:.0} % of the measured load lies under no foot (first from {from:.3} to {to:.3} s): forces and motion may not belong together",
+                "{:.0} % of the measured load lies under no foot (first from {from:.3} to {to:.3} s): forces and \
+                 motion may not belong together",
                 100.0 * share
             ));
         }
@@ -84,7 +87,8 @@ impl IdleForces {
     pub(super) fn report(&self, findings: &mut Findings) {
         if let Some(first) = self.silent.first() {
             let message = format!(
-                "no load was measured on {first}{}, although the foot stood on the ground. hint: check that the force plates were switched on and that the forces are those of this trial",
+                "no load was measured on {first}{}, although the foot stood on the ground. hint: check that the force \
+                 plates were switched on and that the forces are those of this trial",
                 and_more_times(self.silent.len())
             );
             findings.report(Code::PlatesSilent, message);

@@ -46,7 +46,8 @@ pub enum LaboratoryFileError {
     #[error(transparent)]
     Plates(#[from] PlateError),
     /// A file without a recording.
-    #[error("the file holds no frames{}; expected a recorded trial. hint: export it again", .remark.as_ref().map_or_else(String::new, |remark| format!(" ({remark})")))]
+    #[error("the file holds no frames{}; expected a recorded trial. hint: export it again",
+        .remark.as_ref().map_or_else(String::new, |remark| format!(" ({remark})")))]
     NoFrames {
         /// The last oddity of the file.
         remark: Option<String>,
@@ -59,8 +60,8 @@ const STILL_M: f64 = 0.05;
 const STILL_SHARE: f64 = 0.75;
 
 impl LaboratoryFile {
-    /// Whether the person stands, sits or lies still: three quarters of the markers stay within 5 cm of their mean position. Markers alone
-    /// decide, so that a standing trial is found before there is a body.
+    /// Whether the person stands, sits or lies still: three quarters of the markers stay within 5 cm of their mean
+    /// position. Markers alone decide, so that a standing trial is found before there is a body.
     #[must_use]
     pub(crate) fn is_still(&self) -> bool {
         let spread_m = |path: &MarkerPath| {
@@ -74,8 +75,8 @@ impl LaboratoryFile {
         !spreads.is_empty() && still as f64 >= STILL_SHARE * spreads.len() as f64
     }
 
-    /// From the bytes of a C3D; `label` names the file in findings. Bytes that are not borrowed are dropped as soon as they are decoded, and points
-    /// that are no markers are not decoded.
+    /// From the bytes of a C3D; `label` names the file in findings. Bytes that are not borrowed are dropped as soon as
+    /// they are decoded, and points that are no markers are not decoded.
     ///
     /// # Errors
     /// A file that is no C3D, holds no frames, or has markers or plates that cannot be used.
@@ -131,8 +132,8 @@ impl LaboratoryFile {
         }
     }
 
-    /// From the bytes of a motion of Xsens MVN; `label` names the file in findings. Its frames have the poses of segments, and its contact
-    /// flags are listed as foot strikes and foot offs.
+    /// From the bytes of a motion of Xsens MVN; `label` names the file in findings. Its frames have the poses of
+    /// segments, and its contact flags are listed as foot strikes and foot offs.
     ///
     /// # Errors
     /// A file that is no `.mvnx`, or has poses that cannot be used.
@@ -180,7 +181,8 @@ impl LaboratoryFile {
     }
 }
 
-/// Reads a standing trial with `read`. Its findings are marked as such, and those that the walk has already are not repeated.
+/// Reads a standing trial with `read`. Its findings are marked as such, and those that the walk has already are not
+/// repeated.
 ///
 /// # Errors
 /// Those of `read`.

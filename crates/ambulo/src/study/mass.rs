@@ -1,8 +1,8 @@
 //! Body mass: what states or weighs it, which of these is used, and whether they agree.
 //!
-//! Three measurements are compared in pairs: a standing trial, the motion on the force plates, and the stated mass. Where two disagree, the
-//! third one decides. The errors are not symmetric: a load that rests next to the plates makes the person too light on them, while only a
-//! wrong calibration or a carried load makes the person too heavy.
+//! Three measurements are compared in pairs: a standing trial, the motion on the force plates, and the stated mass.
+//! Where two disagree, the third one decides. The errors are not symmetric: a load that rests next to the plates makes
+//! the person too light on them, while only a wrong calibration or a carried load makes the person too heavy.
 
 use super::source::{MarkerBody, MarkerSource};
 use crate::analysis::MassSource;
@@ -23,8 +23,8 @@ const STANDARD_ERRORS: f64 = 2.0;
 const STATED_ERROR: f64 = 0.025;
 /// Sway of a standing person: samples further apart are independent [s].
 const SWAY_S: f64 = 1.0;
-/// Standard error of a force plate in use, as a share of the load: calibration and zero (ISB; Psycharakis, Miller 2006 give 0.5 to 1 %,
-/// unverified).
+/// Standard error of a force plate in use, as a share of the load: calibration and zero (ISB; Psycharakis, Miller 2006
+/// give 0.5 to 1 %, unverified).
 const PLATE_ERROR: f64 = 0.005;
 
 /// The mass of the person: by each source, and which one the forces are computed with.
@@ -47,8 +47,8 @@ pub struct BodyMass {
     pub sources: Vec<MassEstimate>,
 }
 
-/// How well a mass is known. Forces that are predicted from the motion scale with the mass, so that a wrong mass shows only against plates,
-/// a standing trial or a stated mass.
+/// How well a mass is known. Forces that are predicted from the motion scale with the mass, so that a wrong mass shows
+/// only against plates, a standing trial or a stated mass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -184,8 +184,9 @@ impl KnownMass {
         }
     }
 
-    /// The mass to use [kg], with its source. The plates are used before a statement where both agree, because the ground forces are
-    /// measured by them. Where standing and stated mass differ, the motion on the plates decides; without it the stated mass is used.
+    /// The mass to use [kg], with its source. The plates are used before a statement where both agree, because the
+    /// ground forces are measured by them. Where standing and stated mass differ, the motion on the plates decides;
+    /// without it the stated mass is used.
     pub fn decided(&self, motion: &[MassEstimate]) -> Option<MassEstimate> {
         let moving = combined(motion);
         match (&self.stated, &self.standing) {
@@ -269,7 +270,8 @@ impl BodyMass {
         let is_confirmed = self.by(MassWitness::Standing).is_some_and(|standing| standing.agrees(&used));
         let why = match (self.state, is_confirmed, others.iter().all(|other| other.kg < self.kg)) {
             (_, true, true) => {
-                "the standing trial confirms the mass, so a part of the weight was next to the plates, or they measure too little"
+                "the standing trial confirms the mass, so a part of the weight was next to the plates, or they measure \
+                 too little"
             }
             (_, true, false) => {
                 "the standing trial confirms the mass, so the plates carried something else, or they measure too much"
@@ -292,8 +294,9 @@ impl BodyMass {
     }
 }
 
-/// The estimate of a motion: the mean of all ways, weighted by the inverse of their variance. The ways share the same forces, so that
-/// together they are no more certain than the best of them, and less where they differ (Birge 1932, Phys Rev 40:207-227).
+/// The estimate of a motion: the mean of all ways, weighted by the inverse of their variance. The ways share the same
+/// forces, so that together they are no more certain than the best of them, and less where they differ (Birge 1932,
+/// Phys Rev 40:207-227).
 pub fn combined(estimates: &[MassEstimate]) -> Option<MassEstimate> {
     let best = estimates.iter().min_by(|a, b| a.error_kg.total_cmp(&b.error_kg))?;
     let weight = |e: &MassEstimate| e.error_kg.max(f64::MIN_POSITIVE).powi(-2);
@@ -304,8 +307,9 @@ pub fn combined(estimates: &[MassEstimate]) -> Option<MassEstimate> {
     Some(MassEstimate { kg, error_kg: birge * best.error_kg, ..best.clone() })
 }
 
-/// Mass by the plates. Where standing and motion disagree, the motion counts, since its forces are those that moments are computed from; where
-/// neither agrees with the used mass, the heavier: a load next to the plates makes a person lighter.
+/// Mass by the plates. Where standing and motion disagree, the motion counts, since its forces are those that moments
+/// are computed from; where neither agrees with the used mass, the heavier: a load next to the plates makes a person
+/// lighter.
 fn on_plates(known: &KnownMass, moving: Option<MassEstimate>, used: &MassEstimate) -> Option<MassEstimate> {
     match (known.standing.clone(), moving) {
         (Some(standing), Some(moving)) if standing.agrees(&moving) => {
@@ -319,7 +323,8 @@ fn on_plates(known: &KnownMass, moving: Option<MassEstimate>, used: &MassEstimat
     }
 }
 
-/// The mass of a person who stands still, with the scatter of the force as its error: sway moves the mass centre up and down.
+/// The mass of a person who stands still, with the scatter of the force as its error: sway moves the mass centre up and
+/// down.
 fn standing_estimate(plates: &[PlateRecording]) -> Option<MassEstimate> {
     let kg = standing_weight_n(plates)? / STANDARD_GRAVITY;
     let samples = plates.iter().map(|plate| plate.times.len()).min()?;
@@ -353,7 +358,8 @@ pub fn report_decided(known: &KnownMass, decided: &MassEstimate, findings: &mut 
         // Where the stated mass is used, `BodyMass::report` names the weighing that contradicts it.
         (Some(stated), Some(standing)) if decided.by == MassWitness::Standing => {
             let message = format!(
-                "the stated mass is {:.1} kg, force plates measured {:.1} kg in the standing trial and in motion; the measured mass was used",
+                "the stated mass is {:.1} kg, force plates measured {:.1} kg in the standing trial and in motion; the \
+                 measured mass was used",
                 stated.kg, standing.kg
             );
             findings.report(Code::MassStandingMismatch, message);
@@ -365,7 +371,8 @@ pub fn report_decided(known: &KnownMass, decided: &MassEstimate, findings: &mut 
         (None, None) => {
             let [from, to] = decided.time_s.unwrap_or([f64::NAN; 2]);
             let message = format!(
-                "no mass is stated; the force plates carry {kg:.1} kg from {from:.3} to {to:.3} s (standard error {:.1} kg), which was used",
+                "no mass is stated; the force plates carry {kg:.1} kg from {from:.3} to {to:.3} s (standard error \
+                 {:.1} kg), which was used",
                 decided.error_kg
             );
             findings.report(Code::MassWeighed, message);

@@ -1,4 +1,5 @@
-//! From a recording to the forces behind it: the one road that the command, the validation and every other program takes.
+//! From a recording to the forces behind it: the one road that the command, the validation and every other program
+//! takes.
 //!
 //! ```text
 //! Source    what was recorded: coordinates, markers, sensors, a skeleton or a complete motion,
@@ -11,8 +12,8 @@
 //! Outcome   body, motion, ground forces, joint forces, events, cycles, mass, comparison with plates, verdict
 //! ```
 //!
-//! [`run`] reads no file, prints nothing and has no clock. [`run_observed`] reports the end of each [`Stage`] to its caller, who can
-//! measure time, show progress or stop the computation.
+//! [`run`] reads no file, prints nothing and has no clock. [`run_observed`] reports the end of each [`Stage`] to its
+//! caller, who can measure time, show progress or stop the computation.
 
 mod b3d_source;
 mod error;

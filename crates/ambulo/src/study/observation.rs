@@ -341,8 +341,9 @@ impl Statements {
         }
     }
 
-    /// The markers with the mass of the built-in body. Where statement and standing trial do not settle it, the force plates weigh the
-    /// person in motion: the posture does not depend on the mass, so that a first body of any mass shows the velocity of the mass centre.
+    /// The markers with the mass of the built-in body. Where statement and standing trial do not settle it, the force
+    /// plates weigh the person in motion: the posture does not depend on the mass, so that a first body of any mass
+    /// shows the velocity of the mass centre.
     fn with_known_mass(
         &self,
         markers: MarkerSource,
@@ -426,12 +427,14 @@ impl Statements {
     }
 }
 
-/// Reports a standing trial whose file names another person; case and blanks do not count. The names stay out of the results.
+/// Reports a standing trial whose file names another person; case and blanks do not count. The names stay out of the
+/// results.
 fn report_other_person(moving: &SubjectParameters, standing: &SubjectParameters, findings: &mut Findings) {
     if let (Some(moving), Some(standing)) = (&moving.name, &standing.name)
         && !moving.trim().eq_ignore_ascii_case(standing.trim())
     {
-        let message = "the file of the standing trial names another person (SUBJECTS:NAMES) than that of the recording; its body was used";
+        let message = "the file of the standing trial names another person (SUBJECTS:NAMES) than that of the \
+            recording; its body was used";
         findings.report(Code::CalibrationOtherPerson, message);
     }
 }

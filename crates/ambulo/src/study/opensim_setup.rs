@@ -22,7 +22,8 @@ use std::collections::BTreeMap;
 pub(crate) enum SetupError {
     /// A task without the values that it follows.
     #[error(
-        "the task of the coordinate `{coordinate}` (line {line}) takes its values from a file, {found}; expected a <coordinate_file> with a column of this name"
+        "the task of the coordinate `{coordinate}` (line {line}) takes its values from a file, {found}; expected a \
+         <coordinate_file> with a column of this name"
     )]
     NoValues {
         /// The coordinate.
@@ -40,7 +41,8 @@ pub(crate) enum SetupError {
 /// Weights of markers and coordinates, for the settings of a fit.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct TrackedTasks {
-    /// Weights of the markers of the model, by name; 0 for those without a task. Empty if no marker has a task: then all have weight 1.
+    /// Weights of the markers of the model, by name; 0 for those without a task. Empty if no marker has a task: then
+    /// all have weight 1.
     pub weights: BTreeMap<String, f64>,
     /// Coordinates that are held near values.
     pub tasks: Vec<CoordinateTask>,
@@ -148,8 +150,8 @@ fn distances(measurement: &Measurement) -> DistanceMeasurement {
     }
 }
 
-/// The standing posture that the sensors of a model show, for the sensors of a recording; `None` if none of them is in the model. OpenSim's
-/// IMUPlacer writes a sensor as an offset frame on its body.
+/// The standing posture that the sensors of a model show, for the sensors of a recording; `None` if none of them is in
+/// the model. OpenSim's IMUPlacer writes a sensor as an offset frame on its body.
 #[must_use]
 pub(crate) fn standing_sensors_of(
     document: &OsimModel,
@@ -187,7 +189,8 @@ pub(crate) fn report_forces_of_model(setup: &InverseDynamicsSetup, findings: &mu
             names => format!("{}, and OpenSim applies the others", names.join(", ")),
         };
         let message = format!(
-            "forces of the model other than bushings (muscles, ligaments, springs) are never applied here; the set-up excludes {excluded}, if the model has any"
+            "forces of the model other than bushings (muscles, ligaments, springs) are never applied here; the set-up \
+             excludes {excluded}, if the model has any"
         );
         findings.report(Code::SetupUnused, message);
     }

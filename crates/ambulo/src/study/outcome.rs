@@ -31,7 +31,8 @@ pub struct Outcome {
     pub times_and_distances: TimesAndDistances,
     /// Where the ground forces come from.
     pub force_origin: ForceOrigin,
-    /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or are none.
+    /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or
+    /// are none.
     pub prediction: Option<PredictedGround>,
     /// The body mass by each source, and how well it is known.
     pub mass: BodyMass,
@@ -70,13 +71,15 @@ impl Processing {
 /// A motion near the recorded one whose external forces come from feet on the ground alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrackedGround {
-    /// Residual forces at the root in the frames: root mean square and maximum [body weights, body weights × leg length].
+    /// Residual forces at the root in the frames: root mean square and maximum [body weights, body weights × leg
+    /// length].
     pub residual: (f64, f64),
     /// Root mean square of the changes of rotations [rad], and of the translations of the root [m].
     pub moved: [f64; 2],
     /// Steps of the solver.
     pub steps: usize,
-    /// How the prediction that it started from agrees with measured forces; `None` where nothing was measured completely.
+    /// How the prediction that it started from agrees with measured forces; `None` where nothing was measured
+    /// completely.
     pub predicted: Option<GroundAgreement>,
 }
 
@@ -105,8 +108,8 @@ impl PredictedGround {
 }
 
 impl Outcome {
-    /// How prediction and measured forces agree on what a coverage names, such as a part of the stances; `None` without measured forces,
-    /// or if the coverage is empty.
+    /// How prediction and measured forces agree on what a coverage names, such as a part of the stances; `None` without
+    /// measured forces, or if the coverage is empty.
     #[must_use]
     pub fn agreement_over(&self, coverage: &PlateCoverage) -> Option<GroundAgreement> {
         let PredictedGround { prediction, measured, .. } = self.prediction.as_ref()?;

@@ -1,4 +1,5 @@
-//! The calibration of a person: what force plates show about the prediction in some trials, for the other trials of the person.
+//! The calibration of a person: what force plates show about the prediction in some trials, for the other trials of the
+//! person.
 
 use super::outcome::{Outcome, PredictedGround};
 use crate::analysis::activity::ActivityKind;

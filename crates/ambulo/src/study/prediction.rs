@@ -64,7 +64,8 @@ pub(super) fn predicted(
         && known_mass.stated.is_none()
     {
         let message = format!(
-            "body mass is neither given nor measured; the model has {:.1} kg, and every predicted force is proportional to it",
+            "body mass is neither given nor measured; the model has {:.1} kg, and every predicted force is \
+             proportional to it",
             model.mass()
         );
         findings.report(Code::MassUnverified, message);
@@ -80,7 +81,8 @@ fn report_weak_evidence(origin: &Origin, recorded_s: f64, findings: &mut Finding
     if !origin.shows_both_feet() {
         findings.report(
             Code::PredictionFeetUnseen,
-            "no marker shows where a foot points: its ankle is held, so its stances, centre of pressure and moments are guesses. hint: markers on heel and toe of both feet",
+            "no marker shows where a foot points: its ankle is held, so its stances, centre of pressure and moments \
+             are guesses. hint: markers on heel and toe of both feet",
         );
     }
     if recorded_s < SHORT_S {

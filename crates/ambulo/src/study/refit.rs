@@ -12,7 +12,8 @@ use crate::motion::filter::LowPass;
 use crate::motion::{Motion, Smoother};
 use crate::spatial::Vec3;
 
-/// The motion with loaded feet at rest. A motion that cannot be smoothed is returned unchanged; the next smoothing reports the error.
+/// The motion with loaded feet at rest. A motion that cannot be smoothed is returned unchanged; the next smoothing
+/// reports the error.
 pub(super) fn refitted(
     observation: &Observation,
     motion: ObservedMotion,
@@ -32,7 +33,8 @@ pub(super) fn refitted(
     };
     let Refit { sliding_m_s: [from, to], largest_turn_rad, largest_shift_m, .. } = refit;
     let mut message = format!(
-        "the refit held loaded feet still: their soles slid at {from:.3} m/s (rms), now at {to:.3} m/s; angles changed by at most {:.1}°, displacements by at most {:.0} mm",
+        "the refit held loaded feet still: their soles slid at {from:.3} m/s (rms), now at {to:.3} m/s; angles changed \
+         by at most {:.1}°, displacements by at most {:.0} mm",
         largest_turn_rad.to_degrees(),
         1e3 * largest_shift_m
     );

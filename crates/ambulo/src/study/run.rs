@@ -32,13 +32,14 @@ use std::ops::ControlFlow;
 const TRACKED: &str =
     "tracking: feet on soft ground, near the recorded motion and near a maximum a posteriori estimate";
 
-/// Computes the forces behind a recording. Problems that still allow results are reported in `findings`. The recording is dropped as soon as
-/// it is not needed any more; clone it to compute it again.
+/// Computes the forces behind a recording. Problems that still allow results are reported in `findings`. The recording
+/// is dropped as soon as it is not needed any more; clone it to compute it again.
 ///
 /// # Errors
 /// Recordings that give no forces: see [`StudyError`].
 ///
-/// A person of 72.6 kg who hangs still in the air, without ground forces; the motion needs the body weight at the root joint:
+/// A person of 72.6 kg who hangs still in the air, without ground forces; the motion needs the body weight at the root
+/// joint:
 ///
 /// ```
 /// use ambulo::findings::Findings;
@@ -232,7 +233,8 @@ fn stances<'p>(
     known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)
 }
 
-/// Recognises the activity; reports a recording without a whole gait cycle, and ground forces that are predicted for an activity without validation.
+/// Recognises the activity; reports a recording without a whole gait cycle, and ground forces that are predicted for an
+/// activity without validation.
 fn recognised(
     model: &Model,
     person: &Person,
@@ -247,8 +249,9 @@ fn recognised(
     found
 }
 
-/// Drops reasons against the movement that errors of the data explain: a body that does not follow its markers, force plates that carry
-/// another weight than the body's, measured forces that belong to no foot. No movement changes the mean force on the ground from the weight.
+/// Drops reasons against the movement that errors of the data explain: a body that does not follow its markers, force
+/// plates that carry another weight than the body's, measured forces that belong to no foot. No movement changes the
+/// mean force on the ground from the weight.
 fn without_faults_of_data(
     mut verdict: Verdict,
     tracking: Option<&Tracking>,
@@ -281,7 +284,8 @@ fn report_sliding(outcome: &Outcome, settings: &Settings, findings: &mut Finding
     let slides = outcome.verdict.fit.sliding_m_s.filter(|speed| Measure::Sliding.is_bad(*speed));
     if let Some(speed) = slides.filter(|_| is_predicted && !settings.refit) {
         let message = format!(
-            "soles that carry the body slide at {speed:.2} m/s or more for three quarters of the time: predicted forces and centres of pressure are worse than their deviations say"
+            "soles that carry the body slide at {speed:.2} m/s or more for three quarters of the time: predicted \
+             forces and centres of pressure are worse than their deviations say"
         );
         findings.report(Code::PredictionFeetSlide, message);
     }
@@ -297,7 +301,8 @@ fn report_untested_prediction(activity: ActivityKind, force_origin: &ForceOrigin
             _ => "",
         };
         let message = format!(
-            "activity: {activity}; predicted ground forces were compared with force plates only for walking, turning, standing and running{tested}"
+            "activity: {activity}; predicted ground forces were compared with force plates only for walking, turning, \
+             standing and running{tested}"
         );
         findings.report(Code::PredictionUntested, message);
     }
@@ -397,7 +402,8 @@ fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
         return Window::default();
     };
     let message = format!(
-        "markers are missing, or were left out as outliers, for too long outside of {from:.3} to {to:.3} s; only this time was analysed"
+        "markers are missing, or were left out as outliers, for too long outside of {from:.3} to {to:.3} s; only this \
+         time was analysed"
     );
     findings.report(Code::MarkersWindow, message);
     Window { from_s: Some(from), to_s: Some(to) }

@@ -15,11 +15,11 @@ pub struct Settings {
     pub smoother: Smoother,
     /// Low-pass of the measured forces that joint forces are computed from.
     pub force_filter: ForceFilter,
-    /// Low-pass of the measured forces that a prediction is compared with; `None` leaves them as recorded. It differs from the
-    /// filter of the motion, because it must keep what plates measure.
+    /// Low-pass of the measured forces that a prediction is compared with; `None` leaves them as recorded. It differs
+    /// from the filter of the motion, because it must keep what plates measure.
     pub comparison_filter: Option<LowPass>,
-    /// The time range to analyse. An open range is all of the recording or, where markers are missing for long, the longest time
-    /// without a gap.
+    /// The time range to analyse. An open range is all of the recording or, where markers are missing for long, the
+    /// longest time without a gap.
     pub window: Window,
     /// Frames per second of the results [Hz]; `None` keeps the value of the recording.
     pub rate_hz: Option<f64>,
@@ -45,8 +45,8 @@ pub enum GroundSettings {
     MeasuredOrPredicted,
     /// Predicted from the motion; measured forces are compared with the prediction.
     Predicted,
-    /// As `Predicted`; then the motion is changed until feet on soft ground supply its external forces ([`crate::optimal::TrackProblem`]), near
-    /// the recorded motion and the predicted forces.
+    /// As `Predicted`; then the motion is changed until feet on soft ground supply its external forces
+    /// ([`crate::optimal::TrackProblem`]), near the recorded motion and the predicted forces.
     Tracked,
     /// None: a motion without contact, such as a swinging leg or a flight.
     NoContact,

@@ -6,7 +6,8 @@ use crate::model::{CoordinateKind, Displacement, Model};
 use crate::motion::Motion;
 use crate::spatial::Vec3;
 
-/// Along the vertical, rather than along the floor, if the upward part of a unit direction is larger: half a right angle.
+/// Along the vertical, rather than along the floor, if the upward part of a unit direction is larger: half a right
+/// angle.
 const UPWARD: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Mass and stature that are stated for the person who moved; a model of another size is scaled to them.
@@ -19,7 +20,8 @@ pub struct StatedSize {
 }
 
 impl StatedSize {
-    /// The model with this mass and stature: all lengths by one factor l, all masses by one factor m, inertias by m l^2.
+    /// The model with this mass and stature: all lengths by one factor l, all masses by one factor m, inertias by m
+    /// l^2.
     pub(super) fn applied(self, model: &Model, findings: &mut Findings) -> Result<Model, StudyError> {
         if self == StatedSize::default() {
             return Ok(model.clone());
@@ -48,8 +50,8 @@ impl StatedSize {
         self.height_m.map_or(1.0, |height_m| height_m / model.stature().height_m)
     }
 
-    /// The motion of the scaled model: recorded lengths grow with the body, so that feet stay on the floor and do not slide. Where ground
-    /// forces were measured, the path along the floor is that of the laboratory and stays.
+    /// The motion of the scaled model: recorded lengths grow with the body, so that feet stay on the floor and do not
+    /// slide. Where ground forces were measured, the path along the floor is that of the laboratory and stays.
     pub(super) fn moved(self, model: &Model, mut motion: Motion, is_measured: bool) -> Motion {
         if self.height_m.is_none() {
             return motion;

@@ -152,7 +152,8 @@ pub enum MarkerBody {
         model: Model,
         /// Body mass [kg]; `None` keeps the value of the model, or takes the value of the protocol.
         mass_kg: Option<f64>,
-        /// The statements of a laboratory that works with OpenSim; `None` detects the axes of the recordings, and sizes from the standing trial.
+        /// The statements of a laboratory that works with OpenSim; `None` detects the axes of the recordings, and sizes
+        /// from the standing trial.
         protocol: Option<Box<ModelProtocol>>,
     },
     /// A body that was calibrated before.

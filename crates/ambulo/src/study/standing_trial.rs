@@ -4,7 +4,8 @@ use super::laboratory_file::LaboratoryFile;
 use crate::analysis::KnownBodies;
 use std::ops::Deref;
 
-/// A standing trial with the bodies that were calibrated or scaled from it: trials that share it calibrate the person, or scale a model, once.
+/// A standing trial with the bodies that were calibrated or scaled from it: trials that share it calibrate the person,
+/// or scale a model, once.
 ///
 /// ```
 /// use ambulo::model::anthropometry::SegmentTable;

@@ -43,7 +43,8 @@ fn report(tracked: &TrackedGround, findings: &mut Findings) {
     let (_, largest) = tracked.residual;
     if largest > SMALL_RESIDUAL {
         let message = format!(
-            "tracking leaves residual forces of up to {:.1} % of body weight (or of body weight times leg length) at the root; expected {:.1} % at most",
+            "tracking leaves residual forces of up to {:.1} % of body weight (or of body weight times leg length) at \
+             the root; expected {:.1} % at most",
             100.0 * largest,
             100.0 * SMALL_RESIDUAL
         );

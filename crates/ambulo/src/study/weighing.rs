@@ -6,12 +6,12 @@
 //! m (g T + v(end) - v(start)) = integral of F dt        v: upward velocity of the mass centre, from the motion [m/s]
 //! ```
 //!
-//! The posture shows v whatever the mass is, because the segments keep their shares of it. The standard error of m is that of
-//! v(end) - v(start), multiplied by m / (g T). It is measured: with the best m the forces give the velocity at every instant, and its
-//! scatter about that of the motion is the error. Times T are whole cycles (strike to strike or off to off of one foot), steps from
-//! valley to valley of single supports, and any time during which every loaded foot is measured. Where only single stances were
-//! measured, each foot of a symmetric gait supplies half of the impulse of a stride.
-//! Pinned by: tests/weighing.rs
+//! The posture shows v whatever the mass is, because the segments keep their shares of it. The standard error of m is
+//! that of v(end) - v(start), multiplied by m / (g T). It is measured: with the best m the forces give the velocity at
+//! every instant, and its scatter about that of the motion is the error. Times T are whole cycles (strike to strike or
+//! off to off of one foot), steps from valley to valley of single supports, and any time during which every loaded foot
+//! is measured. Where only single stances were measured, each foot of a symmetric gait supplies half of the impulse of
+//! a stride. Pinned by: tests/weighing.rs
 
 use super::mass::{MassEstimate, MassWitness};
 use crate::analysis::BodyInMotion;
@@ -24,8 +24,8 @@ use crate::model::{BySide, Model, Side};
 use crate::motion::{Event, EventKind, ForceRecording, TimeGrid, interpolate};
 use crate::spatial::Vec3;
 
-/// Error of a velocity of the mass centre where the recording is too short to measure it [m/s]; it counts as much as [`PRIOR_S`] of
-/// recording. Markers on soft tissue, filtered at 6 Hz, show less than this in steady walking.
+/// Error of a velocity of the mass centre where the recording is too short to measure it [m/s]; it counts as much as
+/// [`PRIOR_S`] of recording. Markers on soft tissue, filtered at 6 Hz, show less than this in steady walking.
 const PRIOR_VELOCITY_M_S: f64 = 0.1;
 const PRIOR_S: f64 = 0.5;
 /// A shorter time does not determine the mass [s]: the prior error would be a twentieth of the body mass.
@@ -34,8 +34,8 @@ const SHORTEST_S: f64 = 0.3;
 const SAME_EVENT_S: f64 = 0.15;
 /// Events may be outside of a measured time by this, because those of the motion end it [s].
 const EDGE_S: f64 = 0.02;
-/// Difference of the impulses of the two feet of a healthy walker over their mean, standard deviation, as a share. Herzog, Nigg, Read,
-/// Olsson 1989, Med Sci Sports Exerc 21:110-114 found vertical forces within 4 % (unverified).
+/// Difference of the impulses of the two feet of a healthy walker over their mean, standard deviation, as a share.
+/// Herzog, Nigg, Read, Olsson 1989, Med Sci Sports Exerc 21:110-114 found vertical forces within 4 % (unverified).
 const ASYMMETRY: f64 = 0.04;
 /// Standard error of the time between two foot strikes seen in the motion [s]: two frames of a usual camera at 100 Hz.
 const STRIDE_ERROR_S: f64 = 0.02;
@@ -71,8 +71,8 @@ struct Weighed {
 }
 
 impl<'a> Carried<'a> {
-    /// `body`: the body that followed markers, which knows the feet on plates; without plates the motion shows which stances the forces
-    /// lack.
+    /// `body`: the body that followed markers, which knows the feet on plates; without plates the motion shows which
+    /// stances the forces lack.
     pub(super) fn new(
         model: &Model,
         trajectory: &Trajectory,
@@ -253,8 +253,8 @@ impl<'a> Carried<'a> {
         own.map(|(force, _)| of(force)).sum()
     }
 
-    /// Standard deviation of the velocity of the mass centre about that which the forces give [m/s], over these times; each time has its own
-    /// initial velocity and mass.
+    /// Standard deviation of the velocity of the mass centre about that which the forces give [m/s], over these times;
+    /// each time has its own initial velocity and mass.
     fn velocity_error(&self, windows: &[[f64; 2]]) -> f64 {
         let (mut squares, mut seconds) = (PRIOR_VELOCITY_M_S.powi(2) * PRIOR_S, PRIOR_S);
         for window in windows {
@@ -302,8 +302,8 @@ impl<'a> Carried<'a> {
         Some(MassEstimate { by: MassWitness::HalfStrides, kg, error_kg: share * kg, times, time_s: Some(ends) })
     }
 
-    /// Median time of a stride [s]: of the forces, if they show one. Events of forces and motion together would give half strides where the
-    /// forces are on the wrong feet.
+    /// Median time of a stride [s]: of the forces, if they show one. Events of forces and motion together would give
+    /// half strides where the forces are on the wrong feet.
     fn stride_s(&self) -> Option<f64> {
         median_stride_s(&self.force_events).or_else(|| median_stride_s(&self.events))
     }

@@ -61,7 +61,8 @@ pub(crate) fn renamed(model: &Model, name: impl Fn(usize, &str) -> String) -> Mo
     rebuilt(model, model.gravity(), bodies.collect(), coordinates.collect())
 }
 
-/// The model mirrored at the plane of walking: every position with z reversed, every axis of rotation as a pseudovector.
+/// The model mirrored at the plane of walking: every position with z reversed, every axis of rotation as a
+/// pseudovector.
 pub(crate) fn mirrored(model: &Model) -> Model {
     let m = Mat3::from_diagonal(&Vec3::new(1.0, 1.0, -1.0));
     let pose = |p: &Pose| Pose { rotation: m * p.rotation * m, translation: m * p.translation };

@@ -14,8 +14,9 @@ pub(crate) fn six(angular: Vec3, linear: Vec3) -> Six {
     Six::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
 }
 
-/// The rows of the motion of one body relative to another at a point: angular velocity along each of `axes`, then velocity of the point
-/// along each of them. `to_first` points from the point to the first mass centre, `from_second` from the second one to the point [m].
+/// The rows of the motion of one body relative to another at a point: angular velocity along each of `axes`, then
+/// velocity of the point along each of them. `to_first` points from the point to the first mass centre, `from_second`
+/// from the second one to the point [m].
 pub(crate) fn relative_rows(axes: [Vec3; 3], to_first: Vec3, from_second: Vec3) -> [Constraint; 6] {
     let row = |on_first: Six, on_second: Six| Constraint { on_first, on_second, target: 0.0, compliance: 0.0 };
     let turn = |axis: Vec3| row(six(axis, Vec3::zeros()), six(-axis, Vec3::zeros()));
@@ -83,8 +84,8 @@ pub(crate) fn tangents(normal: Vec3) -> [Vec3; 2] {
     [first, normal.cross(&first)]
 }
 
-/// Adds a contact at a point `from_first` of the first body's centre and `from_second` of the second's; the normal points
-/// towards the first body. The number of its normal row.
+/// Adds a contact at a point `from_first` of the first body's centre and `from_second` of the second's; the normal
+/// points towards the first body. The number of its normal row.
 pub(crate) fn add_contact(
     graph: &mut ConstraintGraph,
     (first, from_first): (usize, Vec3),
@@ -129,8 +130,8 @@ pub(crate) fn tower(masses: &[f64], friction: f64) -> ConstraintGraph {
     graph
 }
 
-/// Two rails of hinged links hanging from the ground, and a rung between them at every joint: `loops` loops in the plane,
-/// closed by the two rows of the plane; or by five rows, of which three are redundant.
+/// Two rails of hinged links hanging from the ground, and a rung between them at every joint: `loops` loops in the
+/// plane, closed by the two rows of the plane; or by five rows, of which three are redundant.
 pub(crate) fn ladder(loops: usize, rows: &[usize]) -> ConstraintGraph {
     let mut graph = ConstraintGraph::default();
     let (axis, down, side) = (Vec3::y(), Vec3::new(0.0, 0.0, -0.5), Vec3::x());
@@ -178,8 +179,8 @@ pub(crate) fn solved(graph: &ConstraintGraph, settings: &SolverSettings) -> (Gra
     (solution, workspace)
 }
 
-/// Random trees with free bodies among them, contacts at random points with random normals, and sometimes a closing row or
-/// a bounded one.
+/// Random trees with free bodies among them, contacts at random points with random normals, and sometimes a closing row
+/// or a bounded one.
 pub(crate) fn random_contacts(r: &mut Random, most_friction: f64) -> ConstraintGraph {
     let mut graph = ConstraintGraph::default();
     let bodies = 1 + r.below(8);

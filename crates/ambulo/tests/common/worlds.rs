@@ -205,8 +205,8 @@ impl Run {
     }
 }
 
-/// Asserts that an error falls to half as the step does, from `step_s` on twice, and returns it at the three steps. With
-/// error = c h + d h² the ratio is 2 + O(h); no order would give 1, second order 4.
+/// Asserts that an error falls to half as the step does, from `step_s` on twice, and returns it at the three steps.
+/// With error = c h + d h² the ratio is 2 + O(h); no order would give 1, second order 4.
 #[track_caller]
 pub(crate) fn assert_first_order(step_s: f64, error: impl Fn(f64) -> f64) -> [f64; 3] {
     let errors = [1.0, 0.5, 0.25].map(|share| error(step_s * share));

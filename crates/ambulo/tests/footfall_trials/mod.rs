@@ -1,8 +1,8 @@
 //! Recordings with force plates as motions of bodies, with the foot events from the plates.
 //!
-//! Plate events are crossings of 20 N: of the forces in the files if a table has them (the forces of the three OpenSim sets were
-//! low-pass filtered by their authors: they rise from 20 to 140 N in 20 to 30 ms, those of the C3D files in 3 to 5 ms), otherwise
-//! from the README of the data.
+//! Plate events are crossings of 20 N: of the forces in the files if a table has them (the forces of the three OpenSim
+//! sets were low-pass filtered by their authors: they rise from 20 to 140 N in 20 to 30 ms, those of the C3D files in 3
+//! to 5 ms), otherwise from the README of the data.
 
 use crate::gait_files::{self, File, Subject};
 use ambulo::analysis::{BodySource, LaboratoryRecording, MarkerTrial, body_in_motion};

@@ -103,7 +103,8 @@ pub(crate) fn events() -> Vec<Event> {
     list
 }
 
-/// A load of one foot: side, number of the stance, share of the stance at which it begins and ends, share of the weight.
+/// A load of one foot: side, number of the stance, share of the stance at which it begins and ends, share of the
+/// weight.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Load {
     pub(crate) side: Side,
@@ -119,8 +120,8 @@ impl Load {
     }
 }
 
-/// A level plate from corner to corner (x and z of two corners, height) [m], under these loads. The centre of pressure goes from
-/// heel to toe.
+/// A level plate from corner to corner (x and z of two corners, height) [m], under these loads. The centre of pressure
+/// goes from heel to toe.
 pub(crate) fn plate(from: [f64; 2], to: [f64; 2], height: f64, loads: &[Load]) -> PlateRecording {
     let times: Vec<f64> = (0..=(DURATION_S * 1000.0) as usize).map(|i| i as f64 / 1000.0).collect();
     let wrench = |t: f64| {

@@ -27,7 +27,8 @@ pub(crate) const CORNERS_MM: [[f64; 3]; 4] =
 
 impl File {
     /// Forty samples without load, then forty with about these values, and exactly these in sample 60: the first three
-    /// channels grow by a thousandth from sample to sample, the others decrease, because no person stands perfectly still.
+    /// channels grow by a thousandth from sample to sample, the others decrease, because no person stands perfectly
+    /// still.
     pub(crate) fn step(kind: i16, origin_mm: [f64; 3], values: &[f64]) -> File {
         let channel = |(i, v): (usize, &f64)| {
             let growth = if i < 3 { 1e-3 } else { -1e-3 };

@@ -63,13 +63,15 @@ fn a_missing_key_of_a_dotted_table_is_placed() {
 fn masses_and_inertias_that_no_body_has_are_rejected() {
     assert_eq!(
         said("mass = 2\n", "mass = -2\n"),
-        "line 15, `body[1].mass`: found -2; expected a number above zero. hint: a solid that forces do not move is an [[obstacle]]"
+        "line 15, `body[1].mass`: found -2; expected a number above zero. hint: a solid that forces do not move is an \
+         [[obstacle]]"
     );
     assert!(said("mass = 2\n", "mass = 0\n").starts_with("line 15, `body[1].mass`: found 0; expected a number above"));
     let inertia = |numbers: &str| said("[0.02, 0.001, 0.02]", numbers);
     assert_eq!(
         inertia("[0.02, 0, 0.02]"),
-        "line 22, `body[2].inertia`: found [0.02, 0, 0.02]; expected an inertia above zero about every axis; the smallest \
+        "line 22, `body[2].inertia`: found [0.02, 0, 0.02]; expected an inertia above zero about every axis; the \
+         smallest \
          principal moment is 0e0 kg.m². hint: the moment of a thin rod about its axis is m r²/2"
     );
     assert!(inertia("[0.02, 0.001, 0.01]").contains("expected an inertia that a body can have; principal moments"));
@@ -80,7 +82,8 @@ fn masses_and_inertias_that_no_body_has_are_rejected() {
     let aside = said("size = [0.1, 0.4, 0.1]", "size = [0.1, 0.4, 0.1], at = [0, 0.1, 0]");
     assert_eq!(
         aside,
-        "line 13, `body[1]`: found shapes whose common centre is [0.000000, 0.100000, 0.000000]; expected it at the body's \
+        "line 13, `body[1]`: found shapes whose common centre is [0.000000, 0.100000, 0.000000]; expected it at the \
+         body's \
          origin, its mass centre. hint: move the shapes, or give `inertia` if the body is not uniform"
     );
 }
@@ -91,7 +94,8 @@ fn numbers_that_are_not_finite_are_rejected() {
         assert_eq!(
             said("[0, 1.0, 0]", &format!("[0, {bad}, 0]")),
             format!(
-                "line 16, `body[1].position[2]`: found {bad}; expected a number. hint: numbers are finite and at most 1e15 \
+                "line 16, `body[1].position[2]`: found {bad}; expected a number. hint: numbers are finite and at most \
+                 1e15 \
                  in size"
             )
         );
@@ -119,7 +123,8 @@ fn steps_and_durations_must_be_above_zero() {
 fn values_of_another_kind_are_rejected() {
     assert_eq!(
         said("mass = 2\n", "mass = \"2\"\n"),
-        "line 15, `body[1].mass`: found \"2\"; expected a number above zero. hint: write numbers without quotes; a solid \
+        "line 15, `body[1].mass`: found \"2\"; expected a number above zero. hint: write numbers without quotes; a \
+         solid \
          that forces do not move is an [[obstacle]]"
     );
     assert_eq!(said("title = \"Good\"", "title = 5"), "line 1, `title`: found 5; expected a text in quotes");
@@ -158,7 +163,8 @@ fn unknown_names_are_rejected() {
     );
     assert_eq!(
         said("second = \"world\"", "second = \"floor\""),
-        "line 46, `closure[1].second`: found \"floor\"; expected \"world\", a body, or \"figure/body\". hint: \"floor\" \
+        "line 46, `closure[1].second`: found \"floor\"; expected \"world\", a body, or \"figure/body\". hint: \
+         \"floor\" \
          is an obstacle; joints connect bodies, if necessary a body on a driven joint"
     );
     assert_eq!(
@@ -226,7 +232,8 @@ fn coordinates_that_contradict_themselves_are_rejected() {
     let coordinate = |text: &str| said("limits = { lower_deg = -30, upper_deg = 90 }", text);
     assert_eq!(
         coordinate("limits = { lower_deg = 30, upper_deg = -90 }"),
-        "line 33, `joint[1].coordinate.limits`: found { lower_deg = 30, upper_deg = -90 }; expected a lower limit below \
+        "line 33, `joint[1].coordinate.limits`: found { lower_deg = 30, upper_deg = -90 }; expected a lower limit \
+         below \
          the upper one"
     );
     assert!(coordinate("limits = { lower_deg = 30, upper_deg = 90 }").contains("expected limits around the value at"));
@@ -246,7 +253,8 @@ fn coordinates_that_contradict_themselves_are_rejected() {
     let error = refusal(&twice.replace("mass = 2\n", "mass = 2\nvelocity = [0, 0, 0]\n"));
     assert_eq!(
         error.to_string(),
-        "line 34, `joint[1].coordinate.rate`: found 1; expected no rate, as body \"upper\" has its own velocity (line 13). \
+        "line 34, `joint[1].coordinate.rate`: found 1; expected no rate, as body \"upper\" has its own velocity (line \
+         13). \
          hint: remove one of them"
     );
     let second = said("[joint.coordinate]", "[[joint.coordinate]]\n[[joint.coordinate]]");
@@ -269,7 +277,8 @@ fn functions_that_are_none_are_rejected() {
         |function: &str| said("limits = { lower_deg = -30, upper_deg = 90 }", &format!("drive_deg = {function}"));
     assert_eq!(
         drive("\"fast\""),
-        "line 33, `joint[1].coordinate.drive_deg`: found \"fast\"; expected a number, or one of { sine = … }, { ramp = … \
+        "line 33, `joint[1].coordinate.drive_deg`: found \"fast\"; expected a number, or one of { sine = … }, \
+         { ramp = … \
          }, { stops = … }, { points = … }, { motion = … }"
     );
     assert!(drive("{ sine = { amplitude = 1 } }").contains("drive_deg.sine.frequency_hz`: found no `frequency_hz`"));
@@ -333,7 +342,8 @@ fn closures_that_are_open_are_rejected() {
     let string = |text: &str| said("at = [0, 0.4, 0]", text);
     assert_eq!(
         string("on_first = [0, -0.2, 0]\non_second = [0, 0.5, 0]"),
-        "line 48, `closure[1].on_second`: found [0, 0.5, 0]; expected points that coincide at the start, within 1 mm; they are \
+        "line 48, `closure[1].on_second`: found [0, 0.5, 0]; expected points that coincide at the start, within 1 mm; \
+         they are \
          0.1000 m apart. hint: move the bodies, or set active = false and add the closure by an [[event]]"
     );
     parse(&GOOD.replace("at = [0, 0.4, 0]", "on_first = [0, -0.2, 0]\non_second = [0, 0.4, 0]"));
@@ -369,7 +379,8 @@ fn figures_and_pairs_that_make_no_sense_are_rejected() {
     let figure = |text: &str| said_with(&format!("[[figure]]\nname = \"walker\"\n{text}\n"));
     assert_eq!(
         figure(""),
-        "line 52, `figure[1].model`: found no `model`; expected the path of an .osim file, or `build` with a table, a mass \
+        "line 52, `figure[1].model`: found no `model`; expected the path of an .osim file, or `build` with a table, a \
+         mass \
          and a height"
     );
     assert!(figure("model = \"a.osim\"\ndrive = \"all\"").contains("`figure[1].motion`: found no `motion`"));
@@ -430,12 +441,14 @@ fn built_figures_that_make_no_sense_are_rejected() {
         (
             ANN,
             "[[figure.coordinate]]\nname = \"arm_flex_l\"\nfollow = { stiffness = 1 }",
-            "`figure[1].coordinate[1].follow`: found { stiffness = 1 }; expected no such key without a `walk` to follow",
+            "`figure[1].coordinate[1].follow`: found { stiffness = 1 }; expected no such key without a `walk` to \
+             follow",
         ),
         (
             ANN,
             "walk = {}\n[[figure.coordinate]]\nname = \"arm_flex_l\"\ndrive = 0\nfollow = { stiffness = 1 }",
-            "`figure[1].coordinate[1].follow`: found { stiffness = 1 }; expected no such key together with a drive or a motor",
+            "`figure[1].coordinate[1].follow`: found { stiffness = 1 }; expected no such key together with a drive or \
+             a motor",
         ),
         (
             ANN,

@@ -1,12 +1,13 @@
 //! A puppet whose motion obeys Newton's and Euler's laws for its supports: the feet, and a hand if it has one.
 //!
-//! The puppet is a trunk that does not rotate and two light feet that move independently. The trunk stays at a height h, so that its
-//! horizontal acceleration determines the line of action of the total force (Kajita's inverted pendulum):
+//! The puppet is a trunk that does not rotate and two light feet that move independently. The trunk stays at a height
+//! h, so that its horizontal acceleration determines the line of action of the total force (Kajita's inverted
+//! pendulum):
 //!
 //!   ẍ = g/h (x - p)        p = (1 - s) p_feet + s p_hand
 //!
-//! p_feet goes from heel to ball of the stance foot and in double support to the other one; the hand carries the share s. The path of
-//! the trunk is the solution that is at rest at the beginning and at the end.
+//! p_feet goes from heel to ball of the stance foot and in double support to the other one; the hand carries the share
+//! s. The path of the trunk is the solution that is at rest at the beginning and at the end.
 
 use ambulo::findings::Findings;
 use ambulo::kinematics::Trajectory;
@@ -51,7 +52,8 @@ fn model() -> Model {
         let axes = ["rx", "ry", "rz", "tx", "ty", "tz"];
         let coordinates: String = axes.iter().map(|a| format!("<Coordinate name=\"{name}_{a}\"/>")).collect();
         format!(
-            "<Body name=\"{name}\"><mass>{mass}</mass><mass_center>0 0 0</mass_center><inertia_xx>{inertia}</inertia_xx>\
+            "<Body name=\"{name}\"><mass>{mass}</mass><mass_center>0 0 \
+             0</mass_center><inertia_xx>{inertia}</inertia_xx>\
              <inertia_yy>{inertia}</inertia_yy><inertia_zz>{inertia}</inertia_zz><inertia_xy>0</inertia_xy>\
              <inertia_xz>0</inertia_xz><inertia_yz>0</inertia_yz><Joint><FreeJoint name=\"{name}_free\">\
              <parent_body>ground</parent_body>\
@@ -61,8 +63,10 @@ fn model() -> Model {
         )
     };
     let text = format!(
-        "<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"30000\">\n<Model name=\"puppet\">\n<gravity>0 -{GRAVITY} 0</gravity>\n\
-         <BodySet><objects>\n<Body name=\"ground\"><mass>0</mass></Body>\n{}{}{}</objects></BodySet>\n</Model>\n</OpenSimDocument>\n",
+        "<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"30000\">\n<Model name=\"puppet\">\n<gravity>0 -{GRAVITY} \
+         0</gravity>\n\
+         <BodySet><objects>\n<Body \
+         name=\"ground\"><mass>0</mass></Body>\n{}{}{}</objects></BodySet>\n</Model>\n</OpenSimDocument>\n",
         body("trunk", 70.0, 1.0),
         body("calcn_r", 0.1, 0.001),
         body("calcn_l", 0.1, 0.001)
@@ -87,7 +91,8 @@ fn end_s() -> f64 {
     lifts(Side::Left, STEPS - 1) + SWING_S + STILL_S
 }
 
-/// Position of a foot after a number of swings [m]: the last step of the right foot is half as long, so that both end side by side.
+/// Position of a foot after a number of swings [m]: the last step of the right foot is half as long, so that both end
+/// side by side.
 fn place(side: Side, swings: usize) -> Vec3 {
     let forward = match (side, swings) {
         (Side::Right, 0) | (Side::Left, 0) => 0.0,
@@ -151,7 +156,8 @@ fn pushed(t: f64) -> Vec3 {
     }
 }
 
-/// Path of the trunk for a path of the total force: (1 - h/g D²) x = p, by elimination in a band of three; at rest at both ends.
+/// Path of the trunk for a path of the total force: (1 - h/g D²) x = p, by elimination in a band of three; at rest at
+/// both ends.
 fn carried(whole: &[Vec3]) -> Vec<Vec3> {
     let off = -TRUNK_M / GRAVITY / (STEP_S * STEP_S);
     let count = whole.len();

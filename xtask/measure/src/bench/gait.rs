@@ -1,4 +1,5 @@
-//! Times synthetic walks: one cycle of joint curves, the consistent walk, and the simulation in the corrected and in the paper's mode.
+//! Times synthetic walks: one cycle of joint curves, the consistent walk, and the simulation in the corrected and in
+//! the paper's mode.
 
 use super::timing::{Timing, cpu_us};
 use super::{Row, table, verdict};
@@ -62,7 +63,8 @@ pub(super) fn bench() -> Result<Vec<Row>, String> {
     );
     let shares = [machines.whole.median / paper.median, machines.more() / paper.median];
     println!(
-        "state machines: {:.0} % of a step of the paper mode if they run in each step; {:.1} % more than closed curves, required {:.0} %: {}",
+        "state machines: {:.0} % of a step of the paper mode if they run in each step; {:.1} % more than closed \
+         curves, required {:.0} %: {}",
         100.0 * shares[0],
         100.0 * shares[1],
         100.0 * REQUIRED_OF_MACHINES,
@@ -77,7 +79,8 @@ fn free(human: &Human) -> Result<Walk, String> {
     Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).map_err(|e| e.to_string())
 }
 
-/// From the gait's name to the torques of a cycle, ground forces apart: every joint and the root, workspace included [ms].
+/// From the gait's name to the torques of a cycle, ground forces apart: every joint and the root, workspace included
+/// [ms].
 fn cycle(human: &Human) -> Result<Timing, String> {
     free(human)?;
     let count = human.model.coordinates().len();

@@ -1,10 +1,11 @@
 //! Marker fitting, timed and compared: `cargo xtask bench-markers [--write]`.
 //!
-//! Two recordings of the data folder are fitted, all common markers at weight 1. Ours is CPU time of the thread for the whole
-//! fit, divided by the frames; OpenSim's is CPU time of its process for `InverseKinematicsTool::run` over the same frames, as
-//! `ik_opensim.py` of the peers' scripts prints it, right after ours. Where `AMBULO_PEERS_ENV` names no folder with an `opensim`
-//! environment, only ours is printed. The same recordings are then damaged at random, with a seed: labels exchanged, markers lost and
-//! displaced for a while. With `--write` the table is written to docs/measured/BENCHMARKS_MARKERS.md.
+//! Two recordings of the data folder are fitted, all common markers at weight 1. Ours is CPU time of the thread for the
+//! whole fit, divided by the frames; OpenSim's is CPU time of its process for `InverseKinematicsTool::run` over the
+//! same frames, as `ik_opensim.py` of the peers' scripts prints it, right after ours. Where `AMBULO_PEERS_ENV` names no
+//! folder with an `opensim` environment, only ours is printed. The same recordings are then damaged at random, with a
+//! seed: labels exchanged, markers lost and displaced for a while. With `--write` the table is written to
+//! docs/measured/BENCHMARKS_MARKERS.md.
 
 use super::machine;
 use super::timing::{Timing, cpu_us};
@@ -80,7 +81,10 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     };
     let mut page =
         format!("# Marker fitting, timed\n\nOpenSim ran in the same run, right after ours.\n\n{}\n\n", machine());
-    page.push_str("| recording | mean marker RMS | OpenSim's | ours, CPU per frame | required | OpenSim, CPU per frame | ratio |\n|---|---|---|---|---|---|---|\n");
+    page.push_str(
+        "| recording | mean marker RMS | OpenSim's | ours, CPU per frame | required | OpenSim, CPU per frame \
+        | ratio |\n|---|---|---|---|---|---|---|\n",
+    );
     let mut damaged = String::new();
     let mut rows = 0;
     for case in &CASES {
@@ -93,7 +97,10 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         damaged.push_str(&damaged_rows(case, &folder)?);
         rows += 1;
     }
-    page.push_str("\n## Damaged recordings\n\nLabels are exchanged and markers lost for up to a quarter of the recording, and displaced by up to 0.4 m along each axis, at random.\n\n");
+    page.push_str(
+        "\n## Damaged recordings\n\nLabels are exchanged and markers lost for up to a quarter of the \
+        recording, and displaced by up to 0.4 m along each axis, at random.\n\n",
+    );
     page.push_str(
         "| recording | exchanges, gaps, displacements | ours, CPU per frame | required |\n|---|---|---|---|\n",
     );

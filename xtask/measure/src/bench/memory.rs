@@ -1,5 +1,5 @@
-//! Memory of the `ambulo` command for long recordings: bytes per frame, from two lengths of the same recording, which runs forwards and
-//! backwards until it is long enough.
+//! Memory of the `ambulo` command for long recordings: bytes per frame, from two lengths of the same recording, which
+//! runs forwards and backwards until it is long enough.
 //!
 //! The page of a recording draws 4,000 instants at most, so that its share vanishes in longer recordings than these.
 

@@ -1,12 +1,12 @@
-//! Times inverse dynamics, synthetic walks, predicted ground forces, the stages of an analysis and the `ambulo` command,
-//! and measures its memory: `cargo xtask bench`.
+//! Times inverse dynamics, synthetic walks, predicted ground forces, the stages of an analysis and the `ambulo`
+//! command, and measures its memory: `cargo xtask bench`.
 //!
-//! First, the torques of the reference human are compared with those of another engine, because the time of a wrong result is
-//! meaningless. If other engines are installed (see `peers`), they run right after ours, and the ratios are printed: between runs, times
-//! of the same program vary by up to 30 %, within a run by a few percent.
+//! First, the torques of the reference human are compared with those of another engine, because the time of a wrong
+//! result is meaningless. If other engines are installed (see `peers`), they run right after ours, and the ratios are
+//! printed: between runs, times of the same program vary by up to 30 %, within a run by a few percent.
 //!
-//! Times of our own code are CPU time of the thread, as in the peers' programs, so that other work on the machine does not count. The
-//! `ambulo` command is measured in wall time. Everything is also written to `target/bench.csv`.
+//! Times of our own code are CPU time of the thread, as in the peers' programs, so that other work on the machine does
+//! not count. The `ambulo` command is measured in wall time. Everything is also written to `target/bench.csv`.
 
 mod gait;
 pub(crate) mod human;

@@ -1,8 +1,8 @@
 //! Times the prediction of ground forces: from a trajectory, including the marker fit, and frame by frame.
 //!
-//! A synthetic walk needs no data; the recording with markers is that of `bench-markers`. No other engine installed here predicts ground
-//! forces, so there is no ratio. What a prediction holds in memory is counted by a test of the library
-//! (crates/ambulo/tests/allocation.rs).
+//! A synthetic walk needs no data; the recording with markers is that of `bench-markers`. No other engine installed
+//! here predicts ground forces, so there is no ratio. What a prediction holds in memory is counted by a test of the
+//! library (crates/ambulo/tests/allocation.rs).
 
 use super::timing::{Timing, cpu_us};
 use super::{Row, markers, table, verdict};
@@ -136,7 +136,8 @@ fn histogram<'f>(stream: &mut Stream, frames: &mut impl Iterator<Item = &'f Vec<
     times.sort_by(f64::total_cmp);
     let rank = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
     println!(
-        "\nCPU time of a push beyond the delay, {COUNTED} pushes of {} values: median {:.2} ms, 99th percentile {:.2} ms, longest {:.2} ms",
+        "\nCPU time of a push beyond the delay, {COUNTED} pushes of {} values: median {:.2} ms, 99th percentile {:.2} \
+         ms, longest {:.2} ms",
         stream.values(),
         rank(0.5),
         rank(0.99),

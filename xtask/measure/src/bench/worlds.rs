@@ -1,4 +1,5 @@
-//! The worlds that simulators are compared on: a standing human with twelve sole spheres, open chains, random trees, ladders.
+//! The worlds that simulators are compared on: a standing human with twelve sole spheres, open chains, random trees,
+//! ladders.
 //!
 //! The human is read from the peers' own file; chain and ladder are built as the peers' scripts build theirs (z up).
 
@@ -101,8 +102,8 @@ pub(crate) fn ladder(count: usize, loops: usize) -> World {
     world
 }
 
-/// The reference human of the peers' file: three hinges at one place become a ball joint, two a universal joint; springs and
-/// spheres as there.
+/// The reference human of the peers' file: three hinges at one place become a ball joint, two a universal joint;
+/// springs and spheres as there.
 pub(crate) fn human(xml: &str) -> Result<World, String> {
     let document = roxmltree::Document::parse(xml).map_err(|e| format!("the human's file: {e}"))?;
     let top =

@@ -1,7 +1,7 @@
 //! Laws of the ground forces: mean and harmonics of each curve, quadratics through three of the five speeds.
 //!
-//! Slow and fast walking are not used, so that consistent walks, which tend towards these forces, are validated at these speeds against
-//! independent curves.
+//! Slow and fast walking are not used, so that consistent walks, which tend towards these forces, are validated at
+//! these speeds against independent curves.
 
 use super::{polynomial, write};
 use crate::harmonics::harmonics;

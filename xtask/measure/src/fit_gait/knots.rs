@@ -1,8 +1,8 @@
 //! Laws of a joint's knots: found on each mean curve, fitted against speed.
 //!
-//! First, the time of each knot is located on every curve, and a quadratic of dimensionless speed is fitted to it. Angle, slope and
-//! curvature are then read from the curves at the times of that law, not at the located times, and fitted as well. An error of the time
-//! law therefore has little effect, because the knot is still on the curve.
+//! First, the time of each knot is located on every curve, and a quadratic of dimensionless speed is fitted to it.
+//! Angle, slope and curvature are then read from the curves at the times of that law, not at the located times, and
+//! fitted as well. An error of the time law therefore has little effect, because the knot is still on the curve.
 
 use super::polynomial;
 use super::recipe::{Mark, Recipe, Wanted};

@@ -1,8 +1,8 @@
 //! Fits the laws of joints and ground forces against speed to normative mean curves: `cargo xtask fit-gait`.
 //!
-//! Reads the tables of Schwartz, Rozumalski, Trost 2008 next to the workspace, writes `crates/ambulo-walk/data/gait/*.toml` with
-//! the errors of the fit in their headers, and prints the errors: of the laws, and of laws fitted without the speed at which
-//! they are compared.
+//! Reads the tables of Schwartz, Rozumalski, Trost 2008 next to the workspace, writes
+//! `crates/ambulo-walk/data/gait/*.toml` with the errors of the fit in their headers, and prints the errors: of the
+//! laws, and of laws fitted without the speed at which they are compared.
 
 mod errors;
 mod ground_forces;
@@ -29,11 +29,11 @@ use std::path::PathBuf;
 const FOLDER: &str = "crates/ambulo-walk/data/gait";
 /// All five speeds.
 const ALL: [usize; 5] = [0, 1, 2, 3, 4];
-/// Range to which the laws of the default style may be extrapolated: 0.4 and 2.2 m/s on a leg of 0.92 m are V* = 0.133 and
-/// 0.732.
+/// Range to which the laws of the default style may be extrapolated: 0.4 and 2.2 m/s on a leg of 0.92 m are V* = 0.133
+/// and 0.732.
 const CARRIED: [f64; 2] = [0.039, 0.04];
-/// The same for the linear laws of the paper's style: slower still, the line of the knee's stance peak falls under that of
-/// its stance minimum.
+/// The same for the linear laws of the paper's style: slower still, the line of the knee's stance peak falls under that
+/// of its stance minimum.
 const CARRIED_1997: [f64; 2] = [0.01, 0.04];
 
 const SOURCE: &str = "\
@@ -226,7 +226,8 @@ fn write_wave(text: &mut String, name: &str, curves: &Curves, form: Form, orders
 /// Errors of a style at each speed: of laws from all speeds, and from the other four.
 fn error_table(style: Style, tables: &[Curves]) -> Result<String, String> {
     let mut text = String::from(
-        "Error against the mean curves: RMS of the angle [deg] / its largest [deg] / RMS of the second derivative relative to its\n\
+        "Error against the mean curves: RMS of the angle [deg] / its largest [deg] / RMS of the second derivative \
+         relative to its\n\
          own; `without`: of laws fitted without this speed.\n\
          joint   V*      angle  largest  accel.   without: angle  largest  accel.\n",
     );

@@ -3,7 +3,8 @@
 use super::knots::KnotLaws;
 use std::fmt::Write;
 
-/// Height share of a bound of the paper's style that does not clear the ground: all local states change with step height.
+/// Height share of a bound of the paper's style that does not clear the ground: all local states change with step
+/// height.
 const LEAST_SHARE: f64 = 0.2;
 
 /// `[[joint.knot]]` tables.

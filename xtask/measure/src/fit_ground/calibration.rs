@@ -1,7 +1,8 @@
 //! Factors and floors of the standard deviations, so that a 90 % band contains 90 % of the measured samples.
 //!
-//! Samples of a stance are not independent, so every stance and every subject has the same weight: shares are means over stances, then over
-//! subjects. For each floor the factor follows from the share; of these pairs the one with the narrowest band is used.
+//! Samples of a stance are not independent, so every stance and every subject has the same weight: shares are means
+//! over stances, then over subjects. For each floor the factor follows from the share; of these pairs the one with the
+//! narrowest band is used.
 
 use super::cases::{Case, OF_CENTER_MISFIT, OF_MISFIT, OF_SIDEWAYS, Sample, StanceSamples, mean};
 use super::numbers::three_digits;
@@ -14,7 +15,8 @@ const BAND_90: f64 = 1.645;
 const HELD: f64 = 0.9;
 /// Floors that are tried, as shares of the RMSE.
 const FLOORS: [f64; 8] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9];
-/// Smallest and largest factor on the estimator's standard deviation: a band must still be wider where the motion is less informative.
+/// Smallest and largest factor on the estimator's standard deviation: a band must still be wider where the motion is
+/// less informative.
 const FACTORS: [f64; 2] = [0.3, 30.0];
 
 /// Coverage and width of a band for a subject, or for several.
@@ -39,7 +41,8 @@ pub(super) struct Judged {
 pub(super) type Fifths = [DeviationScaling; 5];
 
 impl Judged {
-    /// Straight walks of these subjects, each predicted with its own parameters and the deviations of the equations unchanged.
+    /// Straight walks of these subjects, each predicted with its own parameters and the deviations of the equations
+    /// unchanged.
     pub(super) fn new(cases: &[Case], subjects: &[&'static str], parameters: &[FittedParameters]) -> Judged {
         let own = |(subject, parameters): (&&'static str, &FittedParameters)| {
             let straight = cases.iter().filter(|case| case.subject == *subject && case.is_straight());
@@ -145,7 +148,8 @@ fn fitted(subjects: &[Vec<Vec<Sample>>]) -> DeviationScaling {
     sharpest.or_else(widest).map_or(DeviationScaling::UNSCALED, |(spread, _)| *spread)
 }
 
-/// The factor that gives the required share with a floor, by bisection on a logarithmic scale: the share grows with the factor.
+/// The factor that gives the required share with a floor, by bisection on a logarithmic scale: the share grows with the
+/// factor.
 fn factor(subjects: &[Vec<Vec<Sample>>], floor: f64) -> f64 {
     let [mut low, mut high] = FACTORS;
     for _ in 0..30 {

@@ -57,7 +57,8 @@ const OF_TRIAL_ALONE: DeviationCalibration = {
         of_sideways: OF_SIDEWAYS,
     }
 };
-/// Shares of a trial's misfit and of its sideways force in the deviation ([`DeviationCalibration`] states how they were chosen).
+/// Shares of a trial's misfit and of its sideways force in the deviation ([`DeviationCalibration`] states how they were
+/// chosen).
 pub(super) const OF_MISFIT: f64 = 0.5;
 pub(super) const OF_CENTER_MISFIT: f64 = 0.4;
 pub(super) const OF_SIDEWAYS: f64 = 0.1;
@@ -219,9 +220,10 @@ impl Case {
     }
 }
 
-/// Mean errors of the estimate with these parameters on some subjects: of the force forward and up with their change with the descent at the strike,
-/// from all walks with markers on the trunk; of the sideways force and of the centre of pressure along the way from the straight ones. The mean error of
-/// the centre of pressure across is not that of a subject or a laboratory left out.
+/// Mean errors of the estimate with these parameters on some subjects: of the force forward and up with their change
+/// with the descent at the strike, from all walks with markers on the trunk; of the sideways force and of the centre of
+/// pressure along the way from the straight ones. The mean error of the centre of pressure across is not that of a
+/// subject or a laboratory left out.
 pub(super) fn mean_errors(cases: &[Case], subjects: &[&str], parameters: &FittedParameters) -> ErrorsByDescent {
     let rounded = |curve: StanceCurve| StanceCurve(curve.0.map(|value| (1e5 * value).round() / 1e5));
     let all = error_samples(cases, subjects, parameters, |group| group != Group::NoTrunk);
@@ -292,8 +294,8 @@ pub(super) fn cost(cases: &[Case], subjects: &[&str], parameters: &FittedParamet
     sum / all().sum::<f64>()
 }
 
-/// Figures of a subject's straight walks, fast ones included: RMSE [% body weight], rRMSE [%] and r of upward, forward and sideways force, centre of
-/// pressure along and across [mm].
+/// Figures of a subject's straight walks, fast ones included: RMSE [% body weight], rRMSE [%] and r of upward, forward
+/// and sideways force, centre of pressure along and across [mm].
 pub(super) fn figures(cases: &[Case], subject: &str, parameters: &FittedParameters) -> [f64; 11] {
     let own: Vec<GroundAgreement> = cases
         .iter()

@@ -1,9 +1,10 @@
-//! Fits the parameters of the ground-force estimator: `cargo xtask fit-ground [--evaluations N] [--seed N] [--pull X] [--write]`.
+//! Fits the parameters of the ground-force estimator:
+//! `cargo xtask fit-ground [--evaluations N] [--seed N] [--pull X] [--write]`.
 //!
-//! Writes `crates/ambulo/data/ground/stance_curves.toml` from the normative tables and reports whether the file has changed. Fits
-//! `ambulo::ground::predict::FittedParameters` to the recordings with plates, on all subjects and leave-one-out, calibrates the standard
-//! deviations, and prints the results; with `--write` they go to docs/measured/GROUND_FIT.md. The parameters are printed as the `Default`
-//! to paste: this command changes no source.
+//! Writes `crates/ambulo/data/ground/stance_curves.toml` from the normative tables and reports whether the file has
+//! changed. Fits `ambulo::ground::predict::FittedParameters` to the recordings with plates, on all subjects and
+//! leave-one-out, calibrates the standard deviations, and prints the results; with `--write` they go to
+//! docs/measured/GROUND_FIT.md. The parameters are printed as the `Default` to paste: this command changes no source.
 
 mod calibration;
 mod cases;
@@ -20,7 +21,8 @@ use numbers::{NUMBERS, parameters, rounded};
 use std::fs;
 use std::time::Instant;
 
-/// Evaluations per fit: five minutes for all fits on one core. With 400 the cost of the fit falls by 0.5 %, that of people left out rises by 1 %.
+/// Evaluations per fit: five minutes for all fits on one core. With 400 the cost of the fit falls by 0.5 %, that of
+/// people left out rises by 1 %.
 const EVALUATIONS: usize = 150;
 /// Seed of the search.
 const SEED: u64 = 1;

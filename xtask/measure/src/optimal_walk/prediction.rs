@@ -73,8 +73,10 @@ fn power(found: &OptimalWalk, walk: &Walk) -> Result<f64, String> {
 pub(super) fn section(people: &[Vec<Band>; 5]) -> Result<String, String> {
     let human = full_body(&MAN).map_err(|e| e.to_string())?;
     Ok(format!(
-        "`ambulo walk --mode predict`: metabolic power, muscle moments relative to strength and rates of moments are minimised; no curve of people is a\n\
-         target (docs/OPTIMAL.md). The solver starts from the walk that follows people. Weights were set by hand on free walking of the main figure with\n\
+        "`ambulo walk --mode predict`: metabolic power, muscle moments relative to strength and rates of moments are \
+         minimised; no curve of people is a\n\
+         target (docs/OPTIMAL.md). The solver starts from the walk that follows people. Weights were set by hand on \
+         free walking of the main figure with\n\
          the first laboratory; then the others were looked at, and nothing was changed.\n\n{}\n{}\n{}\n{}",
         speeds(&human, people)?,
         transport(&human)?,
@@ -163,7 +165,8 @@ fn transport(human: &Human) -> Result<String, String> {
     let best = curve.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(f64::NAN, |(speed, _)| speed);
     let missed = if (0.85..=1.3).contains(&best) { "" } else { " **missed**" };
     Ok(format!(
-        "**Cost of transport**: (positive joint work / 0.25 + negative joint work / 1.2) per time + 1.4 W/kg, per distance, of predicted walks and of\n\
+        "**Cost of transport**: (positive joint work / 0.25 + negative joint work / 1.2) per time + 1.4 W/kg, per \
+         distance, of predicted walks and of\n\
          those that follow people. The smallest of these is at {best:.1} m/s (criterion: 0.85 to 1.3){missed}.\n\n{}",
         table.text()
     ))
@@ -189,7 +192,8 @@ fn cadences(human: &Human) -> Result<String, String> {
     let best = vertex(&costs);
     let missed = if (best - 1.0).abs() <= 0.1 { "" } else { " **missed**" };
     Ok(format!(
-        "**Cadence** at free speed: the parabola through the costs has its vertex at {best:.3} of people's cadence (criterion: 0.9 to 1.1){missed}.\n\n{}",
+        "**Cadence** at free speed: the parabola through the costs has its vertex at {best:.3} of people's cadence \
+         (criterion: 0.9 to 1.1){missed}.\n\n{}",
         table.text()
     ))
 }
@@ -248,7 +252,8 @@ fn conditions(human: &Human) -> Result<String, String> {
         table.row([name.to_owned(), hip, knee, ankle, format!("{:.2}", found.power), format!("{:.1}", found.seconds)]);
     }
     Ok(format!(
-        "**Conditions** at free speed: largest extension moments of the right leg per kilogram that moves, and metabolic power per kilogram of the body.\n\n{}",
+        "**Conditions** at free speed: largest extension moments of the right leg per kilogram that moves, and \
+         metabolic power per kilogram of the body.\n\n{}",
         table.text()
     ))
 }

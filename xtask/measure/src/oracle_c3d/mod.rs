@@ -1,8 +1,8 @@
 //! Compares our C3D reader with ezc3d, file by file: `cargo xtask oracle-c3d [FOLDER] [--env DIR]`.
 //!
 //! Reads every C3D file below the folder (without one: the recordings) with both and prints the largest differences of
-//! coordinates, samples and plate forces. ezc3d is a Python package; it does not read SGI files. Fails if numbers of points, frames or
-//! channels differ, if a number in both differs, or if we reject a file that ezc3d reads.
+//! coordinates, samples and plate forces. ezc3d is a Python package; it does not read SGI files. Fails if numbers of
+//! points, frames or channels differ, if a number in both differs, or if we reject a file that ezc3d reads.
 
 mod plates;
 

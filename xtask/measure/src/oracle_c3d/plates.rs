@@ -1,7 +1,7 @@
 //! Force plates compared with those of ezc3d: force and centre of pressure.
 //!
-//! ezc3d leaves offsets where they are, so ours are read without removing them. Where the file contains the force of the
-//! foot on the plate, ezc3d passes it on as it stands and we turn it.
+//! ezc3d leaves offsets where they are, so ours are read without removing them. Where the file contains the force of
+//! the foot on the plate, ezc3d passes it on as it stands and we turn it.
 
 use ambulo::findings::{Code, Findings};
 use ambulo::motion::{PlateRecording, PlateSettings, plates_from_c3d};

@@ -1,21 +1,21 @@
 //! A figure as a model of MuJoCo (MJCF).
 //!
-//! Bodies, masses, mass centres, inertias and joints are those of the [`Model`]. Every coordinate is a slide or a separate hinge, with the name
-//! and the sense of the coordinate. Slides come before hinges, because a slide of MuJoCo turns with the joints in front of it; the text
-//! `coordinates` lists the names in the order of the model. Every joint that is not of the root has a motor with the name of its coordinate.
-//! Spheres under the soles touch only the ground.
+//! Bodies, masses, mass centres, inertias and joints are those of the [`Model`]. Every coordinate is a slide or a
+//! separate hinge, with the name and the sense of the coordinate. Slides come before hinges, because a slide of MuJoCo
+//! turns with the joints in front of it; the text `coordinates` lists the names in the order of the model. Every joint
+//! that is not of the root has a motor with the name of its coordinate. Spheres under the soles touch only the ground.
 //!
-//! Contact is MuJoCo's own. With depth r, impedance d(r), its largest value D, and the inverse mass A of a body (`body_invweight0`), MuJoCo's static force
-//! and damping are
+//! Contact is MuJoCo's own. With depth r, impedance d(r), its largest value D, and the inverse mass A of a body
+//! (`body_invweight0`), MuJoCo's static force and damping are
 //!
 //!   F = d²/(1-d) s r / (D² A)        B = d/(1-d) b / (D A)
 //!
-//! with s and b of `solref`. [`IMPEDANCE`] is fitted so that F rises with depth as the force of the shoes of the plan does (`HuntCrossley`), and
-//! s and b are chosen so that F and B are those of the shoes at [`MATCHED_M`]. The attribute `user` of a sphere has s/A, b/A and its side: the program
-//! that reads the model knows A.
+//! with s and b of `solref`. [`IMPEDANCE`] is fitted so that F rises with depth as the force of the shoes of the plan
+//! does (`HuntCrossley`), and s and b are chosen so that F and B are those of the shoes at [`MATCHED_M`]. The attribute
+//! `user` of a sphere has s/A, b/A and its side: the program that reads the model knows A.
 //!
-//! Source: MuJoCo documentation, "Solver parameters" (unverified; the forces follow from a¹ + d (b v + k r) = (1-d) a⁰).
-//! Pinned by: the tests below; every run compares mass matrix and bias forces ([`Dynamics::difference`]).
+//! Source: MuJoCo documentation, "Solver parameters" (unverified; the forces follow from a¹ + d (b v + k r) = (1-d)
+//! a⁰). Pinned by: the tests below; every run compares mass matrix and bias forces ([`Dynamics::difference`]).
 
 use ambulo::contact::HuntCrossley;
 use ambulo::dynamics::{Workspace, inverse_frame};
@@ -25,7 +25,8 @@ use ambulo::model::{Body, BodyId, Displacement, Drive, Joint, JointAxis, Model, 
 use ambulo::spatial::Vec3;
 use std::fmt::Write as _;
 
-/// `solimp` of the spheres: smallest and largest impedance, depth of the largest [m], middle and power of the curve between.
+/// `solimp` of the spheres: smallest and largest impedance, depth of the largest [m], middle and power of the curve
+/// between.
 const IMPEDANCE: [f64; 5] = [0.326, 0.6, 0.03, 0.007, 4.3];
 /// Depth at which force and damping are those of the shoes [m]: that of a third of the weight on one sphere.
 const MATCHED_M: f64 = 0.01;
@@ -39,7 +40,8 @@ pub(super) fn mjcf(human: &Human, shoes: &HuntCrossley, step_s: f64) -> Result<S
     let names: Vec<&str> = model.coordinates().iter().map(|coordinate| coordinate.name.as_str()).collect();
     let mut text = format!(
         "<mujoco model=\"{}\">\n<compiler angle=\"radian\"/>\n\
-         <option timestep=\"{step_s}\" gravity=\"{gravity}\" integrator=\"implicitfast\" cone=\"elliptic\" impratio=\"{}\">\
+         <option timestep=\"{step_s}\" gravity=\"{gravity}\" integrator=\"implicitfast\" cone=\"elliptic\" \
+         impratio=\"{}\">\
          <flag autoreset=\"disable\"/></option>\n\
          <custom><text name=\"coordinates\" data=\"{}\"/></custom>\n<worldbody>\n\
          <geom name=\"ground\" type=\"plane\" size=\"0 0 1\" zaxis=\"0 1 0\" contype=\"0\" conaffinity=\"1\"/>\n",
@@ -56,7 +58,8 @@ pub(super) fn mjcf(human: &Human, shoes: &HuntCrossley, step_s: f64) -> Result<S
             let name = names[id.index()];
             let _ = writeln!(
                 text,
-                "<general name=\"{name}\" joint=\"{name}\" gaintype=\"fixed\" biastype=\"affine\" forcelimited=\"true\" forcerange=\"-1 1\"/>"
+                "<general name=\"{name}\" joint=\"{name}\" gaintype=\"fixed\" biastype=\"affine\" \
+                 forcelimited=\"true\" forcerange=\"-1 1\"/>"
             );
         }
     }
@@ -146,7 +149,8 @@ fn coordinate(model: &Model, joint: &Joint, axis: &JointAxis, kind: &str) -> Res
 fn sphere(sole: &ContactSphere, shoes: &HuntCrossley) -> String {
     let [stiffness, damping] = of_mass(shoes, sole.radius);
     format!(
-        "<geom name=\"{}\" type=\"sphere\" size=\"{}\" pos=\"{}\" mass=\"0\" contype=\"1\" conaffinity=\"0\" condim=\"3\" priority=\"1\" \
+        "<geom name=\"{}\" type=\"sphere\" size=\"{}\" pos=\"{}\" mass=\"0\" contype=\"1\" conaffinity=\"0\" \
+         condim=\"3\" priority=\"1\" \
          friction=\"{} 0 0\" solimp=\"{}\" user=\"{stiffness} {damping} {}\"/>\n",
         sole.name,
         sole.radius,

@@ -1,8 +1,9 @@
 //! Walks by own torques in MuJoCo: `cargo xtask physical-peers [--env DIR]`, `.. --write`.
 //!
-//! A planar figure and one in three dimensions, with their plans and the default controller, walk in our simulator and in MuJoCo: the
-//! figure is written as MJCF ([`figure`]), and the controller drives it step by step through pipes ([`mujoco`]). MuJoCo is not
-//! installed everywhere, so the outcomes are recorded ([`OUTCOMES`]), and `--write` makes the page docs/measured/PHYSICAL_PEERS.md from the record.
+//! A planar figure and one in three dimensions, with their plans and the default controller, walk in our simulator and
+//! in MuJoCo: the figure is written as MJCF ([`figure`]), and the controller drives it step by step through pipes
+//! ([`mujoco`]). MuJoCo is not installed everywhere, so the outcomes are recorded ([`OUTCOMES`]), and `--write` makes
+//! the page docs/measured/PHYSICAL_PEERS.md from the record.
 
 mod figure;
 mod mujoco;
@@ -209,7 +210,8 @@ fn our_walk(case: &Case, controller: &WalkController) -> Result<(Walked, f64), S
     Ok((log.walked(walk.controller()), times[PASSES / 2]))
 }
 
-/// Time that the controller takes for these states [s]. Both feet bear half the weight or so: the time does not depend on it.
+/// Time that the controller takes for these states [s]. Both feet bear half the weight or so: the time does not depend
+/// on it.
 fn acting_s(mut controller: WalkController, states: &[Vec<[f64; 2]>]) -> f64 {
     let clock = ThreadTime::now();
     for now in states {

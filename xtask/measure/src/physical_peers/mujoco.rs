@@ -108,7 +108,8 @@ impl MuJoCo {
     fn ended(&mut self) -> String {
         let status = self.child.wait().map_or_else(|e| e.to_string(), |status| status.to_string());
         format!(
-            "walk_mujoco.py ended early ({status}), see above\nhint: xtask/measure/peers/README.md says how to install MuJoCo"
+            "walk_mujoco.py ended early ({status}), see above\nhint: xtask/measure/peers/README.md says how to install \
+             MuJoCo"
         )
     }
 }

@@ -95,7 +95,8 @@ fn requirements(walks: &[Value]) -> Result<String, String> {
         ]);
     }
     Ok(format!(
-        "{}\nRatio: MuJoCo's time divided by ours, with its contact as the shoes. Above 1, ours is faster. With MuJoCo's default contact, the ratios are {}.\n\n",
+        "{}\nRatio: MuJoCo's time divided by ours, with its contact as the shoes. Above 1, ours is faster. With \
+         MuJoCo's default contact, the ratios are {}.\n\n",
         table.text(),
         by_default.join(" and ")
     ))
@@ -122,7 +123,8 @@ fn details(walks: &[Value]) -> Result<String, String> {
     let mut differences = walks.iter().filter_map(|walk| walk["mujoco"]["figure_difference"].as_f64());
     let apart = differences.try_fold(0.0_f64, |most, x| x.is_finite().then(|| most.max(x))).unwrap_or(f64::NAN);
     Ok(format!(
-        "## Walks\n\nA walk ends after {} steps, or with a fall. Mass matrix and bias forces of the figures in MuJoCo differ from ours by at most {apart:.0e} of the \
+        "## Walks\n\nA walk ends after {} steps, or with a fall. Mass matrix and bias forces of the figures in MuJoCo \
+         differ from ours by at most {apart:.0e} of the \
          largest entry.\n\n{}",
         super::STEPS,
         table.text()

@@ -1,4 +1,5 @@
-//! Draws the picture of docs/measured/PHYSICAL_WALK.md: what harmonics of the torques keep, and which pushes are survived.
+//! Draws the picture of docs/measured/PHYSICAL_WALK.md: what harmonics of the torques keep, and which pushes are
+//! survived.
 
 use super::{PHASES, Results};
 use ambulo_report::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};

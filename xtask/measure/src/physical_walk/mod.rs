@@ -1,7 +1,8 @@
 //! Figures that walk by their own torques: `cargo xtask physical-walk [--write]`.
 //!
-//! One man, his plan at free speed and the gains of that plan walk for a thousand steps, are pushed, and walk on uneven and on inclined ground, with
-//! another mass and other legs; then plans of other speeds and other figures. With `--write` the page goes to docs/measured/PHYSICAL_WALK.md and its picture to docs/images/physical_walk.svg.
+//! One man, his plan at free speed and the gains of that plan walk for a thousand steps, are pushed, and walk on uneven
+//! and on inclined ground, with another mass and other legs; then plans of other speeds and other figures. With
+//! `--write` the page goes to docs/measured/PHYSICAL_WALK.md and its picture to docs/images/physical_walk.svg.
 
 mod figure;
 mod page;
@@ -42,7 +43,8 @@ const RAMP_S: f64 = 20.0;
 const PUSHES: [f64; 10] = [50.0, -50.0, 100.0, -100.0, 150.0, -150.0, 200.0, -200.0, 250.0, -250.0];
 const PUSH_S: f64 = 0.2;
 const PHASES: usize = 10;
-/// Share of the distance between two of them at which the first one lies: between those that were looked at while settings were chosen.
+/// Share of the distance between two of them at which the first one lies: between those that were looked at while
+/// settings were chosen.
 const PHASE: f64 = 0.25;
 /// Mass for which pushes are given [kg]; they grow with mass.
 const PUSHED_KG: f64 = 75.0;
@@ -96,12 +98,14 @@ struct Results {
     slopes: Vec<(f64, Walked)>,
     /// What was changed, and the walk with the gains of the main figure.
     changed: Vec<(String, Walked)>,
-    /// A walk whose speed changes through all of [`SPEEDS`] and back: whether it fell, and mean speed while it was slowest, fastest, slowest [m/s].
+    /// A walk whose speed changes through all of [`SPEEDS`] and back: whether it fell, and mean speed while it was
+    /// slowest, fastest, slowest [m/s].
     changing: (bool, [f64; 3]),
     /// Speed of the plan [m/s], the walk, and how many of the pushes of 100 N forward and backward were survived.
     speeds: Vec<(f64, Walked, usize)>,
     others: Vec<(String, Walked, usize)>,
-    /// Number of harmonics, share of the variance of hip, knee and ankle torques that they keep, the walk, and pushes as above.
+    /// Number of harmonics, share of the variance of hip, knee and ankle torques that they keep, the walk, and pushes
+    /// as above.
     harmonics: Vec<OfHarmonics>,
     tuned: Tuned,
     /// Delay of feedback [s], the walk, and pushes as above.
@@ -325,7 +329,8 @@ fn pushed_both_ways(figure: &Figure, controller: &WalkController) -> Result<usiz
     Ok(pushes_survived(figure, controller, force)? + pushes_survived(figure, controller, -force)?)
 }
 
-/// How many pushes of a force at the trunk are survived for [`AFTER_PUSH`] steps, of those that begin at [`PHASES`] phases of the third cycle.
+/// How many pushes of a force at the trunk are survived for [`AFTER_PUSH`] steps, of those that begin at [`PHASES`]
+/// phases of the third cycle.
 fn pushes_survived(figure: &Figure, controller: &WalkController, force: Vec3) -> Result<usize, String> {
     let cycle_s = figure.plan.cycle_s();
     let trunk = figure.human.model.body("torso").map_or(0, |id| id.index());

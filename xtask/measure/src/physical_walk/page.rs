@@ -9,11 +9,18 @@ pub(super) fn text(results: &Results) -> String {
     let mut page = String::new();
     let _ = write!(
         page,
-        "# Walking under own torques\n\nMeasured by `cargo xtask physical-walk --write` on {}. A figure in the sagittal plane follows its corrected walk \
-         with the default controller (`simulation::control`, [PHYSICAL_WALK.md](../PHYSICAL_WALK.md)): a man of 75 kg and 1.75 m at {SPEED} m/s unless the row says \
-         otherwise; further down in three dimensions, along his optimal walk. Nothing but joints and ground acts on him. Torques are limited by the strength of muscles at the angle and the speed of the joint. Legs pass through each other.\n\n\
-         The settings were chosen by hand on pushes of this man at this speed, at other phases than those of this page, and in three dimensions one more (the cost of the place sideways) on pushes from eight sides at other phases. The rules \
-         for the phase, the level of the ground and the ankle were made while he was tried on slopes, on tiles and with other legs in the plane. Other speeds, figures \
+        "# Walking under own torques\n\nMeasured by `cargo xtask physical-walk --write` on {}. A figure in the \
+         sagittal plane follows its corrected walk \
+         with the default controller (`simulation::control`, [PHYSICAL_WALK.md](../PHYSICAL_WALK.md)): a man of 75 kg \
+         and 1.75 m at {SPEED} m/s unless the row says \
+         otherwise; further down in three dimensions, along his optimal walk. Nothing but joints and ground acts on \
+         him. Torques are limited by the strength of muscles at the angle and the speed of the joint. Legs pass \
+         through each other.\n\n\
+         The settings were chosen by hand on pushes of this man at this speed, at other phases than those of this \
+         page, and in three dimensions one more (the cost of the place sideways) on pushes from eight sides at other \
+         phases. The rules \
+         for the phase, the level of the ground and the ankle were made while he was tried on slopes, on tiles and \
+         with other legs in the plane. Other speeds, figures \
          and masses played no part.\n\n",
         results.machine
     );
@@ -26,7 +33,8 @@ pub(super) fn text(results: &Results) -> String {
     page += &results.placement.section();
     page += &in_three_dimensions(&results.spatial);
     page += &harmonics(results);
-    page += "\n![Harmonics of the torques, and pushes that are survived](../images/physical_walk.svg)\n\nLeft and middle: the table above. Right: the pushes of this page, with the usual and with the tuned gains.\n";
+    page += "\n![Harmonics of the torques, and pushes that are survived](../images/physical_walk.svg)\n\nLeft and \
+        middle: the table above. Right: the pushes of this page, with the usual and with the tuned gains.\n";
     page
 }
 
@@ -54,7 +62,8 @@ fn main_table(results: &Results) -> String {
     row(&what, ">= 90 % of 20", tiles);
     let (fell, [slow, fast, again]) = results.changing;
     let what = format!(
-        "one controller of all speeds of this page, {HOLD_S} s at 0.7, to 1.8 within {RAMP_S} s, {HOLD_S} s there, and back: mean speeds [m/s]"
+        "one controller of all speeds of this page, {HOLD_S} s at 0.7, to 1.8 within {RAMP_S} s, {HOLD_S} s there, and \
+         back: mean speeds [m/s]"
     );
     row(&what, "0.7, 1.8", format!("{}{slow:.2}, {fast:.2}, {again:.2}", if fell { "fell; " } else { "" }));
     for (slope, walked) in &results.slopes {
@@ -76,7 +85,8 @@ fn pushes(results: &Results) -> String {
         table.row([format!("{force:+.0}"), format!("{survived} of {PHASES}")]);
     }
     format!(
-        "## Pushes\n\nA force of {PUSH_S} s at the mass centre of the trunk, forward (+) or backward (-), at {PHASES} phases of the cycle; survived if {AFTER_PUSH} steps \
+        "## Pushes\n\nA force of {PUSH_S} s at the mass centre of the trunk, forward (+) or backward (-), at {PHASES} \
+         phases of the cycle; survived if {AFTER_PUSH} steps \
          follow. Asked: at least 90 % at 150 N.\n\n{}\n",
         table.text()
     )
@@ -95,7 +105,8 @@ fn others(results: &Results) -> String {
         row(name.clone(), walked, *survived);
     }
     format!(
-        "## Other speeds and figures\n\nEach with a plan and gains of its own. Pushes grow with mass; half of them are backward. Other figures walk at \
+        "## Other speeds and figures\n\nEach with a plan and gains of its own. Pushes grow with mass; half of them are \
+         backward. Other figures walk at \
          {SPEED} m/s times the root of their stature over that of the man.\n\n{}\n",
         table.text()
     )
@@ -120,7 +131,8 @@ fn tuned(tuned: &Tuned) -> String {
         row(&format!("in three dimensions, pushes of 60 N, {side}"), format!("{survived} of {PHASES}"));
     }
     format!(
-        "## Tuned gains\n\nThe same man with `ControlSettings::tuned_in_the_plane`, which `ambulo tune` found for a woman of 60 kg at 1.2 m/s.\n\n{}\n",
+        "## Tuned gains\n\nThe same man with `ControlSettings::tuned_in_the_plane`, which `ambulo tune` found for a \
+         woman of 60 kg at 1.2 m/s.\n\n{}\n",
         table.text()
     )
 }
@@ -136,7 +148,8 @@ fn delays(results: &Results) -> String {
         ]);
     }
     format!(
-        "## Feedback that acts later\n\nThe same man in the plane; feedback acts after a delay, for which it foresees the state by the linear system. Plan and impedance act at \
+        "## Feedback that acts later\n\nThe same man in the plane; feedback acts after a delay, for which it foresees \
+         the state by the linear system. Plan and impedance act at \
          once. Pushes forward and backward, survived for {AFTER_PUSH} steps.\n\n{}\n",
         table.text()
     )
@@ -157,7 +170,8 @@ fn harmonics(results: &Results) -> String {
         ]);
     }
     format!(
-        "## How many parameters a torque curve needs\n\nThe torques of the plan are replaced by their mean and their first harmonics over the cycle (2 n + 1 numbers \
+        "## How many parameters a torque curve needs\n\nThe torques of the plan are replaced by their mean and their \
+         first harmonics over the cycle (2 n + 1 numbers \
          per joint). Columns of joints: share of the variance that is kept.\n\n{}",
         table.text()
     )
@@ -205,7 +219,8 @@ fn in_three_dimensions(results: &spatial::Results) -> String {
         speeds.row([format!("{speed} m/s"), steps(walked), found, apart, format!("{survived} of {}", 4 * PHASES)]);
     }
     format!(
-        "## In three dimensions\n\nThe same man along his optimal walk; pushes as above. Forward is along x, right along z.\n\n{}\n\
+        "## In three dimensions\n\nThe same man along his optimal walk; pushes as above. Forward is along x, right \
+         along z.\n\n{}\n\
          At other speeds, each with a plan and gains of its own, pushed forward, backward, right and left:\n\n{}\n",
         table.text(),
         speeds.text()

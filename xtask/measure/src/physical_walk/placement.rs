@@ -64,9 +64,12 @@ impl Results {
             table.row([format!("{force:.0}"), format!("{survived} of {PHASES}")]);
         }
         format!(
-            "## Foot placement instead of feedback\n\nThe law of Yin, Loken, van de Panne 2007: the swing hip turns further with distance and velocity of the mass \
-             centre, and the stance hip keeps the pelvis upright, with the same plan, impedances and phase. Of {tried} sets of gains, {walked_on} walk {STEPS} steps in the plane. \
-             The best ({} rad/m, {} rad.s/m, trunk {} N.m/rad and {} N.m.s/rad) walks {} steps at {:.2} m/s, {:.2} deg from the plan (RMS). Pushes with these gains, survived for \
+            "## Foot placement instead of feedback\n\nThe law of Yin, Loken, van de Panne 2007: the swing hip turns \
+             further with distance and velocity of the mass \
+             centre, and the stance hip keeps the pelvis upright, with the same plan, impedances and phase. Of {tried} \
+             sets of gains, {walked_on} walk {STEPS} steps in the plane. \
+             The best ({} rad/m, {} rad.s/m, trunk {} N.m/rad and {} N.m.s/rad) walks {} steps at {:.2} m/s, {:.2} deg \
+             from the plan (RMS). Pushes with these gains, survived for \
              {AFTER_PUSH} steps:\n\n{}\n",
             best.distance,
             best.velocity,

@@ -46,7 +46,8 @@ pub(super) struct Results {
     /// Slope [%] and the walk.
     pub(super) slopes: Vec<(f64, Walked)>,
     pub(super) changed: Vec<(String, Walked)>,
-    /// Whether he fell while his speed changed through all of [`SPEEDS`] and back; mean speed while it was lowest, highest, lowest [m/s].
+    /// Whether he fell while his speed changed through all of [`SPEEDS`] and back; mean speed while it was lowest,
+    /// highest, lowest [m/s].
     pub(super) changing: (bool, [f64; 3]),
     /// Speed of the plan [m/s], the walk, and how many pushes of 100 N forward, backward, right and left were survived.
     pub(super) speeds: Vec<(f64, Walked, usize)>,

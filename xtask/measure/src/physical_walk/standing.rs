@@ -10,7 +10,8 @@ use ambulo::spatial::{Vec3, Wrench};
 use ambulo::study::validation::TextTable as Table;
 use cpu_time::ThreadTime;
 
-/// Time of walking before the figure is told to stop [s], longest time until it stands, time in which it comes to rest, and time of standing after it [s].
+/// Time of walking before the figure is told to stop [s], longest time until it stands, time in which it comes to rest,
+/// and time of standing after it [s].
 const WALKS_S: f64 = 3.0;
 const STOPS_S: f64 = 6.0;
 const RESTS_S: f64 = 2.0;
@@ -27,7 +28,8 @@ pub(super) struct Stands {
     speed: f64,
     /// CPU time of both movements, and of their gains [s].
     made_s: [f64; 2],
-    /// Time until it stood [s], distance that the pelvis moved in [`STANDS_S`] [m], and steps after walking off; none after a fall.
+    /// Time until it stood [s], distance that the pelvis moved in [`STANDS_S`] [m], and steps after walking off; none
+    /// after a fall.
     course: Option<(f64, f64, usize)>,
     /// Whether each of [`PUSHES`] was survived.
     survived: [bool; 4],
@@ -127,8 +129,10 @@ pub(super) fn section(all: &[Stands]) -> String {
     }
     let tried = PUSHES.map(|force| format!("{force:+}")).join(", ");
     format!(
-        "## Stopping, standing, walking off\n\nEach figure walks for {WALKS_S} s, is told to stop, stands, and is told to walk. How far it moves is measured {RESTS_S} s after it stands. Pushes act for \
-         {PUSH_S} s on the trunk, forward (+) or backward (-), and grow with mass; {tried} N were tried. A figure that stands does not step to keep its balance.\n\n{}\n",
+        "## Stopping, standing, walking off\n\nEach figure walks for {WALKS_S} s, is told to stop, stands, and is told \
+         to walk. How far it moves is measured {RESTS_S} s after it stands. Pushes act for \
+         {PUSH_S} s on the trunk, forward (+) or backward (-), and grow with mass; {tried} N were tried. A figure that \
+         stands does not step to keep its balance.\n\n{}\n",
         table.text()
     )
 }

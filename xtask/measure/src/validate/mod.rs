@@ -1,8 +1,8 @@
 //! Compares predicted with measured ground forces: `cargo xtask validate [--write]`.
 //!
-//! Every recording with plates next to the workspace is processed as by `ambulo forces --predict`: body, marker fit, 6 Hz filter,
-//! prediction. The tables are printed; `target/validation.json` has the same numbers; with `--write` the page goes to
-//! docs/measured/VALIDATION.md. A failed criterion is listed as missed and is not an error.
+//! Every recording with plates next to the workspace is processed as by `ambulo forces --predict`: body, marker fit, 6
+//! Hz filter, prediction. The tables are printed; `target/validation.json` has the same numbers; with `--write` the
+//! page goes to docs/measured/VALIDATION.md. A failed criterion is listed as missed and is not an error.
 
 mod page;
 mod personal;

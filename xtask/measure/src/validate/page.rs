@@ -22,9 +22,12 @@ pub(super) fn text(trials: &[Trial], calibrated: &[Calibrated], refitted: &[Refi
     let rule = trials.first().map_or("", |trial| trial.judged.rule);
     let head = format!(
         "# Predicted compared with measured ground forces\n\n\
-         Every recording with plates in the development data goes through the library as `ambulo forces --predict` takes it: \
-         events and everything else from motion alone, the motion low-passed at 6 Hz (order 3, both ways), the plates at 20 Hz \
-         (order 2, both ways). Rule in double support: {rule}. Failed criteria are listed as missed. The tables are those of \
+         Every recording with plates in the development data goes through the library as `ambulo forces --predict` \
+         takes it: \
+         events and everything else from motion alone, the motion low-passed at 6 Hz (order 3, both ways), the plates \
+         at 20 Hz \
+         (order 2, both ways). Rule in double support: {rule}. Failed criteria are listed as missed. The tables are \
+         those of \
          `ambulo validate`, which judges any folder of recordings.\n\n\
          {DEFINITIONS}\n\n\
          All but the runs took part in fitting the estimator: [GROUND_FIT.md](GROUND_FIT.md) has the figures of people \
@@ -175,8 +178,10 @@ fn budget(trials: &[Trial]) -> String {
         }
     }
     format!(
-        "{}\nMeans over subjects, over the part of the stances in which plates measured every foot: only there can every source \
-         be replaced. A known split is that of the vertical force; along the ground the rule divides, which bounds the forces fore-aft and lateral when everything \
+        "{}\nMeans over subjects, over the part of the stances in which plates measured every foot: only there can \
+         every source \
+         be replaced. A known split is that of the vertical force; along the ground the rule divides, which bounds the \
+         forces fore-aft and lateral when everything \
          else is known. Moments in N.m/kg; centres of pressure are force-weighted.\n",
         table.text()
     )

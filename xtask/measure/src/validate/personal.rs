@@ -108,7 +108,8 @@ pub(super) fn section(all: &[Calibrated]) -> String {
         row(head(), "change %", change, Some(0));
     }
     format!(
-        "{}\nOne trial calibrates (`ambulo calibrate`), another one of the same person is judged (`ambulo forces --person`). Means over pairs, then over people.\n",
+        "{}\nOne trial calibrates (`ambulo calibrate`), another one of the same person is judged (`ambulo forces \
+         --person`). Means over pairs, then over people.\n",
         table.text()
     )
 }

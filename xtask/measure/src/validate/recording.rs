@@ -91,8 +91,9 @@ const fn child(
     Person { subject, laboratory, folder, standing, mass: size[0], height: Some(size[1]), trials, grf: None }
 }
 
-/// Everybody with markers on the built-in body: label, file and kind of each trial. Left out are the turn of HC034A, in which the plates carry
-/// clearly less than the weight, and hamner-subject04-run3, which has no marker on knees and ankles (data/README.md).
+/// Everybody with markers on the built-in body: label, file and kind of each trial. Left out are the turn of HC034A, in
+/// which the plates carry clearly less than the weight, and hamner-subject04-run3, which has no marker on knees and
+/// ankles (data/README.md).
 const PEOPLE: [Person; 14] = [
     child(
         "HC032A",
@@ -289,8 +290,8 @@ pub(crate) fn all() -> Vec<Recording> {
 }
 
 impl Recording {
-    /// The prediction from its motion and its comparison with the plates, as `ambulo forces --predict` computes them. `prescribed` replaces
-    /// estimates by truths.
+    /// The prediction from its motion and its comparison with the plates, as `ambulo forces --predict` computes them.
+    /// `prescribed` replaces estimates by truths.
     pub(crate) fn predict(&self, source: &Source, prescribed: Prescribed) -> Result<Outcome, String> {
         predicted(source, PredictSettings { prescribed, ..PredictSettings::default() })
     }

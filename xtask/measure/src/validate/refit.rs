@@ -108,7 +108,8 @@ pub(super) fn section(all: &[Refitted]) -> String {
         }
     }
     format!(
-        "{}\nAngles that another program fitted, with slow random errors (0.3 to 1.5 Hz, rms) added to pelvis, hips, knees and ankles, so that loaded feet slide; \
+        "{}\nAngles that another program fitted, with slow random errors (0.3 to 1.5 Hz, rms) added to pelvis, hips, \
+         knees and ankles, so that loaded feet slide; \
          `ambulo forces --refit`. Means over draws and feet.\n",
         table.text()
     )

@@ -92,8 +92,10 @@ pub(super) fn section(all: &[&Tracked]) -> String {
         }
     }
     format!(
-        "{}\n{}\nTracking changes the motion until feet on soft ground supply all external forces ([OPTIMAL.md](../OPTIMAL.md)); the prediction is its \
-         start and one of its targets. Moments of both are compared with those of the recorded motion and the plates. The table of costs names \
+        "{}\n{}\nTracking changes the motion until feet on soft ground supply all external forces \
+         ([OPTIMAL.md](../OPTIMAL.md)); the prediction is its \
+         start and one of its targets. Moments of both are compared with those of the recorded motion and the plates. \
+         The table of costs names \
          the recordings that tracking cannot solve.\n",
         table.text(),
         costs(all)

@@ -1,4 +1,5 @@
-//! One recording: its prediction compared with measured forces, also with each source of error replaced by its measured value.
+//! One recording: its prediction compared with measured forces, also with each source of error replaced by its measured
+//! value.
 
 use super::recording::Recording;
 use super::tracking::Tracked;

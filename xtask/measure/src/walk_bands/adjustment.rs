@@ -17,7 +17,8 @@ pub(super) struct Adjustment {
     pub(super) largest: f64,
 }
 
-/// Coordinate, its name on the page, and whether its mean is removed because it has no meaning (start position, leg length).
+/// Coordinate, its name on the page, and whether its mean is removed because it has no meaning (start position, leg
+/// length).
 const COORDINATES: [(&str, &str, bool); 8] = [
     ("hip_flexion_r", "hip", false),
     ("knee_angle_r", "knee", false),

@@ -1,6 +1,7 @@
 //! Estimates the leg length of the subjects of the tables, which is not published, from the tables themselves.
 //!
-//! Power is moment times angular velocity, so the tables of moment M, angle θ (per cycle) and power P give the duration of a cycle,
+//! Power is moment times angular velocity, so the tables of moment M, angle θ (per cycle) and power P give the duration
+//! of a cycle,
 //!
 //! ```text
 //! P = M dθ/ds / T      T by least squares over the cycle's samples, s = t / T
@@ -8,9 +9,9 @@
 //!
 //! and with the tables' dimensionless step frequency f* = (2/T) √(L/g) the leg:  L = g (f* T / 2)².
 //!
-//! Means of products are not products of means, so the joints give different lengths. The lengths from the knee vary least over the speeds
-//! and are plausible for children; the ankle correlates better and gives the leg of an adult. The choice of the knee is a judgement, so the
-//! page shows all three and the results that depend on the choice.
+//! Means of products are not products of means, so the joints give different lengths. The lengths from the knee vary
+//! least over the speeds and are plausible for children; the ankle correlates better and gives the leg of an adult. The
+//! choice of the knee is a judgement, so the page shows all three and the results that depend on the choice.
 
 use crate::harmonics::{harmonics, value_slope_curvature};
 use crate::normative::{self, CADENCES, Curves, Sheet};
@@ -39,7 +40,8 @@ impl FromJoint {
     }
 }
 
-/// Names in the tables: power, angle, moment. Moments are extensor and plantarflexor positive, angles flexion and dorsiflexion.
+/// Names in the tables: power, angle, moment. Moments are extensor and plantarflexor positive, angles flexion and
+/// dorsiflexion.
 const JOINTS: [(&str, &str, &str); 3] = [
     ("Knee", "Knee Flex/Extension", "Knee Ext/Flexion"),
     ("Hip", "Hip Flex/Extension", "Hip Ext/Flexion"),

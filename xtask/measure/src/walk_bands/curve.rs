@@ -95,7 +95,8 @@ impl Quantity {
     }
 }
 
-/// The bands at five speeds for a leg of `leg_length`, children's moments times `leg_length` / theirs: equal moment / (m g L).
+/// The bands at five speeds for a leg of `leg_length`, children's moments times `leg_length` / theirs: equal moment /
+/// (m g L).
 pub(super) fn people(leg_length: f64, their_leg: f64) -> Result<[[Band; 8]; 5], String> {
     let mut people: [[Band; 8]; 5] = Default::default();
     for quantity in QUANTITIES {

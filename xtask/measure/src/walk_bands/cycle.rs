@@ -24,8 +24,8 @@ const FINE: usize = 1000;
 #[derive(Debug, Clone)]
 pub(super) struct Cycle {
     pub(super) walk: Pace,
-    /// The nine curves of the right foot's cycle, in the order of the tables and finer than they are; the last is the forward speed of
-    /// the centre of mass [m/s].
+    /// The nine curves of the right foot's cycle, in the order of the tables and finer than they are; the last is the
+    /// forward speed of the centre of mass [m/s].
     pub(super) curves: [Vec<f64>; 9],
     pub(super) peaks: Peaks,
     /// Mean force on both feet over the cycle [body weights]: up, forward.
@@ -159,8 +159,8 @@ fn curves(human: &Human, walk: &Walk, recording: &WalkRecording, last: &Last) ->
     };
     let force = |axis: usize| last.sampled(|row| recording.feet[0].force[row][axis] / weight);
     let trunk = Trunk::of(&human.model);
-    // Clinical hip flexion is counted from the pelvis, whose tilt in upright standing is no zero; a pelvis that is one with the trunk
-    // has the gait's tilt.
+    // Clinical hip flexion is counted from the pelvis, whose tilt in upright standing is no zero; a pelvis that is one
+    // with the trunk has the gait's tilt.
     let hip = |row: usize| match trunk {
         Trunk::WithPelvis => angle("hip_flexion_r", row) + walk.standing_tilt().to_degrees(),
         Trunk::OneBody => {

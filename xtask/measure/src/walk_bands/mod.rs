@@ -1,8 +1,9 @@
 //! Compares synthetic walks with normative bands: `cargo xtask walk-bands [--write]`.
 //!
 //! Walks of a figure at the five speeds of Schwartz, Rozumalski, Trost 2008 (equal V/√(gL)) are made consistent
-//! ([`ambulo::simulation::consistent_walk`]) and walked by the simulator on soft shoes; the last cycle is compared with the tables. A failed
-//! criterion is listed as missed and is no error. With `--write` the page goes to docs/measured/WALK_BANDS.md, its picture to docs/images.
+//! ([`ambulo::simulation::consistent_walk`]) and walked by the simulator on soft shoes; the last cycle is compared with
+//! the tables. A failed criterion is listed as missed and is no error. With `--write` the page goes to
+//! docs/measured/WALK_BANDS.md, its picture to docs/images.
 
 mod adjustment;
 pub(crate) mod child_leg;

@@ -64,7 +64,8 @@ pub(super) fn text(results: &Results) -> String {
     );
     let _ = write!(
         text,
-        "\n![Angles, moments and forces of free walking](../images/walk_bands_free.svg)\n\nGrey: mean +- 2 SD of people; black: their \
+        "\n![Angles, moments and forces of free walking](../images/walk_bands_free.svg)\n\nGrey: mean +- 2 SD of \
+         people; black: their \
          mean; blue: ours.\n"
     );
     let _ = write!(text, "\n## All five speeds\n\n{HELD_OUT}\n{}", speeds(results));
@@ -157,7 +158,8 @@ fn peaks(results: &Results) -> String {
         table.row([trend.what.to_owned(), a, b, c, d, e, format!("{:.3}", trend.r()), follows]);
     }
     format!(
-        "Peaks of people are those of their mean curves, moments for our leg. A peak follows where the five of ours correlate with \
+        "Peaks of people are those of their mean curves, moments for our leg. A peak follows where the five of ours \
+         correlate with \
          theirs by\nr >= {LEAST_R:.2} and change in the same direction from very slow to very fast.\n\n{}",
         table.text()
     )
@@ -180,7 +182,8 @@ fn adjusted(results: &Results) -> String {
     table.row(["simulated over CPU time".to_owned(), a, b, c, d, e]);
     format!(
         "{} numbers were adjusted, factors of splines of all coordinates, by the laws of motion and the deviations in \
-         `ConsistentWalkSettings`,\nanew for each walk. The gait has no height of the mid-hip and no toes: there the whole motion is the \
+         `ConsistentWalkSettings`,\nanew for each walk. The gait has no height of the mid-hip and no toes: there the \
+         whole motion is the \
          adjustment.\n\n{}",
         free.parameters,
         table.text()
@@ -216,7 +219,8 @@ fn others(results: &Results) -> String {
         }
     }
     format!(
-        "As above, each on its own leg. Vertical: first peak, least between, second peak; fore-aft: braking, propulsion; speed: peak to \
+        "As above, each on its own leg. Vertical: first peak, least between, second peak; fore-aft: braking, \
+         propulsion; speed: peak to \
          peak of the\ncentre of mass; trunk: torque that holds it, RMS and largest.\n\n{}",
         table.text()
     )
@@ -255,11 +259,16 @@ fn legs(results: &Results) -> String {
     }
     let [least, most] = legs[0].range();
     format!(
-        "The tables do not state it. Power = moment x angular velocity gives the duration T of a cycle by least squares, and the tables'\n\
-         dimensionless step frequency f* = (2/T) sqrt(L/g) then gives L = g (f* T / 2)^2. r: of power with moment x angular velocity.\n\n\
-         {}\nThe three joints do not agree. The **knee** is used: **L = {:.2} m**, {least:.2} to {most:.2} m over the speeds. Not because it \
-         correlates best\n(the ankle does, at every speed), but because its lengths vary least and are plausible for children (the tables give no age); hip and ankle \
-         give legs of grown-ups.\nThat is a judgement, and it scales every band of moments. Correlations do not depend on it; what does, \
+        "The tables do not state it. Power = moment x angular velocity gives the duration T of a cycle by least \
+         squares, and the tables'\n\
+         dimensionless step frequency f* = (2/T) sqrt(L/g) then gives L = g (f* T / 2)^2. r: of power with moment x \
+         angular velocity.\n\n\
+         {}\nThe three joints do not agree. The **knee** is used: **L = {:.2} m**, {least:.2} to {most:.2} m over the \
+         speeds. Not because it \
+         correlates best\n(the ankle does, at every speed), but because its lengths vary least and are plausible for \
+         children (the tables give no age); hip and ankle \
+         give legs of grown-ups.\nThat is a judgement, and it scales every band of moments. Correlations do not depend \
+         on it; what does, \
          at free speed:\n\n{}",
         table.text(),
         legs[0].mean(),

@@ -62,7 +62,8 @@ impl BorderedSystem {
     }
 }
 
-/// The solution of `inner` y = `rest`. Entries that leave their range are fixed at its limit, and the others are solved again.
+/// The solution of `inner` y = `rest`. Entries that leave their range are fixed at its limit, and the others are solved
+/// again.
 fn within(inner: &DMatrix<f64>, rest: &DVector<f64>, ranges: &[[f64; 2]]) -> Option<Vec<f64>> {
     let mut held: Vec<Option<f64>> = vec![None; ranges.len()];
     loop {

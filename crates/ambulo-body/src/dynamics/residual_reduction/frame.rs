@@ -5,8 +5,8 @@ use crate::dynamics::{BodyLoad, FrameForces, Roots, Workspace, inverse_frame};
 use crate::model::BodyId;
 use crate::spatial::{Mat3, Vec3, Wrench};
 
-/// Steps of the finite differences: values [rad or m], rates [1/s of that]. The relative truncation error is of their size;
-/// accelerations enter linearly, so any step is exact.
+/// Steps of the finite differences: values [rad or m], rates [1/s of that]. The relative truncation error is of their
+/// size; accelerations enter linearly, so any step is exact.
 const STEPS: [f64; 3] = [1e-6, 1e-4, 1.0];
 
 /// Residual and foot poses of a frame.
@@ -55,8 +55,8 @@ impl FrameEvaluator {
         }
     }
 
-    /// Derivatives by forward differences around `state`. Only the first `derivatives` of value, rate and acceleration are
-    /// varied: one outside the window, where the residual does not count.
+    /// Derivatives by forward differences around `state`. Only the first `derivatives` of value, rate and acceleration
+    /// are varied: one outside the window, where the residual does not count.
     pub(super) fn slopes(
         &self,
         workspace: &mut Workspace,

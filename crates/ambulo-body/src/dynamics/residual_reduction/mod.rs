@@ -1,15 +1,16 @@
 //! Residual reduction: the smallest change of a recorded motion, within its noise, with which it obeys Newton's laws.
 //!
-//! A recorded motion and the measured ground forces never agree exactly: a residual force and moment remain at the root, which
-//! nothing supplies. [`reduce_residuals`] adds a cubic spline δ(t) to every free coordinate, over the whole motion at once, so that
-//! values, rates and accelerations belong to one curve, and minimises
+//! A recorded motion and the measured ground forces never agree exactly: a residual force and moment remain at the
+//! root, which nothing supplies. [`reduce_residuals`] adds a cubic spline δ(t) to every free coordinate, over the whole
+//! motion at once, so that values, rates and accelerations belong to one curve, and minimises
 //!
 //!   Σ_window |F_root(q + δ)|² / σ_F² + |M_root(q + δ)|² / σ_M²                       Newton's and Euler's laws
 //!   + Σ_frames Σ_c (δ_c / σ_c)² + (δ̈_c / (σ_c ω²))²                                  noise of the motion
 //!   + Σ_frames Σ_feet |Δp|² / σ_p² + |Δθ|² / σ_θ²                                    feet stay where they were recorded
 //!
-//! by the Gauss-Newton method. Loads keep their place in the world. The body mass and the trunk's mass centre may be unknowns too:
-//! if they are wrong, a constant force or moment remains, which no motion of a walking person can explain.
+//! by the Gauss-Newton method. Loads keep their place in the world. The body mass and the trunk's mass centre may be
+//! unknowns too: if they are wrong, a constant force or moment remains, which no motion of a walking person can
+//! explain.
 //!
 //! | code                     | symbol   | unit        |
 //! | `tolerance_rad`, `_m`    | σ_c      | rad, m      |
@@ -17,15 +18,16 @@
 //! | `tolerance_foot_m`       | σ_p      | m           |
 //! | `residual_force_bw`      | σ_F / BW | -           |
 //!
-//! `ambulo_walk::optimal` is no substitute, although it also fits splines by least squares. There the ground force is a function of posture and motion,
-//! the masses are known, the forces at the root must vanish, and joints must consist of hinges and slides. Here the loads are measured, mass and
-//! trunk may be wrong, the residual keeps what noise cannot explain, and models of recordings have ball-like joints too.
+//! `ambulo_walk::optimal` is no substitute, although it also fits splines by least squares. There the ground force is a
+//! function of posture and motion, the masses are known, the forces at the root must vanish, and joints must consist of
+//! hinges and slides. Here the loads are measured, mass and trunk may be wrong, the residual keeps what noise cannot
+//! explain, and models of recordings have ball-like joints too.
 //!
-//! Sources: least squares as in Remy and Thelen 2009, J Biomech Eng 131:031005 (unverified), there on accelerations, here on
-//! splines; adjustment of the trunk's mass centre as in OpenSim's residual reduction (Delp et al. 2007, IEEE Trans Biomed Eng
-//! 54:1940, unverified). The equations are derived here; see docs/CONSISTENCY.md.
-//! Cost: with n coordinates, 3 n + 1 inverse dynamics and about 15 n³ multiplications per frame and iteration; linear in frames.
-//! Memory: 24 n² bytes per frame (32 n² per knot above 100 frames per second).
+//! Sources: least squares as in Remy and Thelen 2009, J Biomech Eng 131:031005 (unverified), there on accelerations,
+//! here on splines; adjustment of the trunk's mass centre as in OpenSim's residual reduction (Delp et al. 2007, IEEE
+//! Trans Biomed Eng 54:1940, unverified). The equations are derived here; see docs/CONSISTENCY.md.
+//! Cost: with n coordinates, 3 n + 1 inverse dynamics and about 15 n³ multiplications per frame and iteration; linear
+//! in frames. Memory: 24 n² bytes per frame (32 n² per knot above 100 frames per second).
 //! Not handled: forces as unknowns; contacts that move with the feet.
 //! Pinned by: tests/residual_reduction.rs, tests/residual_reduction_synthetic.rs
 
@@ -224,7 +226,9 @@ fn report(reduced: &ReducedMotion, findings: &mut Findings) {
     let after = reduced.residual_after;
     if reduced.residual_before.force_peak_bw > INCOMPLETE_LOADS {
         let message = format!(
-            "the residual force before residual reduction was up to {:.0} % of body weight between {:.3} and {:.3} s: a foot may have been off the force plates, and the motion was distorted to make up for it. hint: choose a time window in which all ground forces are measured",
+            "the residual force before residual reduction was up to {:.0} % of body weight between {:.3} and {:.3} s: \
+             a foot may have been off the force plates, and the motion was distorted to make up for it. hint: choose a \
+             time window in which all ground forces are measured",
             100.0 * reduced.residual_before.force_peak_bw,
             reduced.window_s[0],
             reduced.window_s[1]
@@ -233,7 +237,8 @@ fn report(reduced: &ReducedMotion, findings: &mut Findings) {
     }
     if !reduced.obeys(SMALL_RESIDUAL) {
         let message = format!(
-            "residual reduction within the tolerances leaves {:.1} % of body weight and {:.1} N.m (RMS) at the root. hint: check the body mass and whether all forces were measured, or widen the tolerances",
+            "residual reduction within the tolerances leaves {:.1} % of body weight and {:.1} N.m (RMS) at the root. \
+             hint: check the body mass and whether all forces were measured, or widen the tolerances",
             100.0 * after.force_rms_bw,
             after.moment_rms_nm
         );
@@ -245,7 +250,8 @@ fn report(reduced: &ReducedMotion, findings: &mut Findings) {
         let largest = reduced.changes.iter().filter(|c| c.unit == unit).max_by(|a, b| a.max.total_cmp(&b.max));
         if let Some(change) = largest.filter(|change| change.max > limit) {
             let message = format!(
-                "residual reduction changed `{}` by up to {:.1} {shown}, more than the usual error of a recorded motion ({:.0} {shown}). hint: check the body mass, the model and the forces",
+                "residual reduction changed `{}` by up to {:.1} {shown}, more than the usual error of a recorded \
+                 motion ({:.0} {shown}). hint: check the body mass, the model and the forces",
                 change.name,
                 scale * change.max,
                 scale * limit

@@ -77,8 +77,9 @@ impl ReductionProblem<'_> {
         [-most - at, most - at]
     }
 
-    /// Weight of a parameter of the body. Errors of a motion hardly vary along a trial (skin, marker placement, lengths), and a wrong
-    /// parameter acts in every frame: it costs as much as a constant offset of a coordinate throughout the window.
+    /// Weight of a parameter of the body. Errors of a motion hardly vary along a trial (skin, marker placement,
+    /// lengths), and a wrong parameter acts in every frame: it costs as much as a constant offset of a coordinate
+    /// throughout the window.
     fn trust(&self, number: usize) -> f64 {
         self.region.window.len() as f64 * self.body.tolerance_and_most(number)[0].powi(-2)
     }

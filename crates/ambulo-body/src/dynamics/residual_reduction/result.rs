@@ -82,8 +82,8 @@ pub struct BodyChange {
 }
 
 impl ReducedMotion {
-    /// Whether the RMS residual force is below this share of body weight, and the RMS residual moment below this share of body
-    /// weight times 1 m.
+    /// Whether the RMS residual force is below this share of body weight, and the RMS residual moment below this share
+    /// of body weight times 1 m.
     #[must_use]
     pub fn obeys(&self, share: f64) -> bool {
         let weight = self.model.mass() * self.model.gravity().norm();

@@ -7,8 +7,8 @@ use crate::motion::Window;
 /// Settings of [`reduce_residuals`](super::reduce_residuals). Tolerances are standard deviations of the motion's noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResidualReductionSettings {
-    /// The instrumented window: every foot on the ground is on a force plate, or the forces are predicted. Outside this window
-    /// Newton's laws are not enforced, and the correction fades.
+    /// The instrumented window: every foot on the ground is on a force plate, or the forces are predicted. Outside this
+    /// window Newton's laws are not enforced, and the correction fades.
     pub within: Window,
     /// Noise of angles, and of the orientation of a foot [rad].
     pub tolerance_rad: f64,
@@ -16,12 +16,13 @@ pub struct ResidualReductionSettings {
     pub tolerance_m: f64,
     /// Noise of the mass centre of a body that carries a load [m]. It is small because feet are tracked well.
     pub tolerance_foot_m: f64,
-    /// Bandwidth f of the noise [Hz]: the noise of an acceleration is that of the value times (2π f)², so faster corrections cost
-    /// more.
+    /// Bandwidth f of the noise [Hz]: the noise of an acceleration is that of the value times (2π f)², so faster
+    /// corrections cost more.
     pub bandwidth_hz: f64,
     /// Residual force that may remain at the root [body weights]: the accuracy of force plates.
     pub residual_force_bw: f64,
-    /// Residual moment that may remain about the root joint [body weights times metres]: the accuracy of centres of pressure [m].
+    /// Residual moment that may remain about the root joint [body weights times metres]: the accuracy of centres of
+    /// pressure [m].
     pub residual_moment_bw_m: f64,
     /// Also adjusts the body mass: standard deviation [`MASS_TOLERANCE`], at most [`MOST_MASS_SHARE`].
     pub adjust_mass: bool,
@@ -36,7 +37,8 @@ pub struct ResidualReductionSettings {
 pub const MASS_TOLERANCE: f64 = 0.02;
 /// Largest change of the body mass, as a share of it.
 pub const MOST_MASS_SHARE: f64 = 0.05;
-/// Standard deviation of the trunk's mass centre along each axis [m]: about the difference between tables of body segments.
+/// Standard deviation of the trunk's mass centre along each axis [m]: about the difference between tables of body
+/// segments.
 pub const CENTER_TOLERANCE_M: f64 = 0.020;
 /// Largest change of the trunk's mass centre along each axis [m].
 pub const MOST_CENTER_M: f64 = 0.030;
@@ -79,7 +81,8 @@ impl ResidualReductionSettings {
 pub enum ResidualReductionError {
     /// No loads.
     #[error(
-        "no loads were given; expected the ground reaction force on each foot. hint: measure it, or predict it from the motion"
+        "no loads were given; expected the ground reaction force on each foot. hint: measure it, or predict it from \
+         the motion"
     )]
     NoLoads,
     /// The number of entries of a load differs from the number of frames.
@@ -94,7 +97,8 @@ pub enum ResidualReductionError {
     },
     /// A load that is not finite inside the window.
     #[error(
-        "the load on `{body}` is not a finite number at {time_s:.3} s. hint: choose a window in which all forces are known"
+        "the load on `{body}` is not a finite number at {time_s:.3} s. hint: choose a window in which all forces are \
+         known"
     )]
     LoadNotFinite {
         /// Name of the body.
@@ -104,7 +108,8 @@ pub enum ResidualReductionError {
     },
     /// The window has too few frames.
     #[error(
-        "the window {from_s:.3} to {to_s:.3} s holds {found} frames of the motion; expected at least {expected}. hint: choose a longer window"
+        "the window {from_s:.3} to {to_s:.3} s holds {found} frames of the motion; expected at least {expected}. hint: \
+         choose a longer window"
     )]
     TooShort {
         /// Start of the window [s].
@@ -118,7 +123,8 @@ pub enum ResidualReductionError {
     },
     /// The window would need too much memory.
     #[error(
-        "{frames} frames need {found_mb:.0} MB of memory; expected at most {most_mb:.0} MB. hint: choose a shorter window"
+        "{frames} frames need {found_mb:.0} MB of memory; expected at most {most_mb:.0} MB. hint: choose a shorter \
+         window"
     )]
     TooLong {
         /// Number of frames.

@@ -11,8 +11,8 @@ use std::ops::Range;
 const KNOT_STEP_S: f64 = 0.010;
 /// Time on each side of the window in which the correction fades [s].
 const FADING_S: f64 = 0.5;
-/// Bandwidth of corrections outside the window [Hz]: a correction at the edge fades within 0.1 to 0.2 s, so that it hardly adds to
-/// accelerations.
+/// Bandwidth of corrections outside the window [Hz]: a correction at the edge fades within 0.1 to 0.2 s, so that it
+/// hardly adds to accelerations.
 const FADING_HZ: f64 = 1.5;
 /// Minimum number of frames in the window.
 const FEWEST_FRAMES: usize = 8;

@@ -198,7 +198,8 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
     let mut locked = Vec::new();
     if parts.pelvis.is_line {
         assumptions.push(
-            "only the hip centres of the pelvis are known, which do not determine its tilt; it is that of the line from hips to shoulders, or upright"
+            "only the hip centres of the pelvis are known, which do not determine its tilt; it is that of the line \
+             from hips to shoulders, or upright"
                 .to_owned(),
         );
         locked = vec!["lumbar_extension".to_owned()];

@@ -8,7 +8,8 @@ use crate::model::anthropometry::BuildError;
 pub enum CalibrationError {
     /// Required markers are missing.
     #[error(
-        "the {part} cannot be found: {needed} are needed; found {found}. hint: docs/MARKERS.md lists the markers that a body needs; a standing trial often has markers that the walk lacks"
+        "the {part} cannot be found: {needed} are needed; found {found}. hint: docs/MARKERS.md lists the markers that \
+         a body needs; a standing trial often has markers that the walk lacks"
     )]
     Markers {
         /// The part of the body.
@@ -20,7 +21,8 @@ pub enum CalibrationError {
     },
     /// The markers exist but are not visible together in enough frames.
     #[error(
-        "the markers of the {part} are visible together in {seen} of {frames} frames; expected at least {expected}. hint: use another trial, or fill the gaps"
+        "the markers of the {part} are visible together in {seen} of {frames} frames; expected at least {expected}. \
+         hint: use another trial, or fill the gaps"
     )]
     Unseen {
         /// The part of the body.

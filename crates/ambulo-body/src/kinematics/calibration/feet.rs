@@ -22,7 +22,8 @@ const LEAST_FRAMES: usize = 3;
 const MARKER_HEIGHTS: [f64; 2] = [0.0, 0.1];
 /// Usual heights of ankles, relative to that of the segment table for a foot of this size.
 const ANKLE_HEIGHTS: [f64; 2] = [0.6, 1.4];
-/// Usual tibial torsions [deg]: means in adults are 20 to 25 outwards, with a standard deviation of about 10 (unverified).
+/// Usual tibial torsions [deg]: means in adults are 20 to 25 outwards, with a standard deviation of about 10
+/// (unverified).
 const TORSIONS_DEG: [f64; 2] = [-10.0, 40.0];
 /// Plausible scale factors of feet.
 const FACTORS: [f64; 2] = [0.6, 1.6];
@@ -31,8 +32,8 @@ const FACTORS: [f64; 2] = [0.6, 1.6];
 const LENGTH_ERROR: f64 = 0.05;
 /// The same for the length between keypoints: each is 20 mm off on a foot of 0.25 m.
 const KEYPOINT_LENGTH_ERROR: f64 = 0.12;
-/// Share of the distance between ankle and foot, by keypoints, that exceeds the usual one and is believed: both ends together are 14 mm off, people
-/// differ by 10 mm.
+/// Share of the distance between ankle and foot, by keypoints, that exceeds the usual one and is believed: both ends
+/// together are 14 mm off, people differ by 10 mm.
 const KEYPOINT_SHIFT: f64 = 0.33;
 
 /// Both feet, right first.
@@ -184,7 +185,8 @@ impl Finder<'_> {
         let usual = self.dimensions.ankle_height * factor;
         if !(ANKLE_HEIGHTS[0]..=ANKLE_HEIGHTS[1]).contains(&(ankle_height / usual)) {
             assumptions.push(format!(
-                "the {side} ankle is {:.0} mm above y = 0; {:.0} mm is usual for a foot of this length: shoes, or the ground is at another height",
+                "the {side} ankle is {:.0} mm above y = 0; {:.0} mm is usual for a foot of this length: shoes, or the \
+                 ground is at another height",
                 1e3 * ankle_height,
                 1e3 * usual
             ));
@@ -208,12 +210,14 @@ impl Finder<'_> {
         Foot { poses, factor, placement, tibia_from_joint, joint_from_foot }
     }
 
-    /// Scale factor of a foot whose length between keypoints is `measured` times the usual one: the mean of both, weighted by their errors.
+    /// Scale factor of a foot whose length between keypoints is `measured` times the usual one: the mean of both,
+    /// weighted by their errors.
     fn by_stature(&self, measured: f64, side: Side, assumptions: &mut Vec<String>) -> f64 {
         let [seen, usual] = [KEYPOINT_LENGTH_ERROR, LENGTH_ERROR].map(|error: f64| error.powi(-2));
         if (measured - 1.0).abs() > 2.0 * KEYPOINT_LENGTH_ERROR {
             assumptions.push(format!(
-                "the {side} foot is {measured:.2} times as long between the points of heel and toe as is usual at this stature; the sole follows the stature"
+                "the {side} foot is {measured:.2} times as long between the points of heel and toe as is usual at this \
+                 stature; the sole follows the stature"
             ));
         }
         (seen * measured + usual) / (seen + usual)
@@ -259,9 +263,9 @@ fn heading(ends: &Ends) -> Mat3 {
     about_y(angle(ends.front - ends.rear) - angle(ends.table_front - ends.table_rear))
 }
 
-/// Axes of the ankle joint in the shank: y along the shank, z along the part of the line of the malleoli perpendicular to y. The line
-/// itself is 6 to 10 degrees off the perpendicular, as much by marker placement as by the axis of the joint. Uses the frames in which
-/// the foot is flat, or all frames if there is none.
+/// Axes of the ankle joint in the shank: y along the shank, z along the part of the line of the malleoli perpendicular
+/// to y. The line itself is 6 to 10 degrees off the perpendicular, as much by marker placement as by the axis of the
+/// joint. Uses the frames in which the foot is flat, or all frames if there is none.
 fn ankle_axes(leg: &Leg, poses: &[Option<Pose>]) -> Mat3 {
     let axis = |all: bool| {
         let both = leg.frames.iter().zip(poses).filter(|(_, pose)| all || pose.is_some());
@@ -280,7 +284,8 @@ fn report_unusual_torsion(tibia_from_joint: &Mat3, side: Side, assumptions: &mut
     let outwards = atan2(-axis.x * out, axis.z).to_degrees();
     if !(TORSIONS_DEG[0]..=TORSIONS_DEG[1]).contains(&outwards) {
         assumptions.push(format!(
-            "the {side} ankle axis is rotated outwards by {outwards:.0} degrees relative to the knee axis (usual: 10 to 30): a wand or a knee marker may be misplaced, which affects the moments about these axes"
+            "the {side} ankle axis is rotated outwards by {outwards:.0} degrees relative to the knee axis (usual: 10 \
+             to 30): a wand or a knee marker may be misplaced, which affects the moments about these axes"
         ));
     }
 }

@@ -20,7 +20,8 @@ const ANKLE_BREADTH: f64 = 0.040;
 const LENGTHS: [f64; 2] = [0.08, 0.75];
 /// A knee flexed more than this [rad] shows its plane of flexion.
 const BENT: f64 = 0.35;
-/// Varus is measured where the knee is flexed less than this [rad]: at larger angles an error of the axis appears as varus.
+/// Varus is measured where the knee is flexed less than this [rad]: at larger angles an error of the axis appears as
+/// varus.
 const NEARLY_STRAIGHT: f64 = 0.5;
 /// Smallest number of frames in which a leg is visible.
 const LEAST_FRAMES: usize = 3;
@@ -181,7 +182,8 @@ impl Finder<'_> {
         let (side, name) = (self.side, joint.name);
         if !is_measured {
             assumptions.push(format!(
-                "the {side} {name} is assumed {:.0} mm wide, a share of stature: it has no medial marker and no measured width",
+                "the {side} {name} is assumed {:.0} mm wide, a share of stature: it has no medial marker and no \
+                 measured width",
                 1e3 * breadth
             ));
         }
@@ -245,8 +247,9 @@ impl Finder<'_> {
     }
 }
 
-/// Centre of a hinge at half the width from a lateral marker: perpendicular to the line to the upper joint, in the plane of upper
-/// joint, marker and wand, on the side of the line from joint to marker opposite to the wand (the chord of Plug-in-Gait).
+/// Centre of a hinge at half the width from a lateral marker: perpendicular to the line to the upper joint, in the
+/// plane of upper joint, marker and wand, on the side of the line from joint to marker opposite to the wand (the chord
+/// of Plug-in-Gait).
 pub fn chord(upper: Vec3, lateral: Vec3, wand: Vec3, half: f64) -> Option<Vec3> {
     let length = (upper - lateral).norm();
     let along = direction(upper - lateral)?;

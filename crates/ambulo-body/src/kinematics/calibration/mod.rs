@@ -1,7 +1,9 @@
-//! Calibrates the built-in body to a person: joint centres, segment frames, lengths, and marker positions from recorded markers.
+//! Calibrates the built-in body to a person: joint centres, segment frames, lengths, and marker positions from recorded
+//! markers.
 //!
-//! From a standing trial, or from the walk itself. In every frame the visible landmarks give joint centres and segment axes;
-//! medians over the frames give lengths, marker positions on their segments, and the constant parts of the joints.
+//! From a standing trial, or from the walk itself. In every frame the visible landmarks give joint centres and segment
+//! axes; medians over the frames give lengths, marker positions on their segments, and the constant parts of the
+//! joints.
 //!
 //! | part | method |
 //! |---|---|
@@ -14,16 +16,16 @@
 //! | trunk | usual positions of the landmarks fitted to the visible ones, then y from the lumbar joint to the shoulders |
 //! | arm | elbow half its width inside the lateral marker, along the normal of the plane of shoulder, elbow and wrist |
 //!
-//! The hinge of the knee rotates about z of the thigh; the other rotation of the shank (varus) is a constant part of the
-//! joint. The hinge of the ankle lies along the line of the malleoli and includes the tibial torsion; the other rotations of the flat
-//! foot are constant too. In its default posture the model therefore stands as the person stood.
+//! The hinge of the knee rotates about z of the thigh; the other rotation of the shank (varus) is a constant part of
+//! the joint. The hinge of the ankle lies along the line of the malleoli and includes the tibial torsion; the other
+//! rotations of the flat foot are constant too. In its default posture the model therefore stands as the person stood.
 //!
-//! On a walk the marker positions are then refined with the joints by least squares (`refinement`): a knee that only flexes shows the
-//! direction of its axis, independent of wand and epicondyle.
+//! On a walk the marker positions are then refined with the joints by least squares (`refinement`): a knee that only
+//! flexes shows the direction of its axis, independent of wand and epicondyle.
 //!
-//! Sources: Harrington, Zavatsky, Lawson, Yuan, Theologis 2007, J Biomech 40:595 (unverified except the numbers); Kadaba 1990 and Davis
-//! 1991 for the construction with wands, as in Plug-in-Gait (unverified). Tilt of the standing pelvis: see
-//! [`STANDING_TILT`](crate::model::full_body::STANDING_TILT).
+//! Sources: Harrington, Zavatsky, Lawson, Yuan, Theologis 2007, J Biomech 40:595 (unverified except the numbers);
+//! Kadaba 1990 and Davis 1991 for the construction with wands, as in Plug-in-Gait (unverified). Tilt of the standing
+//! pelvis: see [`STANDING_TILT`](crate::model::full_body::STANDING_TILT).
 //! Not handled: functional joint centres; wrists and heads that move; braces.
 //! Pinned by: tests/calibration.rs
 

@@ -70,7 +70,8 @@ pub(super) fn find(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) ->
     Ok(pelvis)
 }
 
-/// In a frame: the points midway between the anterior and the posterior iliac spines, and the vector from the left to the right anterior one.
+/// In a frame: the points midway between the anterior and the posterior iliac spines, and the vector from the left to
+/// the right anterior one.
 fn spines(trajectories: &LandmarkTrajectories<'_>, frame: usize) -> Option<(Vec3, Vec3, Vec3)> {
     let (right, left) =
         (trajectories.of(Landmark::Asis, Side::Right, frame)?, trajectories.of(Landmark::Asis, Side::Left, frame)?);
@@ -82,8 +83,8 @@ fn spines(trajectories: &LandmarkTrajectories<'_>, frame: usize) -> Option<(Vec3
     Some(((right + left) * 0.5, back, right - left))
 }
 
-/// Hip centre by Harrington 2007 from width and depth of the pelvis between the markers [m], relative to the point midway between
-/// the anterior spines, in axes through the spines.
+/// Hip centre by Harrington 2007 from width and depth of the pelvis between the markers [m], relative to the point
+/// midway between the anterior spines, in axes through the spines.
 fn regression(width: f64, depth: f64) -> Vec3 {
     Vec3::new(-0.24 * depth - 0.0099, -0.30 * width - 0.0109, 0.33 * width + 0.0073)
 }
@@ -103,8 +104,8 @@ fn from_spines(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Pel
     Pelvis { poses, hip_width: 2.0 * hip.z, is_line: false }
 }
 
-/// From hip centres of video: the line between the hips, and the line from hips to shoulders for the tilt. Where no shoulder is seen, the
-/// pelvis is upright.
+/// From hip centres of video: the line between the hips, and the line from hips to shoulders for the tilt. Where no
+/// shoulder is seen, the pelvis is upright.
 fn from_hips(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Pelvis {
     let both = |landmark: Landmark, frame: usize| {
         Some((trajectories.of(landmark, Side::Right, frame)?, trajectories.of(landmark, Side::Left, frame)?))

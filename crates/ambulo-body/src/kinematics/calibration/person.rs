@@ -35,8 +35,8 @@ pub struct BodyMeasurements {
 pub(super) const MARKER_RADIUS: f64 = 0.007;
 
 impl BodyMeasurements {
-    /// Reads parameters with the names and units that Vicon's programs write into the group PROCESSING: `MarkerDiameter`,
-    /// `RKneeWidth`, `LAnkleWidth`, ... in mm. Zero means not measured.
+    /// Reads parameters with the names and units that Vicon's programs write into the group PROCESSING:
+    /// `MarkerDiameter`, `RKneeWidth`, `LAnkleWidth`, ... in mm. Zero means not measured.
     #[must_use]
     pub fn from_processing(parameter_mm: impl Fn(&str) -> Option<f64>) -> BodyMeasurements {
         let metres = |name: &str| parameter_mm(name).filter(|v| *v > 0.0 && v.is_finite()).map(|v| 0.001 * v);

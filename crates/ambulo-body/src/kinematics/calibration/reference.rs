@@ -33,7 +33,8 @@ pub(super) fn frames(trajectories: &LandmarkTrajectories<'_>, trial: Trial, find
         findings.report(
             Code::CalibrationNotStanding,
             format!(
-                "in the standing trial the markers move slower than {QUIET_M_PER_S} m/s in only {} of {} frames; all frames were used. hint: use a trial in which the person stands still, or none",
+                "in the standing trial the markers move slower than {QUIET_M_PER_S} m/s in only {} of {} frames; all \
+                 frames were used. hint: use a trial in which the person stands still, or none",
                 quiet.len(),
                 all.len()
             ),

@@ -1,13 +1,14 @@
 //! Refines the marker positions of a body that was calibrated on a walk, using its joints.
 //!
-//! Calibration places each marker at its median position in segment axes that are constructed frame by frame. The joints add
-//! information: a knee that only flexes shows the direction of its axis relative to the markers. The body is fitted to some of the
-//! frames, and every marker is moved towards its mean position on the fitted body; both steps are repeated. This solves
+//! Calibration places each marker at its median position in segment axes that are constructed frame by frame. The
+//! joints add information: a knee that only flexes shows the direction of its axis relative to the markers. The body is
+//! fitted to some of the frames, and every marker is moved towards its mean position on the fitted body; both steps are
+//! repeated. This solves
 //!
 //!   min Σ_frames Σ_markers w |m - p(q_frame, place)|² + κ Σ_markers w |place - place₀|²
 //!
-//! alternately for postures and marker positions. κ is a number of frames: positions that the walk does not determine stay near the
-//! initial ones.
+//! alternately for postures and marker positions. κ is a number of frames: positions that the walk does not determine
+//! stay near the initial ones.
 //!
 //! Source: alternating least squares, as in Reinbolt et al. 2005 and Charlton et al. 2004 (unverified).
 

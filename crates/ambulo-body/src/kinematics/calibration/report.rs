@@ -37,8 +37,8 @@ pub struct MarkerPlacement {
     pub name: String,
     /// Name of the body.
     pub body: String,
-    /// Distance between its recorded position and its position on the body: root mean square over the frames [m]. In a standing trial
-    /// each body is fitted by itself; in a walk the bodies are connected by joints.
+    /// Distance between its recorded position and its position on the body: root mean square over the frames [m]. In a
+    /// standing trial each body is fitted by itself; in a walk the bodies are connected by joints.
     pub rms_m: f64,
     /// Number of frames in which marker and body are visible.
     pub frames: usize,

@@ -69,7 +69,8 @@ pub(super) fn find(
     let fitted = finder.fit(pelvis);
     if fitted.iter().flatten().count() < LEAST_FRAMES.min(frames.len()) {
         assumptions.push(
-            "trunk and arms have too few markers; their size is from the segment table, the trunk is assumed upright with hanging arms"
+            "trunk and arms have too few markers; their size is from the segment table, the trunk is assumed upright \
+             with hanging arms"
                 .to_owned(),
         );
         return finder.unmeasured();
@@ -77,7 +78,8 @@ pub(super) fn find(
     let mut trunk = finder.trunk(fitted);
     if trunk.lift > 0.0 {
         assumptions.push(format!(
-            "the arms are raised, which lifts the shoulders; for hanging arms the shoulder centres are lowered by {:.0} mm, estimated from neck markers and segment table",
+            "the arms are raised, which lifts the shoulders; for hanging arms the shoulder centres are lowered by \
+             {:.0} mm, estimated from neck markers and segment table",
             1e3 * trunk.lift
         ));
     }
@@ -257,8 +259,9 @@ impl Finder<'_> {
         Some([Pose { rotation: humerus, translation: shoulder }, Pose { rotation: forearm, translation: elbow }])
     }
 
-    /// Elbow centre and axis (to the right) from the lateral marker alone. The axis is the normal of the plane of shoulder, centre and
-    /// wrist if the elbow is flexed; otherwise that of a forearm halfway between pronation and supination.
+    /// Elbow centre and axis (to the right) from the lateral marker alone. The axis is the normal of the plane of
+    /// shoulder, centre and wrist if the elbow is flexed; otherwise that of a forearm halfway between pronation and
+    /// supination.
     fn elbow(
         &self,
         shoulder: Vec3,

@@ -1,7 +1,8 @@
 //! Legs whose points move as one rigid piece: a program filled them in while the person was out of view.
 //!
-//! The angles of knee and ankle of a person always change a little, and a network never finds the same place twice. Where the distances from
-//! hip to ankle and from knee to foot stay the same while the hip moves, no camera saw the leg.
+//! The angles of knee and ankle of a person always change a little, and a network never finds the same place twice.
+//! Where the distances from hip to ankle and from knee to foot stay the same while the hip moves, no camera saw the
+//! leg.
 
 use crate::model::Side;
 use crate::model::marker_set::{Landmark, RecognisedMarkers};
@@ -9,7 +10,8 @@ use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::{Vec3, angle_between};
 
-/// Distances are the same if they differ by less within [`SPAN_S`] [m]: the rounding of files that have tenths of a millimetre.
+/// Distances are the same if they differ by less within [`SPAN_S`] [m]: the rounding of files that have tenths of a
+/// millimetre.
 const SAME_M: f64 = 0.0002;
 /// A hip that moves less within [`SPAN_S`] stands still [m].
 const MOVES_M: f64 = 0.001;

@@ -1,8 +1,8 @@
 //! Keypoints of video: joint centres, heels and toes that a network located, each in every frame by itself.
 //!
-//! They jitter by 3 to 30 mm, some are far away, and their errors differ between joints, networks and views. So nothing is assumed about
-//! them: the noise of each point is estimated from its own recording, the path is smoothed, and only then
-//! are positions far from their path left out, never most of a frame.
+//! They jitter by 3 to 30 mm, some are far away, and their errors differ between joints, networks and views. So nothing
+//! is assumed about them: the noise of each point is estimated from its own recording, the path is smoothed, and only
+//! then are positions far from their path left out, never most of a frame.
 //!
 //! Pinned by: tests/keypoints.rs
 
@@ -31,7 +31,8 @@ pub struct KeypointReport {
     pub points: Vec<PointNoise>,
     /// Legs whose points move as one rigid piece.
     pub frozen: FrozenLegs,
-    /// Standard deviation of the axial rotation of the thighs, mean of both sides [rad]; not a number if it is not fitted.
+    /// Standard deviation of the axial rotation of the thighs, mean of both sides [rad]; not a number if it is not
+    /// fitted.
     pub thigh_rotation: f64,
 }
 
@@ -60,7 +61,8 @@ pub struct Keypoints {
 }
 
 impl Keypoints {
-    /// The points of a recording in world axes. `None` if it has markers on the pelvis, or names that are not recognised.
+    /// The points of a recording in world axes. `None` if it has markers on the pelvis, or names that are not
+    /// recognised.
     pub fn recognised(recording: &MarkerRecording, set: Option<&MarkerSet>) -> Option<Keypoints> {
         let names = recording.markers.iter().map(|marker| marker.name.as_str());
         let recognised = match set {
@@ -110,7 +112,9 @@ impl Keypoints {
         findings.report(
             Code::KeypointsNoise,
             format!(
-                "the points are keypoints of video; by the recording itself they jitter by {:.1} mm along each axis (standard deviation, median; `{}` most, {:.1} mm), and {outliers} of {seen} positions are far from their paths and left out{most}",
+                "the points are keypoints of video; by the recording itself they jitter by {:.1} mm along each axis \
+                 (standard deviation, median; `{}` most, {:.1} mm), and {outliers} of {seen} positions are far from \
+                 their paths and left out{most}",
                 1e3 * usual,
                 worst.name,
                 1e3 * worst.jitter_m

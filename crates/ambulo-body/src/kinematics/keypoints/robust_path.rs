@@ -1,11 +1,12 @@
-//! The smooth path of a point that jitters and is sometimes far off, and its noise, both from the recorded positions alone.
+//! The smooth path of a point that jitters and is sometimes far off, and its noise, both from the recorded positions
+//! alone.
 //!
 //! min over f   Σ vᵢ |yᵢ - fᵢ|² + λ Σ |Δ³f|²,     rᵢ = |yᵢ - fᵢ|
 //!
-//! The weights v are Tukey's bisquare of r over its robust scale; they begin with the distance from the median of the neighbouring
-//! positions, so that points far off do not bend the first path. λ is the least generalised cross-validation
-//! n Σ v r² / (n - tr H)², with n recorded positions and tr H that of equal weights ([`Whittaker::freedom`]). Weights and path are
-//! computed in turn.
+//! The weights v are Tukey's bisquare of r over its robust scale; they begin with the distance from the median of the
+//! neighbouring positions, so that points far off do not bend the first path. λ is the least generalised
+//! cross-validation n Σ v r² / (n - tr H)², with n recorded positions and tr H that of equal weights
+//! ([`Whittaker::freedom`]). Weights and path are computed in turn.
 //!
 //! | code | symbol | unit |
 //! |---|---|---|
@@ -39,8 +40,8 @@ const BISQUARE: f64 = 4.685;
 const MEDIAN_LENGTH: f64 = 1.538;
 /// A position further from the path than this many standard deviations is an outlier: one of 900 with normal noise.
 const FAR: f64 = 4.0;
-/// Smallest standard deviation of the noise that is assumed [m]: a network that locates a joint to a third of a pixel of
-/// 3 mm.
+/// Smallest standard deviation of the noise that is assumed [m]: a network that locates a joint to a third of a pixel
+/// of 3 mm.
 const LEAST_NOISE_M: f64 = 0.001;
 
 /// A smooth path with the noise around it.
@@ -108,7 +109,8 @@ fn bisquare(distances: &[f64], scale: f64) -> Vec<f64> {
     distances.iter().map(weight).collect()
 }
 
-/// tr H of a path through `seen` of `frames` positions: each stands for frames / seen of them, as if λ were so much larger.
+/// tr H of a path through `seen` of `frames` positions: each stands for frames / seen of them, as if λ were so much
+/// larger.
 fn freedom(whittaker: &Whittaker, frames: usize, seen: usize, lambda: f64) -> f64 {
     let share = frames as f64 / seen as f64;
     whittaker.freedom(lambda * share).min(seen as f64)

@@ -1,26 +1,29 @@
-//! Symmetric matrices whose unknowns form a tree: an entry is zero unless one of its unknowns is on the path of the other to the root.
+//! Symmetric matrices whose unknowns form a tree: an entry is zero unless one of its unknowns is on the path of the
+//! other to the root.
 //!
-//! The normal equations of a marker fit are of this kind: a marker on a hand does not depend on a knee. Each row has an entry for each
-//! unknown on its path, from the root to itself, and nothing else. The factors of
+//! The normal equations of a marker fit are of this kind: a marker on a hand does not depend on a knee. Each row has an
+//! entry for each unknown on its path, from the root to itself, and nothing else. The factors of
 //!
 //!   A = Lᵀ D L,      L unit lower triangular
 //!
-//! have the same entries, because eliminating an unknown changes only the unknowns on its own path. The path of an unknown on the path
-//! is the beginning of the path, so that each elimination adds a multiple of the beginning of one row to another row.
+//! have the same entries, because eliminating an unknown changes only the unknowns on its own path. The path of an
+//! unknown on the path is the beginning of the path, so that each elimination adds a multiple of the beginning of one
+//! row to another row.
 //!
 //! | code | symbol |
 //! |---|---|
 //! | `entries` | A, then L below the diagonal and D on it |
 //! | `path` | unknowns of the entries |
 //!
-//! Unknowns that move bodies on several branches (coordinates that drive others) also have entries outside the tree of the joints. The
-//! tree is therefore that of the elimination: the parent of an unknown is the first one that its elimination changes. The path then has
-//! every entry that is not zero, and a few that are.
+//! Unknowns that move bodies on several branches (coordinates that drive others) also have entries outside the tree of
+//! the joints. The tree is therefore that of the elimination: the parent of an unknown is the first one that its
+//! elimination changes. The path then has every entry that is not zero, and a few that are.
 //!
-//! Source: R. Featherstone 2005, "Efficient factorization of the joint-space inertia matrix for branched kinematic trees", Int. J. Robot.
-//! Res. 24:487-500 (unverified); elimination trees: T.A. Davis 2006, "Direct Methods for Sparse Linear Systems", chapter 4 (unverified).
-//! Cost: half the sum of the squared lengths of all paths; for 43 unknowns of a whole body a fifth of a dense factor's.
-//! Pinned by: tests/kinematics_branch_matrix.rs (dense matrices), tests/marker_fit.rs
+//! Source: R. Featherstone 2005, "Efficient factorization of the joint-space inertia matrix for branched kinematic
+//! trees", Int. J. Robot. Res. 24:487-500 (unverified); elimination trees: T.A. Davis 2006, "Direct Methods for Sparse
+//! Linear Systems", chapter 4 (unverified). Cost: half the sum of the squared lengths of all paths; for 43 unknowns of
+//! a whole body a fifth of a dense factor's. Pinned by: tests/kinematics_branch_matrix.rs (dense matrices),
+//! tests/marker_fit.rs
 
 /// Places of the entries of matrices with the same tree.
 #[derive(Debug, Clone)]
@@ -35,8 +38,8 @@ pub struct Branches {
 }
 
 impl Branches {
-    /// The tree of matrices with entries for these pairs of unknowns and for each unknown with itself. `outwards` has all unknowns; those
-    /// of a body come after those of its parent.
+    /// The tree of matrices with entries for these pairs of unknowns and for each unknown with itself. `outwards` has
+    /// all unknowns; those of a body come after those of its parent.
     pub fn new(outwards: Vec<usize>, pairs: impl Iterator<Item = (usize, usize)>) -> Branches {
         let n = outwards.len();
         let mut place = vec![0; n];

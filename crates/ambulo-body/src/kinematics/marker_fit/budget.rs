@@ -1,24 +1,29 @@
-//! Bounds the time of a fit by the number of its linear solves, each of which takes about 6.5 µs for a full body of 43 unknowns.
+//! Bounds the time of a fit by the number of its linear solves, each of which takes about 6.5 µs for a full body of 43
+//! unknowns.
 //!
-//! A frame with all its markers takes about five solves; later frames may use those that it does not need. Swapped labels, jumps and gaps take
-//! more; frames for which nothing is left are reported.
+//! A frame with all its markers takes about five solves; later frames may use those that it does not need. Swapped
+//! labels, jumps and gaps take more; frames for which nothing is left are reported.
 //!
 //! Pinned by: tests/marker_outliers.rs
 
-/// Solves to find the posture of the first frame from nothing: 64 placements of the rigid model and fits of the best. Recordings without
-/// faults take about 800; more are needed to start joint by joint, or with swapped labels in the first frame.
+/// Solves to find the posture of the first frame from nothing: 64 placements of the rigid model and fits of the best.
+/// Recordings without faults take about 800; more are needed to start joint by joint, or with swapped labels in the
+/// first frame.
 const TO_BEGIN: usize = 3200;
 /// To find the posture again after a gap.
 const TO_BEGIN_AGAIN: usize = 800;
 /// Largest number of solves that the first frame does not need and that later frames may then use.
 const LEFT_OF_BEGINNING: usize = 2800;
-/// Solves per frame while frames are fitted one after the other: what the detection of jumps may take, so that the body is not lost.
+/// Solves per frame while frames are fitted one after the other: what the detection of jumps may take, so that the body
+/// is not lost.
 const PER_FRAME: usize = 26;
-/// Solves per frame for what follows, besides those that were not needed: misplaced markers, and frames that lack markers.
+/// Solves per frame for what follows, besides those that were not needed: misplaced markers, and frames that lack
+/// markers.
 const PER_FRAME_AFTERWARDS: usize = 6;
 /// Solves that the detection of jumps leaves for the fit of the same frame.
 const RESERVE: usize = 8;
-/// Share of the remaining solves that frames without all markers may use for their offsets; what follows needs the others.
+/// Share of the remaining solves that frames without all markers may use for their offsets; what follows needs the
+/// others.
 const SHARE_OF_OFFSETS: f64 = 0.7;
 /// Where the part of a frame is larger than most frames need, one frame may take several parts.
 const LARGE_PART: f64 = 60.0;
@@ -67,7 +72,8 @@ impl Budget {
         self.granted += PER_FRAME;
     }
 
-    /// Limits what was not needed so far, so that a frame of a stream without end takes no longer than one of a recording.
+    /// Limits what was not needed so far, so that a frame of a stream without end takes no longer than one of a
+    /// recording.
     pub(super) fn limit_rest(&mut self) {
         self.granted = self.spent + self.left().min(LEFT_OF_BEGINNING);
     }

@@ -11,8 +11,8 @@ pub(super) const FEWEST: usize = 3;
 /// Share of the frames in which all markers of the core are visible.
 const SHARE_COMPLETE: f64 = 0.5;
 
-/// Per frame and marker: whether the marker is used, and from which path. Per frame: posture and result of the fit. Swapped labels and
-/// offsets of missing markers take memory only in frames that have them.
+/// Per frame and marker: whether the marker is used, and from which path. Per frame: posture and result of the fit.
+/// Swapped labels and offsets of missing markers take memory only in frames that have them.
 #[derive(Debug, Clone)]
 pub(super) struct Frames {
     markers: usize,
@@ -187,7 +187,8 @@ impl Frames {
         }
     }
 
-    /// Loads the markers used in a frame, and the missing markers of the core at the positions that follow from posture and offsets.
+    /// Loads the markers used in a frame, and the missing markers of the core at the positions that follow from posture
+    /// and offsets.
     pub(super) fn load_as_if_seen(&self, frame: usize, problem: &mut FitProblem<'_>, with_missing: bool) {
         self.load(frame, problem);
         if self.is_plain(frame) || !with_missing || self.outcomes[frame].is_none() {
@@ -226,7 +227,8 @@ impl Frames {
         self.unfinished[frame]
     }
 
-    /// Whether no linear solve was left for a frame at all, so that it has at most a posture that frames before it predict.
+    /// Whether no linear solve was left for a frame at all, so that it has at most a posture that frames before it
+    /// predict.
     pub(super) fn is_unfitted(&self, frame: usize) -> bool {
         self.unfinished[frame] && self.outcomes[frame].is_none_or(|outcome| outcome.ran_out && outcome.steps == 0)
     }

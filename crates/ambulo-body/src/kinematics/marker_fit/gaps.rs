@@ -1,19 +1,19 @@
 //! Fits the frames that lack markers, and bridges coordinates that the visible markers do not determine.
 //!
-//! In complete frames every marker has an offset from its place on the model, in the axes of its body. In a run of frames that
-//! lack markers, the offsets follow the posture ([`SkinMotion`]) plus a rest that is interpolated linearly between the complete
-//! frames before and after. Each frame is fitted twice:
+//! In complete frames every marker has an offset from its place on the model, in the axes of its body. In a run of
+//! frames that lack markers, the offsets follow the posture ([`SkinMotion`]) plus a rest that is interpolated linearly
+//! between the complete frames before and after. Each frame is fitted twice:
 //!
-//! 1. to the visible markers at their offsets. These agree with each other, so that a lost marker changes the posture only by
-//!    the change of the offsets meanwhile; without offsets, the posture would jump by the pull of the missing marker. The weight of
-//!    each marker follows from its drift ([`OffsetDrift`]);
-//! 2. to the visible markers as recorded, and the missing ones where the first posture has them at their offsets. Parts of the body
-//!    with all markers are then fitted as usual, and the result is continuous at both ends of the run.
+//! 1. to the visible markers at their offsets. These agree with each other, so that a lost marker changes the posture
+//!    only by the change of the offsets meanwhile; without offsets, the posture would jump by the pull of the missing
+//!    marker. The weight of each marker follows from its drift ([`OffsetDrift`]);
+//! 2. to the visible markers as recorded, and the missing ones where the first posture has them at their offsets. Parts
+//!    of the body with all markers are then fitted as usual, and the result is continuous at both ends of the run.
 //!
 //! In between, unknowns that the visible markers do not determine are pulled by springs towards a curve across the gap
-//! ([`fill_gap`]), so that a single marker of a foot still counts. The gain of an unknown is its RMS change per metre of error in
-//! each visible marker: above [`WEAK`] the curve supports the markers; above [`UNSEEN`] the unknown is not determined, and the curve
-//! bridges it up to the length in the settings.
+//! ([`fill_gap`]), so that a single marker of a foot still counts. The gain of an unknown is its RMS change per metre
+//! of error in each visible marker: above [`WEAK`] the curve supports the markers; above [`UNSEEN`] the unknown is not
+//! determined, and the curve bridges it up to the length in the settings.
 //!
 //! Pinned by: tests/marker_gaps.rs
 
@@ -44,7 +44,8 @@ const NEARLY_AT_REST: f64 = 1e-3;
 /// Third derivative of a joint angle [rad/s³]: 0.3 rad at 2 Hz give 0.3 (4π)³.
 const JERK: f64 = 600.0;
 
-/// An unfinished fit with a larger root mean square distance from the markers is rejected [m]: about the distance between neighbouring joints.
+/// An unfinished fit with a larger root mean square distance from the markers is rejected [m]: about the distance
+/// between neighbouring joints.
 const FAILED_RMS: f64 = 0.2;
 
 /// Known values this far on both sides of a gap determine its curve [s].
@@ -67,8 +68,8 @@ pub enum Determination {
     Gap,
 }
 
-/// Fits the frames that lack markers again, and complete frames that were fitted with offsets. Returns one state per frame and
-/// unknown.
+/// Fits the frames that lack markers again, and complete frames that were fitted with offsets. Returns one state per
+/// frame and unknown.
 pub(super) fn refit(problem: &mut FitProblem<'_>, frames: &mut Frames, longest_s: f64) -> Vec<Determination> {
     let unknowns = problem.tree.unknowns();
     let mut states = vec![Determination::Determined; frames.count() * unknowns];
@@ -215,8 +216,8 @@ fn refit_run(
     }
 }
 
-/// Offset of each marker: skin motion at the posture `x`, plus the rest, interpolated linearly between two frames. NaN for markers
-/// without offsets.
+/// Offset of each marker: skin motion at the posture `x`, plus the rest, interpolated linearly between two frames. NaN
+/// for markers without offsets.
 fn interpolate_offsets(
     problem: &FitProblem<'_>,
     frames: &Frames,
@@ -320,7 +321,8 @@ pub fn bridge_gaps(
     }
 }
 
-/// Weight of a curve across a stretch [s] relative to markers [m²/rad²]: its error is that of a parabola under jerk, J (T/2)³ / 6.
+/// Weight of a curve across a stretch [s] relative to markers [m²/rad²]: its error is that of a parabola under jerk, J
+/// (T/2)³ / 6.
 fn stiffness(length_s: f64) -> f64 {
     let error = JERK * (0.5 * length_s).powi(3) / 6.0;
     (DRIFT / error).powi(2).min(1.0)
@@ -405,12 +407,12 @@ pub(super) fn fit_as_if_seen(problem: &mut FitProblem<'_>, frames: &mut Frames, 
 
 /// Fills `values[start..end]` with a curve; `known` marks the known values, which exist on both sides.
 ///
-/// min Σ_known (y - q)² + (ω_c Δt)⁻⁶ Σ (Δ³q)²: a discrete smoothing spline of half order three near the gap, with the response
-/// 1 / (1 + (ω/ω_c)⁶). Its differences from the last and the next known value are removed by a straight line, so that the curve is
-/// continuous at both ends.
+/// min Σ_known (y - q)² + (ω_c Δt)⁻⁶ Σ (Δ³q)²: a discrete smoothing spline of half order three near the gap, with the
+/// response 1 / (1 + (ω/ω_c)⁶). Its differences from the last and the next known value are removed by a straight line,
+/// so that the curve is continuous at both ends.
 ///
-/// Noise matters more than the model of motion: through the three last values alone, 1 mm of a marker 0.15 m from a joint causes an
-/// acceleration error of 0.007 · 100² = 70 rad/s² at 100 Hz, which is 0.2 rad in the middle of 0.15 s.
+/// Noise matters more than the model of motion: through the three last values alone, 1 mm of a marker 0.15 m from a
+/// joint causes an acceleration error of 0.007 · 100² = 70 rad/s² at 100 Hz, which is 0.2 rad in the middle of 0.15 s.
 pub fn fill_gap(values: &mut [f64], known: &[bool], start: usize, end: usize, step_s: f64) {
     let reach = ((REACH_S / step_s).ceil() as usize).clamp(3, MOST_FRAMES);
     let (first, last) = (start.saturating_sub(reach), (end + reach).min(values.len()));

@@ -1,9 +1,9 @@
 //! The fit to keypoints of video: all frames together, each point weighted by its own noise.
 //!
-//! The weight of a point is that of its landmark, lowered by its noise: 1 / (1/w + (σ/s)²), where s is what the joint centres of a network and
-//! those of the body differ by. The frame-by-frame fit to the smooth paths is the start of the fit to the recorded points, with the noise and
-//! the smoothness that the recording shows ([`recorded_noise`]). Coordinates that keypoints hardly show are held near zero by weak
-//! springs.
+//! The weight of a point is that of its landmark, lowered by its noise: 1 / (1/w + (σ/s)²), where s is what the joint
+//! centres of a network and those of the body differ by. The frame-by-frame fit to the smooth paths is the start of the
+//! fit to the recorded points, with the noise and the smoothness that the recording shows ([`recorded_noise`]).
+//! Coordinates that keypoints hardly show are held near zero by weak springs.
 //!
 //! | code | symbol | unit |
 //! |---|---|---|
@@ -28,8 +28,8 @@ use std::borrow::Cow;
 
 /// Distance of a joint centre of a network from that of the body, besides noise [m].
 const MODEL_ERROR_M: f64 = 0.010;
-/// Standard deviations of coordinates that keypoints hardly show [rad]: bending and rotation between pelvis and thorax, and extension of the
-/// toes, in walking; the pelvis from upright where nothing shows the trunk.
+/// Standard deviations of coordinates that keypoints hardly show [rad]: bending and rotation between pelvis and thorax,
+/// and extension of the toes, in walking; the pelvis from upright where nothing shows the trunk.
 const LUMBAR_RAD: f64 = 0.1;
 const TOE_RAD: f64 = 0.2;
 const UPRIGHT_RAD: f64 = 0.2;
@@ -119,8 +119,8 @@ fn weigh(problem: &mut FitProblem<'_>, of_landmarks: &[f64], noise: &[f64]) {
     }
 }
 
-/// The prior of a fit of all frames together to points with this usual noise [m], by which their weights are lowered; `None` for a fit
-/// frame by frame.
+/// The prior of a fit of all frames together to points with this usual noise [m], by which their weights are lowered;
+/// `None` for a fit frame by frame.
 fn prior(method: FitMethod, noise_m: f64) -> Option<SmoothnessPrior> {
     let prior = match method {
         FitMethod::Frames => return None,

@@ -1,9 +1,10 @@
 //! The fit of markers that arrive frame by frame.
 //!
-//! Every frame is fitted as [`super::sequence`] fits those of a recording: from the postures of the frames before, with the detection of jumps and
-//! swapped labels. Only the last frames are kept. In a frame that lacks markers, the missing ones are where the posture has them at their last
-//! offsets, as in a recording after its last complete frame (`gaps`); unknowns that the visible markers do not determine are not-a-number. What needs
-//! later frames is left out: offsets interpolated up to the next complete frame, curves across gaps, misplaced markers.
+//! Every frame is fitted as [`super::sequence`] fits those of a recording: from the postures of the frames before, with
+//! the detection of jumps and swapped labels. Only the last frames are kept. In a frame that lacks markers, the missing
+//! ones are where the posture has them at their last offsets, as in a recording after its last complete frame (`gaps`);
+//! unknowns that the visible markers do not determine are not-a-number. What needs later frames is left out: offsets
+//! interpolated up to the next complete frame, curves across gaps, misplaced markers.
 //!
 //! Cost: as of a frame of a recording, and at most [`super::budget`]'s rest of the first frame in a single one.
 //! Pinned by: tests/live_markers.rs
@@ -56,7 +57,8 @@ pub struct LiveMarkerFit {
 }
 
 impl LiveMarkerFit {
-    /// Begins with the names of the markers of a frame, in its order; those that the model does not have are not used, which `findings` reports.
+    /// Begins with the names of the markers of a frame, in its order; those that the model does not have are not used,
+    /// which `findings` reports.
     ///
     /// # Errors
     /// No common marker, no coordinate that the markers determine, settings out of range.
@@ -112,8 +114,9 @@ impl LiveMarkerFit {
         self.next += frames;
     }
 
-    /// Fits the next frame: a position per marker, in the axes of the ground of the model [m], not-a-number where it is missing. Returns a value per
-    /// coordinate of the model [rad or m], not-a-number where the visible markers do not determine it; `None` if too few are visible.
+    /// Fits the next frame: a position per marker, in the axes of the ground of the model [m], not-a-number where it is
+    /// missing. Returns a value per coordinate of the model [rad or m], not-a-number where the visible markers do not
+    /// determine it; `None` if too few are visible.
     ///
     /// # Errors
     /// Another number of markers.

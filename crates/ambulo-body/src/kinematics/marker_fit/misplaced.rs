@@ -1,13 +1,13 @@
 //! Markers that are far from their places for long: labels swapped without a jump, and misplaced markers.
 //!
-//! The detection of jumps ([`super::sequence`]) misses labels that were swapped where a gap was filled by a curve, because the
-//! markers glide from place to place, and markers that were never where the standing trial has them. Both are detected after all
-//! frames are fitted:
+//! The detection of jumps ([`super::sequence`]) misses labels that were swapped where a gap was filled by a curve,
+//! because the markers glide from place to place, and markers that were never where the standing trial has them. Both
+//! are detected after all frames are fitted:
 //!
-//! - two markers far from their places, each near the place of the other, have swapped labels if the frame fits better and both come
-//!   much nearer when they are swapped back; while they glide, both are excluded;
-//! - a marker that over the whole recording is far off, and many times as far as its neighbours, is misplaced. Its weight is reduced
-//!   by the square of the ratio of its neighbours' distance to its own (the weight for that error).
+//! - two markers far from their places, each near the place of the other, have swapped labels if the frame fits better
+//!   and both come much nearer when they are swapped back; while they glide, both are excluded;
+//! - a marker that over the whole recording is far off, and many times as far as its neighbours, is misplaced. Its
+//!   weight is reduced by the square of the ratio of its neighbours' distance to its own (the weight for that error).
 //!
 //! Pinned by: tests/marker_misplaced.rs
 

@@ -1,5 +1,5 @@
-//! Marker fit (inverse kinematics): the posture of a model that brings its markers closest to the recorded ones, frame by frame
-//! or in all frames together.
+//! Marker fit (inverse kinematics): the posture of a model that brings its markers closest to the recorded ones, frame
+//! by frame or in all frames together.
 //!
 //! q(t) = argmin Σ w |m(t) - p(q)|²    within the ranges of the coordinates
 //!
@@ -12,16 +12,18 @@
 //! | `weights` | w | 1 |
 //! | `x` | q, free coordinates that move a marker | rad, m |
 //!
-//! The markers of a model are never exactly where those of the person are, so that each marker pulls on the posture even at the
-//! best fit. When a marker is lost, its pull is lost too, and the posture would jump. Frames that lack markers are therefore
-//! fitted with each marker at its offset, interpolated from the complete frames around them (`gaps`). Coordinates that the
-//! visible markers do not determine are bridged up to a maximum length, and are NaN in longer gaps.
+//! The markers of a model are never exactly where those of the person are, so that each marker pulls on the posture
+//! even at the best fit. When a marker is lost, its pull is lost too, and the posture would jump. Frames that lack
+//! markers are therefore fitted with each marker at its offset, interpolated from the complete frames around them
+//! (`gaps`). Coordinates that the visible markers do not determine are bridged up to a maximum length, and are NaN in
+//! longer gaps.
 //!
 //! Source: T.-W. Lu, J.J. O'Connor 1999, J. Biomech. 32:129-134 (global optimisation) (unverified).
 //! Cost: about 10 µs per step, three or four steps per frame; `cargo xtask bench-markers`.
 //! The number of linear solves is bounded by 32 per frame and 3200 for the first (`budget`).
 //! Not handled: markers fixed to ground; weights that vary in time.
-//! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_misplaced.rs, tests/marker_outliers.rs, tests/marker_smoothing.rs
+//! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_misplaced.rs, tests/marker_outliers.rs,
+//! tests/marker_smoothing.rs
 
 mod result;
 mod settings;
@@ -115,7 +117,8 @@ pub fn fit_markers(
     Ok(MarkerFit { followed: Some(followed), ..fit })
 }
 
-/// [`fit_markers`] without a copy of the recording, for callers that do not need the original. Returns the result and the corrected recording.
+/// [`fit_markers`] without a copy of the recording, for callers that do not need the original. Returns the result and
+/// the corrected recording.
 #[doc(hidden)]
 pub fn fit_own_markers(
     model: &Model,

@@ -1,16 +1,18 @@
 //! The normal equations of one frame, JᵀWJ and JᵀW(m - p).
 //!
-//! JᵀWJ is the joint-space mass matrix of a body whose only masses are the weights w at the markers, and JᵀW(m - p) is the
-//! generalised force of springs of stiffness w that pull the markers to the recorded positions. Both are therefore assembled by
-//! the composite-rigid-body method: mass, first and second moment of the weights are summed from the leaves to the root, and the
-//! entry of two columns is the twist of one times the momentum of the other. J is never formed; bodies without weights are free.
+//! JᵀWJ is the joint-space mass matrix of a body whose only masses are the weights w at the markers, and JᵀW(m - p) is
+//! the generalised force of springs of stiffness w that pull the markers to the recorded positions. Both are therefore
+//! assembled by the composite-rigid-body method: mass, first and second moment of the weights are summed from the
+//! leaves to the root, and the entry of two columns is the twist of one times the momentum of the other. J is never
+//! formed; bodies without weights are free.
 //!
-//! Half the second derivative of the cost is JᵀWJ - Σ f·∂²p, with f = w (m - p). An axis a moves every axis b further out,
-//! ∂²p/∂a∂b = ω_a × (v_b + ω_b × x), so that
+//! Half the second derivative of the cost is JᵀWJ - Σ f·∂²p, with f = w (m - p). An axis a moves every axis b further
+//! out, ∂²p/∂a∂b = ω_a × (v_b + ω_b × x), so that
 //!
 //!   Σ f·∂²p = F·(ω_a × v_b) + ω_aᵀ X ω_b - tr X ω_a·ω_b,      X = Σ x fᵀ
 //!
-//! The second derivatives of the functions of the joints are omitted: this slows the iteration, but does not change its result.
+//! The second derivatives of the functions of the joints are omitted: this slows the iteration, but does not change its
+//! result.
 //!
 //! | code       | symbol                | unit |
 //! | `mass`     | Σ w                   | 1    |
@@ -22,8 +24,8 @@
 //!
 //! where x is the position of the marker relative to the reference point.
 //!
-//! Source: R. Featherstone 2008, Rigid Body Dynamics Algorithms, section 6.2 (composite-rigid-body algorithm) (unverified).
-//! Cost: number of pairs of a column with a column between it and the root.
+//! Source: R. Featherstone 2008, Rigid Body Dynamics Algorithms, section 6.2 (composite-rigid-body algorithm)
+//! (unverified). Cost: number of pairs of a column with a column between it and the root.
 //! Pinned by: tests/marker_fit.rs
 
 use super::branch_matrix::Branches;

@@ -1,4 +1,5 @@
-//! A marker fit of one model to one recording: the fitted markers, their weights, and the part of the model that carries them.
+//! A marker fit of one model to one recording: the fitted markers, their weights, and the part of the model that
+//! carries them.
 
 use super::normal::{Point, Targets, cost};
 use super::result::FitError;
@@ -92,7 +93,8 @@ impl<'a> FitProblem<'a> {
         }
     }
 
-    /// Replaces a frame of the recording: its time [s] and the position of each fitted marker, not-a-number where it is missing.
+    /// Replaces a frame of the recording: its time [s] and the position of each fitted marker, not-a-number where it is
+    /// missing.
     pub(super) fn record(&mut self, frame: usize, time_s: f64, positions: impl Iterator<Item = Vec3>) {
         self.times.to_mut()[frame] = time_s;
         for (path, position) in self.paths.iter_mut().zip(positions) {
@@ -105,8 +107,8 @@ impl<'a> FitProblem<'a> {
         self.times.len()
     }
 
-    /// Loads the recorded positions of a frame. `used` selects markers, `exchanged` is the path that belongs to a marker in this
-    /// frame. Returns the number of loaded markers.
+    /// Loads the recorded positions of a frame. `used` selects markers, `exchanged` is the path that belongs to a
+    /// marker in this frame. Returns the number of loaded markers.
     pub(super) fn load(
         &mut self,
         frame: usize,
@@ -338,7 +340,8 @@ fn first<'a>(names: impl Iterator<Item = &'a str>, most: usize) -> String {
     }
 }
 
-/// Ranges of the unknowns. Joints to ground have none: a person may turn around more often than the range of the root allows.
+/// Ranges of the unknowns. Joints to ground have none: a person may turn around more often than the range of the root
+/// allows.
 fn bounds(model: &Model, tree: &MarkerTree, limits: JointLimits) -> Bounds {
     let mut bounds = Bounds::none(tree.unknowns());
     let on_ground = model.bodies().iter().filter(|b| b.joint.parent.is_none());

@@ -1,13 +1,14 @@
 //! Noise of keypoints and smoothness of the movement, both from the recording.
 //!
-//! **Noise.** The jitter of a point shows only what changes from frame to frame. Errors of a network also last for several frames, and those
-//! of a recording that was filtered all do. No body can follow them: the distances of the points from the fitted body between
-//! [`LOW_HZ`] and [`HIGH_HZ`], where the cut-offs of movements lie, give the variance that white noise would have to have there.
+//! **Noise.** The jitter of a point shows only what changes from frame to frame. Errors of a network also last for
+//! several frames, and those of a recording that was filtered all do. No body can follow them: the distances of the
+//! points from the fitted body between [`LOW_HZ`] and [`HIGH_HZ`], where the cut-offs of movements lie, give the
+//! variance that white noise would have to have there.
 //!
 //!   σ² = (f/2) / (b₂ - b₁) · mean |r_b|² / 3 / (1 - n / 3m)
 //!
-//! **Smoothness.** With noise σ_u of each coordinate, the prior's third derivatives s·J are those of the least expected error (Mallows'
-//! C_p, one s for all coordinates):
+//! **Smoothness.** With noise σ_u of each coordinate, the prior's third derivatives s·J are those of the least expected
+//! error (Mallows' C_p, one s for all coordinates):
 //!
 //!   min over s   Σ_u  Σ_t (x - x_s)² / σ_u² + 2 tr H_u,      λ_u = σ_u² / (s J_u h³)²
 //!
@@ -46,8 +47,8 @@ const LEAST_SCALE: f64 = 1.0 / 64.0;
 const MOST_SCALE: f64 = 8.0;
 const RATIO: f64 = std::f64::consts::SQRT_2;
 
-/// Standard deviation along one axis of white noise with the power of the distances from the body at the frequencies of movements, one per
-/// marker [m].
+/// Standard deviation along one axis of white noise with the power of the distances from the body at the frequencies of
+/// movements, one per marker [m].
 pub(super) fn distances_in_band(problem: &mut FitProblem<'_>, frames: &Frames) -> Vec<f64> {
     let (count, markers) = (frames.count(), frames.markers());
     let rate_hz = rate_hz(&problem.times);
@@ -96,7 +97,8 @@ pub(super) fn sensitivities(problem: &mut FitProblem<'_>, frames: &Frames) -> Ve
     all.into_iter().map(|list| median(list).unwrap_or(f64::INFINITY)).collect()
 }
 
-/// The prior whose third derivatives have the least expected error, for unknowns with these sensitivities to its noise [rad/m or 1].
+/// The prior whose third derivatives have the least expected error, for unknowns with these sensitivities to its noise
+/// [rad/m or 1].
 pub(super) fn with_smoothness(
     prior: SmoothnessPrior,
     model: &Model,

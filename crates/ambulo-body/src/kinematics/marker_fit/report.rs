@@ -153,9 +153,10 @@ impl Distances {
     }
 }
 
-/// Corrections of the recording: swapped labels are swapped back, outliers are removed, and missing markers get the positions that follow
-/// from the fitted posture and their offsets, if the posture is known. Events and plates are detected from these markers, so that a foot is not lost
-/// with its toe marker. Markers that the model does not have are kept.
+/// Corrections of the recording: swapped labels are swapped back, outliers are removed, and missing markers get the
+/// positions that follow from the fitted posture and their offsets, if the posture is known. Events and plates are
+/// detected from these markers, so that a foot is not lost with its toe marker. Markers that the model does not have
+/// are kept.
 fn corrections(
     recording: &MarkerRecording,
     problem: &mut FitProblem<'_>,
@@ -235,7 +236,8 @@ pub(super) fn unfitted(problem: &FitProblem<'_>, frames: &Frames, findings: &mut
     let unfinished = spans(frames.count(), |frame| frames.is_unfinished(frame));
     if !unfinished.is_empty() {
         let message = format!(
-            "the fit was stopped at {}, because it took too many steps; the coordinates are approximate there, or have no values. hint: correct markers that jump or have the labels of others",
+            "the fit was stopped at {}, because it took too many steps; the coordinates are approximate there, or have \
+             no values. hint: correct markers that jump or have the labels of others",
             times(problem, &unfinished)
         );
         findings.report(Code::MarkersUnfitted, message);
@@ -247,7 +249,9 @@ pub(super) fn misplaced(problem: &FitProblem<'_>, markers: &[Misplaced], finding
     for Misplaced { marker, rms_m, usual_m } in markers {
         let name = &problem.paths[*marker].name;
         let message = format!(
-            "marker `{name}` is {:.0} mm (RMS) from its place on the body in the whole recording, its neighbours {:.0} mm; its weight was divided by {:.0}. hint: check whether it was elsewhere in the standing trial, or has the label of another marker",
+            "marker `{name}` is {:.0} mm (RMS) from its place on the body in the whole recording, its neighbours {:.0} \
+             mm; its weight was divided by {:.0}. hint: check whether it was elsewhere in the standing trial, or has \
+             the label of another marker",
             1e3 * rms_m,
             1e3 * usual_m,
             (rms_m / usual_m).powi(2)
@@ -279,7 +283,8 @@ pub(super) fn coordinates(
         let gaps = spans(frames.count(), |f| states[f * unknowns + u] == Determination::Gap && !frames.is_unfitted(f));
         if !gaps.is_empty() {
             let message = format!(
-                "too few markers to determine `{name}` at {}; it has no value there (only gaps of up to {longest_s} s inside the recording are bridged)",
+                "too few markers to determine `{name}` at {}; it has no value there (only gaps of up to {longest_s} s \
+                 inside the recording are bridged)",
                 times(problem, &gaps)
             );
             findings.report(Code::MarkersGap, message);

@@ -5,14 +5,16 @@ use crate::motion::{MarkerRecording, Motion};
 /// Result of [`fit_markers`](super::fit_markers): coordinates, and the remaining distances of the markers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerFit {
-    /// The coordinates; NaN where no visible marker determines them. Coordinates that move no recorded marker have no column.
+    /// The coordinates; NaN where no visible marker determines them. Coordinates that move no recorded marker have no
+    /// column.
     pub motion: Motion,
     /// Distances of the fitted markers, in the order of the recording.
     pub errors: Vec<MarkerResidual>,
     /// RMS distance of the markers used in each frame [m]; NaN if none was visible.
     pub rms_m: Vec<f64>,
-    /// The recording after correction: swapped labels are swapped back, outliers are removed, and missing markers get the positions that
-    /// follow from the fitted posture, if it is known. Events and plates are detected from these markers; `None` after that.
+    /// The recording after correction: swapped labels are swapped back, outliers are removed, and missing markers get
+    /// the positions that follow from the fitted posture, if it is known. Events and plates are detected from these
+    /// markers; `None` after that.
     pub followed: Option<MarkerRecording>,
     /// Iterations in each frame.
     pub iterations: Vec<usize>,
@@ -43,7 +45,8 @@ pub struct MarkerResidual {
 pub enum FitError {
     /// The recording has no marker of the model.
     #[error(
-        "the model `{model}` and the recording `{recording}` have no marker in common; the model has {model_markers}; the recording has {recorded}. hint: choose a marker set with the names of the recording, or rename the markers"
+        "the model `{model}` and the recording `{recording}` have no marker in common; the model has {model_markers}; \
+         the recording has {recorded}. hint: choose a marker set with the names of the recording, or rename the markers"
     )]
     NoCommonMarker {
         /// Name of the model.
@@ -57,7 +60,8 @@ pub enum FitError {
     },
     /// Every common marker has the weight 0.
     #[error(
-        "none of the {common} markers that the model `{model}` and the recording `{recording}` have in common is tracked: all have the weight 0; expected at least one above 0"
+        "none of the {common} markers that the model `{model}` and the recording `{recording}` have in common is \
+         tracked: all have the weight 0; expected at least one above 0"
     )]
     NoTrackedMarker {
         /// Name of the model.
@@ -77,7 +81,8 @@ pub enum FitError {
     },
     /// Too few markers in every frame.
     #[error(
-        "no frame of `{recording}` has more than {most} of the {common} common markers; expected three in at least one frame"
+        "no frame of `{recording}` has more than {most} of the {common} common markers; expected three in at least one \
+         frame"
     )]
     TooFewMarkers {
         /// Name of the recording.
@@ -109,7 +114,8 @@ pub enum FitError {
     },
     /// A fit of all frames together would need too much memory.
     #[error(
-        "{frames} frames of {unknowns} coordinates are too many for a fit of all frames together; expected at most {most} frames. hint: use a shorter part of the recording, or fit frame by frame"
+        "{frames} frames of {unknowns} coordinates are too many for a fit of all frames together; expected at most \
+         {most} frames. hint: use a shorter part of the recording, or fit frame by frame"
     )]
     TooLong {
         /// Number of frames.

@@ -98,8 +98,8 @@ impl MarkerRows {
         MarkerRow { residual, unknowns: &self.numbers, derivatives: &self.derivatives }
     }
 
-    /// The normal equations at the current posture, as a fit assembles them: entries of the matrix with their row and column, and the
-    /// right side.
+    /// The normal equations at the current posture, as a fit assembles them: entries of the matrix with their row and
+    /// column, and the right side.
     pub fn normal_equations(&self, weights: &[f64]) -> (Vec<(usize, usize, f64)>, Vec<f64>) {
         let mut normal = super::normal::Normal::new(&self.tree);
         normal

@@ -1,10 +1,11 @@
 //! Fits frame after frame, each starting from the one before, and detects markers that jump or swap labels.
 //!
-//! The offset of a marker, from the marker of the model to the recorded one in the axes of its body, changes slowly, because skin
-//! slides but does not jump. A frame whose offsets jump is fitted again: to all markers at the offsets of the last good frame, with
-//! small weights for markers that fit badly (1 / (1 + (r/c)²)², Geman and McClure 1987 (unverified)), starting from the posture
-//! predicted by the frames before. A marker that stays off by more than skin can slide is excluded until it returns. Two markers
-//! that are each at the expected position of the other have swapped labels, and are swapped back.
+//! The offset of a marker, from the marker of the model to the recorded one in the axes of its body, changes slowly,
+//! because skin slides but does not jump. A frame whose offsets jump is fitted again: to all markers at the offsets of
+//! the last good frame, with small weights for markers that fit badly (1 / (1 + (r/c)²)², Geman and McClure 1987
+//! (unverified)), starting from the posture predicted by the frames before. A marker that stays off by more than skin
+//! can slide is excluded until it returns. Two markers that are each at the expected position of the other have swapped
+//! labels, and are swapped back.
 //!
 //! Pinned by: tests/marker_outliers.rs
 
@@ -16,8 +17,8 @@ use super::start;
 use crate::numerics::elementary::powi;
 use crate::spatial::Vec3;
 
-/// A frame is fitted again if an offset changes by more than this [m] plus the sliding of skin. A jump of 50 mm changes the offset
-/// by at least a quarter of its size if other markers determine the posture.
+/// A frame is fitted again if an offset changes by more than this [m] plus the sliding of skin. A jump of 50 mm changes
+/// the offset by at least a quarter of its size if other markers determine the posture.
 const SUSPICIOUS: f64 = 0.010;
 /// Largest speed of skin over bone [m/s]: 20 mm in a swing phase is 0.1; impacts are faster.
 const SKIN_SPEED: f64 = 0.5;
@@ -94,8 +95,8 @@ pub(super) fn run(problem: &mut FitProblem<'_>, frames: &mut Frames, outliers: O
     use_majority(frames);
 }
 
-/// If a marker is excluded from some frame to the end, and for longer than it was used before, its earlier position was the wrong
-/// one: uses the later frames instead.
+/// If a marker is excluded from some frame to the end, and for longer than it was used before, its earlier position was
+/// the wrong one: uses the later frames instead.
 fn use_majority(frames: &mut Frames) {
     for i in 0..frames.markers() {
         let is_seen = |frames: &Frames, f: usize| frames.path(f, i) == i && frames.is_seen(f, i);
@@ -223,7 +224,8 @@ fn limit(memory: &Tracking, i: usize, t: f64) -> f64 {
     JUMP + (SKIN_SPEED * (t - memory.times[i])).min(most)
 }
 
-/// Decides which markers are used in this frame, and their paths. Returns the fit if all is as before and nothing jumps.
+/// Decides which markers are used in this frame, and their paths. Returns the fit if all is as before and nothing
+/// jumps.
 fn guarded(
     problem: &mut FitProblem<'_>,
     frames: &mut Frames,
@@ -295,8 +297,8 @@ fn quiet_fit(
     (!changed).then_some(outcome)
 }
 
-/// Fits the loaded markers at their last offsets with a robust weighting, and stores the distance of each marker from its expected
-/// position.
+/// Fits the loaded markers at their last offsets with a robust weighting, and stores the distance of each marker from
+/// its expected position.
 fn robust(problem: &mut FitProblem<'_>, memory: &mut Tracking) {
     let mut x = std::mem::take(&mut memory.x);
     memory.weights.copy_from_slice(&problem.frame_weights);
@@ -346,8 +348,8 @@ fn exchange(problem: &FitProblem<'_>, frames: &mut Frames, memory: &mut Tracking
     }
 }
 
-/// In the first frame there are no expected positions. Two markers with swapped labels are both far off, and near when they are
-/// swapped back.
+/// In the first frame there are no expected positions. Two markers with swapped labels are both far off, and near when
+/// they are swapped back.
 fn exchange_in_first(problem: &mut FitProblem<'_>, frames: &mut Frames, memory: &mut Tracking, frame: usize) {
     let count = frames.markers();
     let mut x = memory.x.clone();

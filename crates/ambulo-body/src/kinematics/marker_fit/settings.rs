@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-/// Default of the longest bridged gap [s]: the only marker of a wrist may be lost for a third of a second. In that time the error of
-/// a parabola reaches 0.5 rad for a joint with a jerk of 600 rad/s³; longer curves would be meaningless.
+/// Default of the longest bridged gap [s]: the only marker of a wrist may be lost for a third of a second. In that time
+/// the error of a parabola reaches 0.5 rad for a joint with a jerk of 600 rad/s³; longer curves would be meaningless.
 const LONGEST_GAP_S: f64 = 0.35;
 
 /// Settings of [`fit_markers`](super::fit_markers).
@@ -15,8 +15,8 @@ pub struct FitSettings {
     pub tasks: Vec<CoordinateTask>,
     /// Which ranges of coordinates are enforced.
     pub limits: JointLimits,
-    /// Gaps of coordinates that no visible marker determines are bridged up to this length [s], 0.35 by default. Longer gaps, and
-    /// those at the ends of the recording, remain.
+    /// Gaps of coordinates that no visible marker determines are bridged up to this length [s], 0.35 by default. Longer
+    /// gaps, and those at the ends of the recording, remain.
     pub longest_gap_s: f64,
     /// Whether swapped labels, jumps and misplaced markers are detected.
     pub outliers: OutlierDetection,
@@ -37,7 +37,8 @@ impl Default for FitSettings {
     }
 }
 
-/// A coordinate that is held near a value. With tasks, the fit of a frame minimises, as in OpenSim's inverse kinematics,
+/// A coordinate that is held near a value. With tasks, the fit of a frame minimises, as in OpenSim's inverse
+/// kinematics,
 ///
 /// Σ w |m - p(q)|² / Σ w + Σ k (q - q_task)²
 ///
@@ -104,10 +105,10 @@ pub enum OutlierDetection {
 
 /// Prior of the fit of all frames together, which weighs the markers against the smoothness of the motion.
 ///
-/// The third time derivatives of the coordinates are assumed to be random with these root mean squares, and the distances of the
-/// markers from the model with `marker_noise_m`. Both sums run over frames, so that the result does not depend on the frame
-/// rate. For a single coordinate that moves markers with Σ|∂p/∂q|² = h the fit is a low-pass filter of sixth order,
-/// 1 / (1 + (ω/ω_c)⁶) with ω_c = (√h · jerk / noise)^(1/3).
+/// The third time derivatives of the coordinates are assumed to be random with these root mean squares, and the
+/// distances of the markers from the model with `marker_noise_m`. Both sums run over frames, so that the result does
+/// not depend on the frame rate. For a single coordinate that moves markers with Σ|∂p/∂q|² = h the fit is a low-pass
+/// filter of sixth order, 1 / (1 + (ω/ω_c)⁶) with ω_c = (√h · jerk / noise)^(1/3).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SmoothnessPrior {
     /// Random part of the distance of a marker from the model [m].
@@ -119,8 +120,9 @@ pub struct SmoothnessPrior {
 }
 
 impl Default for SmoothnessPrior {
-    /// An angle that swings by 0.3 rad at 2 Hz has a jerk of 0.3 (4π)³ ≈ 600 rad/s³; a pelvis that moves up and down by 20 mm at 2 Hz
-    /// has one of 40 m/s³. With a marker noise of 2 mm and eight markers 0.3 m from the knee, the cut-off of its angle is 10 Hz.
+    /// An angle that swings by 0.3 rad at 2 Hz has a jerk of 0.3 (4π)³ ≈ 600 rad/s³; a pelvis that moves up and down by
+    /// 20 mm at 2 Hz has one of 40 m/s³. With a marker noise of 2 mm and eight markers 0.3 m from the knee, the cut-off
+    /// of its angle is 10 Hz.
     fn default() -> Self {
         SmoothnessPrior { marker_noise_m: 0.002, rotation_jerk: 600.0, translation_jerk: 40.0 }
     }

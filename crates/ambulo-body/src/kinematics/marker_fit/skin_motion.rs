@@ -4,13 +4,15 @@
 //!
 //!   o(t) ≈ o̅ + Σ_k b_k f_k(q(t))
 //!
-//! where o is the offset in the axes of the body, and f are the angles of the body's own joint and of its child joints, with
-//! their squares if there are few. A small penalty on b keeps slopes near zero that the recording does not determine.
+//! where o is the offset in the axes of the body, and f are the angles of the body's own joint and of its child joints,
+//! with their squares if there are few. A small penalty on b keeps slopes near zero that the recording does not
+//! determine.
 //!
-//! [`OffsetDrift`] measures how far the rest r = o - Σ b f departs from a straight line in time: the root mean square of
-//! r(t) - (r(t - h) + r(t + h)) / 2 over all t with complete frames at t - h, t and t + h. A skin marker over a muscle drifts by
-//! 20 mm in half a step, one over a bone by 2 mm. In frames that lack markers, each of the others is weighted by the inverse
-//! square of its drift: least squares with known variances give the most likely posture of the complete frame.
+//! [`OffsetDrift`] measures how far the rest r = o - Σ b f departs from a straight line in time: the root mean square
+//! of r(t) - (r(t - h) + r(t + h)) / 2 over all t with complete frames at t - h, t and t + h. A skin marker over a
+//! muscle drifts by 20 mm in half a step, one over a bone by 2 mm. In frames that lack markers, each of the others is
+//! weighted by the inverse square of its drift: least squares with known variances give the most likely posture of the
+//! complete frame.
 //!
 //! Pinned by: tests/marker_gaps.rs
 
@@ -122,8 +124,8 @@ fn angles(problem: &FitProblem<'_>, node: usize) -> Vec<usize> {
 
 /// Minimum number of instants for an estimate.
 const FEWEST_INSTANTS: usize = 20;
-/// Smallest assumed drift [m]. If a single marker shows the rotation of a segment, the posture follows it, so that its offset
-/// changes little although the skin moves.
+/// Smallest assumed drift [m]. If a single marker shows the rotation of a segment, the posture follows it, so that its
+/// offset changes little although the skin moves.
 pub(super) const LEAST_DRIFT: f64 = 0.005;
 
 /// Drift of all markers for gaps of several lengths, each computed once.

@@ -2,17 +2,17 @@
 //!
 //! min  Σ_t Σ_i w |m - p(q_t)|² / σ²  +  Σ_t Σ_u (Δ³q_u / (Δt³ J_u))²
 //!
-//! Newton's method on all frames at once: the markers contribute a diagonal block per frame, the prior couples each frame to the three
-//! before it along each coordinate, so that the matrix and its Cholesky factor have 3 n bands for n coordinates. Coordinates that
-//! no marker determines follow from the prior. In frames that lack markers, the missing ones are where the frame-by-frame fit has
-//! them.
+//! Newton's method on all frames at once: the markers contribute a diagonal block per frame, the prior couples each
+//! frame to the three before it along each coordinate, so that the matrix and its Cholesky factor have 3 n bands for n
+//! coordinates. Coordinates that no marker determines follow from the prior. In frames that lack markers, the missing
+//! ones are where the frame-by-frame fit has them.
 //!
 //! | code    | symbol                         | unit          |
 //! | `noise` | σ, [`SmoothnessPrior::marker_noise_m`] | m           |
 //! | `jerk`  | J                              | rad/s³, m/s³  |
 //!
-//! Source: the discrete smoothing spline of half order three (Whittaker 1923 for the penalty (unverified)); derived here.
-//! Cost: frames times 9 n³ multiplications per step; 8 bytes times frames times 3 n² of memory.
+//! Source: the discrete smoothing spline of half order three (Whittaker 1923 for the penalty (unverified)); derived
+//! here. Cost: frames times 9 n³ multiplications per step; 8 bytes times frames times 3 n² of memory.
 //! Pinned by: tests/marker_smoothing.rs
 
 use super::frames::Frames;
@@ -31,7 +31,8 @@ const MOST_NUMBERS: usize = 1 << 27;
 const HALVINGS: usize = 12;
 /// Weight that keeps a coordinate at the end of its range.
 const HELD: f64 = 1e15;
-/// Weight of the value of each coordinate, so that the matrix stays positive definite if neither markers nor prior determine it.
+/// Weight of the value of each coordinate, so that the matrix stays positive definite if neither markers nor prior
+/// determine it.
 const FLOOR: f64 = 1e-9;
 const THIRD: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
 
@@ -44,7 +45,8 @@ pub(super) struct Ending {
     small_step: f64,
     /// The last step lowers the cost by less than this share of it.
     small_gain: f64,
-    /// Whether second derivatives of the positions are used, which end the iteration sooner and may lead astray far from the solution.
+    /// Whether second derivatives of the positions are used, which end the iteration sooner and may lead astray far
+    /// from the solution.
     newton: bool,
     /// Damping [weights times m²].
     damping: f64,

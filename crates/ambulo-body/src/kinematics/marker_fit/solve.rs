@@ -1,12 +1,13 @@
 //! The fit of one frame: minimises Σ w |m - p(q)|² within the ranges of the coordinates.
 //!
 //! Newton's method with the second derivatives of the marker positions; if a step fails, Gauss-Newton steps with
-//! Levenberg-Marquardt damping. Steps are projected on the ranges: unknowns at the end of their range that are pushed outwards
-//! are excluded for that step (projected Newton method, Bertsekas 1982, SIAM J. Control Optim. 20:221; unverified). Optional
-//! springs pull unknowns towards a value.
+//! Levenberg-Marquardt damping. Steps are projected on the ranges: unknowns at the end of their range that are pushed
+//! outwards are excluded for that step (projected Newton method, Bertsekas 1982, SIAM J. Control Optim. 20:221;
+//! unverified). Optional springs pull unknowns towards a value.
 //!
-//! Markers are about 10 mm off the model, at levers of 30 mm (wrist) to 300 mm. Without second derivatives each step reduces the
-//! error by the ratio of distance to lever, 0.4 at the wrist, and a frame of a full body took 11 steps; with them it takes 4.
+//! Markers are about 10 mm off the model, at levers of 30 mm (wrist) to 300 mm. Without second derivatives each step
+//! reduces the error by the ratio of distance to lever, 0.4 at the wrist, and a frame of a full body took 11 steps;
+//! with them it takes 4.
 //!
 //! Pinned by: tests/marker_fit.rs
 
@@ -105,7 +106,8 @@ impl Solver {
         }
     }
 
-    /// Iterates from `x` to convergence, with at most this number of steps, or until no linear solve is left; leaves the tree at the final posture.
+    /// Iterates from `x` to convergence, with at most this number of steps, or until no linear solve is left; leaves
+    /// the tree at the final posture.
     pub(super) fn fit(
         &mut self,
         tree: &mut MarkerTree,
@@ -154,8 +156,8 @@ impl Solver {
         }
     }
 
-    /// Takes a step that does not raise the cost; returns the new cost of the markers and the largest move. `None` if there is no
-    /// such step: the posture is optimal up to rounding.
+    /// Takes a step that does not raise the cost; returns the new cost of the markers and the largest move. `None` if
+    /// there is no such step: the posture is optimal up to rounding.
     fn step(
         &mut self,
         tree: &mut MarkerTree,
@@ -195,7 +197,8 @@ impl Solver {
         }
     }
 
-    /// Computes the damped step of the unknowns that are not fixed. Returns false if the matrix is not positive definite.
+    /// Computes the damped step of the unknowns that are not fixed. Returns false if the matrix is not positive
+    /// definite.
     fn solve(&mut self, damping: f64, newton: bool) -> bool {
         self.budget.spend_one();
         let Normal { branches, matrix, curvature, right, .. } = &self.normal;
@@ -221,8 +224,8 @@ impl Solver {
         longest.is_finite()
     }
 
-    /// RMS change of each unknown per unit of error in each marker, at the current posture: the square roots of the diagonal of
-    /// (JᵀWJ)⁻¹ for unit weights. Infinite if no marker determines the unknown.
+    /// RMS change of each unknown per unit of error in each marker, at the current posture: the square roots of the
+    /// diagonal of (JᵀWJ)⁻¹ for unit weights. Infinite if no marker determines the unknown.
     pub(super) fn uncertainty(&mut self, tree: &MarkerTree, targets: &Targets<'_>, sensitivity: &mut [f64]) {
         self.normal.gather(tree, targets);
         let branches = &self.normal.branches;

@@ -1,8 +1,8 @@
 //! Initial posture for the first frame and for frames after long gaps.
 //!
-//! The model in its default posture is fitted to the markers as one rigid body, starting from all rotations of the root by
-//! multiples of 90 degrees. The best results are fitted in full and, if the distances stay large, again joint by joint from the
-//! root outwards. The posture with the lowest cost is used.
+//! The model in its default posture is fitted to the markers as one rigid body, starting from all rotations of the root
+//! by multiples of 90 degrees. The best results are fitted in full and, if the distances stay large, again joint by
+//! joint from the root outwards. The posture with the lowest cost is used.
 //!
 //! Pinned by: tests/marker_fit.rs (recordings turned about the vertical, random postures)
 
@@ -74,8 +74,8 @@ fn placements(problem: &mut FitProblem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
     }
     problem.bounds.held = held;
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Starts that lead to the same placement are one candidate. Three angles have two sets of values for an orientation; the one
-    // nearer to the default posture is used.
+    // Starts that lead to the same placement are one candidate. Three angles have two sets of values for an
+    // orientation; the one nearer to the default posture is used.
     let far = |x: &[f64]| x.iter().zip(default).map(|(x, d)| (x - d) * (x - d)).sum::<f64>();
     found.dedup_by(|later, earlier| {
         let same = (later.0 - earlier.0).abs() <= SAME * earlier.0.abs() + NEGLIGIBLE;

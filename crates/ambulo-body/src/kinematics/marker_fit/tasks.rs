@@ -1,6 +1,7 @@
 //! Coordinates that are held near values while the markers are fitted: springs on the unknowns.
 //!
-//! The cost of [`CoordinateTask`] times Σ w is Σ w |m - p|² + Σ (k Σ w) (q - q_task)², so that a task is a spring of stiffness k Σ w.
+//! The cost of [`CoordinateTask`] times Σ w is Σ w |m - p|² + Σ (k Σ w) (q - q_task)², so that a task is a spring of
+//! stiffness k Σ w.
 //!
 //! Pinned by: tests/marker_tasks.rs
 
@@ -18,7 +19,8 @@ pub(super) struct HeldUnknown {
     target: TaskTarget,
 }
 
-/// The tasks on unknowns. Names that the model does not have are reported; a coordinate that is locked or follows others needs no task.
+/// The tasks on unknowns. Names that the model does not have are reported; a coordinate that is locked or follows
+/// others needs no task.
 pub(super) fn held_unknowns(
     model: &Model,
     tree: &MarkerTree,

@@ -1,17 +1,17 @@
-//! The part of a model that carries markers, prepared for repeated fits: positions of the markers and their derivatives by the
-//! unknowns.
+//! The part of a model that carries markers, prepared for repeated fits: positions of the markers and their derivatives
+//! by the unknowns.
 //!
-//! A column is the twist that an unknown gives to a body through its own joint, and to all bodies further out. With the moving
-//! origin M of the joint, the direction a of a rotation axis in world axes and the slope f' of the axis by the unknown (by the
-//! chain rule through couplers),
+//! A column is the twist that an unknown gives to a body through its own joint, and to all bodies further out. With the
+//! moving origin M of the joint, the direction a of a rotation axis in world axes and the slope f' of the axis by the
+//! unknown (by the chain rule through couplers),
 //!
 //!   angular part  ω = Σ f' a,      velocity of the point of the body at the reference point  v = Σ f' a × (ref - M) + Σ f' d
 //!
-//! where d are the directions of translations; on an ellipsoid d is radii ∘ (a × z) in the axes of F. A marker at p then moves at
-//! v + ω × (p - ref).
+//! where d are the directions of translations; on an ellipsoid d is radii ∘ (a × z) in the axes of F. A marker at p
+//! then moves at v + ω × (p - ref).
 //!
-//! The axes are those of [`plan`](crate::kinematics::plan). The nodes are not: a fit needs body frames and columns of the bodies
-//! with markers only, the sweeps need joint frames relative to mass centres, with velocities, of all bodies.
+//! The axes are those of [`plan`](crate::kinematics::plan). The nodes are not: a fit needs body frames and columns of
+//! the bodies with markers only, the sweeps need joint frames relative to mass centres, with velocities, of all bodies.
 //!
 //! Pinned by: tests/marker_fit.rs (derivatives against finite differences, random models of all joint kinds)
 
@@ -83,8 +83,8 @@ pub(super) struct MarkerTree {
 }
 
 impl MarkerTree {
-    /// Prepares a model for markers on these bodies; the unknowns are the free coordinates that move one of them. The second list
-    /// is the node of each of the bodies.
+    /// Prepares a model for markers on these bodies; the unknowns are the free coordinates that move one of them. The
+    /// second list is the node of each of the bodies.
     pub(super) fn new(model: &Model, tracked: &[BodyId]) -> (MarkerTree, Vec<usize>) {
         let mut wanted = vec![false; model.bodies().len()];
         for body in tracked {

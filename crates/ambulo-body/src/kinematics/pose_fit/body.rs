@@ -76,7 +76,8 @@ fn foot(points: &MarkerRecording, table: &Human, side: Side, assumptions: &mut V
         return SolePlacement { ankle_height: height, ..of_table };
     }
     let message = format!(
-        "height zero is not the floor: the {side} ankle is {:.0} mm above it in standing; the ankle is assumed {:.0} mm above the floor",
+        "height zero is not the floor: the {side} ankle is {:.0} mm above it in standing; the ankle is assumed {:.0} \
+         mm above the floor",
         1e3 * height,
         1e3 * usual
     );

@@ -2,9 +2,9 @@
 //!
 //! max_q tr(R(q)^T R)      closest in the angle of the remaining rotation
 //!
-//! With three perpendicular axes there are two exact solutions; the one nearer to the angles of the frame before is taken. With fewer axes,
-//! each angle in turn takes its best value while the others stay: for R(q) = A R(a, θ) B, tr(R(q)^T R) = tr(R(a, θ)^T M) with
-//! M = A^T R B^T, which is largest at
+//! With three perpendicular axes there are two exact solutions; the one nearer to the angles of the frame before is
+//! taken. With fewer axes, each angle in turn takes its best value while the others stay: for R(q) = A R(a, θ) B,
+//! tr(R(q)^T R) = tr(R(a, θ)^T M) with M = A^T R B^T, which is largest at
 //!
 //!   θ = atan2(a · v, tr M - a · M a)        v = (M32 - M23, M13 - M31, M21 - M12)
 //!
@@ -108,7 +108,8 @@ fn write_displacement(displacement: &Displacement, value: f64, values: &mut [f64
     }
 }
 
-/// Both solutions for three perpendicular axes; returns the one nearer to `before`. Axes that are left-handed count backwards.
+/// Both solutions for three perpendicular axes; returns the one nearer to `before`. Axes that are left-handed count
+/// backwards.
 fn exact(frame: &Mat3, wanted: &Mat3, before: &[f64]) -> Vec<f64> {
     let sign = frame.determinant().signum();
     let [a, b, c] = angles_zxy(&(frame.transpose() * wanted * frame)).map(|angle| sign * angle);

@@ -1,17 +1,19 @@
 //! Coordinates of the built-in body from measured poses of its segments.
 //!
-//! Nothing is fitted to points. From the root outwards, each joint takes the angles that bring its segment closest to its measured
-//! orientation, given the orientation that its parent has reached:
+//! Nothing is fitted to points. From the root outwards, each joint takes the angles that bring its segment closest to
+//! its measured orientation, given the orientation that its parent has reached:
 //!
 //!   R_FM(q) ≈ F^T R_parent^T R_segment M        F, M: the constant rotations of the joint frames
 //!
-//! Joints with three rotations reach the orientation exactly. The knee only flexes, ankle and elbow have two rotations; the mean of what
-//! they cannot reach (varus and axial rotation of a knee) becomes a constant part of the joint, as in a calibration, and what is left is
-//! reported as distances of the joint centres. The root takes the position midway between the hips. The trunk is turned by the smallest
-//! angle that brings its shoulders to the measured line from lumbar joint to shoulders, so that its mass centre follows the shoulders.
+//! Joints with three rotations reach the orientation exactly. The knee only flexes, ankle and elbow have two rotations;
+//! the mean of what they cannot reach (varus and axial rotation of a knee) becomes a constant part of the joint, as in
+//! a calibration, and what is left is reported as distances of the joint centres. The root takes the position midway
+//! between the hips. The trunk is turned by the smallest angle that brings its shoulders to the measured line from
+//! lumbar joint to shoulders, so that its mass centre follows the shoulders.
 //!
-//! The axes of a forearm are those of the anatomical position in the poses (palms forward), and of thumbs forward in the body: 90° of
-//! pronation apart (unverified; the forearms of the one walk that was seen are pronated by 79° and 99° on average).
+//! The axes of a forearm are those of the anatomical position in the poses (palms forward), and of thumbs forward in
+//! the body: 90° of pronation apart (unverified; the forearms of the one walk that was seen are pronated by 79° and 99°
+//! on average).
 //!
 //! Not handled: translations in joints; clavicles; given models.
 //! Pinned by: tests/segment_poses.rs
@@ -255,7 +257,8 @@ fn bridge(model: &Model, recording: &PoseRecording<'_>, columns: &mut [Vec<f64>]
         let known: Vec<usize> = (0..column.len()).filter(|&i| column[i].is_finite()).collect();
         let Some(gap) = known.windows(2).find(|pair| pair[1] > pair[0] + 1) else { continue };
         let message = format!(
-            "`{}`: poses are missing from {:.3} to {:.3} s; it has no value there (only gaps of up to {} s are bridged)",
+            "`{}`: poses are missing from {:.3} to {:.3} s; it has no value there (only gaps of up to {} s are \
+             bridged)",
             coordinate.name,
             times[gap[0] + 1],
             times[gap[1] - 1],

@@ -12,13 +12,15 @@
 //! | `TIED` | σ_tied | 1 |
 //! | `POSTURE` | σ_q | rad |
 //!
-//! The size of a body without markers cannot be determined, nor that of a body with fewer than three at the end of a limb; it is tied
-//! to a neighbour: to its only child with markers (the talus is part of the foot), otherwise to its parent.
+//! The size of a body without markers cannot be determined, nor that of a body with fewer than three at the end of a
+//! limb; it is tied to a neighbour: to its only child with markers (the talus is part of the foot), otherwise to its
+//! parent.
 //!
-//! One factor per body: its markers determine its length well and its width badly. ρ is Cauchy's, σ² ln(1 + (d/σ)²): most bodies share
-//! the proportions of the model, but clear evidence of markers may change them. Offsets of markers from their positions are part
-//! of the noise: a marker has three coordinates, so a normally distributed offset with σ is equivalent to a
-//! distance of σ. The remaining distances are these offsets, and the markers are moved by them at the end.
+//! One factor per body: its markers determine its length well and its width badly. ρ is Cauchy's, σ² ln(1 + (d/σ)²):
+//! most bodies share the proportions of the model, but clear evidence of markers may change them. Offsets of markers
+//! from their positions are part of the noise: a marker has three coordinates, so a normally distributed offset with σ
+//! is equivalent to a distance of σ. The remaining distances are these offsets, and the markers are moved by them at
+//! the end.
 //!
 //! Cost: two models per body and step, about 50 ms in total.
 //! Not handled: several standing postures; factors that differ along the axes of one body (use measurements).
@@ -68,7 +70,8 @@ pub struct SizedModel {
     pub factors: Vec<Vec3>,
     /// The standing posture, one value per coordinate [rad or m].
     pub posture: Vec<f64>,
-    /// Root mean square distance of the markers from those of the unscaled model [m]; `None` without a fit to a standing trial.
+    /// Root mean square distance of the markers from those of the unscaled model [m]; `None` without a fit to a
+    /// standing trial.
     pub rms_before_m: Option<f64>,
     /// The same for the scaled model, before its markers were moved [m].
     pub rms_m: Option<f64>,
@@ -91,8 +94,8 @@ pub fn fit_size(
     let start = fit_markers(model, &standing, &fit_settings, findings)?;
     let mut problem = Problem::new(model, &standing, &start.motion.columns)?;
     let mut z = problem.start.clone();
-    // Quadratic first, so that a body with few markers is not given a separate size before the others have theirs; then from the
-    // posture of a model of about the right size, because that of a wrong size may have folded an arm.
+    // Quadratic first, so that a body with few markers is not given a separate size before the others have theirs; then
+    // from the posture of a model of about the right size, because that of a wrong size may have folded an arm.
     minimise(&mut problem, &mut z, STEPS);
     let about = model.scaled(&problem.factors(&z), None)?;
     let again = fit_markers(&about, &standing, &fit_settings, &mut Findings::default())?;

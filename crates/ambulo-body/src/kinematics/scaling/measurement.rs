@@ -1,8 +1,9 @@
 //! Scale factors from distances between markers.
 //!
-//! A measurement is a list of pairs of markers and the axes of the bodies that its factor scales. The factor is the recorded distance, the mean
-//! over the frames, divided by the distance on the model in its default posture, averaged over the pairs. Bodies without a measurement keep
-//! their size. A measurement with a marker that the model or the recording lacks is not used.
+//! A measurement is a list of pairs of markers and the axes of the bodies that its factor scales. The factor is the
+//! recorded distance, the mean over the frames, divided by the distance on the model in its default posture, averaged
+//! over the pairs. Bodies without a measurement keep their size. A measurement with a marker that the model or the
+//! recording lacks is not used.
 //!
 //! Source: OpenSim, ModelScaler.cpp (`computeMeasurementScaleFactor`, `takeExperimentalMarkerMeasurement`), read.
 //! Pinned by: tests/scaling.rs
@@ -113,7 +114,8 @@ impl Distances<'_> {
         for [a, b] in &measurement.pairs {
             let (Some(on_model), Some(recorded)) = (self.on_model(a, b), self.recorded(a, b)) else {
                 let message = format!(
-                    "measurement `{}` was not used, so its bodies keep the size of the model: the pair {a} - {b} is not in both the model and `{}`",
+                    "measurement `{}` was not used, so its bodies keep the size of the model: the pair {a} - {b} is \
+                     not in both the model and `{}`",
                     measurement.name, self.recording.name
                 );
                 findings.report(Code::ScalingPair, message);

@@ -1,9 +1,10 @@
 //! Scales a model to a person from a standing trial.
 //!
 //! [`fit_size`] fits sizes and posture together, without a list; it keeps the mass distribution of the model
-//! ([`Model::scaled`](crate::model::Model::scaled)), scales it to the body mass and moves its markers to their positions on the person.
-//! [`scale_by_protocol`] does what the protocol of a laboratory states, as OpenSim's scale tool: distances between markers, recorded and on the
-//! model ([`measured_factors`]), stated factors, masses, and the fit in which markers are placed.
+//! ([`Model::scaled`](crate::model::Model::scaled)), scales it to the body mass and moves its markers to their
+//! positions on the person. [`scale_by_protocol`] does what the protocol of a laboratory states, as OpenSim's scale
+//! tool: distances between markers, recorded and on the model ([`measured_factors`]), stated factors, masses, and the
+//! fit in which markers are placed.
 //!
 //! Pinned by: tests/scaling.rs
 
@@ -33,7 +34,8 @@ pub enum ScalingError {
     },
     /// A time range without a frame of the trial.
     #[error(
-        "`{trial}` has no frame between {} and {} s; expected a part of {} to {} s", range_s[0], range_s[1], recorded_s[0], recorded_s[1]
+        "`{trial}` has no frame between {} and {} s; expected a part of {} to {} s", range_s[0], range_s[1],
+            recorded_s[0], recorded_s[1]
     )]
     NoFrame {
         /// The trial.

@@ -1,9 +1,11 @@
 //! Scales a model by the protocol of a laboratory, as OpenSim's scale tool does.
 //!
-//! 1. Factors of the bodies: measurements and stated factors in the order of the protocol, a later one replaces an earlier one.
+//! 1. Factors of the bodies: measurements and stated factors in the order of the protocol, a later one replaces an
+//!    earlier one.
 //! 2. Bodies and masses are scaled ([`Model::scaled_with`]).
-//! 3. The scaled model is fitted to the mean positions of the markers in a standing trial, with the weights of the protocol; then markers
-//!    that are not fixed move to their recorded positions, and markers that the trial lacks are removed from the model.
+//! 3. The scaled model is fitted to the mean positions of the markers in a standing trial, with the weights of the
+//!    protocol; then markers that are not fixed move to their recorded positions, and markers that the trial lacks are
+//!    removed from the model.
 //!
 //! Source: OpenSim, ModelScaler.cpp and MarkerPlacer.cpp, read.
 //! Not handled: a limit of the motion of markers in the standing trial.
@@ -46,7 +48,8 @@ pub enum ScalingStep {
 /// How markers move to their places on the person.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MarkerPlacement {
-    /// Weights of the markers in the fit of the standing posture; 0 for those that are not listed, or 1 for all if none is.
+    /// Weights of the markers in the fit of the standing posture; 0 for those that are not listed, or 1 for all if none
+    /// is.
     pub weights: BTreeMap<String, f64>,
     /// Coordinates that are held near values in that fit.
     pub tasks: Vec<CoordinateTask>,
@@ -66,8 +69,8 @@ pub struct ProtocolTrials<'a> {
 /// Scales a model by a protocol.
 ///
 /// # Errors
-/// A protocol whose trial is missing, or has no frame in the stated time; markers that cannot be fitted; factors or a mass that are not
-/// positive.
+/// A protocol whose trial is missing, or has no frame in the stated time; markers that cannot be fitted; factors or a
+/// mass that are not positive.
 pub fn scale_by_protocol(
     model: &Model,
     protocol: &ScalingProtocol,

@@ -33,7 +33,8 @@ pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> M
         let more = if count > MOST_NAMED { format!(" and {} more", count - MOST_NAMED) } else { String::new() };
         moving.truncate(MOST_NAMED);
         let message = format!(
-            "in `{}` {count} of {all} markers move by more than {:.0} mm rms ({}{more}); their median position was used{conclusion}",
+            "in `{}` {count} of {all} markers move by more than {:.0} mm rms ({}{more}); their median position was \
+             used{conclusion}",
             recording.name,
             1000.0 * AT_REST,
             moving.join(", ")

@@ -156,14 +156,16 @@ fn report_unrest(trial: &SensorTrial<'_>, findings: &mut Findings) {
     if let Some((sensor, speed)) = fastest.filter(|(_, speed)| *speed > STILL) {
         let place = if trial.standing.is_some() { "in the standing trial" } else { "at the beginning of the motion" };
         let message = format!(
-            "the person moves {place}, where the default posture of the model is assumed: `{sensor}` turns by {:.0} degrees/s; every angle is off by what the posture there differs",
+            "the person moves {place}, where the default posture of the model is assumed: `{sensor}` turns by {:.0} \
+             degrees/s; every angle is off by what the posture there differs",
             speed.to_degrees()
         );
         findings.report(Code::SensorsUnrest, message);
     }
 }
 
-/// The horizontal direction in which the person faces in the standing posture, in world axes before the turn of the heading.
+/// The horizontal direction in which the person faces in the standing posture, in world axes before the turn of the
+/// heading.
 fn facing(
     model: &Model,
     trial: &SensorTrial<'_>,
@@ -202,8 +204,9 @@ fn facing(
     }
 }
 
-/// Mean over the legs of the largest tenth of the turns of the shanks relative to the thighs since the standing posture, as they would
-/// be if the thighs still stood, in the axes of the sensors' earth [rad]. Knees bend backwards, so it points to the left.
+/// Mean over the legs of the largest tenth of the turns of the shanks relative to the thighs since the standing
+/// posture, as they would be if the thighs still stood, in the axes of the sensors' earth [rad]. Knees bend backwards,
+/// so it points to the left.
 fn mean_bending(model: &Model, trial: &SensorTrial<'_>, standing: &[Standing]) -> Option<Vec3> {
     let of = |segment: PosedSegment| {
         standing.iter().find(|sensor| segment_of(&model.bodies()[sensor.body.index()].name) == Some(segment))
@@ -250,7 +253,8 @@ fn report_heading(source: &SensorHeading, heading: f64, findings: &mut Findings)
         SensorHeading::Sensor { sensor, axis } => format!("the axis {} of `{sensor}`", axis_name(axis)),
     };
     let message = format!(
-        "the sensors were turned by {:.1} degrees about the vertical, so that the person faces forward in the standing posture, by {by}",
+        "the sensors were turned by {:.1} degrees about the vertical, so that the person faces forward in the standing \
+         posture, by {by}",
         heading.to_degrees()
     );
     findings.report(Code::SensorsHeading, message);

@@ -1,7 +1,7 @@
 //! Which coordinates the sensors determine.
 //!
-//! Between a body with a sensor and the next one with a sensor towards the ground, three angles at most are determined, and only if their axes
-//! are independent in the default posture.
+//! Between a body with a sensor and the next one with a sensor towards the ground, three angles at most are determined,
+//! and only if their axes are independent in the default posture.
 
 use super::PlacedSensor;
 use crate::model::{BodyId, CoordinateId, Drive, Model, ModelPosture};

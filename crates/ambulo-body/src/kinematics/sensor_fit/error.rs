@@ -9,7 +9,8 @@ use crate::model::ModelError;
 pub enum SensorError {
     /// No sensor is on a body of the model.
     #[error(
-        "none of the sensors {sensors} is on a body of `{model}`; expected names of bodies with the ending `_imu`, such as {example}. hint: rename the columns of the file"
+        "none of the sensors {sensors} is on a body of `{model}`; expected names of bodies with the ending `_imu`, \
+         such as {example}. hint: rename the columns of the file"
     )]
     NoBody {
         /// Names of the sensors.
@@ -21,7 +22,8 @@ pub enum SensorError {
     },
     /// A sensor sent nothing in the posture of the calibration.
     #[error(
-        "the sensor `{sensor}` has no orientation in the standing posture ({place}); expected one. hint: choose a standing trial in which all sensors send, or remove the column"
+        "the sensor `{sensor}` has no orientation in the standing posture ({place}); expected one. hint: choose a \
+         standing trial in which all sensors send, or remove the column"
     )]
     NotCalibrated {
         /// Name of the sensor.
@@ -39,7 +41,8 @@ pub enum SensorError {
     },
     /// An axis of the heading that points up or down.
     #[error(
-        "the axis {axis} of `{sensor}` is {angle_deg:.0} degrees from the horizontal in the standing posture; expected one that points forward"
+        "the axis {axis} of `{sensor}` is {angle_deg:.0} degrees from the horizontal in the standing posture; expected \
+         one that points forward"
     )]
     HeadingAxis {
         /// The axis.
@@ -51,7 +54,8 @@ pub enum SensorError {
     },
     /// A motion that does not show where forward is.
     #[error(
-        "the direction forward is not known: {found}; expected knees that bend by {expected_deg:.0} degrees or more, or a sensor whose axis points forward in the standing posture"
+        "the direction forward is not known: {found}; expected knees that bend by {expected_deg:.0} degrees or more, \
+         or a sensor whose axis points forward in the standing posture"
     )]
     Heading {
         /// Flexion of the knees.
@@ -61,7 +65,8 @@ pub enum SensorError {
     },
     /// Coordinates that the sensors do not determine.
     #[error(
-        "the sensors do not determine {coordinates}: a sensor is missing on a body between two others, none is on the pelvis, or one sent nothing. hint: add the sensor, or lock the coordinates in the model"
+        "the sensors do not determine {coordinates}: a sensor is missing on a body between two others, none is on the \
+         pelvis, or one sent nothing. hint: add the sensor, or lock the coordinates in the model"
     )]
     Undetermined {
         /// Names of the coordinates.
@@ -69,7 +74,8 @@ pub enum SensorError {
     },
     /// A model without feet.
     #[error(
-        "`{model}` has no two legs with hip, knee, ankle and foot; the place of the pelvis follows from the feet on the ground"
+        "`{model}` has no two legs with hip, knee, ankle and foot; the place of the pelvis follows from the feet on \
+         the ground"
     )]
     NoFeet {
         /// Name of the model.
@@ -77,7 +83,8 @@ pub enum SensorError {
     },
     /// A pelvis that cannot move to where the feet put it.
     #[error(
-        "the root of `{model}` cannot move along all three directions; expected three translations with a coordinate each"
+        "the root of `{model}` cannot move along all three directions; expected three translations with a coordinate \
+         each"
     )]
     NoTranslation {
         /// Name of the model.

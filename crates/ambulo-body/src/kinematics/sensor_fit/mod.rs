@@ -1,5 +1,5 @@
-//! Orientation fit: the posture of a model whose bodies are turned as the sensors on them, and the place of the pelvis by the feet on
-//! the ground.
+//! Orientation fit: the posture of a model whose bodies are turned as the sensors on them, and the place of the pelvis
+//! by the feet on the ground.
 //!
 //! q(t) = argmin Σ w |H E R(t) - B(q) S|²        S = B(q₀)ᵀ H E R₀
 //!
@@ -12,18 +12,19 @@
 //! | `poses` | B | orientations of the bodies |
 //!
 //! |·|² is the sum of the squares of the elements: 8 sin²(θ/2) for sensors that are off by θ, which is 2 θ² for small angles; OpenSim minimises
-//! Σ w θ². The solver is that of [`marker_fit`](super::marker_fit): in a copy of the model without lengths, in which all joints are at
-//! one point, the tips of the axes of a sensor are markers, and the differences of directions are distances.
+//! Σ w θ². The solver is that of [`marker_fit`](super::marker_fit): in a copy of the model without lengths, in which
+//! all joints are at one point, the tips of the axes of a sensor are markers, and the differences of directions are
+//! distances.
 //!
-//! The standing posture q₀ is the default posture of the model. As in OpenSim's IMUPlacer, H turns an axis of a sensor to the axis forward
-//! of the root, but here only its horizontal part counts: OpenSim takes the whole angle between both, so that there a tilted axis
-//! counts as a turn. Without such an axis H follows from the knees, which bend backwards: the mean turn of the shanks relative to the
-//! thighs is about the axis to the left.
+//! The standing posture q₀ is the default posture of the model. As in OpenSim's IMUPlacer, H turns an axis of a sensor
+//! to the axis forward of the root, but here only its horizontal part counts: OpenSim takes the whole angle between
+//! both, so that there a tilted axis counts as a turn. Without such an axis H follows from the knees, which bend
+//! backwards: the mean turn of the shanks relative to the thighs is about the axis to the left.
 //!
 //! Orientations do not show where the person is. The place of the pelvis follows from the feet (`place.rs`).
 //!
-//! Sources: opensim-core, `OpenSim/Simulation/OpenSense/IMUPlacer.cpp` and `OpenSenseUtilities.cpp`; OpenSim's documentation, "IMU Placer
-//! Settings File and XML Tag Definitions".
+//! Sources: opensim-core, `OpenSim/Simulation/OpenSense/IMUPlacer.cpp` and `OpenSenseUtilities.cpp`; OpenSim's
+//! documentation, "IMU Placer Settings File and XML Tag Definitions".
 //! Not handled: drift of the heading of single sensors; flight; floors that are not level, treadmills.
 //! Pinned by: tests/sensor_fit.rs
 
@@ -87,8 +88,8 @@ impl Default for SensorAxes {
     }
 }
 
-/// The orientations of sensors whose turns in their bodies are known, by name, in the default posture of a model: a standing posture for
-/// [`SensorTrial::standing`], with the heading of the model.
+/// The orientations of sensors whose turns in their bodies are known, by name, in the default posture of a model: a
+/// standing posture for [`SensorTrial::standing`], with the heading of the model.
 #[must_use]
 pub fn standing_posture(model: &Model, sensors: &[(String, BodyId, Mat3)], axes: &SensorAxes) -> SensorRecording {
     let default = model.coordinates().iter().map(|coordinate| coordinate.default_value).collect();
@@ -106,7 +107,8 @@ pub fn standing_posture(model: &Model, sensors: &[(String, BodyId, Mat3)], axes:
 pub struct SensorFit {
     /// All coordinates. Those of the place of the root are derived from the feet on the ground.
     pub motion: Motion,
-    /// Turn about the vertical that was applied to the orientations, from the sensors' heading to that of the model [rad].
+    /// Turn about the vertical that was applied to the orientations, from the sensors' heading to that of the model
+    /// [rad].
     pub heading: f64,
     /// Name of each used sensor, with the angle between sensor and body: root mean square over the frames [rad].
     pub angles: Vec<(String, f64)>,
@@ -115,7 +117,8 @@ pub struct SensorFit {
 /// Fits a model to the orientations of sensors. Weights of sensors are those of the settings, by name.
 ///
 /// # Errors
-/// Sensors that are on no body, no standing posture, no direction forward, coordinates that are not determined: see [`SensorError`].
+/// Sensors that are on no body, no standing posture, no direction forward, coordinates that are not determined: see
+/// [`SensorError`].
 pub fn fit_sensors(
     model: &Model,
     soles: &BySide<Option<Sole>>,
@@ -195,8 +198,8 @@ impl Tips {
     }
 }
 
-/// The model without lengths, with the tips of the axes of the sensors as markers: all joints are at the origin, so that the place of
-/// a marker is a direction.
+/// The model without lengths, with the tips of the axes of the sensors as markers: all joints are at the origin, so
+/// that the place of a marker is a direction.
 fn directions_of(model: &Model, placed: &[PlacedSensor]) -> Result<Model, SensorError> {
     let mut bodies = model.bodies().to_vec();
     for body in &mut bodies {

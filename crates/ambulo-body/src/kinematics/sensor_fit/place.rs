@@ -1,15 +1,15 @@
 //! The place of the root by the feet on the ground.
 //!
-//! A sensor shows how a segment is turned, not where it is. With the root at the origin, forward kinematics gives the points k of the
-//! soles, x_k(t). The lowest ones are on the ground and do not move: the root is at
+//! A sensor shows how a segment is turned, not where it is. With the root at the origin, forward kinematics gives the
+//! points k of the soles, x_k(t). The lowest ones are on the ground and do not move: the root is at
 //!
 //!   height:  h(t) = -Σ w_k y_k / Σ w_k                 along the floor:  p(t+dt) = p(t) - Σ w_k (x_k(t+dt) - x_k(t)) / Σ w_k
 //!
 //!   w_k = exp(-(y_k - y_min)/ε) exp(-|v_k - v_min|²/2σ²)
 //!
-//! where v_k is the velocity of the point relative to the root, and v_min that of the lowest point: points that are on the ground together
-//! move alike. ε and σ make the change from one point to the next smooth. The increments along the floor use the mean weights of both
-//! frames.
+//! where v_k is the velocity of the point relative to the root, and v_min that of the lowest point: points that are on
+//! the ground together move alike. ε and σ make the change from one point to the next smooth. The increments along the
+//! floor use the mean weights of both frames.
 //!
 //! A foot is on the ground at every instant: flight is not detected, and its height is wrong.
 //! Pinned by: tests/sensor_fit.rs
@@ -24,7 +24,8 @@ use crate::spatial::Vec3;
 
 /// ε: heights within which points of the soles share the contact [m]; soles of models are known to some millimetres.
 const SHARED_M: f64 = 0.006;
-/// σ: differences of velocity within which points share the contact [m/s]; a swinging toe passes the ground with some 3 m/s.
+/// σ: differences of velocity within which points share the contact [m/s]; a swinging toe passes the ground with some 3
+/// m/s.
 const ALIKE_M_S: f64 = 0.3;
 
 /// Whether a coordinate only moves the root along a direction.
@@ -61,13 +62,16 @@ pub(super) fn on_the_ground(
         .zip(known.next_back())
         .map_or(0.0, |(first, last)| (last - first - up * (last - first).dot(&up)).norm());
     let message = format!(
-        "sensors do not show where the person is: the lowest points of the feet were put on a level floor and kept in place, one foot at every instant, which moves the pelvis by {way:.2} m along the floor; running, jumping and stairs come out wrong"
+        "sensors do not show where the person is: the lowest points of the feet were put on a level floor and kept in \
+         place, one foot at every instant, which moves the pelvis by {way:.2} m along the floor; running, jumping and \
+         stairs come out wrong"
     );
     findings.report(Code::SensorsPlaced, message);
     Ok(())
 }
 
-/// A coordinate of the place of the root: its number, its direction in the world, and value and slope of its displacement at zero.
+/// A coordinate of the place of the root: its number, its direction in the world, and value and slope of its
+/// displacement at zero.
 type RootAxis = (usize, Vec3, [f64; 2]);
 
 fn root_axes(model: &Model) -> Result<Vec<RootAxis>, SensorError> {

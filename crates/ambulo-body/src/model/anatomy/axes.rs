@@ -1,7 +1,7 @@
 //! Determines the forward direction and the side of each leg.
 //!
-//! Feet point forward from the ankle. Seen from behind, the hip on the right belongs to the right leg. Names are used only if the
-//! geometry is not sufficient: feet without length, or hips at one position, as in planar models.
+//! Feet point forward from the ankle. Seen from behind, the hip on the right belongs to the right leg. Names are used
+//! only if the geometry is not sufficient: feet without length, or hips at one position, as in planar models.
 
 use super::legs::{LegChain, Legs, LowerBody, Tree, level};
 use crate::model::{BodyId, BySide, Side};
@@ -76,8 +76,8 @@ impl Tree<'_> {
         Some(Mat3::from_columns(&[forward, self.up, forward.cross(&self.up)]))
     }
 
-    /// Side of every body: for bodies of a leg that of the leg; for others by their position, if there is a counterpart on the other
-    /// side; otherwise the side in their name.
+    /// Side of every body: for bodies of a leg that of the leg; for others by their position, if there is a counterpart
+    /// on the other side; otherwise the side in their name.
     pub(super) fn sides(&self, pelvis: BodyId, oriented: &Oriented) -> Vec<Option<Side>> {
         let mut sides: Vec<Option<Side>> = vec![None; self.bodies.len()];
         let hips: Vec<Vec3> = oriented.legs.values().flatten().map(|leg| self.hip(leg)).collect();

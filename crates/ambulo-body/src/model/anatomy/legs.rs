@@ -1,17 +1,17 @@
 //! Finds the pelvis and the legs in the tree of bodies from the positions of the joints in the neutral posture.
 //!
-//! A leg is a chain of three groups of joints: hip, knee and ankle, each below the previous one. Joints that are close together are
-//! one group: a hip of three hinges, or ankle and subtalar joint. The lowest body of the model is at the end of one leg. The other
-//! leg ends in the lowest body whose path from there rises to the height of the hips. The pelvis is the body between the two
-//! highest joints of that path.
+//! A leg is a chain of three groups of joints: hip, knee and ankle, each below the previous one. Joints that are close
+//! together are one group: a hip of three hinges, or ankle and subtalar joint. The lowest body of the model is at the
+//! end of one leg. The other leg ends in the lowest body whose path from there rises to the height of the hips. The
+//! pelvis is the body between the two highest joints of that path.
 
 use super::BodyId;
 use crate::model::posture::ModelPosture;
 use crate::model::{Body, BySide};
 use crate::spatial::Vec3;
 
-/// Joints closer to each other than this share of the leg length are one group: 0.075 from ankle to subtalar joint in Gait2392,
-/// 0.16 from ankle to the ball of the foot in the built-in figure.
+/// Joints closer to each other than this share of the leg length are one group: 0.075 from ankle to subtalar joint in
+/// Gait2392, 0.16 from ankle to the ball of the foot in the built-in figure.
 const GROUP: f64 = 0.11;
 /// Smallest height of the hips above the feet, as a share of the height of the model.
 const LEAST_HIP_HEIGHT: f64 = 0.25;
@@ -99,7 +99,8 @@ impl Tree<'_> {
         children.chain(self.parent(body))
     }
 
-    /// The chain of a leg from the hip on; `bodies` begins with the pelvis. `None` if its joints are not the joints of a leg.
+    /// The chain of a leg from the hip on; `bodies` begins with the pelvis. `None` if its joints are not the joints of
+    /// a leg.
     fn chain(&self, mut bodies: Vec<BodyId>) -> Option<LegChain> {
         let joints: Vec<BodyId> = bodies.windows(2).map(|pair| self.joint_between(pair[0], pair[1])).collect();
         let centers: Vec<Vec3> = joints.iter().map(|joint| self.posture.joint_center(*joint)).collect();
@@ -158,8 +159,8 @@ impl Tree<'_> {
         Some(LowerBody { pelvis: path[at], legs })
     }
 
-    /// Index of the pelvis on a path from foot to foot: the body between the highest joints; of several, the one between the joints
-    /// furthest apart.
+    /// Index of the pelvis on a path from foot to foot: the body between the highest joints; of several, the one
+    /// between the joints furthest apart.
     fn pelvis_on(&self, path: &[BodyId], floor: f64) -> Option<usize> {
         let joints: Vec<BodyId> = path.windows(2).map(|pair| self.joint_between(pair[0], pair[1])).collect();
         let height = |i: usize| self.joint_height(joints[i - 1]).min(self.joint_height(joints[i]));
@@ -185,7 +186,8 @@ impl Tree<'_> {
         })
     }
 
-    /// Horizontal vector from the ankle to the front of the foot [m]: to the toe joint, otherwise to the mass centre of the foot.
+    /// Horizontal vector from the ankle to the front of the foot [m]: to the toe joint, otherwise to the mass centre of
+    /// the foot.
     pub(super) fn ahead(&self, leg: &LegChain) -> Vec3 {
         let [_, _, ankle, end] = leg.groups;
         let joint = |i: usize| self.posture.joint_center(self.joint_between(leg.bodies[i], leg.bodies[i + 1]));

@@ -1,10 +1,10 @@
 //! The anatomy of a model: sides, pelvis, legs, soles, stature, and the clinical meaning and sign of every coordinate.
 //!
-//! It is determined once, when the model is created, from the positions and axes of its joints in the neutral posture (every
-//! coordinate zero, if its range allows it): the legs are below the hips, the feet point forward, the right hip is on the right, and a
-//! knee flexes when the shank rotates backward. Names are used only if the geometry is not sufficient, so models in any language and
-//! with any naming scheme are supported. Models without legs (a pendulum, an arm) have no pelvis, no legs and no movements; their
-//! sides are those in their names.
+//! It is determined once, when the model is created, from the positions and axes of its joints in the neutral posture
+//! (every coordinate zero, if its range allows it): the legs are below the hips, the feet point forward, the right hip
+//! is on the right, and a knee flexes when the shank rotates backward. Names are used only if the geometry is not
+//! sufficient, so models in any language and with any naming scheme are supported. Models without legs (a pendulum, an
+//! arm) have no pelvis, no legs and no movements; their sides are those in their names.
 //!
 //! Pinned by: tests/anatomy.rs
 
@@ -174,8 +174,8 @@ impl Anatomy {
         self.meanings.get(id.index()).copied().flatten()
     }
 
-    /// The coordinate that measures a movement of a side (`None` for pelvis and trunk), with its sign: +1 if the coordinate increases
-    /// during the movement, otherwise -1.
+    /// The coordinate that measures a movement of a side (`None` for pelvis and trunk), with its sign: +1 if the
+    /// coordinate increases during the movement, otherwise -1.
     #[must_use]
     pub fn coordinate(&self, movement: Movement, side: Option<Side>) -> Option<(CoordinateId, f64)> {
         let is_it = |meaning: &Meaning| meaning.movement == movement && meaning.side == side;
@@ -183,8 +183,8 @@ impl Anatomy {
         Some((CoordinateId(index), self.meanings[index]?.sign))
     }
 
-    /// Estimated soles of a person of a stature [m]: feet of usual proportions under the ankles. Built-in figures have their own
-    /// ([`Human::sole`](super::anthropometry::Human::sole)).
+    /// Estimated soles of a person of a stature [m]: feet of usual proportions under the ankles. Built-in figures have
+    /// their own ([`Human::sole`](super::anthropometry::Human::sole)).
     #[must_use]
     pub fn soles(&self, height_m: f64) -> BySide<Option<Sole>> {
         self.legs.map(|leg| leg.map(|leg| Sole::estimated(&leg, height_m)))

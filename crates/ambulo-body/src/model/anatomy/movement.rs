@@ -1,7 +1,7 @@
 //! The anatomical movement that each coordinate measures, and its sign.
 //!
-//! A coordinate rotates one body relative to another about an axis ω (per unit rate, in the neutral posture). In the axes of
-//! the body (forward, up, right), the largest component of ω determines the plane, and its sign the direction:
+//! A coordinate rotates one body relative to another about an axis ω (per unit rate, in the neutral posture). In the
+//! axes of the body (forward, up, right), the largest component of ω determines the plane, and its sign the direction:
 //!
 //! | joint (far body relative to near body) | about forward (frontal) | about up (transverse) | about right (sagittal) |
 //! |---|---|---|---|

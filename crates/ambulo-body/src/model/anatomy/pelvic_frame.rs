@@ -1,14 +1,16 @@
 //! The clinical axes of the pelvis: those through its iliac spines.
 //!
 //! The neutral posture of a model has an arbitrary pelvic tilt. Clinically, pelvic tilt is the angle between
-//! the ground and the line from the posterior to the anterior iliac spines, 10 to 15 degrees in standing, and hip angles are relative
-//! to axes along that line. Both differ by a rotation that is constant for a body, determined here from the markers on the spines:
+//! the ground and the line from the posterior to the anterior iliac spines, 10 to 15 degrees in standing, and hip
+//! angles are relative to axes along that line. Both differ by a rotation that is constant for a body, determined here
+//! from the markers on the spines:
 //!
 //!   right   = from the left to the right anterior spine
 //!   forward = from midway between the posterior spines (or the sacrum) to midway between the anterior ones, perpendicular to `right`
 //!   up      = right × forward
 //!
-//! Source: Kadaba 1990, Davis 1991, as in Plug-in-Gait (unverified); compared with its angles in tests/clinical_angles.rs.
+//! Source: Kadaba 1990, Davis 1991, as in Plug-in-Gait (unverified); compared with its angles in
+//! tests/clinical_angles.rs.
 
 use crate::model::full_body::STANDING_TILT;
 use crate::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers};
@@ -40,7 +42,9 @@ pub enum PelvicFrameError {
     },
     /// A pelvis without markers on the iliac spines.
     #[error(
-        "the pelvis of the model `{model}` has no marker on the {missing}; expected markers on both anterior iliac spines (ASIS) and on both posterior ones (PSIS) or the sacrum. The angles of pelvis and hips are therefore those of the coordinates of the model"
+        "the pelvis of the model `{model}` has no marker on the {missing}; expected markers on both anterior iliac \
+         spines (ASIS) and on both posterior ones (PSIS) or the sacrum. The angles of pelvis and hips are therefore \
+         those of the coordinates of the model"
     )]
     NoLandmarks {
         /// Its name.

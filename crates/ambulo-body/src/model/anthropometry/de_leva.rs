@@ -1,10 +1,10 @@
 //! Men and women of de Leva 1996.
 //!
 //! De Leva, "Adjustments to Zatsiorsky-Seluyanov's segment inertia parameters", J Biomech 29:1223-1230, 1996, table 4.
-//! Masses, mass centres and radii as transcribed in BMClab/BMC (`data/BSPmale_ZdeLeva.txt`, `BSPfemale_ZdeLeva.txt`), mean
-//! lengths as transcribed in R. Gurchiek's `deleva.m`; both were read, and agree where both have a value. The trunk is
-//! measured from suprasternale, the head from vertex to mid-gonion; the neck between them closes the stature and has no
-//! mass of its own (it is in the head's and the upper trunk's).
+//! Masses, mass centres and radii as transcribed in BMClab/BMC (`data/BSPmale_ZdeLeva.txt`, `BSPfemale_ZdeLeva.txt`),
+//! mean lengths as transcribed in R. Gurchiek's `deleva.m`; both were read, and agree where both have a value. The
+//! trunk is measured from suprasternale, the head from vertex to mid-gonion; the neck between them closes the stature
+//! and has no mass of its own (it is in the head's and the upper trunk's).
 //! The foot's longitudinal axis runs from heel to toe; its sagittal axis, that of a pointed foot, is then the vertical.
 
 use super::dimensions::{ANKLE_HEIGHT, HEEL_TO_ANKLE};
@@ -51,7 +51,8 @@ pub(super) const MALE: Sample = Sample {
     hand_to_fingertip: 0.1879,
 };
 
-/// The hand's sagittal radius is 53.1 in the transcriptions read, 63.1 in a vendor's copy; it has no effect on planar motion.
+/// The hand's sagittal radius is 53.1 in the transcriptions read, 63.1 in a vendor's copy; it has no effect on planar
+/// motion.
 pub(super) const FEMALE: Sample = Sample {
     stature: 1.735,
     head: MeanRow(6.68, 0.2002, 58.94, [33.0, 31.8, 35.9]),

@@ -1,8 +1,8 @@
 //! Dempster's cadavers as in Winter's book.
 //!
-//! Winter, "Biomechanics and Motor Control of Human Movement", table 4.1: masses, mass centres from the proximal end, radii of
-//! gyration about the mass centre, as transcribed in BMClab/BMC (`data/BSP_DempsterWinter.txt`), read. Lengths: Drillis and
-//! Contini 1966 as in Winter, figure 4.1 (unverified).
+//! Winter, "Biomechanics and Motor Control of Human Movement", table 4.1: masses, mass centres from the proximal end,
+//! radii of gyration about the mass centre, as transcribed in BMClab/BMC (`data/BSP_DempsterWinter.txt`), read.
+//! Lengths: Drillis and Contini 1966 as in Winter, figure 4.1 (unverified).
 
 use crate::numerics::elementary::hypot;
 
@@ -35,8 +35,8 @@ const HEAD_SLIMNESS: f64 = 31.2 / 37.6;
 const TRUNK_RADII: [f64; 3] = [0.384, 0.197, 0.358];
 /// Wrist to knuckle as a share of wrist to fingertip: de Leva 1996, men, 86.2 of 187.9 mm.
 const KNUCKLE: f64 = 86.2 / 187.9;
-/// Ear canal, the mass centre of head and neck, and the joint of C7 and T1, from which their length is measured: shares of
-/// stature (unverified; the tragion of adults is 7.4 % of stature below the vertex).
+/// Ear canal, the mass centre of head and neck, and the joint of C7 and T1, from which their length is measured: shares
+/// of stature (unverified; the tragion of adults is 7.4 % of stature below the vertex).
 const EAR_CANAL: f64 = 0.926;
 const C7: f64 = 0.850;
 

@@ -2,16 +2,17 @@
 
 use super::proportions::Lengths;
 
-/// Distance between the hip centres, share of stature: Dumas, Cheze, Verriest 2007 as in the public model HeiMan (read there).
+/// Distance between the hip centres, share of stature: Dumas, Cheze, Verriest 2007 as in the public model HeiMan (read
+/// there).
 const HIP_WIDTH: f64 = 0.093;
 /// Distance between the shoulder centres, the same source.
 const SHOULDER_WIDTH: f64 = 0.2401;
 
-/// Heel to ankle, share of the foot length: the ankle of Gait2392 (1.80 m) is 49 mm in front of the origin of its calcaneus,
-/// with about 20 mm of soft tissue behind it, of 274 mm.
+/// Heel to ankle, share of the foot length: the ankle of Gait2392 (1.80 m) is 49 mm in front of the origin of its
+/// calcaneus, with about 20 mm of soft tissue behind it, of 274 mm.
 pub(crate) const HEEL_TO_ANKLE: f64 = 0.25;
-/// Heel to the ball of the foot (first metatarsophalangeal joint), share of the foot length: men 201 of 271 mm, women 182 of 246
-/// mm in the US Army survey of 2012 (unverified).
+/// Heel to the ball of the foot (first metatarsophalangeal joint), share of the foot length: men 201 of 271 mm, women
+/// 182 of 246 mm in the US Army survey of 2012 (unverified).
 pub(crate) const HEEL_TO_BALL: f64 = 0.74;
 // Shares of stature: Drillis and Contini 1966 as in Winter, figure 4.1 (unverified).
 pub(crate) const FOOT_LENGTH: f64 = 0.152;

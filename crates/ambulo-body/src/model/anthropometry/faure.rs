@@ -1,7 +1,7 @@
 //! Uniform cylinders of the 1997 paper.
 //!
-//! Faure, Debunne, Cani, Multon 1997, "Dynamic analysis of human walking", table 1 and section 4.1: "uniform density and a
-//! cylindrical shape". The paper has no density and no stature; both are assumed below.
+//! Faure, Debunne, Cani, Multon 1997, "Dynamic analysis of human walking", table 1 and section 4.1: "uniform density
+//! and a cylindrical shape". The paper has no density and no stature; both are assumed below.
 
 use super::dimensions::{ANKLE_HEIGHT, FOOT_LENGTH, HEEL_TO_ANKLE};
 use super::proportions::{Lengths, Proportions, RigidPart};
@@ -24,8 +24,8 @@ const PRINTED_SUM: f64 = HEAD.0 + TRUNK.0 + 2.0 * (UPPER_ARM.0 + LOWER_ARM.0 + U
 const REFERENCE_MASS: f64 = 80.0;
 /// Assumed stature [m]: the paper has none.
 const REFERENCE_STATURE: f64 = 1.80;
-/// Assumed density [kg/m³]: soft tissue is denser than water, the trunk with its lungs less dense; 1000 makes the cylinders 2.5 % thicker
-/// and a thigh's inertia about the hip 0.1 % larger.
+/// Assumed density [kg/m³]: soft tissue is denser than water, the trunk with its lungs less dense; 1000 makes the
+/// cylinders 2.5 % thicker and a thigh's inertia about the hip 0.1 % larger.
 const DENSITY: f64 = 1050.0;
 
 /// Drillis and Contini 1966, as in Winter, figure 4.1 (unverified): share of stature.

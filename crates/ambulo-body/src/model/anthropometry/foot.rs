@@ -28,9 +28,9 @@ impl SpherePart {
 
 /// A sphere under a foot: heel, ball of the foot or toes.
 ///
-/// In upright standing all of them touch the ground. They lie on the mid-line of the foot; the heel sphere begins at the heel, the
-/// toe sphere ends at the tip of the toes. Radii scale with stature from those of published foot models at 1.80 m (OpenSim Moco `2D_gait.osim`: heel
-/// 35 mm, front 15 mm; Falisse 2022: 32 mm; SCONE: 30 mm).
+/// In upright standing all of them touch the ground. They lie on the mid-line of the foot; the heel sphere begins at
+/// the heel, the toe sphere ends at the tip of the toes. Radii scale with stature from those of published foot models
+/// at 1.80 m (OpenSim Moco `2D_gait.osim`: heel 35 mm, front 15 mm; Falisse 2022: 32 mm; SCONE: 30 mm).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSphere {
     /// `heel_r`, `ball_r`, `toe_r`, `heel_l`, `ball_l` or `toe_l`; for files and messages.
@@ -72,11 +72,11 @@ pub(super) fn soles(model: &Model, d: &Dimensions, toe_joint: bool) -> Vec<Conta
     spheres
 }
 
-/// Splits a foot (about the ankle) into rear foot (about the ankle) and toes (about the ball), which together are equivalent to the
-/// foot while the toes are flat: a locked toe joint changes nothing.
+/// Splits a foot (about the ankle) into rear foot (about the ankle) and toes (about the ball), which together are
+/// equivalent to the foot while the toes are flat: a locked toe joint changes nothing.
 ///
-/// The toes are a horizontal cylinder from the ball to the tip, as thick as their contact sphere. With D the distance between the two
-/// mass centres and m m'/M their reduced mass, I_rear = I_foot - I_toes - (m m'/M) (|D|² 1 - D Dᵀ).
+/// The toes are a horizontal cylinder from the ball to the tip, as thick as their contact sphere. With D the distance
+/// between the two mass centres and m m'/M their reduced mass, I_rear = I_foot - I_toes - (m m'/M) (|D|² 1 - D Dᵀ).
 pub(super) fn split(foot: &Inertia, d: &Dimensions) -> Result<(Inertia, Inertia), InertiaError> {
     let toes = TOES_MASS * foot.mass();
     let rear = foot.mass() - toes;

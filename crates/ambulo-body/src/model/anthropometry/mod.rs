@@ -1,9 +1,9 @@
 //! Human figures of any mass and height, from published tables of body segments.
 //!
 //! A figure moves in a plane but has three-dimensional segments: hinges about z, hips and shoulders at their width. All
-//! coordinates zero is upright standing; the default of `pelvis_ty` is the leg length, so the soles touch the ground y = 0.
-//! Body frames have their origin at the proximal joint (`pelvis`, or the `torso` that is the root: mid-hip) and the axes of the
-//! world in that posture. Signs are those of docs/CONVENTIONS.md.
+//! coordinates zero is upright standing; the default of `pelvis_ty` is the leg length, so the soles touch the ground
+//! y = 0. Body frames have their origin at the proximal joint (`pelvis`, or the `torso` that is the root: mid-hip) and
+//! the axes of the world in that posture. Signs are those of docs/CONVENTIONS.md.
 //!
 //! | body              | joint to its parent | coordinate                              |
 //! |-------------------|---------------------|-----------------------------------------|
@@ -38,13 +38,13 @@
 //! | head | cylinder 10.0 long below the vertex | vertex to mid-gonion below the vertex | mass at the ear canal, 92.6 high |
 //! | inertia | uniform cylinders of 1050 kg/m³ at the paper's 80 kg and a stature of 1.80 m (both stature and density are assumed) | radii of gyration as printed | one printed radius, used about x and z; about the long axis the ratio of de Leva's male table; trunk: de Leva's ratio to hip-shoulder length |
 //!
-//! **Scaling.** Lengths and radii of spheres and cylinders are proportional to stature, masses to body mass; inertias are
-//! therefore proportional to mass times stature squared, and at equal stature every force is proportional to mass. The density of
-//! the figure is mass / stature³ times a constant.
+//! **Scaling.** Lengths and radii of spheres and cylinders are proportional to stature, masses to body mass; inertias
+//! are therefore proportional to mass times stature squared, and at equal stature every force is proportional to mass.
+//! The density of the figure is mass / stature³ times a constant.
 //!
 //! Sources: Faure, Debunne, Cani, Multon 1997, table 1. De Leva 1996, J Biomech 29:1223, table 4: radii and masses as
-//! transcribed in BMClab/BMC, lengths as in R. Gurchiek's `deleva.m`, both read. Dempster as in Winter, table 4.1, read in
-//! BMClab/BMC; Drillis and Contini 1966 as in Winter, figure 4.1 (unverified). Feet: see [`ContactSphere`].
+//! transcribed in BMClab/BMC, lengths as in R. Gurchiek's `deleva.m`, both read. Dempster as in Winter, table 4.1, read
+//! in BMClab/BMC; Drillis and Contini 1966 as in Winter, figure 4.1 (unverified). Feet: see [`ContactSphere`].
 
 mod de_leva;
 mod dempster;
@@ -151,8 +151,8 @@ impl Human {
 }
 
 impl Build {
-    /// The figure of a table in its usual size, with toe joints: for de Leva's and Winter's tables round numbers near the means of their
-    /// subjects, for the 1997 paper 80 kg with the stature that completes its table.
+    /// The figure of a table in its usual size, with toe joints: for de Leva's and Winter's tables round numbers near
+    /// the means of their subjects, for the 1997 paper 80 kg with the stature that completes its table.
     #[must_use]
     pub fn usual(table: SegmentTable) -> Build {
         let [mass, height] = match table {

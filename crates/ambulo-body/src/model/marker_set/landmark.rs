@@ -59,7 +59,8 @@ pub enum Landmark {
     Knuckle,
 }
 
-/// A row of the table: the word in files, the segment, the position on the right side as shares of the segment length, and the meaning.
+/// A row of the table: the word in files, the segment, the position on the right side as shares of the segment length,
+/// and the meaning.
 pub(super) struct Row {
     pub(super) landmark: Landmark,
     pub(super) word: &'static str,
@@ -72,10 +73,11 @@ const fn row(landmark: Landmark, word: &'static str, segment: Segment, place: [f
     Row { landmark, word, segment, place, meaning }
 }
 
-/// Marker positions on an average body in standing. The pelvis follows from Harrington's regression for a pelvis 238 mm wide and
-/// 155 mm deep, tilted forwards by 11.7°; trunk and head from de Leva's lengths and the heights of cervicale and acromion; knee, ankle
-/// and elbow from mean widths between the condyles and malleoli plus the radius of a marker; the others are rounded positions of the
-/// markers of subject01 of OpenSim's Gait2392 and of the Rajagopal example. Recorded positions replace these.
+/// Marker positions on an average body in standing. The pelvis follows from Harrington's regression for a pelvis 238 mm
+/// wide and 155 mm deep, tilted forwards by 11.7°; trunk and head from de Leva's lengths and the heights of cervicale
+/// and acromion; knee, ankle and elbow from mean widths between the condyles and malleoli plus the radius of a marker;
+/// the others are rounded positions of the markers of subject01 of OpenSim's Gait2392 and of the Rajagopal example.
+/// Recorded positions replace these.
 pub(super) const TABLE: [Row; 50] = {
     use Landmark as L;
     use Segment as S;
@@ -183,8 +185,8 @@ pub(super) const TABLE: [Row; 50] = {
 
 /// Weight of markers that move by several centimetres on their segment.
 pub(super) const LOOSE_WEIGHT: f64 = 0.02;
-/// Weight of markers that only show the orientation of a segment, and of those on a trunk that bends: their skin moves by
-/// one or two centimetres relative to the bone, three times as far as at the landmarks that define joint centres.
+/// Weight of markers that only show the orientation of a segment, and of those on a trunk that bends: their skin moves
+/// by one or two centimetres relative to the bone, three times as far as at the landmarks that define joint centres.
 pub(super) const FOLLOWING_WEIGHT: f64 = 0.1;
 
 impl Landmark {
@@ -216,8 +218,8 @@ impl Landmark {
     }
 
     /// Default weight of a marker on it in a fit: 1 if it defines a joint centre; less on wands, on the skin along
-    /// thigh and shank, and on a trunk that bends; little on arms and shoulders, which move relative to the trunk, and on the head.
-    /// Joint centres therefore follow the landmarks that define them, as in Plug-in-Gait.
+    /// thigh and shank, and on a trunk that bends; little on arms and shoulders, which move relative to the trunk, and
+    /// on the head. Joint centres therefore follow the landmarks that define them, as in Plug-in-Gait.
     #[must_use]
     pub fn weight(self) -> f64 {
         use Landmark as L;

@@ -91,7 +91,8 @@ const FILES: [(&str, &str); 11] = [
     ("words", include_str!("../../../data/markers/words.toml")),
 ];
 
-/// The built-in sets, in the order of [`FILES`]. They are read once: a batch recognises the markers of thousands of recordings.
+/// The built-in sets, in the order of [`FILES`]. They are read once: a batch recognises the markers of thousands of
+/// recordings.
 static BUILT_IN: LazyLock<Result<Vec<MarkerSet>, MarkerSetError>> = LazyLock::new(|| {
     let read = |(name, text)| MarkerSet::from_toml(text).map_err(|source| MarkerSetError::BuiltIn { name, source });
     FILES.into_iter().map(read).collect()
@@ -128,7 +129,8 @@ impl MarkerSet {
         BUILT_IN.as_deref().map_err(Clone::clone)
     }
 
-    /// The markers of this set on a body, at their positions on an average body. Technical markers without a position are left out.
+    /// The markers of this set on a body, at their positions on an average body. Technical markers without a position
+    /// are left out.
     #[must_use]
     pub fn on(&self, human: &Human) -> Vec<Marker> {
         let place = |definition: &MarkerDefinition| {

@@ -1,8 +1,8 @@
 //! Finds a marker of a set by its name, also if the name is written in another way.
 //!
-//! Two names mean the same if they agree without regard to case, separators (`.`, `_`, `-`, blanks), the ending `study`, and the place
-//! and the word of the side: `R.Knee.Lat`, `r_knee_lat`, `knee lat R`, `Right-KneeLat`. Names of a set have a known side; of a recorded
-//! name every reading is tried, the side in front first.
+//! Two names mean the same if they agree without regard to case, separators (`.`, `_`, `-`, blanks), the ending
+//! `study`, and the place and the word of the side: `R.Knee.Lat`, `r_knee_lat`, `knee lat R`, `Right-KneeLat`. Names of
+//! a set have a known side; of a recorded name every reading is tried, the side in front first.
 
 use super::{MarkerDefinition, MarkerSet};
 use crate::model::Side;
@@ -17,7 +17,8 @@ const SIDES: [(&str, Side); 6] = [
     ("r", Side::Right),
     ("l", Side::Left),
 ];
-/// An ending that gives no information about the place: OpenCap adds it to the names of markers that it derives from video.
+/// An ending that gives no information about the place: OpenCap adds it to the names of markers that it derives from
+/// video.
 const ENDING: &str = "study";
 /// Fewest names with a common prefix that counts as the prefix of a subject.
 const FEWEST_WITH_PREFIX: usize = 4;
@@ -131,7 +132,8 @@ impl RecordedName {
     }
 }
 
-/// Length of the longest beginning that all names share and that ends with a separator; zero if it is the word of a side.
+/// Length of the longest beginning that all names share and that ends with a separator; zero if it is the word of a
+/// side.
 fn shared_prefix(names: &[&str]) -> usize {
     let Some(first) = names.first().filter(|_| names.len() >= FEWEST_WITH_PREFIX) else { return 0 };
     let ends =

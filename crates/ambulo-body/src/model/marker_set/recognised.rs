@@ -35,7 +35,9 @@ pub struct RecognisedMarkers {
 /// No set explains the names.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "no marker set fits: of the {count} markers {found} at most {cover} belong to one set (`{best}`, which has {needed}); expected at least {LEAST_COVER}. hint: docs/MARKERS.md lists all names; your own names go into a small TOML file described there; markers of an OpenSim model need that model"
+    "no marker set fits: of the {count} markers {found} at most {cover} belong to one set (`{best}`, which has \
+     {needed}); expected at least {LEAST_COVER}. hint: docs/MARKERS.md lists all names; your own names go into a small \
+     TOML file described there; markers of an OpenSim model need that model"
 )]
 pub struct UnknownMarkers {
     /// Number of markers.
@@ -79,7 +81,8 @@ impl MarkerSet {
 
 impl RecognisedMarkers {
     /// Recognises markers with some of these sets: first the one that explains most names, then any that explain
-    /// at least two of the others. Names that are written as in a set go before names that only mean the same (`NameIndex`).
+    /// at least two of the others. Names that are written as in a set go before names that only mean the same
+    /// (`NameIndex`).
     ///
     /// # Errors
     /// Names that no set explains.
@@ -140,7 +143,8 @@ impl RecognisedMarkers {
         self.markers.iter().find(is_it).map(|m| m.name.as_str())
     }
 
-    /// Whether the pelvis is known by the centres of the hips alone, as networks locate them in video: no markers on its spines.
+    /// Whether the pelvis is known by the centres of the hips alone, as networks locate them in video: no markers on
+    /// its spines.
     #[must_use]
     pub fn has_hips_only(&self) -> bool {
         let both = |landmark: Landmark| Side::BOTH.into_iter().all(|side| self.on(landmark, Some(side)).is_some());

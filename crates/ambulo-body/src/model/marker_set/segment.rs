@@ -62,8 +62,8 @@ impl Segment {
         model.body(&format!("{stem}_{}", side?.letter()))
     }
 
-    /// Length of the segment [m], the unit of positions on it: distance between the hip centres, lumbar joint to shoulders, hip to
-    /// knee, knee to ankle, heel to tip of the toes, shoulder to elbow, elbow to wrist.
+    /// Length of the segment [m], the unit of positions on it: distance between the hip centres, lumbar joint to
+    /// shoulders, hip to knee, knee to ankle, heel to tip of the toes, shoulder to elbow, elbow to wrist.
     #[must_use]
     pub fn length(self, d: &Dimensions) -> f64 {
         match self {

@@ -1,7 +1,7 @@
 //! Signal of an unloaded force plate.
 //!
-//! The vertical force is divided into blocks of [`BLOCK_S`]. Those that are as quiet as the quietest are candidates; the
-//! unloaded plate is the lowest of them, because a foot cannot pull. This level is used as the offset if it is
+//! The vertical force is divided into blocks of [`BLOCK_S`]. Those that are as quiet as the quietest are candidates;
+//! the unloaded plate is the lowest of them, because a foot cannot pull. This level is used as the offset if it is
 //! below [`LARGEST_UNCONFIRMED_N`]; a higher one could be a person standing still, and is used only if the
 //! FORCE_PLATFORM:ZERO frames of the file have the same level and the load is several times as large.
 //! Pinned by: tests/force_plate.rs
@@ -21,8 +21,8 @@ const QUIET_FACTOR: f64 = 3.0;
 const QUIET_N: f64 = 1.0;
 /// Blocks this close to the lowest level belong to it [N]; more if the blocks are noisier.
 const LEVEL_WIDTH_N: f64 = 4.0;
-/// A plate that vibrates after a step may be below its level for this share of the samples; if it is so for longer, it was loaded
-/// at its quietest.
+/// A plate that vibrates after a step may be below its level for this share of the samples; if it is so for longer, it
+/// was loaded at its quietest.
 const RINGING_SHARE: f64 = 0.02;
 /// An upward offset above this must be confirmed by the ZERO frames [N].
 const LARGEST_UNCONFIRMED_N: f64 = 50.0;

@@ -23,7 +23,8 @@ pub enum PlateError {
     Parameters(#[from] ambulo_formats::Error),
     /// Lengths without a unit.
     #[error(
-        "the force plates cannot be read: POINT:UNITS is `{found}`, and neither markers nor plates have the size of a person or a plate in mm, cm or m; expected a unit of length such as mm. hint: set POINT:UNITS in the file"
+        "the force plates cannot be read: POINT:UNITS is `{found}`, and neither markers nor plates have the size of a \
+         person or a plate in mm, cm or m; expected a unit of length such as mm. hint: set POINT:UNITS in the file"
     )]
     Unit {
         /// The unit in the file.
@@ -31,8 +32,8 @@ pub enum PlateError {
     },
 }
 
-/// Reads the force plates of a C3D file, in the axes of the laboratory; empty if there are none. A plate that cannot be read is
-/// left out, with a warning.
+/// Reads the force plates of a C3D file, in the axes of the laboratory; empty if there are none. A plate that cannot be
+/// read is left out, with a warning.
 ///
 /// # Errors
 /// Invalid parameters of the plates, a file without unit of length.

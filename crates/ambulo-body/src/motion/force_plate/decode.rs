@@ -77,7 +77,8 @@ pub(super) fn decode(
     reading.sign = load_sign(&vertical(&channels, reading, &surface, up));
     if reading.sign < 0.0 {
         let message = format!(
-            "the force of {} points down: the file has the force of the foot on the plate; all signs of this plate were reversed",
+            "the force of {} points down: the file has the force of the foot on the plate; all signs of this plate \
+             were reversed",
             source.name
         );
         findings.report(Code::PlatesForceOnPlate, message);
@@ -145,7 +146,8 @@ fn origin(source: &PlateSource, kind: PlateKind, findings: &mut Findings) -> Vec
         let origin = Vec3::new(finite.x.abs(), finite.y.abs(), -finite.z.abs());
         if origin.x <= 0.0 || origin.y <= 0.0 {
             let message = format!(
-                "{} does not state the distances between its sensors (ORIGIN {} {} {}): its moments and its centre of pressure are meaningless",
+                "{} does not state the distances between its sensors (ORIGIN {} {} {}): its moments and its centre of \
+                 pressure are meaningless",
                 source.name, stated.x, stated.y, stated.z
             );
             findings.report(Code::PlatesNoSensorDistance, message);
@@ -155,7 +157,8 @@ fn origin(source: &PlateSource, kind: PlateKind, findings: &mut Findings) -> Vec
     if leads_down(kind, finite) { -finite } else { finite }
 }
 
-/// Whether ORIGIN points from the surface down to the sensors, as in most of Vicon's files, contrary to the guide of the format.
+/// Whether ORIGIN points from the surface down to the sensors, as in most of Vicon's files, contrary to the guide of
+/// the format.
 fn leads_down(kind: PlateKind, origin: Vec3) -> bool {
     kind == PlateKind::Wrench && origin.z > 0.0
 }
@@ -240,7 +243,8 @@ fn clipped(
         let spans = clipping::spans(channel, level(i));
         if !spans.is_empty() {
             let message = format!(
-                "channel {} of {} stays at its largest or smallest value at {:.3} s: it was clipped, and the force there is too small. hint: choose a larger range of the amplifier",
+                "channel {} of {} stays at its largest or smallest value at {:.3} s: it was clipped, and the force \
+                 there is too small. hint: choose a larger range of the amplifier",
                 i + 1,
                 source.name,
                 source.times[spans[0].start]
@@ -276,7 +280,8 @@ fn corrected_reading(
     for (other, what) in alternatives(stated) {
         if share(other).is_some_and(|s| s >= ACCEPTED_ON_PLATE_SHARE) && moves_m(other) >= ACCEPTED_SPREAD_M {
             let message = format!(
-                "the centre of pressure of {} is not plausible with the units in the file; it is with {what}, so this was assumed",
+                "the centre of pressure of {} is not plausible with the units in the file; it is with {what}, so this \
+                 was assumed",
                 source.name
             );
             findings.report(Code::PlatesReadingChanged, message);
@@ -285,7 +290,8 @@ fn corrected_reading(
     }
     if found < LEAST_ON_PLATE_SHARE {
         let message = format!(
-            "the centre of pressure of {} lies on the plate only {:.0} % of the time; its CORNERS, ORIGIN, CHANNEL or units may be wrong",
+            "the centre of pressure of {} lies on the plate only {:.0} % of the time; its CORNERS, ORIGIN, CHANNEL or \
+             units may be wrong",
             source.name,
             100.0 * found
         );

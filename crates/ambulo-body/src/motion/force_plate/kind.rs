@@ -1,7 +1,7 @@
 //! Types of force plates: converts channels to a wrench about the centre of the surface.
 //!
-//! Everything is in the axes of the plate: x from the side of corners 2 and 3 to that of corners 1 and 4, y from the side
-//! of corners 3 and 4 to that of 1 and 2, z = x × y, which points down in a plate in the floor. F is the force
+//! Everything is in the axes of the plate: x from the side of corners 2 and 3 to that of corners 1 and 4, y from the
+//! side of corners 3 and 4 to that of 1 and 2, z = x × y, which points down in a plate in the floor. F is the force
 //! **on the foot**, M its moment about the centre of the surface, c the channels.
 //!
 //! | type | channels | F | M |
@@ -15,8 +15,8 @@
 //! | 7 | as 3, before an 8 x 8 matrix | | |
 //!
 //! o is ORIGIN: for types 2, 4, 5 it leads from the origin of the sensors to the centre of the surface, so that
-//! M = M_sensor + F × o, and o₃ is negative where the sensors lie below the surface. For types 3, 6, 7 o₁ and o₂ are half
-//! the distances between the sensors along x and y: sensor 1 is at (o₁, o₂), 2 at (-o₁, o₂), 3 at (-o₁, -o₂), 4 at
+//! M = M_sensor + F × o, and o₃ is negative where the sensors lie below the surface. For types 3, 6, 7 o₁ and o₂ are
+//! half the distances between the sensors along x and y: sensor 1 is at (o₁, o₂), 2 at (-o₁, o₂), 3 at (-o₁, -o₂), 4 at
 //! (o₁, -o₂), and o₃ is the height of the surface above them, again negative. Many programs write o with the opposite
 //! sign, which is detected by o₃ > 0.
 //!

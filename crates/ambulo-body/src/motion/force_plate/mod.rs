@@ -1,7 +1,7 @@
 //! Force plates: converts their channels to the force on the foot in the axes of the laboratory.
 //!
-//! With R the axes of the plate in the laboratory, C the centre of its surface, n the upward normal, and F, M the force and
-//! its moment about C in the plate's axes (kind.rs):
+//! With R the axes of the plate in the laboratory, C the centre of its surface, n the upward normal, and F, M the force
+//! and its moment about C in the plate's axes (kind.rs):
 //!
 //!   F_lab = R F          M₀ = R M + C × R F          p = C + n × R M / (n · R F)          T = n · (R M - (p - C) × R F)
 //!
@@ -33,8 +33,8 @@ use crate::spatial::{Mat3, Vec3};
 /// Below this vertical force the centre of pressure is undefined and a foot counts as unloaded [N].
 pub const CENTER_OF_PRESSURE_LOAD_N: f64 = 20.0;
 
-/// Forces and moments of one force plate. From a file they are in the axes of the laboratory; [`PlateRecording::rotated`]
-/// rotates them to those of the world.
+/// Forces and moments of one force plate. From a file they are in the axes of the laboratory;
+/// [`PlateRecording::rotated`] rotates them to those of the world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateRecording {
     /// Name: `plate 1`, counted from 1 in the order of the file.

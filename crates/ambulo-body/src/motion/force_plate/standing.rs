@@ -7,8 +7,8 @@ const PERSON_N: f64 = 50.0;
 /// In quiet standing nine tenths of the loaded samples are within this share of their median.
 const STILL_SHARE: f64 = 0.1;
 
-/// The median of the total force of all plates [N], if a person stands still on them; `None` otherwise. Divided by g it is the
-/// body mass, if both feet are on plates.
+/// The median of the total force of all plates [N], if a person stands still on them; `None` otherwise. Divided by g it
+/// is the body mass, if both feet are on plates.
 #[must_use]
 pub fn standing_weight_n(plates: &[PlateRecording]) -> Option<f64> {
     let samples = plates.iter().map(|p| p.times.len()).min()?;

@@ -2,7 +2,8 @@
 
 use crate::spatial::{Mat3, Vec3};
 
-/// Largest difference of opposite edges, as a share of the longer one; those of measured plates differ by less than 1 %.
+/// Largest difference of opposite edges, as a share of the longer one; those of measured plates differ by less than 1
+/// %.
 const EDGE_MISMATCH: f64 = 0.2;
 /// Largest cosine between neighbouring edges (14 degrees off a right angle).
 const SKEW: f64 = 0.25;
@@ -21,10 +22,12 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// Computes the surface from the corners in the order of FORCE_PLATFORM:CORNERS: (+x +y), (-x +y), (-x -y), (+x -y) of the plate's axes.
+    /// Computes the surface from the corners in the order of FORCE_PLATFORM:CORNERS: (+x +y), (-x +y), (-x -y), (+x -y)
+    /// of the plate's axes.
     ///
-    /// The centre is the mean of all four (BTK takes the middle of the diagonal from the first to the third, ezc3d the mean of four:
-    /// opensim-org/opensim-core#2860; the mean has the smaller error if each corner was measured independently).
+    /// The centre is the mean of all four (BTK takes the middle of the diagonal from the first to the third, ezc3d the
+    /// mean of four: opensim-org/opensim-core#2860; the mean has the smaller error if each corner was measured
+    /// independently).
     ///
     /// # Errors
     /// Why the corners are not a plate, in words.

@@ -1,8 +1,8 @@
 //! The axes of the segments of a file: which of them points up, forward and right in a standing person.
 //!
-//! Up is the axis of the thighs that points away from the knee, right the axis of the pelvis from the left to the right hip, and
-//! forward = up × right. All segments have the same axes. Shanks and feet must agree: the ankle is below the knee, and the ball of
-//! the foot in front of the ankle.
+//! Up is the axis of the thighs that points away from the knee, right the axis of the pelvis from the left to the right
+//! hip, and forward = up × right. All segments have the same axes. Shanks and feet must agree: the ankle is below the
+//! knee, and the ball of the foot in front of the ankle.
 
 use super::labels::in_words;
 use super::{PosedSegment, SegmentPoseError, SegmentPoses, median_vector};

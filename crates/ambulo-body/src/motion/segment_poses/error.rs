@@ -19,12 +19,14 @@ pub enum SegmentPoseError {
     },
     /// Segments without a pose in any frame.
     #[error(
-        "no frame has poses of pelvis, thighs, shanks and feet together; expected at least one. hint: check that the person was tracked in this trial"
+        "no frame has poses of pelvis, thighs, shanks and feet together; expected at least one. hint: check that the \
+         person was tracked in this trial"
     )]
     NeverSeen,
     /// Legs that were not measured.
     #[error(
-        "the legs were not measured: their segments are turned as the pelvis in every frame{configuration}; expected a recording with sensors on pelvis, thighs, shanks and feet"
+        "the legs were not measured: their segments are turned as the pelvis in every frame{configuration}; expected a \
+         recording with sensors on pelvis, thighs, shanks and feet"
     )]
     LegsNotMeasured {
         /// Which sensors were worn, in words of the file.
@@ -32,7 +34,8 @@ pub enum SegmentPoseError {
     },
     /// Most frames are missing.
     #[error(
-        "frames {first} to {last} are {found} frames; expected at least one in {ONE_IN}. hint: check the numbers of the frames, or export the file again"
+        "frames {first} to {last} are {found} frames; expected at least one in {ONE_IN}. hint: check the numbers of \
+         the frames, or export the file again"
     )]
     FewFrames {
         /// Number of the first frame.
@@ -44,7 +47,8 @@ pub enum SegmentPoseError {
     },
     /// Axes that fit no person.
     #[error(
-        "the axes of the segments are not those of a person: {what} is {found}; expected {expected}. hint: export poses whose segments have their origin in the upper joint, as Theia3D does"
+        "the axes of the segments are not those of a person: {what} is {found}; expected {expected}. hint: export \
+         poses whose segments have their origin in the upper joint, as Theia3D does"
     )]
     Axes {
         /// The point and its segment.

@@ -1,17 +1,19 @@
-//! Poses of body segments, as markerless motion capture computes them and C3D files store them (group ROTATION), or as a suit of
-//! inertial sensors does (`xsens.rs`).
+//! Poses of body segments, as markerless motion capture computes them and C3D files store them (group ROTATION), or as
+//! a suit of inertial sensors does (`xsens.rs`).
 //!
-//! Each segment has its origin in the joint to its parent: the thigh in the hip, the shank in the knee, the foot in the ankle, the
-//! toes in the ball of the foot, the upper arm in the shoulder. The axes of a [`SegmentPoses`] are x forward, y up and z right of a person
-//! who stands upright with hanging arms and palms forward; those of a file are found from the geometry (`axes.rs`): the knee is below the hip in the thigh, and the right hip
-//! is to the right in the pelvis. Theia3D writes x right, y forward, z up.
+//! Each segment has its origin in the joint to its parent: the thigh in the hip, the shank in the knee, the foot in the
+//! ankle, the toes in the ball of the foot, the upper arm in the shoulder. The axes of a [`SegmentPoses`] are x
+//! forward, y up and z right of a person who stands upright with hanging arms and palms forward; those of a file are
+//! found from the geometry (`axes.rs`): the knee is below the hip in the thigh, and the right hip is to the right in
+//! the pelvis. Theia3D writes x right, y forward, z up.
 //!
-//! [`SegmentPoses::points`] are the joint centres, and points next to them that show the orientation of the segments, with the names of
-//! [`crate::motion::skeleton`]. Heel and tip of the toes are those of the group THEIA3D, where the file has it: `l_heel` is a point of the
-//! foot [m], and `LTO` the length of the toes [m] (meaning of `LTO` unverified; 61 and 65 mm in the one file that was seen).
+//! [`SegmentPoses::points`] are the joint centres, and points next to them that show the orientation of the segments,
+//! with the names of [`crate::motion::skeleton`]. Heel and tip of the toes are those of the group THEIA3D, where the
+//! file has it: `l_heel` is a point of the foot [m], and `LTO` the length of the toes [m] (meaning of `LTO` unverified;
+//! 61 and 65 mm in the one file that was seen).
 //!
-//! Sources: wiki.has-motion.com, "ROTATION DATA TYPE" (matrices, axes of segments); docs.theiamarkerless.com, "Theia Model Description"
-//! (landmarks of feet, hands and head in the C3D).
+//! Sources: wiki.has-motion.com, "ROTATION DATA TYPE" (matrices, axes of segments); docs.theiamarkerless.com, "Theia
+//! Model Description" (landmarks of feet, hands and head in the C3D).
 //! Not handled: models whose segments have no pose of their own for thigh, shank and foot.
 //! Pinned by: tests/segment_poses.rs
 

@@ -1,14 +1,15 @@
 //! Poses of segments in motions of Xsens MVN.
 //!
-//! In the T-pose all segments have the axes x forward, y left, z up, so an arm lies along y. Arms are turned here to the axes of hanging
-//! arms with palms forward, as in [`SegmentPoses`]. In the T-pose palms are downwards (thumbs forward when the arm hangs).
+//! In the T-pose all segments have the axes x forward, y left, z up, so an arm lies along y. Arms are turned here to
+//! the axes of hanging arms with palms forward, as in [`SegmentPoses`]. In the T-pose palms are downwards (thumbs
+//! forward when the arm hangs).
 //!
-//! Floor height: height of heels and toes while the file's contact flags are set. Without flags the height zero of the file is
-//! kept. MVN computes positions from orientations, lengths and contacts; they are not measured.
+//! Floor height: height of heels and toes while the file's contact flags are set. Without flags the height zero of the
+//! file is kept. MVN computes positions from orientations, lengths and contacts; they are not measured.
 //!
-//! Sources: MVN User Manual, document MV0319P.N (June 2015), sections 19.5 to 19.7; the calibration poses `identity`, `tpose` and
-//! `tpose-isb` of an upper-body recording of MVN 2019, of which `tpose-isb` has the turns of the arms; Xsens' reader for Python, which
-//! assigns the contacts to points.
+//! Sources: MVN User Manual, document MV0319P.N (June 2015), sections 19.5 to 19.7; the calibration poses `identity`,
+//! `tpose` and `tpose-isb` of an upper-body recording of MVN 2019, of which `tpose-isb` has the turns of the arms;
+//! Xsens' reader for Python, which assigns the contacts to points.
 //! Not handled: fingers, props; the spine between pelvis and T8; floors that are not level.
 //! Pinned by: tests/xsens_motions.rs
 
@@ -58,13 +59,14 @@ pub fn segment_poses_from_mvnx(mvnx: &Mvnx, findings: &mut Findings) -> Result<S
     report_missing(mvnx, &numbers, findings);
     findings.report(
         Code::PosesAssumed,
-        "positions of a suit of inertial sensors are not measured: Xsens MVN computed them from the turns and lengths of the segments and from contacts with the ground",
+        "positions of a suit of inertial sensors are not measured: Xsens MVN computed them from the turns and lengths \
+         of the segments and from contacts with the ground",
     );
     Ok(on_floor(poses, mvnx, findings))
 }
 
-/// Foot strikes and foot offs by the contact flags of the file, in order of time: a foot strikes when its heel or its toes touch the ground,
-/// and is off when none does. Contacts at the first frame are no strikes.
+/// Foot strikes and foot offs by the contact flags of the file, in order of time: a foot strikes when its heel or its
+/// toes touch the ground, and is off when none does. Contacts at the first frame are no strikes.
 #[must_use]
 pub fn events_from_mvnx(mvnx: &Mvnx) -> Vec<Event> {
     let mut events = Vec::new();
@@ -229,7 +231,8 @@ fn on_floor(mut poses: SegmentPoses, mvnx: &Mvnx, findings: &mut Findings) -> Se
     let (Some(low), Some(floor), Some(high)) = (tenth(1), tenth(5), tenth(9)) else { return poses };
     if high - low > LEVEL_M {
         let message = format!(
-            "the floor is not level: heels and toes in contact are {low:.3} to {high:.3} m high by the flags of the file; height zero of the file was kept"
+            "the floor is not level: heels and toes in contact are {low:.3} to {high:.3} m high by the flags of the \
+             file; height zero of the file was kept"
         );
         findings.report(Code::PosesOdd, message);
         return poses;
@@ -238,7 +241,8 @@ fn on_floor(mut poses: SegmentPoses, mvnx: &Mvnx, findings: &mut Findings) -> Se
         pose.translation.z -= floor;
     }
     let message = format!(
-        "the floor is at the height {floor:.3} m of the file, where heels and toes are while its flags say that they touch the ground ({} contacts, {low:.3} to {high:.3} m)",
+        "the floor is at the height {floor:.3} m of the file, where heels and toes are while its flags say that they \
+         touch the ground ({} contacts, {low:.3} to {high:.3} m)",
         heights.len()
     );
     findings.report(Code::PosesAssumed, message);

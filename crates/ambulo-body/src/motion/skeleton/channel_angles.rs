@@ -1,14 +1,17 @@
 //! Angles of a joint's rotation channels for a given rotation.
 //!
-//! Three channels about different axes i, j, k give R = R_i(a) R_j(b) R_k(c). With e = 1 where i, j, k are in cyclic order and -1 otherwise,
+//! Three channels about different axes i, j, k give R = R_i(a) R_j(b) R_k(c). With e = 1 where i, j, k are in cyclic
+//! order and -1 otherwise,
 //!
 //!   b = atan2(e R_ik, √(R_jk² + R_kk²))        a = atan2(-e R_jk, R_kk)        R_k(c) = (R_i(a) R_j(b))ᵀ R
 //!
-//! and a + π, π - b, c + π give the same rotation. Of the two, and of all turns by 2π, the angles nearest to given ones are taken, so that a
-//! motion stays as continuous as it was. At b = ±90° a is not unique, and the given one is kept. Fewer channels cannot store every rotation: they
-//! get the one with the smallest angle to it, each angle in turn having its best value for the present other.
+//! and a + π, π - b, c + π give the same rotation. Of the two, and of all turns by 2π, the angles nearest to given ones
+//! are taken, so that a motion stays as continuous as it was. At b = ±90° a is not unique, and the given one is kept.
+//! Fewer channels cannot store every rotation: they get the one with the smallest angle to it, each angle in turn
+//! having its best value for the present other.
 //!
-//! Derived by multiplying out; the best angle about axis k maximises the trace of R_k(c)ᵀ M: c = atan2(M_ji - M_ij, M_ii + M_jj).
+//! Derived by multiplying out; the best angle about axis k maximises the trace of R_k(c)ᵀ M: c = atan2(M_ji - M_ij,
+//! M_ii + M_jj).
 
 use crate::numerics::elementary::{asin, atan2, hypot};
 use crate::spatial::{Mat3, Vec3, rotation_about};
@@ -30,7 +33,8 @@ pub fn rotation(axes: &[usize], angles: &[f64]) -> Mat3 {
     axes.iter().zip(angles).fold(Mat3::identity(), |turned, (&axis, &angle)| turned * about(axis, angle))
 }
 
-/// The angles [rad] about at most three different axes whose rotation is nearest to `wanted`; of several, those nearest to `near`.
+/// The angles [rad] about at most three different axes whose rotation is nearest to `wanted`; of several, those nearest
+/// to `near`.
 pub fn angles(axes: &[usize], wanted: &Mat3, near: &[f64]) -> Vec<f64> {
     let found = match *axes {
         [i, j, k] => three([i, j, k], wanted, near),

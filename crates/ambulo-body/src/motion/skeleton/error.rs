@@ -6,7 +6,8 @@
 pub enum SkeletonError {
     /// Joints of the legs were not recognised.
     #[error(
-        "no joint was recognised as {missing}; expected the joints of both legs, in names such as LeftUpLeg, LeftLeg, LeftFoot (HumanIK, CMU, Mixamo, Biped and others). Found: {found}"
+        "no joint was recognised as {missing}; expected the joints of both legs, in names such as LeftUpLeg, LeftLeg, \
+         LeftFoot (HumanIK, CMU, Mixamo, Biped and others). Found: {found}"
     )]
     Names {
         /// The missing joints.
@@ -25,7 +26,8 @@ pub enum SkeletonError {
     },
     /// No usual unit gives a plausible leg length.
     #[error(
-        "thigh and shank together are {length:.4} long, which is not a plausible human leg length in any of {units}; expected the stature of the person"
+        "thigh and shank together are {length:.4} long, which is not a plausible human leg length in any of {units}; \
+         expected the stature of the person"
     )]
     Unit {
         /// Mean of both sides, in the file's unit.

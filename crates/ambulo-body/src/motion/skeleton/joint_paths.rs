@@ -5,8 +5,8 @@ use super::poses::Skeleton;
 use crate::motion::{MarkerPath, MarkerRecording};
 use ambulo_formats::bvh::Bvh;
 
-/// Trajectories of all joints of a skeleton under their own names, in the axes of the file, multiplied by `metres_per_unit`.
-/// Repeated names are numbered: `toe`, `toe_2`.
+/// Trajectories of all joints of a skeleton under their own names, in the axes of the file, multiplied by
+/// `metres_per_unit`. Repeated names are numbered: `toe`, `toe_2`.
 ///
 /// # Errors
 /// Fewer than two frames.

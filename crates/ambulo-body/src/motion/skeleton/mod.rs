@@ -1,9 +1,9 @@
 //! Reads skeletons of animation files as recordings of joint centres.
 //!
-//! A BVH file has no unit, upward direction or mass. Joints are recognised by their names (`body_joints.rs`), the unit by the length
-//! of the legs (`unit.rs`), up and forward by the positions of legs and hips (`axes.rs`); the assumptions are stated in
-//! [`SkeletonRecording::statement`]. The result has trajectories of joint centres in the axes of the world, like recorded
-//! markers, and of points next to them that show the orientation of the segments:
+//! A BVH file has no unit, upward direction or mass. Joints are recognised by their names (`body_joints.rs`), the unit
+//! by the length of the legs (`unit.rs`), up and forward by the positions of legs and hips (`axes.rs`); the assumptions
+//! are stated in [`SkeletonRecording::statement`]. The result has trajectories of joint centres in the axes of the
+//! world, like recorded markers, and of points next to them that show the orientation of the segments:
 //!
 //! | name | position |
 //! |---|---|
@@ -139,7 +139,8 @@ impl<'b> Interpreted<'b> {
     }
 }
 
-/// Removes a first frame from which a joint moves faster than [`MOST_JOINT_SPEED`]: it is a pose for other programs, not motion.
+/// Removes a first frame from which a joint moves faster than [`MOST_JOINT_SPEED`]: it is a pose for other programs,
+/// not motion.
 fn drop_initial_pose(markers: &mut MarkerRecording, findings: &mut Findings) {
     let rate_hz = markers.rate_hz;
     let speed = |path: &MarkerPath| path.positions.windows(2).next().map(|pair| (pair[1] - pair[0]).norm() * rate_hz);
@@ -161,8 +162,10 @@ fn warn_of_low_trust(unit: &Unit, upright_posture: &UprightPosture, findings: &m
     findings.report(
         Code::BvhLowTrust,
         format!(
-            "a skeleton has no mass, mostly no unit and no upward direction, and its motion was fitted and usually filtered: {}, \
-             upright standing is {upright_posture}; joint centres are those of an animated figure, so forces are an estimate for comparison only",
+            "a skeleton has no mass, mostly no unit and no upward direction, and its motion was fitted and usually \
+             filtered: {}, \
+             upright standing is {upright_posture}; joint centres are those of an animated figure, so forces are an \
+             estimate for comparison only",
             unit.statement
         ),
     );

@@ -1,11 +1,11 @@
 //! Poses of the joints of a skeleton: forward kinematics.
 //!
-//! The frame of a joint in its parent: its position, then the rotations of its channels in the order of the file, each about axes
-//! rotated by the previous ones: R = R_1 R_2 R_3.
+//! The frame of a joint in its parent: its position, then the rotations of its channels in the order of the file, each
+//! about axes rotated by the previous ones: R = R_1 R_2 R_3.
 //!
-//! Position channels either replace the offset or are added to it; the file does not specify which. For a root the choice shifts the
-//! whole motion by a constant, and they are assumed to replace it. For other joints the assumption is the one that is nearer
-//! to the values on average: the offset, or zero.
+//! Position channels either replace the offset or are added to it; the file does not specify which. For a root the
+//! choice shifts the whole motion by a constant, and they are assumed to replace it. For other joints the assumption is
+//! the one that is nearer to the values on average: the offset, or zero.
 
 use super::channel_angles::about;
 use super::error::SkeletonError;

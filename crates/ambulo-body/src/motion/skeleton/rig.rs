@@ -1,10 +1,11 @@
 //! Writes a changed motion into the skeleton of its file: the animator's own rig.
 //!
-//! In every frame it is known by which rotation C each segment of the body was turned away from the recorded posture (in the axes of the
-//! file), and by how much mid-hip was moved. The joint of the segment, with the orientation R in the file, then has the orientation C R; its own rotation
-//! follows from that of its parent, P' say: P'ᵀ C R. All other joints (fingers, face, props, twist bones, the upper spine) keep their own rotation and
-//! so follow the joint that carries them. What the body does not represent, such as a bent spine, is kept as recorded.
-//! The nearest joint from the pelvis to the root that has position channels moves mid-hip.
+//! In every frame it is known by which rotation C each segment of the body was turned away from the recorded posture
+//! (in the axes of the file), and by how much mid-hip was moved. The joint of the segment, with the orientation R in
+//! the file, then has the orientation C R; its own rotation follows from that of its parent, P' say: P'ᵀ C R. All other
+//! joints (fingers, face, props, twist bones, the upper spine) keep their own rotation and so follow the joint that
+//! carries them. What the body does not represent, such as a bent spine, is kept as recorded. The nearest joint from
+//! the pelvis to the root that has position channels moves mid-hip.
 //!
 //! | segment | joint |
 //! |---|---|
@@ -169,8 +170,8 @@ impl<'b> Rig<'b> {
         }
     }
 
-    /// The skeleton with changed frames, from the frame `first` of the recording on. A first frame of the file that is a separate pose, and no part of the
-    /// recording, stays in front of the first frame of the recording.
+    /// The skeleton with changed frames, from the frame `first` of the recording on. A first frame of the file that is
+    /// a separate pose, and no part of the recording, stays in front of the first frame of the recording.
     ///
     /// # Errors
     /// Frames of another length, or with infinite numbers.

@@ -1,7 +1,7 @@
 //! Determines the unit of length from the length of the legs.
 //!
-//! Thigh and shank together are 0.491 of stature: 0.245 + 0.246, Drillis and Contini 1966, as in Winter's figure 4.1 (unverified).
-//! The mean of de Leva's men (0.495) and women (0.465) is 0.480.
+//! Thigh and shank together are 0.491 of stature: 0.245 + 0.246, Drillis and Contini 1966, as in Winter's figure 4.1
+//! (unverified). The mean of de Leva's men (0.495) and women (0.465) is 0.480.
 
 use super::body_joints::{BodyJoint, BodyJoints};
 use super::error::SkeletonError;
@@ -12,7 +12,8 @@ use crate::numerics::elementary::ln;
 
 /// Thigh and shank as a share of stature.
 const LEG_SHARE: f64 = 0.491;
-/// Largest relative error of the leg length in a usual unit: three times the standard deviation between subjects, about 4 %.
+/// Largest relative error of the leg length in a usual unit: three times the standard deviation between subjects, about
+/// 4 %.
 const NEAR: f64 = 0.12;
 /// Plausible statures if none is given [m].
 const STATURES: [f64; 2] = [1.2, 2.1];

@@ -1,9 +1,10 @@
 //! Directions of upright standing (up, forward, right) in the axes of each joint.
 //!
 //! In the resting pose of a file (all channels zero) all axes are those of the file. If this pose is upright, it
-//! shows the orientation of pelvis, thigh, shank and foot in standing. Otherwise (skeletons whose bones all lie along one axis) a
-//! calibration pose is looked for among the frames: straight legs, and straight arms to both sides, level (T) or half lowered (A), which
-//! does not happen by chance in walking. Without one the directions are averaged over the recording, in the axes of each joint.
+//! shows the orientation of pelvis, thigh, shank and foot in standing. Otherwise (skeletons whose bones all lie along
+//! one axis) a calibration pose is looked for among the frames: straight legs, and straight arms to both sides, level
+//! (T) or half lowered (A), which does not happen by chance in walking. Without one the directions are averaged over
+//! the recording, in the axes of each joint.
 
 use super::axes::Axes;
 use super::body_joints::{BodyJoint, BodyJoints};
@@ -17,9 +18,11 @@ use crate::spatial::{Pose, Vec3};
 const FRAMES: usize = 400;
 /// Smallest cosine between up and the mean of both legs in an upright resting pose: 15 degrees.
 const UPRIGHT: f64 = 0.966;
-/// Smallest cosine between upper arm and forearm, thigh and shank, and between a leg and the vertical in a calibration pose: 15 degrees.
+/// Smallest cosine between upper arm and forearm, thigh and shank, and between a leg and the vertical in a calibration
+/// pose: 15 degrees.
 const STRAIGHT: f64 = 0.966;
-/// Angle of the arms below the horizontal in a calibration pose [rad]: a T has 0, an A 45 degrees, with 15 degrees of room.
+/// Angle of the arms below the horizontal in a calibration pose [rad]: a T has 0, an A 45 degrees, with 15 degrees of
+/// room.
 const ARMS_BELOW: [f64; 2] = [-0.26, 1.05];
 /// Largest difference between both arms in a calibration pose [rad]: 15 degrees.
 const SAME_ARMS: f64 = 0.26;
@@ -51,7 +54,8 @@ impl UprightPosture {
         }
         if let Some((frame, shown_by, directions)) = calibration_pose(skeleton, body_joints, axes.up) {
             let message = format!(
-                "the resting pose of the file is not upright; {shown_by} in frame {frame} is assumed to be upright standing",
+                "the resting pose of the file is not upright; {shown_by} in frame {frame} is assumed to be upright \
+                 standing",
                 frame = frame + 1
             );
             findings.report(Code::BvhRestPose, message);
@@ -59,7 +63,8 @@ impl UprightPosture {
         }
         findings.report(
             Code::BvhRestPose,
-            "the resting pose of the file is not upright, so the mean posture of the recording is assumed to be upright standing",
+            "the resting pose of the file is not upright, so the mean posture of the recording is assumed to be \
+             upright standing",
         );
         let mut directions = vec![[Vec3::zeros(); 2]; rest.len()];
         for poses in skeleton.some_poses(FRAMES) {
@@ -88,8 +93,8 @@ impl UprightPosture {
         up.cross(&right).try_normalize(0.0).unwrap_or_default()
     }
 
-    /// The horizontal direction of a bone and the direction to its right, unit vectors in the axes of the joint. For a vertical bone,
-    /// those of upright standing.
+    /// The horizontal direction of a bone and the direction to its right, unit vectors in the axes of the joint. For a
+    /// vertical bone, those of upright standing.
     pub(super) fn along_foot(&self, joint: usize, bone: Vec3) -> [Vec3; 2] {
         let up = self.up(joint);
         let level = bone - up * bone.dot(&up);

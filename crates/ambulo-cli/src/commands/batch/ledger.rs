@@ -7,8 +7,9 @@
 //! | `trials/part-SSS-PPPPP.parquet` | the trials of the part; it appears last and closes the part |
 //! | `summary.html` | the page of the batch, made from the tables of trials when all parts of all shards are closed |
 //!
-//! Each file is first written under another name and flushed to the disk, and then renamed. After a kill at any moment each part is either closed or open,
-//! and the files of an open part are written again. A lock keeps two runs of one shard apart.
+//! Each file is first written under another name and flushed to the disk, and then renamed. After a kill at any moment
+//! each part is either closed or open, and the files of an open part are written again. A lock keeps two runs of one
+//! shard apart.
 
 use super::tables::PartTables;
 use crate::args::Shard;
@@ -45,7 +46,8 @@ pub(super) struct Description {
     pub(super) keep: Vec<String>,
     /// Options of `ambulo forces`.
     pub(super) options: Vec<String>,
-    /// SHA-256 of the names of all trials in their order, if there are several shards: each of them must find the same list.
+    /// SHA-256 of the names of all trials in their order, if there are several shards: each of them must find the same
+    /// list.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) trials: Option<String>,
 }
@@ -73,12 +75,14 @@ impl Ledger {
         };
         if !path.exists() && is_used(folder) {
             bail!(
-                "{shown}: this folder has other files; expected a new folder, or that of a batch. hint: choose another one with -o"
+                "{shown}: this folder has other files; expected a new folder, or that of a batch. hint: choose another \
+                 one with -o"
             );
         }
         let Some(lock) = FolderLock::take(&place_of_lock(folder, shard))? else {
             bail!(
-                "{shown}: another batch is writing shard {}/{} of this folder; expected one at a time. hint: wait until it has ended, or choose another folder with -o",
+                "{shown}: another batch is writing shard {}/{} of this folder; expected one at a time. hint: wait \
+                 until it has ended, or choose another folder with -o",
                 shard.index,
                 shard.count
             );
@@ -93,7 +97,8 @@ impl Ledger {
         }
         if !resume && let Some(closed) = ledger.first_closed()? {
             bail!(
-                "{shown}: shard {}/{} has results already ({closed}); expected none. hint: --resume continues this batch; or choose another folder with -o",
+                "{shown}: shard {}/{} has results already ({closed}); expected none. hint: --resume continues this \
+                 batch; or choose another folder with -o",
                 shard.index,
                 shard.count
             );
@@ -122,7 +127,8 @@ impl Ledger {
             .with_context(|| format!("{}: this is not the description of a batch", path.display()))?;
         match differences(&found, description).as_slice() {
             [] if found.trials != description.trials => bail!(
-                "{}: the shards before this one found other trials in the source; expected the same list in every shard. hint: compute all shards again into another folder with -o, and change no recording meanwhile",
+                "{}: the shards before this one found other trials in the source; expected the same list in every \
+                 shard. hint: compute all shards again into another folder with -o, and change no recording meanwhile",
                 self.folder.display()
             ),
             [] => Ok(()),
@@ -147,7 +153,8 @@ impl Ledger {
         self.folder.join(table).join(format!("{}{part:05}.parquet", beginning(shard)))
     }
 
-    /// The tables of trials of all shards, if all their parts are closed. `trials` is the number of trials of the batch.
+    /// The tables of trials of all shards, if all their parts are closed. `trials` is the number of trials of the
+    /// batch.
     pub(super) fn complete(&self, trials: usize, part: usize) -> Result<Option<Vec<ParquetTable>>> {
         let Shard { count, .. } = self.shard;
         let parts = |shard: usize| trials.saturating_sub(shard).div_ceil(count).div_ceil(part);
@@ -226,8 +233,8 @@ impl Ledger {
 
     /// Writes the tables of a part; the trials are last and close it.
     ///
-    /// The columns of frames are those of the trials. A part without results would have a file without them, which Spark and polars do not read
-    /// together with the others: it has none.
+    /// The columns of frames are those of the trials. A part without results would have a file without them, which
+    /// Spark and polars do not read together with the others: it has none.
     pub(super) fn close(&self, part: usize, tables: &PartTables) -> Result<()> {
         let PartTables { trials, frames, cycles, events } = tables;
         for (name, table) in TABLES.into_iter().zip([frames, cycles, events, trials]) {

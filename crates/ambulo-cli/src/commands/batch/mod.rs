@@ -88,7 +88,8 @@ fn planned(args: &BatchArgs, threads: usize) -> Result<(PathBuf, Plan)> {
         let found =
             if source.is_file() { "this file is no source of a batch" } else { "there is no such folder or file" };
         bail!(
-            "{}: {found}; expected a folder with recordings, a list of trials (.csv, .jsonl), or a .b3d. hint: docs/BATCH.md has the rules; `ambulo forces` computes one recording",
+            "{}: {found}; expected a folder with recordings, a list of trials (.csv, .jsonl), or a .b3d. hint: \
+             docs/BATCH.md has the rules; `ambulo forces` computes one recording",
             source.display()
         );
     }
@@ -129,7 +130,8 @@ fn nothing_found(args: &BatchArgs, plan: &Plan) -> String {
     let others: Vec<String> = plan.others.iter().take(QUOTED).map(|(name, why)| format!("{name}: {why}")).collect();
     let others = if others.is_empty() { String::new() } else { format!(" ({})", others.join("; ")) };
     format!(
-        "{shown}: found no trial{others}; expected recordings of motion: .c3d, .trc, .mot or .sto with a model, .bvh, .mvnx, .npz or .b3d. hint: `ambulo info FILE` describes a file; docs/BATCH.md has the rules"
+        "{shown}: found no trial{others}; expected recordings of motion: .c3d, .trc, .mot or .sto with a model, .bvh, \
+         .mvnx, .npz or .b3d. hint: `ambulo info FILE` describes a file; docs/BATCH.md has the rules"
     )
 }
 
@@ -187,7 +189,8 @@ impl Batch<'_> {
         Ok(rows_of(&tables.trials))
     }
 
-    /// Says how many trials are done, at which rate, and how long the rest takes. This run has computed `computed` of the `done` ones.
+    /// Says how many trials are done, at which rate, and how long the rest takes. This run has computed `computed` of
+    /// the `done` ones.
     fn say(&self, computed: usize, done: usize) {
         let rate = computed as f64 / self.begun.elapsed().as_secs_f64().max(1e-9);
         let left_s = self.all.saturating_sub(done) as f64 / rate;

@@ -119,7 +119,8 @@ fn forces(args: &ConvertArgs, c3d: &C3d, to: &str, mut findings: Findings) -> Re
         bail!("there are no force plates; expected at least one");
     };
     if !is_level {
-        let message = "the force plates have different heights; every centre of pressure was moved to the height of the first plate";
+        let message = "the force plates have different heights; every centre of pressure was moved to the height of \
+            the first plate";
         findings.report(Code::ConvertHeights, message);
     }
     let points = counted(c3d.points.len(), "point");

@@ -89,7 +89,8 @@ fn check_recording(recording: &Path) -> Result<()> {
     }
     if recording.is_dir() {
         bail!(
-            "{shown}: this is a folder; expected the path of a recording. hint: `ambulo batch` computes all recordings of a folder"
+            "{shown}: this is a folder; expected the path of a recording. hint: `ambulo batch` computes all recordings \
+             of a folder"
         );
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! A job as the text that the id of its run is made from.
 //!
-//! The form is that of all earlier runs, whose ids would change with it. Outputs and printing are left out where they do not matter.
+//! The form is that of all earlier runs, whose ids would change with it. Outputs and printing are left out where they
+//! do not matter.
 
 use crate::args::Outputs;
 use ambulo::analysis::Adjustable;

@@ -18,7 +18,8 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
             sheet.value("rate_hz", motion.rate_hz);
             sheet.value("duration_s", frames.saturating_sub(1) as f64 / motion.rate_hz);
             sheet.next(format!(
-                "ambulo forces {} --mass KG --height M -o out (or --smpl MODEL.npz for the lengths; the file contains neither mass nor lengths)",
+                "ambulo forces {} --mass KG --height M -o out (or --smpl MODEL.npz for the lengths; the file contains \
+                 neither mass nor lengths)",
                 path.display()
             ));
         }

@@ -36,7 +36,8 @@ fn add_body(sheet: &mut Sheet, bvh: &Bvh, path: &Path) {
             sheet.names("recognised", &centres);
             sheet.findings(&findings);
             sheet.next(format!(
-                "ambulo forces {} --mass KG --height M -o out (the file contains neither mass nor unit of length; forces will be estimates)",
+                "ambulo forces {} --mass KG --height M -o out (the file contains neither mass nor unit of length; \
+                 forces will be estimates)",
                 path.display()
             ));
         }

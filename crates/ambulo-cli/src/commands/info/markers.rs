@@ -68,7 +68,8 @@ pub(super) fn next(path: &Path, recording: &MarkerRecording, is_known: bool, sub
     let subject = if subject.is_empty() { String::new() } else { format!(" {subject}") };
     if !is_known {
         return format!(
-            "ambulo forces {shown} --markers SET.toml{subject} -o out (docs/MARKERS.md explains marker sets), or --model MODEL.osim if the model has these markers"
+            "ambulo forces {shown} --markers SET.toml{subject} -o out (docs/MARKERS.md explains marker sets), or \
+             --model MODEL.osim if the model has these markers"
         );
     }
     let names = recording.markers.iter().map(|marker| marker.name.as_str());
@@ -79,7 +80,8 @@ pub(super) fn next(path: &Path, recording: &MarkerRecording, is_known: bool, sub
         return format!("a standing trial: ambulo forces WALK --static {shown}{subject} -o out");
     }
     format!(
-        "ambulo forces {shown} --static STANDING{subject} -o out (without --static the body is calibrated from this trial)"
+        "ambulo forces {shown} --static STANDING{subject} -o out (without --static the body is calibrated from this \
+         trial)"
     )
 }
 

@@ -55,7 +55,8 @@ fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
         "csv" => table::describe_csv(path, bytes),
         "xml" => loads(bytes),
         ending => bail!(
-            "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .mvnx, .npz, .b3d, _motion.tsv, .osim, .mot, .sto, .csv or .xml (external loads)"
+            "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .mvnx, .npz, .b3d, _motion.tsv, .osim, .mot, \
+             .sto, .csv or .xml (external loads)"
         ),
     }
 }

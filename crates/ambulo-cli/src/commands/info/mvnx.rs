@@ -31,7 +31,8 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
             sheet.remarks(&remarks);
             sheet.findings(&findings);
             sheet.next(format!(
-                "ambulo forces {} --mass KG --height M -o out (the file contains no mass; without --height the stature is estimated from the legs)",
+                "ambulo forces {} --mass KG --height M -o out (the file contains no mass; without --height the stature \
+                 is estimated from the legs)",
                 path.display()
             ));
         }

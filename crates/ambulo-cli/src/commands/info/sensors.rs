@@ -21,7 +21,8 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
         sheet.list("sensors_with_gaps", gaps);
     }
     sheet.next(format!(
-        "ambulo forces {} --static STANDING.sto --model MODEL.osim -o out (or --mass KG --height M for the built-in body; without --static the first row is the standing posture)",
+        "ambulo forces {} --static STANDING.sto --model MODEL.osim -o out (or --mass KG --height M for the built-in \
+         body; without --static the first row is the standing posture)",
         path.display()
     ));
     Ok(sheet)

@@ -32,7 +32,8 @@ fn in_words(number: usize, trial: &TrialHeader) -> String {
     let (rate_hz, lasts_s) = (1.0 / trial.step_s, trial.frames.saturating_sub(1) as f64 * trial.step_s);
     let missing = if measured < trial.frames { format!(" ({})", missing_force_reasons(trial)) } else { String::new() };
     format!(
-        "{number} {}: {} frames, {lasts_s:.3} s at {rate_hz:.0} Hz, {}, {} passes, ground force in {measured} frames{missing}",
+        "{number} {}: {} frames, {lasts_s:.3} s at {rate_hz:.0} Hz, {}, {} passes, ground force in {measured} \
+         frames{missing}",
         trial.name,
         trial.frames,
         trial.kind.words(),

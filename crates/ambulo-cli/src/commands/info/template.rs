@@ -55,7 +55,8 @@ fn comment(shown: &str, found: &MarkerProposals, heading: Heading) -> String {
     };
     let name = Path::new(shown).file_name().unwrap_or_default().to_string_lossy().into_owned();
     format!(
-        "Markers of {name}. Positions were compared {}.{sides}\nCheck the proposed ones, then: ambulo forces {name} --markers THIS_FILE. docs/MARKERS.md explains the words.",
+        "Markers of {name}. Positions were compared {}.{sides}\nCheck the proposed ones, then: ambulo forces {name} \
+         --markers THIS_FILE. docs/MARKERS.md explains the words.",
         found.statement
     )
 }

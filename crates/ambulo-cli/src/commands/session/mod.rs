@@ -198,7 +198,8 @@ fn nothing_counts(root: &Path, session: &Session) -> String {
         false => reasons.join("; "),
     };
     format!(
-        "{shown}: none of {} trials has a cycle that counts: {reasons}. hint: `ambulo forces` with the files of a trial shows what is wrong with it (`--dry-run` lists them)",
+        "{shown}: none of {} trials has a cycle that counts: {reasons}. hint: `ambulo forces` with the files of a \
+         trial shows what is wrong with it (`--dry-run` lists them)",
         session.summary.trials.len()
     )
 }
@@ -217,8 +218,8 @@ fn inputs(args: &SessionArgs, plan: &Plan) -> Vec<PathBuf> {
     all
 }
 
-/// The command with the options that matter for the results. Where the folders lie does not, nor, in an anonymous session, their names, which could be
-/// guessed and then confirmed by the id of the run.
+/// The command with the options that matter for the results. Where the folders lie does not, nor, in an anonymous
+/// session, their names, which could be guessed and then confirmed by the id of the run.
 fn options(args: &SessionArgs, of_trials: &TrialWords) -> String {
     let (output, jobs, dry_run, replace, print) = Default::default();
     let name = |path: &Path| PathBuf::from(files::last(&path.canonicalize().unwrap_or_else(|_| path.to_owned())));

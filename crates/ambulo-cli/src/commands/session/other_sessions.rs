@@ -1,4 +1,5 @@
-//! Sessions that were computed before: the one to compare with, those of a reference group, and one that lies where this one is to be written.
+//! Sessions that were computed before: the one to compare with, those of a reference group, and one that lies where
+//! this one is to be written.
 
 use super::{Computing, visit};
 use crate::args::{Existing, SessionArgs};
@@ -37,7 +38,8 @@ pub(super) fn check_output(args: &SessionArgs, root: &Path, recordings: &[String
     let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
     if let Some(earlier) = args.compare.as_deref().filter(|earlier| same(earlier, output)) {
         bail!(
-            "{}: the earlier session lies in the folder for the results, which would replace it. hint: choose another folder with -o",
+            "{}: the earlier session lies in the folder for the results, which would replace it. hint: choose another \
+             folder with -o",
             earlier.display()
         );
     }
@@ -72,7 +74,8 @@ pub(super) fn read(folder: &Path) -> Result<Session> {
     let found = ResultFolder::of_any_run(folder).map_err(|error| match folder.join(SUMMARY).is_file() {
         true => error,
         false => Error::msg(format!(
-            "{}: found no session here; expected a folder that `ambulo session` wrote. hint: `ambulo session DIR -o OUT` writes one",
+            "{}: found no session here; expected a folder that `ambulo session` wrote. hint: `ambulo session DIR -o \
+             OUT` writes one",
             folder.display()
         )),
     })?;

@@ -33,7 +33,8 @@ fn with_trials(folder: &Path, plan: Plan) -> Result<Plan> {
         let others: Vec<String> = plan.others.iter().take(QUOTED).map(|(name, why)| format!("{name}: {why}")).collect();
         let others = if others.is_empty() { String::new() } else { format!(" ({})", others.join("; ")) };
         bail!(
-            "{}: found no trial{others}; expected the recordings of a visit: .c3d, .trc, .mot or .sto with a model, .bvh, .mvnx, .npz or .b3d. hint: `ambulo info FILE` describes a file; docs/SESSION.md has the rules",
+            "{}: found no trial{others}; expected the recordings of a visit: .c3d, .trc, .mot or .sto with a model, \
+             .bvh, .mvnx, .npz or .b3d. hint: `ambulo info FILE` describes a file; docs/SESSION.md has the rules",
             folder.display()
         );
     }
@@ -45,7 +46,9 @@ pub(super) fn check_person(folder: &Path, plan: &Plan) -> Result<()> {
     let persons: BTreeSet<&str> = plan.trials.iter().map(|trial| trial.person.as_str()).collect();
     if persons.len() > 1 {
         bail!(
-            "{}: found the trials of {} persons ({}); expected those of one, because a session has one body. A folder with recordings is a person. hint: give the folder of one person; if all are one person, {LIST} states it: [[trial]] files = \"**\" and person = \"NAME\" (docs/SESSION.md)",
+            "{}: found the trials of {} persons ({}); expected those of one, because a session has one body. A folder \
+             with recordings is a person. hint: give the folder of one person; if all are one person, {LIST} states \
+             it: [[trial]] files = \"**\" and person = \"NAME\" (docs/SESSION.md)",
             folder.display(),
             persons.len(),
             quoted(persons.iter().copied())
@@ -85,7 +88,8 @@ pub(super) fn check_standing(folder: &Path, plan: &Plan, trials: &[&PlannedTrial
     let candidates: Vec<&str> =
         plan.standing.iter().map(String::as_str).filter(|name| is_beside(name, trials)).collect();
     let how = format!(
-        "hint: state it in {LIST}: [[trial]] files = \"**\" and static = \"FILE\"; or leave one out: [[trial]] files = \"FILE\" and exclude = \"WHY\" (docs/SESSION.md)"
+        "hint: state it in {LIST}: [[trial]] files = \"**\" and static = \"FILE\"; or leave one out: [[trial]] files = \
+         \"FILE\" and exclude = \"WHY\" (docs/SESSION.md)"
     );
     if by_rule && candidates.len() > 1 {
         bail!(
@@ -99,7 +103,8 @@ pub(super) fn check_standing(folder: &Path, plan: &Plan, trials: &[&PlannedTrial
         let names = used.iter().map(|path| path.strip_prefix(folder).unwrap_or(path).display().to_string());
         let names: Vec<String> = names.collect();
         bail!(
-            "{}: the trials have {} standing trials ({}); expected one for all, because one body is calibrated from it. {how}",
+            "{}: the trials have {} standing trials ({}); expected one for all, because one body is calibrated from \
+             it. {how}",
             folder.display(),
             used.len(),
             quoted(names.iter().map(String::as_str))
@@ -120,7 +125,8 @@ pub(super) fn check_names(folder: &Path, named: &[(&PlannedTrial, String)]) -> R
     let names: BTreeSet<&str> = unstated.map(|(_, name)| name.as_str()).collect();
     if names.len() > 1 {
         bail!(
-            "{}: the recordings name {} persons ({}); expected one. hint: give the folder of one person; if all are one person, {LIST} states it: [[trial]] files = \"**\" and person = \"NAME\" (docs/SESSION.md)",
+            "{}: the recordings name {} persons ({}); expected one. hint: give the folder of one person; if all are \
+             one person, {LIST} states it: [[trial]] files = \"**\" and person = \"NAME\" (docs/SESSION.md)",
             folder.display(),
             names.len(),
             quoted(names.iter().copied())
@@ -142,7 +148,8 @@ pub(super) fn check_stated(folder: &Path, trials: &[&PlannedTrial]) -> Result<()
             && high > low
         {
             bail!(
-                "{}: {LIST} states `{what}` from {low} to {high} {unit} for the trials of one session; expected one number, because all have one body",
+                "{}: {LIST} states `{what}` from {low} to {high} {unit} for the trials of one session; expected one \
+                 number, because all have one body",
                 folder.display()
             );
         }

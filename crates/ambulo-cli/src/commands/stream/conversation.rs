@@ -160,7 +160,8 @@ impl<'a> Conversation<'a> {
         let Some(values) = message.values() else { return Ok(()) };
         if self.naming == Naming::Refused && !message.names_coordinates() && !message.names_markers() {
             bail!(
-                "a frame after a line with names or units that was refused; expected such a line first. hint: send it again, corrected"
+                "a frame after a line with names or units that was refused; expected such a line first. hint: send it \
+                 again, corrected"
             );
         }
         let q = self.checked(&values)?;
@@ -199,7 +200,8 @@ impl<'a> Conversation<'a> {
         Ok(())
     }
 
-    /// The coordinates of a frame that has them; markers are only checked, because they are fitted in the order of the frames.
+    /// The coordinates of a frame that has them; markers are only checked, because they are fitted in the order of the
+    /// frames.
     fn checked(&mut self, values: &[Option<f64>]) -> Result<Vec<f64>> {
         match &mut self.frames {
             FrameKind::Coordinates(frames) => frames.in_model_order(&self.setup.model, values),
@@ -218,7 +220,8 @@ impl<'a> Conversation<'a> {
                     format!(": a quarter of them is more than {:.0} mm from it", 1e3 * far)
                 });
                 format!(
-                    "the markers of frame {number} are not where the body can have them{from_body}; the next frame is fitted as the first one. hint: check the unit, the axes and the names of the markers"
+                    "the markers of frame {number} are not where the body can have them{from_body}; the next frame is \
+                     fitted as the first one. hint: check the unit, the axes and the names of the markers"
                 )
             }
         };

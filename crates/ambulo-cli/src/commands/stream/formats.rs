@@ -128,7 +128,10 @@ pub(super) fn from_json(line: &[u8]) -> Result<Message> {
     serde_json::from_slice(line).map_err(|error| {
         // A message is one line, so that the number of the line is always 1.
         let what = error.to_string().replace(" at line 1 column", " at column");
-        anyhow!("a line that is no message ({what}); expected a frame, {{\"frame\": 0, \"q\": [...]}} or with --markers {{\"frame\": 0, \"markers\": [...]}}")
+        anyhow!(
+            "a line that is no message ({what}); expected a frame, {{\"frame\": 0, \"q\": [...]}} or with \
+            --markers {{\"frame\": 0, \"markers\": [...]}}"
+        )
     })
 }
 

@@ -15,7 +15,8 @@ const MOST_SENDERS: usize = 8;
 /// Takes messages from one sender until there are no more.
 ///
 /// # Errors
-/// A link that cannot be read or written, a line without end, a model that cannot be streamed. A receiver that has closed its end is none.
+/// A link that cannot be read or written, a line without end, a model that cannot be streamed. A receiver that has
+/// closed its end is none.
 pub(super) fn serve(
     input: &mut impl BufRead,
     output: &mut impl Write,
@@ -166,7 +167,8 @@ fn say_listening(setup: &Setup<'_>, kind: &str, address: SocketAddr) {
 fn not_bound(error: std::io::Error, kind: &str, address: SocketAddr) -> anyhow::Error {
     match error.kind() {
         ErrorKind::AddrInUse => anyhow!(
-            "{kind} port {} of {} is in use by another program; expected a free port. hint: choose another port, or stop the other program",
+            "{kind} port {} of {} is in use by another program; expected a free port. hint: choose another port, or \
+             stop the other program",
             address.port(),
             address.ip()
         ),

@@ -1,6 +1,7 @@
 //! Data of the live page: frames with their results, and events of the stream.
 //!
-//! The figure is shown as it was recorded, and its forces in the same frame, both after the delay. Nothing is computed while no browser watches.
+//! The figure is shown as it was recorded, and its forces in the same frame, both after the delay. Nothing is computed
+//! while no browser watches.
 
 use super::page_server::PageServer;
 use ambulo::kinematics::{Posture, body_motion};

@@ -18,8 +18,8 @@ pub(super) enum Fitted {
     Posture(Vec<f64>),
     /// Too few markers are visible.
     TooFew,
-    /// The markers are visible, but not where a body near the last posture can have them; so far from it is a quarter of them [m], if there is a
-    /// posture at all.
+    /// The markers are visible, but not where a body near the last posture can have them; so far from it is a quarter
+    /// of them [m], if there is a posture at all.
     Lost(Option<f64>),
 }
 
@@ -46,7 +46,8 @@ impl MarkerFrames {
             model.markers().iter().filter(|marker| marker.body.is_some()).map(|marker| marker.name.clone()).collect();
         if names.is_empty() {
             bail!(
-                "the model `{}` has no markers; expected a model that was calibrated with those of the recording. hint: `ambulo forces walk.c3d --static standing.c3d -o out` writes one, out/subject.osim",
+                "the model `{}` has no markers; expected a model that was calibrated with those of the recording. \
+                 hint: `ambulo forces walk.c3d --static standing.c3d -o out` writes one, out/subject.osim",
                 model.name()
             );
         }
@@ -63,8 +64,8 @@ impl MarkerFrames {
         MarkerDescription { markers: self.names.clone(), unit: self.unit, axes: self.axes }
     }
 
-    /// Sets the names of the markers, their unit and the axes of the laboratory. Returns what is to be known about markers that only model or stream
-    /// have.
+    /// Sets the names of the markers, their unit and the axes of the laboratory. Returns what is to be known about
+    /// markers that only model or stream have.
     ///
     /// # Errors
     /// A name twice, or none that the model has; nothing is changed then.
@@ -96,7 +97,8 @@ impl MarkerFrames {
         self.fit.skip(frames);
     }
 
-    /// Checks the values of a frame: three per marker. A marker without all three is missing, and one at exactly 0 0 0, as some systems write it.
+    /// Checks the values of a frame: three per marker. A marker without all three is missing, and one at exactly 0 0 0,
+    /// as some systems write it.
     ///
     /// # Errors
     /// Another number of values, an infinite one.
@@ -138,7 +140,8 @@ impl MarkerFrames {
         pairs.filter_map(|(place, at)| at.map(|(body, local)| (*place, body, local)))
     }
 
-    /// The distance from the body that a quarter of the visible markers exceeds [m]; `None` where the posture is not known.
+    /// The distance from the body that a quarter of the visible markers exceeds [m]; `None` where the posture is not
+    /// known.
     fn quarter_beyond_m(&self, model: &Model, q: &[f64]) -> Option<f64> {
         let rest = vec![0.0; q.len()];
         let bodies = body_motion(model, Posture { q, qd: &rest, qdd: &rest });

@@ -1,7 +1,8 @@
 //! `ambulo stream`: forces while a motion arrives.
 //!
-//! One thread reads a message, computes and answers before it reads the next one, so that nothing piles up: a sender that is too fast waits
-//! (TCP, pipes) or loses datagrams (UDP), which the numbers of the frames show. The live page has threads of its own, for which this one never waits.
+//! One thread reads a message, computes and answers before it reads the next one, so that nothing piles up: a sender
+//! that is too fast waits (TCP, pipes) or loses datagrams (UDP), which the numbers of the frames show. The live page
+//! has threads of its own, for which this one never waits.
 
 mod conversation;
 mod coordinates;

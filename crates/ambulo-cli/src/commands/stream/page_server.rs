@@ -1,11 +1,11 @@
 //! Serves the live page: one HTML document and a stream of events (Server-Sent Events, HTML standard, section 9.2).
 //!
-//! Events go one way, from here to the browser, which connects again by itself. Only GET is answered, and only two paths. A page of another site
-//! cannot read the events: `Host` must be an address or `localhost`, which a name that is rebound to this computer is not, and `Origin`, where
-//! a browser sends it, must be this server.
+//! Events go one way, from here to the browser, which connects again by itself. Only GET is answered, and only two
+//! paths. A page of another site cannot read the events: `Host` must be an address or `localhost`, which a name that is
+//! rebound to this computer is not, and `Origin`, where a browser sends it, must be this server.
 //!
-//! The stream never waits for a browser: every browser has a queue of [`QUEUE`] events; those that find it full are skipped, and a browser that takes
-//! nothing for [`TIMEOUT`] is disconnected.
+//! The stream never waits for a browser: every browser has a queue of [`QUEUE`] events; those that find it full are
+//! skipped, and a browser that takes nothing for [`TIMEOUT`] is disconnected.
 
 use anyhow::Result;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
@@ -121,7 +121,8 @@ impl PageServer {
         match request.status() {
             200 if request.path == "/events" => {
                 connection.write_all(
-                    b"HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nCache-Control: no-store\r\nConnection: close\r\nX-Content-Type-Options: nosniff\r\n\r\n",
+                    b"HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nCache-Control: no-store\r\nConnection: \
+                     close\r\nX-Content-Type-Options: nosniff\r\n\r\n",
                 )?;
                 self.send_events(connection)
             }
@@ -173,7 +174,8 @@ fn event(kind: &str, data: &str) -> Arc<str> {
 
 fn respond(mut connection: &TcpStream, status: &str, kind: &str, body: &str) -> std::io::Result<()> {
     let head = format!(
-        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nCache-Control: no-store\r\nConnection: close\r\nX-Content-Type-Options: nosniff\r\n\r\n",
+        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nCache-Control: no-store\r\nConnection: \
+         close\r\nX-Content-Type-Options: nosniff\r\n\r\n",
         body.len()
     );
     connection.write_all(head.as_bytes())?;

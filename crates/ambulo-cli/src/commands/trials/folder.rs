@@ -10,13 +10,14 @@ use std::path::{Path, PathBuf};
 /// More folders inside each other are a mistake, such as a link to the root of a disk.
 const DEEPEST: usize = 32;
 
-/// All files that may be parts of trials, in the order of their names. Hidden files and folders are left out, and result folders of this
-/// program, whose motion is not a recording.
+/// All files that may be parts of trials, in the order of their names. Hidden files and folders are left out, and
+/// result folders of this program, whose motion is not a recording.
 pub(crate) fn files_in(root: &Path, wanted: Wanted) -> Result<Vec<FoundFile>> {
     let shown = root.display();
     if root.is_file() {
         bail!(
-            "{shown}: this is a file; expected a folder with recordings. hint: `ambulo forces {shown}` computes one recording"
+            "{shown}: this is a file; expected a folder with recordings. hint: `ambulo forces {shown}` computes one \
+             recording"
         );
     }
     if !root.is_dir() {
@@ -24,7 +25,8 @@ pub(crate) fn files_in(root: &Path, wanted: Wanted) -> Result<Vec<FoundFile>> {
     }
     if Record::of_folder(root).is_some() {
         bail!(
-            "{shown}: this folder has results of Ambulo; expected a folder with recordings. hint: the recordings of `ambulo demo` are in its folder input"
+            "{shown}: this folder has results of Ambulo; expected a folder with recordings. hint: the recordings of \
+             `ambulo demo` are in its folder input"
         );
     }
     let mut found = Vec::new();
@@ -96,7 +98,8 @@ fn collect(
         if path.is_dir() {
             if deeper == 0 {
                 bail!(
-                    "{}: found more than {DEEPEST} folders inside each other. Does a link lead to the folder of a disk?",
+                    "{}: found more than {DEEPEST} folders inside each other. Does a link lead to the folder of a \
+                     disk?",
                     path.display()
                 );
             }

@@ -166,7 +166,9 @@ fn nothing_found(args: &ValidateArgs, plan: &Plan) -> String {
     let others: Vec<String> = plan.others.iter().take(QUOTED).map(|(name, why)| format!("{name}: {why}")).collect();
     let others = if others.is_empty() { String::new() } else { format!(" ({})", others.join("; ")) };
     format!(
-        "{shown}: found no trial with measured ground forces{others}; expected recordings with force plates (.c3d), or recordings with a table of ground forces next to them, such as walk1.trc and walk1_grf.mot. hint: `ambulo info FILE` describes a file; {LIST} states which files belong together (docs/VALIDATE.md)"
+        "{shown}: found no trial with measured ground forces{others}; expected recordings with force plates (.c3d), or \
+         recordings with a table of ground forces next to them, such as walk1.trc and walk1_grf.mot. hint: `ambulo \
+         info FILE` describes a file; {LIST} states which files belong together (docs/VALIDATE.md)"
     )
 }
 

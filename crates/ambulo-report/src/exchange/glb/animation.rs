@@ -1,4 +1,5 @@
-//! The animation of a glTF file: translation, rotation and scale of each moving node over time, linear between instants.
+//! The animation of a glTF file: translation, rotation and scale of each moving node over time, linear between
+//! instants.
 
 use super::buffer::Buffer;
 use serde_json::{Value, json};

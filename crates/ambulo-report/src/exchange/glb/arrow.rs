@@ -1,4 +1,5 @@
-//! Forces as arrows: an upward mesh of one metre, whose node is moved to the point, turned along the force and scaled to its magnitude.
+//! Forces as arrows: an upward mesh of one metre, whose node is moved to the point, turned along the force and scaled
+//! to its magnitude.
 
 use super::material::Paint;
 use super::mesh::{Triangles, frame};

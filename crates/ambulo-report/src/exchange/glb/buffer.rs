@@ -78,7 +78,8 @@ impl Buffer {
         self.accessors.len() - 1
     }
 
-    /// A view of what was added since `start`; all numbers have four bytes, so that every view begins at a multiple of four.
+    /// A view of what was added since `start`; all numbers have four bytes, so that every view begins at a multiple of
+    /// four.
     fn view(&mut self, start: usize, target: Option<u32>) -> usize {
         let mut view = json!({ "buffer": 0, "byteOffset": start, "byteLength": self.data.len() - start });
         if let Some(target) = target {

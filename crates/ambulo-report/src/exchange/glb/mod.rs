@@ -1,9 +1,10 @@
-//! A stage as an animated glTF 2.0 file in its binary form (`.glb`): bodies as nodes with meshes, their paths as an animation, ground
-//! forces as arrows that move, turn and grow.
+//! A stage as an animated glTF 2.0 file in its binary form (`.glb`): bodies as nodes with meshes, their paths as an
+//! animation, ground forces as arrows that move, turn and grow.
 //!
-//! Metres, seconds, newtons; x forward, y up, z right, as in all files of this program (glTF itself only requires y up for a scene
-//! that is not an asset). Times begin at zero. Nodes of bodies are nested as in the model; their translation and rotation
-//! are relative to the parent. An arrow of 1000 N is one metre long; its scale is zero while its force does not act.
+//! Metres, seconds, newtons; x forward, y up, z right, as in all files of this program (glTF itself only requires y up
+//! for a scene that is not an asset). Times begin at zero. Nodes of bodies are nested as in the model; their
+//! translation and rotation are relative to the parent. An arrow of 1000 N is one metre long; its scale is zero while
+//! its force does not act.
 //!
 //! Source: Khronos glTF 2.0 specification (sections 3.6 data, 3.11 animations, 4 GLB container; unverified).
 

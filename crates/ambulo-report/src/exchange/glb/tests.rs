@@ -11,7 +11,8 @@ use serde_json::Value;
 
 const FRAMES: usize = 12;
 
-/// A trunk that translates and rotates, with a swinging leg attached, over a plate, next to a stone; a force that acts at times.
+/// A trunk that translates and rotates, with a swinging leg attached, over a plate, next to a stone; a force that acts
+/// at times.
 fn stage() -> Stage {
     let (mut trunk, mut leg) = (BodyPath::default(), BodyPath::default());
     for frame in 0..FRAMES {

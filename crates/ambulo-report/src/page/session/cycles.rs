@@ -1,8 +1,9 @@
 //! Finds the times of the cycles in `cycles.csv`.
 //!
-//! The file numbers cycles but has no times. A cycle lies between two strikes of one foot in `events.csv`, but not every pair of strikes is a
-//! cycle of the file (cycles that no plate measured are left out). A cycle's angles and positions identify its pair: sampled from
-//! `kinematics.mot` between the right pair of strikes, they equal the curves of the file.
+//! The file numbers cycles but has no times. A cycle lies between two strikes of one foot in `events.csv`, but not
+//! every pair of strikes is a cycle of the file (cycles that no plate measured are left out). A cycle's angles and
+//! positions identify its pair: sampled from `kinematics.mot` between the right pair of strikes, they equal the curves
+//! of the file.
 
 use super::sides;
 use crate::page::contract::{PageCycle, PageEvent};
@@ -11,7 +12,8 @@ use ambulo::motion::interpolate;
 use ambulo_formats::table::Table;
 use ambulo_results::CycleRow;
 
-/// Curves of the same cycle differ by less than this (rounding); curves of other cycles differ by more at some point [deg or m].
+/// Curves of the same cycle differ by less than this (rounding); curves of other cycles differ by more at some point
+/// [deg or m].
 const SAME: f64 = 0.02;
 
 /// The cycles with their times, right foot first; empty without curves.

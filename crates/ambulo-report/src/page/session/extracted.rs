@@ -1,7 +1,7 @@
 //! Tables of peaks and ranges of motion, and of the differences between the sides.
 //!
-//! Each value is computed for every cycle; the tables show mean and standard deviation over the cycles of a side. Symmetry is 100 (R -
-//! L) / ((R + L) / 2) of the means, marked above 10 % (Robinson, Herzog, Nigg 1987, unverified).
+//! Each value is computed for every cycle; the tables show mean and standard deviation over the cycles of a side.
+//! Symmetry is 100 (R - L) / ((R + L) / 2) of the means, marked above 10 % (Robinson, Herzog, Nigg 1987, unverified).
 
 use super::cells::{mean_cell, number, text};
 use super::curves::{ShownCurve, shown_cycles};
@@ -150,7 +150,8 @@ pub(super) fn symmetry(values: &[Extracted], walking: &WalkingSummary) -> Table 
         })
         .collect();
     let note = format!(
-        "100 (right - left) / mean of both sides, from the means over the cycles. 0 is symmetric; positive values mean that the right side is larger. Marked above {ASYMMETRIC:.0} %."
+        "100 (right - left) / mean of both sides, from the means over the cycles. 0 is symmetric; positive values mean \
+         that the right side is larger. Marked above {ASYMMETRIC:.0} %."
     );
     Table {
         id: "symmetry".to_owned(),

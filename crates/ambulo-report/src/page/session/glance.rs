@@ -70,8 +70,8 @@ fn asymmetry(results: &Results) -> Option<Fact> {
 struct Deviation<'a> {
     quantity: &'a ClinicalQuantity,
     side: Side,
-    /// Root mean square of the difference over the cycle, per root mean square of the standard deviation of healthy people.
-    /// The ratio is not formed point by point: the standard deviation of a ground force is near zero in swing.
+    /// Root mean square of the difference over the cycle, per root mean square of the standard deviation of healthy
+    /// people. The ratio is not formed point by point: the standard deviation of a ground force is near zero in swing.
     in_sd: f64,
     /// Where it is farthest [% of the cycle].
     at_percent: usize,
@@ -122,7 +122,8 @@ impl Deviation<'_> {
         let (title, unit) = (quantity.title, quantity.unit);
         let digits = if unit == "deg" { 0 } else { 2 };
         format!(
-            "{title}, {side}: {in_sd:.1} SD from normal; most at {at_percent} % of the cycle, {value:.digits$} instead of {normal:.digits$} {unit}"
+            "{title}, {side}: {in_sd:.1} SD from normal; most at {at_percent} % of the cycle, {value:.digits$} instead \
+             of {normal:.digits$} {unit}"
         )
     }
 }

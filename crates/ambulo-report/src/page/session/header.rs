@@ -208,7 +208,8 @@ fn changed(results: &Results) -> Option<Fact> {
 fn convention(results: &Results) -> Fact {
     let value = match results.convention() {
         Convention::Clinical => {
-            "clinical: pelvic tilt is the tilt of the line through the iliac spines; hip angles are relative to that pelvis"
+            "clinical: pelvic tilt is the tilt of the line through the iliac spines; hip angles are relative to that \
+             pelvis"
         }
         Convention::Opensim => "OpenSim: coordinates of the model, zero in upright standing",
     };

@@ -24,12 +24,14 @@ const LACKING: [(&str, &str); 5] = [
 fn thinned(results: &Results) -> String {
     let (step, drawn) = (results.step, results.grid.frames);
     format!(
-        "Not all instants: curves over time and the figure show {drawn} of them, one of {step}, because the recording is long; means and peaks are those of all, which the other files of the folder contain."
+        "Not all instants: curves over time and the figure show {drawn} of them, one of {step}, because the recording \
+         is long; means and peaks are those of all, which the other files of the folder contain."
     )
 }
 
 /// Shown if ground forces were left out on request.
-const WITHOUT_GROUND: &str = "No ground forces: the motion was computed without them, as requested, so the joint moments are those of a body in the air.";
+const WITHOUT_GROUND: &str = "No ground forces: the motion was computed without them, as requested, so the joint \
+    moments are those of a body in the air.";
 
 /// One sentence for each missing part.
 pub(super) fn missing(
@@ -70,7 +72,12 @@ pub(super) fn missing(
     let none = Side::BOTH.iter().all(|side| !has_curves(results, *side));
     add(none, "No whole gait cycle: curves are shown over time only, and there are no means.".to_owned());
     let untimed = !none && results.cycles.is_empty();
-    add(untimed, "The times of the cycles are not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
+    add(
+        untimed,
+        "The times of the cycles are not known (no foot strikes in events.csv): curves over the cycle and \
+        over time cannot be linked."
+            .to_owned(),
+    );
     let walking = &results.summary.times_and_distances;
     let no_lengths = !walking.quantities.is_empty() && walking.quantity(StrideQuantity::StrideLength).is_none();
     add(no_lengths, "No step lengths: the positions of the feet are not known.".to_owned());
@@ -123,7 +130,9 @@ fn leg(results: &Results, side: Side) -> String {
 fn turning(turn: Turn) -> String {
     let angle = turn.degrees.map_or_else(String::new, |degrees| format!(" by {degrees:.0} degrees"));
     format!(
-        "The path turns{angle}: normal ranges and bands are left out, because they apply to straight walking. Pelvic rotation includes the turn, and fore-aft and sideways ground forces are along the world axes: do not compare them with straight walking."
+        "The path turns{angle}: normal ranges and bands are left out, because they apply to straight walking. Pelvic \
+         rotation includes the turn, and fore-aft and sideways ground forces are along the world axes: do not compare \
+         them with straight walking."
     )
 }
 

@@ -1,7 +1,7 @@
 //! Makes the session of one result folder: the content of a page.
 //!
-//! `results` reads the files of a recording or walk; every other module makes one part of the page from them. `scene` does the same for
-//! simulated scenes.
+//! `results` reads the files of a recording or walk; every other module makes one part of the page from them. `scene`
+//! does the same for simulated scenes.
 
 mod cells;
 mod curves;

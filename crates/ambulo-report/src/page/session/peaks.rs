@@ -15,7 +15,8 @@ const COLUMNS: [Column<PeakSummary>; 6] = [
 
 /// The table of extremes.
 pub(super) fn peaks(peaks: &[PeakSummary]) -> Table {
-    let note = "Largest and smallest value of every column, in newtons and newton metres, with the signs of the model's coordinates.";
+    let note = "Largest and smallest value of every column, in newtons and newton metres, with the signs of the \
+        model's coordinates.";
     let head = ["peaks", "Extremes of all joint moments and forces", note];
     listed(head, peaks, &COLUMNS).unwrap_or_else(|| Table {
         empty: Some("No joint moment or force was computed.".to_owned()),

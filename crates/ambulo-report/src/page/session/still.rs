@@ -37,7 +37,8 @@ fn moves_over_time(results: &Results, quantity: &ClinicalQuantity, side: Side) -
     }
 }
 
-/// Phrases such as `subtalar inversion (locked in the model)`; moments and powers of a joint already listed are left out.
+/// Phrases such as `subtalar inversion (locked in the model)`; moments and powers of a joint already listed are left
+/// out.
 pub(super) fn words(results: &Results, still: &[ClinicalQuantity]) -> Vec<String> {
     let is_angle = |quantity: &ClinicalQuantity| quantity.group == ClinicalGroup::Kinematics;
     let is_named = |quantity: &&ClinicalQuantity| {

@@ -7,7 +7,8 @@ use ambulo::model::Side;
 /// Endings of names and the group of their quantities.
 const ENDINGS: [(&str, ClinicalGroup); 2] = [("_moment", ClinicalGroup::Moments), ("_power", ClinicalGroup::Powers)];
 
-/// `left knee flexion moment` for `knee_angle_l_moment`, `left knee flexion` for `knee_angle_l`, `right friction` for `friction_r`.
+/// `left knee flexion moment` for `knee_angle_l_moment`, `left knee flexion` for `knee_angle_l`, `right friction` for
+/// `friction_r`.
 pub(super) fn in_words(name: &str, quantities: &[ClinicalQuantity]) -> String {
     if let Some((quantity, side)) = known(name, quantities) {
         let title = quantity.title.to_lowercase();

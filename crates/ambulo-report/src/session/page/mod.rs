@@ -54,9 +54,12 @@ pub(super) fn page(compared: &ComparedSession) -> Result<String, FigureError> {
     Ok(Document { title: &title, policy: POLICY, style: &style, body: &body }.html())
 }
 
-const METHOD: &str = "Angles are clinical: flexion, dorsiflexion, adduction, internal rotation, anterior tilt, own side up and forward are positive. Moments \
-are internal, per body mass. The scales are the same in every session; where a curve leaves its scale, the figure says so. Forces are measured where force \
-plates measured the whole stance of a cycle, otherwise predicted from the motion; a mean never has both. Definitions: docs/SESSION.md.";
+const METHOD: &str = "Angles are clinical: flexion, dorsiflexion, adduction, internal rotation, anterior tilt, own \
+    side up and forward are positive. Moments \
+are internal, per body mass. The scales are the same in every session; where a curve leaves its scale, the figure says \
+so. Forces are measured where force \
+plates measured the whole stance of a cycle, otherwise predicted from the motion; a mean never has both. Definitions: \
+docs/SESSION.md.";
 
 /// Longer facts take a separate line, in letters.
 const WIDE: usize = 60;

@@ -65,7 +65,8 @@ pub(super) fn times(compared: &ComparedSession) -> Section {
             symmetry,
         ]);
     }
-    let note = "Mean ± standard deviation, and the number of strides (of the speed: of trials). Normal: mean ± 2 standard deviations of the reference \
+    let note = "Mean ± standard deviation, and the number of strides (of the speed: of trials). Normal: mean ± 2 \
+        standard deviations of the reference \
                 group, where they are known. Symmetry: right minus left, relative to their mean.";
     Section { title: "Times and distances", table, note: note.to_owned() }
 }
@@ -107,8 +108,10 @@ pub(super) fn deviations(compared: &ComparedSession) -> Section {
             ]);
         }
     }
-    let note = "Mean of the cycles against the mean of the reference group. Distance: root mean square over the cycle. Expected: that of a person of the \
-                group. Largest: the difference that is largest in standard deviations of the group, with its direction; 0 % is the foot strike. Outside: \
+    let note = "Mean of the cycles against the mean of the reference group. Distance: root mean square over the cycle. \
+        Expected: that of a person of the \
+                group. Largest: the difference that is largest in standard deviations of the group, with its \
+                direction; 0 % is the foot strike. Outside: \
                 share of the cycle more than two standard deviations away.";
     Section { title: "Deviation from the reference group", table, note: note.to_owned() }
 }
@@ -126,8 +129,10 @@ pub(super) fn sides(compared: &ComparedSession) -> Section {
         let forces = right.as_ref().and_then(|found| found.forces).map_or("", CycleForces::word).to_owned();
         table.row([quantity.label(), unit.to_owned(), forces, number(difference, digits), of_right, of_left]);
     }
-    let note = "Root mean square difference of the mean curves of both sides, and the standard deviation between the cycles of each side. A difference that \
-                is not larger than the variation between cycles is no asymmetry. Sides whose forces have different sources are not compared.";
+    let note = "Root mean square difference of the mean curves of both sides, and the standard deviation between the \
+        cycles of each side. A difference that \
+                is not larger than the variation between cycles is no asymmetry. Sides whose forces have different \
+                sources are not compared.";
     Section { title: "Left against right", table, note: note.to_owned() }
 }
 
@@ -248,8 +253,10 @@ pub(super) fn curve_differences(compared: &ComparedSession, before: &Session) ->
         }
     };
     let note = format!(
-        "Change: root mean square of after minus before. Clear: share of the cycle in which the change is larger than two standard deviations of the \
-         difference of the means over the cycles; it says nothing about the repeatability between days. From normal: distance from the mean of the \
+        "Change: root mean square of after minus before. Clear: share of the cycle in which the change is larger than \
+         two standard deviations of the \
+         difference of the means over the cycles; it says nothing about the repeatability between days. From normal: \
+         distance from the mean of the \
          reference group.{missing}"
     );
     Section { title: "Before and after: curves", table, note }

@@ -1,7 +1,7 @@
 //! Machines from their descriptions, as parts of the machine of a walk.
 //!
-//! A machine that drives a part of the figure is placed below the machine of that part, which then passes its output on; all others run
-//! below the root. Their first state is `rest`, in which the part follows the gait.
+//! A machine that drives a part of the figure is placed below the machine of that part, which then passes its output
+//! on; all others run below the root. Their first state is `rest`, in which the part follows the gait.
 
 use super::condition::Condition;
 use super::definition::{ChildOutputs, Gate, Machine, MachineInputs, State, Transition};

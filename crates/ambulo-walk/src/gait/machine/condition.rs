@@ -31,7 +31,8 @@ pub enum Condition {
     Phase(Side, Comparison, f64),
     /// Event or state of a foot.
     Foot(Side, FootEvent),
-    /// Angle of a joint of the figure [rad]: clinical sign for a part such as `left knee`, the model's sign for a coordinate.
+    /// Angle of a joint of the figure [rad]: clinical sign for a part such as `left knee`, the model's sign for a
+    /// coordinate.
     Angle(String, Comparison, f64),
     /// A number from outside.
     Signal(String, Comparison, f64),

@@ -7,7 +7,8 @@ use crate::model::BySide;
 use std::fmt;
 use std::sync::Arc;
 
-/// Data that a machine can read: the clock and the figure in this step, and all machines as they were after the previous step.
+/// Data that a machine can read: the clock and the figure in this step, and all machines as they were after the
+/// previous step.
 #[derive(Debug, Clone, Copy)]
 pub struct MachineInputs<'a> {
     /// Phase and speed of this step.
@@ -87,8 +88,8 @@ impl Passage {
         time_s - self.start_s >= self.duration_s
     }
 
-    /// Difference from the new activity at a time: a quintic from the difference at the start, with its rate and acceleration, to zero.
-    /// Zero after the end.
+    /// Difference from the new activity at a time: a quintic from the difference at the start, with its rate and
+    /// acceleration, to zero. Zero after the end.
     pub(super) fn at(&self, time_s: f64) -> Jet {
         if self.is_over(time_s) {
             return Jet::ZERO;
@@ -256,7 +257,8 @@ impl Transition {
         Transition { from, to, when: when.into(), within_s: 0.0, condition: Arc::new(condition) }
     }
 
-    /// The same transition with a passage to the new activity [s], in which the output stays continuous up to its acceleration.
+    /// The same transition with a passage to the new activity [s], in which the output stays continuous up to its
+    /// acceleration.
     #[must_use]
     pub fn within(mut self, within_s: f64) -> Transition {
         self.within_s = within_s;
@@ -311,7 +313,8 @@ impl Machine {
         self
     }
 
-    /// The same machine with the children of all machines sorted by a key of their names. The order does not change any output.
+    /// The same machine with the children of all machines sorted by a key of their names. The order does not change any
+    /// output.
     #[must_use]
     pub fn with_children_ordered(mut self, key: &impl Fn(&str) -> u64) -> Machine {
         self.children = self.children.into_iter().map(|child| child.with_children_ordered(key)).collect();

@@ -14,7 +14,8 @@ use crate::toml_reader::{Table, TomlError, Value, nearest};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Reads a column of a recording as an angle [rad] against time [s]. The arguments are the file and the column as the gait file names them.
+/// Reads a column of a recording as an angle [rad] against time [s]. The arguments are the file and the column as the
+/// gait file names them.
 pub(crate) type ReadColumn<'a> = dyn FnMut(&str, &str) -> Result<NaturalSpline, String> + 'a;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;

@@ -2,17 +2,18 @@
 //!
 //! One step, for every machine of the tree:
 //!
-//! 1. The transitions of the active state are tested on the snapshot of the previous step and the clock of this step. The first one whose
-//!    condition is true is taken, then the transitions of the new state are tested, at most once per state of the machine. A step that
-//!    passes several short states therefore ends in the right one.
+//! 1. The transitions of the active state are tested on the snapshot of the previous step and the clock of this step.
+//!    The first one whose condition is true is taken, then the transitions of the new state are tested, at most once
+//!    per state of the machine. A step that passes several short states therefore ends in the right one.
 //! 2. The children run in any order, because none of them reads what another one does in this step.
-//! 3. The activity function computes the output from the state, the clock, the snapshot and the new outputs of the children.
+//! 3. The activity function computes the output from the state, the clock, the snapshot and the new outputs of the
+//!    children.
 //!
-//! 4. Where a transition has a passage, the difference between the activities of both states at that instant, with its rate and
-//!    acceleration, fades along a quintic, so the output is C².
+//! 4. Where a transition has a passage, the difference between the activities of both states at that instant, with its
+//!    rate and acceleration, fades along a quintic, so the output is C².
 //!
-//! A machine with a gate is in its first state until the gate opens, and again when it closes; the gate is tested before transitions.
-//! A step does not allocate. Pinned by: tests/gait_machine.rs.
+//! A machine with a gate is in its first state until the gate opens, and again when it closes; the gate is tested
+//! before transitions. A step does not allocate. Pinned by: tests/gait_machine.rs.
 
 use super::definition::{
     Active, Cause, ChildOutputs, Gate, Machine, MachineInputs, Passage, Sensed, State, Transition, Tree,

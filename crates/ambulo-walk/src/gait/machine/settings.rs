@@ -14,7 +14,8 @@ pub struct MachineSettings {
     pub name: String,
     /// The joint, the coordinate or the pace that its activities set.
     pub drives: Driven,
-    /// Another machine and one of its states: this machine runs only during that state, and is interrupted when it ends.
+    /// Another machine and one of its states: this machine runs only during that state, and is interrupted when it
+    /// ends.
     pub during: Option<(String, String)>,
     /// Whether it goes on in its last state when it runs again; otherwise it restarts in its first state.
     pub resumes: bool,
@@ -35,7 +36,8 @@ impl MachineSettings {
         all
     }
 
-    /// The parts whose curve its states scale and move: part, factor on the distance from upright standing, and offset [rad].
+    /// The parts whose curve its states scale and move: part, factor on the distance from upright standing, and offset
+    /// [rad].
     pub(in crate::gait) fn altered_curves(&self) -> Vec<(WalkPart, f64, f64)> {
         let of_state = |state: &StateSettings| match (&self.drives, &state.activity) {
             (Driven::Part(part), Activity::Walk { scale, angle, .. }) => Some((*part, *scale, *angle)),
@@ -91,7 +93,8 @@ pub enum Activity {
         /// Added to the phase [cycles].
         phase: f64,
     },
-    /// A sub-cycle: from the angle, rate and acceleration at its start to a bound without rate and acceleration, where the joint stays.
+    /// A sub-cycle: from the angle, rate and acceleration at its start to a bound without rate and acceleration, where
+    /// the joint stays.
     SubCycle {
         /// The bound [rad].
         to: f64,

@@ -43,12 +43,13 @@ fn collect(machine: &Machine, depth: usize, rows: &mut Vec<StateRow>) {
     }
 }
 
-/// The state machine of a walk as text: windows in percent of the cycle of the machine's foot, angles in degrees, at the initial
-/// speed of the walk.
+/// The state machine of a walk as text: windows in percent of the cycle of the machine's foot, angles in degrees, at
+/// the initial speed of the walk.
 #[must_use]
 pub fn state_table(walk: &Walk) -> String {
     let mut text = format!(
-        "{}, style {}: {:.2} m/s on a leg of {:.2} m (V* {:.3}), steps of {:.3} m, cycle {:.3} s, foot off at {:.1} %\n\n",
+        "{}, style {}: {:.2} m/s on a leg of {:.2} m (V* {:.3}), steps of {:.3} m, cycle {:.3} s, foot off at {:.1} \
+         %\n\n",
         walk.name(),
         walk.style().name(),
         walk.speed(),
@@ -69,8 +70,8 @@ pub fn state_table(walk: &Walk) -> String {
     text
 }
 
-/// Writes changes of states as lines of a table, one at a time: its columns are as wide as the names of the walk's machines and states, so a
-/// line does not wait for later ones.
+/// Writes changes of states as lines of a table, one at a time: its columns are as wide as the names of the walk's
+/// machines and states, so a line does not wait for later ones.
 #[derive(Debug, Clone)]
 pub struct ChangeTable {
     /// Widths of the columns of machines and states.

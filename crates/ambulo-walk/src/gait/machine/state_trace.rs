@@ -61,7 +61,8 @@ impl StateTrace {
         }
     }
 
-    /// The times in all states until an end [s], machine by machine, parents before children. Times count from `zero_s`.
+    /// The times in all states until an end [s], machine by machine, parents before children. Times count from
+    /// `zero_s`.
     #[must_use]
     pub fn periods(&self, running: &RunningMachine, zero_s: f64, end_s: f64) -> Vec<StatePeriod> {
         let open = self.open.iter().enumerate().map(|(machine, (state, since_s))| (machine, *state, [*since_s, end_s]));
@@ -76,8 +77,8 @@ impl StateTrace {
         all.into_iter().map(period).collect()
     }
 
-    /// The states in which all machines are at `zero_s`, parents before children, and every change until `end_s` in order of time. Times count
-    /// from `zero_s`.
+    /// The states in which all machines are at `zero_s`, parents before children, and every change until `end_s` in
+    /// order of time. Times count from `zero_s`.
     #[must_use]
     pub fn changes(&self, running: &RunningMachine, zero_s: f64, end_s: f64) -> Vec<StateChange> {
         let first = self.periods(running, zero_s, end_s).into_iter().filter(|period| period.time_s[0] <= 0.0);
@@ -93,7 +94,8 @@ impl StateTrace {
     }
 }
 
-/// Tells of the states and changes of a trace while it grows: the same as [`StateTrace::changes`], each in the step in which it happens.
+/// Tells of the states and changes of a trace while it grows: the same as [`StateTrace::changes`], each in the step in
+/// which it happens.
 pub struct StateWatch<'a> {
     /// First and last instant [s]; reported times count from the first one.
     ends_s: [f64; 2],

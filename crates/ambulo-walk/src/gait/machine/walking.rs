@@ -8,12 +8,13 @@
 //! └ shoulders, elbows       forward and backward swing, flexion and extension; output: flexion [rad]
 //! ```
 //!
-//! Machines of the gait ([`MachineSettings`](super::MachineSettings)) are added to this tree. One that drives a part of the figure replaces the
-//! output of the machine of that part and is its child; all others are children of the root.
+//! Machines of the gait ([`MachineSettings`](super::MachineSettings)) are added to this tree. One that drives a part of
+//! the figure replaces the output of the machine of that part and is its child; all others are children of the root.
 //!
-//! Transitions of the machines above test only the clock: a machine leaves a state when the phase is outside the window of the state. Windows
-//! are evaluated at the current speed, so all machines stay synchronised when the speed changes. The machine of a joint evaluates the polynomial of its
-//! sub-cycle on the same curves as [`Walk::at`]: both give the same bits at any step rate (tests/gait_machine.rs).
+//! Transitions of the machines above test only the clock: a machine leaves a state when the phase is outside the window
+//! of the state. Windows are evaluated at the current speed, so all machines stay synchronised when the speed changes.
+//! The machine of a joint evaluates the polynomial of its sub-cycle on the same curves as [`Walk::at`]: both give the
+//! same bits at any step rate (tests/gait_machine.rs).
 
 use super::authored::{authored, driven_part, pace_of};
 use super::definition::{ChildOutputs, Machine, MachineInputs, Sensed, Span, State, Transition};
@@ -148,7 +149,8 @@ fn joint_machine(walk: &Arc<Walk>, side: Side, joint: LegJoint) -> Machine {
     curve_machine(walk, WalkPart::Leg(side, joint), walk.legs().of(joint), angle)
 }
 
-/// A machine whose states are the sub-cycles of a curve; `angle` makes the angle of the joint from the value of the curve.
+/// A machine whose states are the sub-cycles of a curve; `angle` makes the angle of the joint from the value of the
+/// curve.
 fn curve_machine(
     walk: &Arc<Walk>,
     part: WalkPart,
@@ -278,8 +280,8 @@ impl WalkMachine {
         &self.walk
     }
 
-    /// Runs all machines once at a time [s] and returns the posture of their outputs. Feet are loaded as the gait plans, and angles are those
-    /// of the previous step.
+    /// Runs all machines once at a time [s] and returns the posture of their outputs. Feet are loaded as the gait
+    /// plans, and angles are those of the previous step.
     pub fn step(&mut self, time_s: f64) -> WalkPosture {
         let clock = self.walk.clock(time_s);
         let phases = self.walk.phases(&clock);
@@ -358,10 +360,11 @@ const PLAN_STEP_S: f64 = 1e-3;
 /// Standing after the last change of pace [s].
 const STANDING_S: f64 = 1.0;
 
-/// Runs the machines of a walk in advance. Returns the walk with the changes of pace that they make, and the duration of the plan [s].
+/// Runs the machines of a walk in advance. Returns the walk with the changes of pace that they make, and the duration
+/// of the plan [s].
 ///
-/// The plan begins with the machines and ends when the right foot has made `cycles` cycles, when the figure stands and no machine can make it
-/// walk again, or after `longest_s` seconds.
+/// The plan begins with the machines and ends when the right foot has made `cycles` cycles, when the figure stands and
+/// no machine can make it walk again, or after `longest_s` seconds.
 ///
 /// # Errors
 /// Changes of pace that are not possible, or that overlap.
@@ -390,7 +393,8 @@ const JUDGED: (usize, usize, usize) = (4, 20, 500);
 /// Difference of an angle from one cycle to the next that is none [rad]: a transition may be noticed one instant later.
 const SAME_ANGLE: f64 = 0.03;
 
-/// Whether the machines of a walk that move joints do the same in every cycle of its first pace, after the first four of 24 cycles.
+/// Whether the machines of a walk that move joints do the same in every cycle of its first pace, after the first four
+/// of 24 cycles.
 #[must_use]
 pub fn repeats(walk: &Walk) -> bool {
     if !walk.gait().machines.iter().any(|machine| machine.drives.moves_a_joint()) {

@@ -1,8 +1,9 @@
 //! Second derivatives of the residuals, for Newton's method.
 //!
-//! Half the Hessian of a sum of squares Σ r² is Σ ∇r ∇rᵀ + Σ r ∇²r. The first sum is that of the normal equations. The second one is, per
-//! instant, the derivative of b(z) = Σ r ∇r(z) with r fixed. ∇r is exact, so b is differentiated by differences. Forces are linear in
-//! accelerations; therefore only positions and rates need to change, unless a term is another function of forces. The rest follows by symmetry.
+//! Half the Hessian of a sum of squares Σ r² is Σ ∇r ∇rᵀ + Σ r ∇²r. The first sum is that of the normal equations. The
+//! second one is, per instant, the derivative of b(z) = Σ r ∇r(z) with r fixed. ∇r is exact, so b is differentiated by
+//! differences. Forces are linear in accelerations; therefore only positions and rates need to change, unless a term is
+//! another function of forces. The rest follows by symmetry.
 
 use super::Transcription;
 use crate::optimal::instant::Instant;
@@ -81,7 +82,8 @@ impl<'a> Transcription<'a> {
         for (column, at) in changed.iter().enumerate() {
             let step = CHANGES[column / n];
             for (row, (there, here)) in pull.slope(index, at).iter().zip(&here).enumerate() {
-                // Two differences give an entry on both sides of the diagonal, if both of its columns are changed: their mean is taken.
+                // Two differences give an entry on both sides of the diagonal, if both of its columns are changed:
+                // their mean is taken.
                 let share = if row == column || row >= columns { 1.0 } else { 0.5 };
                 matrix[row.max(column) * width + row.min(column)] += share * (there - here) / step;
             }

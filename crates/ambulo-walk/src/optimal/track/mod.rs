@@ -1,14 +1,15 @@
 //! The motion nearest to a recorded one whose external forces come from feet on soft ground alone.
 //!
-//! A recorded motion obeys the laws of mechanics only with residual forces at the root. Here its coordinates become the targets of a
-//! [`Problem`]: the unknowns are splines of all coordinates over the recording, spheres under the feet of the model touch the floor, and the
-//! residual forces are zero at all instants. So ground forces and joint forces follow from the motion without force plates.
+//! A recorded motion obeys the laws of mechanics only with residual forces at the root. Here its coordinates become the
+//! targets of a [`Problem`]: the unknowns are splines of all coordinates over the recording, spheres under the feet of
+//! the model touch the floor, and the residual forces are zero at all instants. So ground forces and joint forces
+//! follow from the motion without force plates.
 //!
-//! In double support, motion alone gives little information about how the feet share the load: forces of a prediction ([`FootGuide::force`]) can be
-//! targets, too.
+//! In double support, motion alone gives little information about how the feet share the load: forces of a prediction
+//! ([`FootGuide::force`]) can be targets, too.
 //!
-//! The floor is level, or a belt of constant velocity: in axes that move with the belt it is at rest, and forces are the same.
-//! Pinned by: tests/optimal_track.rs
+//! The floor is level, or a belt of constant velocity: in axes that move with the belt it is at rest, and forces are
+//! the same. Pinned by: tests/optimal_track.rs
 
 mod floor;
 mod soles;
@@ -67,8 +68,8 @@ pub struct FootGuide {
     pub center: Vec<Vec3>,
 }
 
-/// Costs of deviations from the recorded motion and from expected forces, and the resolution. The default values were set by hand on nine
-/// recordings (docs/OPTIMAL.md).
+/// Costs of deviations from the recorded motion and from expected forces, and the resolution. The default values were
+/// set by hand on nine recordings (docs/OPTIMAL.md).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackSettings {
     /// Deviation of a joint angle that costs 1 [rad].
@@ -140,7 +141,8 @@ pub enum TrackError {
     },
     /// A spring between bodies.
     #[error(
-        "the model `{model}` has the bushing `{bushing}`, which tracking does not support; expected a model without bushings"
+        "the model `{model}` has the bushing `{bushing}`, which tracking does not support; expected a model without \
+         bushings"
     )]
     Bushing {
         /// Name of the model.
@@ -159,7 +161,8 @@ pub enum TrackError {
     NoStance,
     /// Stairs, or belts of different velocity.
     #[error(
-        "the {what} of the floor differs by {found:.3} {unit} between stances; expected one level floor or belt (at most {most} {unit})"
+        "the {what} of the floor differs by {found:.3} {unit} between stances; expected one level floor or belt (at \
+         most {most} {unit})"
     )]
     UnevenFloor {
         /// Difference.
@@ -173,7 +176,8 @@ pub enum TrackError {
     },
     /// A sole that is not where the foot was.
     #[error(
-        "the {side} sole of the model is {:.0} mm from the floor at `{sphere}` in stance; expected {:.0} mm at most. hint: check the size of the model",
+        "the {side} sole of the model is {:.0} mm from the floor at `{sphere}` in stance; expected {:.0} mm at most. \
+         hint: check the size of the model",
         1e3 * distance_m, 80.0
     )]
     SoleOffFloor {
@@ -186,7 +190,8 @@ pub enum TrackError {
     },
     /// No motion near the recorded one was found that feet on the ground can make.
     #[error(
-        "found no motion near the recorded one that feet on the ground alone can make: residual forces of {:.1} % of body weight (rms, or of body weight times leg length) remain; expected {:.1} % at most",
+        "found no motion near the recorded one that feet on the ground alone can make: residual forces of {:.1} % of \
+         body weight (rms, or of body weight times leg length) remain; expected {:.1} % at most",
         100.0 * share, 100.0 * LARGEST_RESIDUAL
     )]
     NotSolved {
@@ -227,7 +232,8 @@ pub struct TrackedMotion {
     pub solution: Solution,
     /// Height of the floor [m].
     pub floor_m: f64,
-    /// Residual forces at the root in the frames: root mean square and maximum [body weights, body weights × leg length].
+    /// Residual forces at the root in the frames: root mean square and maximum [body weights, body weights × leg
+    /// length].
     pub residual: (f64, f64),
     /// Root mean square of the changes of all rotations [rad], and of the translations of the root [m].
     pub moved: [f64; 2],
@@ -249,8 +255,8 @@ pub struct TrackProblem<'a> {
 }
 
 impl<'a> TrackProblem<'a> {
-    /// The problem of a recorded motion of a model. `moments` are expected generalised forces, one series per coordinate, one entry per frame
-    /// [N.m or N]; empty if there are none.
+    /// The problem of a recorded motion of a model. `moments` are expected generalised forces, one series per
+    /// coordinate, one entry per frame [N.m or N]; empty if there are none.
     ///
     /// # Errors
     /// Models and floors that are not supported, recordings that are too short or too long: see [`TrackError`].
@@ -292,7 +298,8 @@ impl<'a> TrackProblem<'a> {
     /// Solves the problem; goes on with the last stage if forces at the root remain.
     ///
     /// # Errors
-    /// Joints for which no derivatives are computed; residual forces of more than 0.3 % of body weight (rms) that remain.
+    /// Joints for which no derivatives are computed; residual forces of more than 0.3 % of body weight (rms) that
+    /// remain.
     pub fn solve(&self, stages: &[Continuation]) -> Result<TrackedMotion, TrackError> {
         let solution = self.problem.solve_keeping(&self.guess, stages, &self.kept)?;
         let solution = self.problem.balanced(solution, &[&Continuation::on(stages)], &self.kept)?;

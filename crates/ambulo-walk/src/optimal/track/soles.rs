@@ -1,7 +1,8 @@
 //! Spheres under the feet of any model, at the heights that the recorded motion shows.
 //!
-//! Soles of models are estimates, and a foot without a joint at the toes pushes its tip into the ground at the end of stance. Each pair of
-//! spheres is therefore moved along the height of the foot until the lowest positions of its stances are slightly below the floor.
+//! Soles of models are estimates, and a foot without a joint at the toes pushes its tip into the ground at the end of
+//! stance. Each pair of spheres is therefore moved along the height of the foot until the lowest positions of its
+//! stances are slightly below the floor.
 
 use super::{FootGuide, TrackError};
 use crate::contact::HuntCrossley;
@@ -22,7 +23,8 @@ const LOWEST: f64 = 0.1;
 const LOAD: f64 = 0.25;
 /// A stance with fewer frames than this shows no height.
 const FEW: usize = 5;
-/// Largest distance by which spheres are moved [m]; a larger one means that the sole of the model is not where the foot was.
+/// Largest distance by which spheres are moved [m]; a larger one means that the sole of the model is not where the foot
+/// was.
 const MOST_M: f64 = 0.08;
 /// Spheres of one foot: a pair at each of the three points of a sole.
 pub(super) const PER_FOOT: usize = 2 * SpherePart::OF_FOOT.len();

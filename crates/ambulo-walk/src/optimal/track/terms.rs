@@ -21,7 +21,8 @@ pub(super) struct Recorded<'a> {
     pub(super) settings: &'a TrackSettings,
 }
 
-/// All terms. `heights` are those of the spheres above the floor in each frame [m], `moments` expected generalised forces.
+/// All terms. `heights` are those of the spheres above the floor in each frame [m], `moments` expected generalised
+/// forces.
 pub(super) fn terms(
     recorded: &Recorded<'_>,
     feet: &BySide<FootGuide>,
@@ -68,8 +69,8 @@ impl Recorded<'_> {
         ]
     }
 
-    /// Factor of the deviation of the acceleration of a joint: foot strikes shake knee and foot, and filters take this from a recording; trunk and
-    /// arms balance what the legs do.
+    /// Factor of the deviation of the acceleration of a joint: foot strikes shake knee and foot, and filters take this
+    /// from a recording; trunk and arms balance what the legs do.
     fn looseness(&self, id: CoordinateId) -> f64 {
         let [knee, foot, trunk] = self.settings.looser;
         match self.model.anatomy().meaning(id).map(|meaning| meaning.movement) {

@@ -1,18 +1,19 @@
 //! A part of a walk that does not repeat: a change of pace, a start or a halt, as one motion whose ends are given.
 //!
-//! It begins in the state of the motion before and ends in that of the motion after, both of which repeat: a walk, or standing. So no force from
-//! outside is needed at any time. The place of its end is free: the walk goes on from there.
+//! It begins in the state of the motion before and ends in that of the motion after, both of which repeat: a walk, or
+//! standing. So no force from outside is needed at any time. The place of its end is free: the walk goes on from there.
 //!
-//! **Ends.** Five coefficients of a quintic spline determine its value and its first four derivatives at a knot. With derivatives p, p', .. p'''' by
-//! knots, the coefficient c knots behind that knot is (Marsden's identity for uniform knots)
+//! **Ends.** Five coefficients of a quintic spline determine its value and its first four derivatives at a knot. With
+//! derivatives p, p', .. p'''' by knots, the coefficient c knots behind that knot is (Marsden's identity for uniform
+//! knots)
 //!
 //!   x(c) = P(c) - P''(c)/4 + P''''(c)/30,    P(c) = p + c p' + c²/2 p'' + c³/6 p''' + c⁴/24 p''''
 //!
-//! because the Fourier transform of the spline is (sin(ω/2)/(ω/2))⁶. These coefficients keep their value. Value, rate and acceleration are exact;
-//! the other two are differences of the acceleration.
+//! because the Fourier transform of the spline is (sin(ω/2)/(ω/2))⁶. These coefficients keep their value. Value, rate
+//! and acceleration are exact; the other two are differences of the acceleration.
 //!
-//! **The first guess** is what the gait asks for, changed as both motions are: with the share R of the change, the share of walking w and the
-//! changes c₀, c₁ of both walks at the same phase φ,
+//! **The first guess** is what the gait asks for, changed as both motions are: with the share R of the change, the
+//! share of walking w and the changes c₀, c₁ of both walks at the same phase φ,
 //!
 //!   q = q_gait(t) + w [(1 - R) c₀(φ) + R c₁(φ)]
 

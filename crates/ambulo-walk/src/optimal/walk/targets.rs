@@ -1,8 +1,9 @@
 //! Targets of a walk at some instants: normative curves, and targets of the machines of its gait.
 //!
-//! Where the pace changes, targets follow the clock of the walk ([`Clock`]). With w the share of walking between standing (0) and walking (1), a
-//! foot carries w f + (1 - w) s body weights. Here f is the force of people who walk, and s is the share of the foot in the load of both: that of
-//! people while the figure moves, and one half where it almost stands.
+//! Where the pace changes, targets follow the clock of the walk ([`Clock`]). With w the share of walking between
+//! standing (0) and walking (1), a foot carries w f + (1 - w) s body weights. Here f is the force of people who walk,
+//! and s is the share of the foot in the load of both: that of people while the figure moves, and one half where it
+//! almost stands.
 
 use crate::gait::machine::WalkMachine;
 use crate::gait::{
@@ -12,10 +13,11 @@ use crate::model::anthropometry::Human;
 use crate::model::{Model, Movement, Side};
 use crate::toml_reader::TomlError;
 
-/// Clearance is required from the first share of the cycle after foot off until the second share before the next foot strike: heel, ball, toes.
+/// Clearance is required from the first share of the cycle after foot off until the second share before the next foot
+/// strike: heel, ball, toes.
 const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]];
-/// Smallest height of a swinging sole while the figure walks [m]. It is less with the square of the share of walking, as the height to which the gait
-/// lifts the sole is.
+/// Smallest height of a swinging sole while the figure walks [m]. It is less with the square of the share of walking,
+/// as the height to which the gait lifts the sole is.
 const CLEARANCE: f64 = 0.008;
 /// Share of walking below which both feet carry what a standing figure asks of them.
 const STANDS_BELOW: f64 = 0.2;
@@ -43,8 +45,8 @@ pub(super) struct Target {
     pub(super) moments: [JointMoments; 2],
     /// Extension of the toes, right and left [rad].
     pub(super) toes: [f64; 2],
-    /// While heel, ball and toes of the right and of the left foot swing: their smallest height [m], and the share of [`super::WalkCosts::lift`] that
-    /// is added to it.
+    /// While heel, ball and toes of the right and of the left foot swing: their smallest height [m], and the share of
+    /// [`super::WalkCosts::lift`] that is added to it.
     pub(super) clearance: [[Option<[f64; 2]>; 3]; 2],
 }
 
@@ -80,7 +82,8 @@ impl<'a> Targets<'a> {
         times_s.iter().map(|time_s| self.target(*time_s)).collect()
     }
 
-    /// The posture that the machines of the gait ask for. Machines of a gait file remember, so they are stepped from their beginning on.
+    /// The posture that the machines of the gait ask for. Machines of a gait file remember, so they are stepped from
+    /// their beginning on.
     fn asked(&mut self, time_s: f64) -> WalkPosture {
         if !self.walk.gait().machines.is_empty() {
             let from_s = self.stepped_s.unwrap_or_else(|| self.walk.machines_begin_s());
@@ -174,7 +177,8 @@ fn toes_of(at: &WalkPosture, side: Side) -> f64 {
     if stands { (-pitch).clamp(0.0, TOES_LIMIT) } else { 0.0 }
 }
 
-/// The smallest height of heel, ball and toes while they must be clear of the ground [m], and a parabola over this time, 1 in its middle.
+/// The smallest height of heel, ball and toes while they must be clear of the ground [m], and a parabola over this
+/// time, 1 in its middle.
 fn clearance(at: &WalkPosture, clock: &Clock, side: Side) -> [Option<[f64; 2]>; 3] {
     let place = at.phases.cycle[side];
     let walking = clock.walking.value.powi(2);
@@ -186,9 +190,9 @@ fn clearance(at: &WalkPosture, clock: &Clock, side: Side) -> [Option<[f64; 2]>; 
     })
 }
 
-/// Adds the tilt of the pelvis to the target of the lumbar joint, because the trunk angles of the tables are relative to the pelvis, while the
-/// gait takes trunk lean as relative to the world. (In the other two planes, the third harmonics of trunk and pelvis cancel, as they do if the
-/// trunk is relative to the pelvis.)
+/// Adds the tilt of the pelvis to the target of the lumbar joint, because the trunk angles of the tables are relative
+/// to the pelvis, while the gait takes trunk lean as relative to the world. (In the other two planes, the third
+/// harmonics of trunk and pelvis cancel, as they do if the trunk is relative to the pelvis.)
 fn trunk_with_pelvis(model: &Model, posture: &mut [Vec<f64>; 3]) {
     let of = |movement: Movement| model.anatomy().coordinate(movement, None).map(|(id, _)| id.index());
     if let (Some(tilt), Some(lumbar)) = (of(Movement::PelvicTilt), of(Movement::TrunkLean)) {

@@ -12,8 +12,8 @@ use crate::spatial::Vec3;
 
 /// Filters have no neighbours at the ends, so the first and last moments show nothing [s].
 const EDGE_S: f64 = 0.1;
-/// The body flies while the motion needs less upward force than this [body weights]; a low-pass filter at 6 Hz leaves a quarter of the weight
-/// in the middle of a flight of 0.1 s.
+/// The body flies while the motion needs less upward force than this [body weights]; a low-pass filter at 6 Hz leaves a
+/// quarter of the weight in the middle of a flight of 0.1 s.
 const FLIGHT_BW: f64 = 0.3;
 /// Both feet leave the ground together within this share of the flight.
 const TOGETHER: f64 = 0.5;
@@ -57,7 +57,8 @@ struct Instant {
     height: f64,
     /// Heading of the pelvis [rad], in (-π, π].
     heading: f64,
-    /// Distance from the mass centre forward to the nearest rear point of a sole [m]: above zero, it is behind both feet.
+    /// Distance from the mass centre forward to the nearest rear point of a sole [m]: above zero, it is behind both
+    /// feet.
     behind_m: f64,
 }
 
@@ -161,7 +162,8 @@ fn turn(instants: &[Instant], grid: TimeGrid) -> f64 {
     range(&means)
 }
 
-/// First and last instant of the longest time in which no foot is on the ground and the motion needs hardly any upward force [s].
+/// First and last instant of the longest time in which no foot is on the ground and the motion needs hardly any upward
+/// force [s].
 fn longest_flight(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls, edge: usize) -> Option<[f64; 2]> {
     let (grid, up) = (trajectory.grid(), model.up());
     let weight = model.mass() * model.gravity().norm();
@@ -214,8 +216,8 @@ fn duty_factor(footfalls: &Footfalls) -> Option<f64> {
     median(shares)
 }
 
-/// Mean change of the height of the floor from a stance to the next one of the other foot [m]; who sets both feet on each stair rises with
-/// every second step.
+/// Mean change of the height of the floor from a stance to the next one of the other foot [m]; who sets both feet on
+/// each stair rises with every second step.
 fn rise_per_step(footfalls: &Footfalls) -> f64 {
     let pairs = footfalls.falls.windows(2).filter(|pair| pair[0].side != pair[1].side);
     let (count, sum) =

@@ -1,7 +1,8 @@
-//! Recognises the activity of a person in a recording: walks, runs, stands, squats, jumps, rises from a seat, climbs stairs, turns.
+//! Recognises the activity of a person in a recording: walks, runs, stands, squats, jumps, rises from a seat, climbs
+//! stairs, turns.
 //!
-//! Only the motion, its stances and the laws of mechanics are used, no names and nothing fitted to recordings. Lengths are relative to the
-//! length L of the leg, times to √(L/g). In this order:
+//! Only the motion, its stances and the laws of mechanics are used, no names and nothing fitted to recordings. Lengths
+//! are relative to the length L of the leg, times to √(L/g). In this order:
 //!
 //! | kind | what decides |
 //! |---|---|
@@ -15,9 +16,9 @@
 //! | `stand` | the pelvis stays within a tenth of L in height, and does not travel |
 //! | `other` | everything else, and bodies without feet |
 //!
-//! Sources: Alexander, "Optimization and gaits in the locomotion of vertebrates", Physiol Rev 69:1199, 1989 (duty factor); ISO 21542 and
-//! building codes (risers of 0.10 to 0.22 m). A recording with several activities gets the first of this order.
-//! Pinned by: tests/activity.rs
+//! Sources: Alexander, "Optimization and gaits in the locomotion of vertebrates", Physiol Rev 69:1199, 1989 (duty
+//! factor); ISO 21542 and building codes (risers of 0.10 to 0.22 m). A recording with several activities gets the first
+//! of this order. Pinned by: tests/activity.rs
 
 mod evidence;
 
@@ -31,22 +32,25 @@ use std::fmt;
 
 /// The body flies at least this share of √(L/g) in a jump: 0.08 s and 8 mm for an adult; less is a hop of the heels.
 const LEAST_FLIGHT: f64 = 0.25;
-/// In running each foot is on the ground for a share of its cycle in this range; a smaller one comes from stances that were missed.
+/// In running each foot is on the ground for a share of its cycle in this range; a smaller one comes from stances that
+/// were missed.
 const RUNNING_DUTY_FACTOR: [f64; 2] = [0.1, 0.5];
 /// Stances on stairs differ in height by at least this per step [m]: the lowest riser of building codes is 0.10 m.
 const LEAST_RISER_M: f64 = 0.08;
-/// A person who turns the pelvis by more than this does not walk straight [rad]: 45 degrees. In a stride the pelvis rotates by less than 30.
+/// A person who turns the pelvis by more than this does not walk straight [rad]: 45 degrees. In a stride the pelvis
+/// rotates by less than 30.
 const TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
 /// A person who walks moves further than this share of the leg length.
 const LEAST_PATH: f64 = 0.5;
-/// The pelvis of a person who walks travels faster than this share of √(g L), 0.45 m/s for an adult: the slowest group of Schwartz 2008 walks at
-/// 0.17.
+/// The pelvis of a person who walks travels faster than this share of √(g L), 0.45 m/s for an adult: the slowest group
+/// of Schwartz 2008 walks at 0.17.
 const LEAST_SPEED: f64 = 0.15;
 /// Above this share of √(g L) people run: Froude number one half (Alexander 1989).
 const RUNNING_SPEED: f64 = 0.7;
 /// The pelvis of a person who stands stays within this share of the leg length.
 const STANDING: f64 = 0.1;
-/// From the height of a seat the pelvis rises by at least this share of the leg length: the thigh is half of it and becomes vertical.
+/// From the height of a seat the pelvis rises by at least this share of the leg length: the thigh is half of it and
+/// becomes vertical.
 const FROM_A_SEAT: f64 = 0.25;
 /// Knees that bend by more carry a squat [rad]: 30 degrees.
 const SQUATTING_RAD: f64 = std::f64::consts::FRAC_PI_6;
@@ -110,14 +114,15 @@ impl ActivityKind {
         }
     }
 
-    /// Whether predicted ground forces of this activity were compared with force plates (docs/measured/VALIDATION.md; of standing in
-    /// tests/standing_ground.rs).
+    /// Whether predicted ground forces of this activity were compared with force plates (docs/measured/VALIDATION.md;
+    /// of standing in tests/standing_ground.rs).
     #[must_use]
     pub(crate) fn has_validated_prediction(self) -> bool {
         matches!(self, ActivityKind::Walk | ActivityKind::Run | ActivityKind::Turn | ActivityKind::Stand)
     }
 
-    /// Whether at least one foot is on the ground at all times. Running and jumping have flights; an unknown activity may have some.
+    /// Whether at least one foot is on the ground at all times. Running and jumping have flights; an unknown activity
+    /// may have some.
     #[must_use]
     pub(crate) fn keeps_a_foot_down(self) -> bool {
         !matches!(self, ActivityKind::Run | ActivityKind::Jump | ActivityKind::Other)

@@ -1,13 +1,14 @@
 //! Compares the acceleration of the mass centre with the one that the measured ground forces cause.
 //!
-//! Newton's law: the plates measure F(t), and the motion needs N(t) = m (a(t) - g). In each uninterrupted time with complete forces both
-//! are integrated, without their means, so that constant errors (mass, offset of a plate) and the different low-pass filters of motion and
-//! forces matter little:
+//! Newton's law: the plates measure F(t), and the motion needs N(t) = m (a(t) - g). In each uninterrupted time with
+//! complete forces both are integrated, without their means, so that constant errors (mass, offset of a plate) and the
+//! different low-pass filters of motion and forces matter little:
 //!
 //!   V(t) = ∫ (F - F̄) dt      W(t) = ∫ (N - N̄) dt      k = Σ W·V / Σ |V|².
 //!
-//! The slope k is 1 for motion and forces of one recording. If the clock of both runs faster by a factor c, the accelerations of the
-//! motion are c² times as large and the forces are not: k = c², 2.25 for a recording that is 1.5 times as fast.
+//! The slope k is 1 for motion and forces of one recording. If the clock of both runs faster by a factor c, the
+//! accelerations of the motion are c² times as large and the forces are not: k = c², 2.25 for a recording that is 1.5
+//! times as fast.
 //!
 //! | symbol | unit | meaning                                          |
 //! |--------|------|--------------------------------------------------|

@@ -15,13 +15,15 @@ use crate::spatial::{Vec3, Wrench, level_distance};
 
 /// A sole point lower than this above the ground [m] ...
 pub(super) const NEAR_GROUND_M: f64 = 0.06;
-/// ... and slower than this relative to it [m/s] may be in contact (AnyBody's prediction of ground forces uses 0.04 m and 0.8 m/s for nodes
-/// of a fitted sole; ours are estimates).
+/// ... and slower than this relative to it [m/s] may be in contact (AnyBody's prediction of ground forces uses 0.04 m
+/// and 0.8 m/s for nodes of a fitted sole; ours are estimates).
 const NEAR_GROUND_M_S: f64 = 0.8;
-/// The lowest point of a loaded sole may be this far above or below its centre of pressure: thick shoes, errors of feet and floor [m].
+/// The lowest point of a loaded sole may be this far above or below its centre of pressure: thick shoes, errors of feet
+/// and floor [m].
 const OFF_GROUND_M: f64 = 0.1;
-/// Largest error of the direction of a foot [rad], 30 degrees. A marker at the side of the forefoot instead of its middle turns a foot by the
-/// angle of half the breadth to the length, about 15 degrees; the markers of heel and ankle add to it.
+/// Largest error of the direction of a foot [rad], 30 degrees. A marker at the side of the forefoot instead of its
+/// middle turns a foot by the angle of half the breadth to the length, about 15 degrees; the markers of heel and ankle
+/// add to it.
 const TURNED_RAD: f64 = 0.524;
 /// In flight both feet together carry less than this share of body weight.
 const FLIGHT_LOAD_BW: f64 = 0.05;
@@ -155,15 +157,17 @@ impl FeasibilityLimits {
         !is_small
     }
 
-    /// Whether no ground force can be missing: support is sufficient, or no foot may be in contact outside the force plates.
+    /// Whether no ground force can be missing: support is sufficient, or no foot may be in contact outside the force
+    /// plates.
     pub(super) fn support_is_known(&self, frame: &Frame<'_>) -> bool {
         frame.feet.values().all(Option::is_none)
             || !self.lacks_support(frame)
             || !Side::BOTH.into_iter().any(|side| self.may_be_on_unmeasured_ground(frame, side))
     }
 
-    /// Whether the centre of pressure of a foot would be on its sole, with the usual margin, if the foot were turned about the heel by at most
-    /// [`TURNED_RAD`]. A foot whose direction is wrong by a marker at its side has its centre of pressure there.
+    /// Whether the centre of pressure of a foot would be on its sole, with the usual margin, if the foot were turned
+    /// about the heel by at most [`TURNED_RAD`]. A foot whose direction is wrong by a marker at its side has its centre
+    /// of pressure there.
     pub(super) fn foot_reaches(&self, frame: &Frame<'_>, side: Side) -> bool {
         let (Some(sole), Some(foot)) = (&self.person.soles[side], &frame.feet[side]) else { return false };
         let points = sole.points.map(|p| frame.bodies[p.body.index()].pose.place(p.place));
@@ -179,7 +183,8 @@ impl FeasibilityLimits {
             && height_beyond(points, place, self.up) == 0.0
     }
 
-    /// Whether a foot is unloaded, near the ground and slow: it may be in contact outside the force plates. A force that pulls down is measured.
+    /// Whether a foot is unloaded, near the ground and slow: it may be in contact outside the force plates. A force
+    /// that pulls down is measured.
     fn may_be_on_unmeasured_ground(&self, frame: &Frame<'_>, side: Side) -> bool {
         let carried = frame.feet[side].map_or(0.0, |foot| foot.force.dot(&self.up));
         if carried.abs() > CENTER_OF_PRESSURE_LOAD_N {
@@ -224,8 +229,8 @@ fn coordinate_limits(model: &Model, id: CoordinateId, person: &Person, t: &Thres
 
 /// Checks one frame; `visit` receives every value with its limit, feasible or not. Allocates nothing.
 ///
-/// Returns false if ground forces may be missing (a foot may be in contact outside the force plates): moments, powers, flight, support and
-/// balance are then not checked.
+/// Returns false if ground forces may be missing (a foot may be in contact outside the force plates): moments, powers,
+/// flight, support and balance are then not checked.
 ///
 /// # Panics
 /// If a slice of the frame is shorter than the model.
@@ -305,7 +310,8 @@ fn check_coordinate(
     visit(CheckedValue { check: Check::Power, of, value: power, limit: allowed.copysign(power), share });
 }
 
-/// The load above which a foot is checked [N]: a share of the weight, and at least the load that defines a centre of pressure.
+/// The load above which a foot is checked [N]: a share of the weight, and at least the load that defines a centre of
+/// pressure.
 #[must_use]
 pub fn least_load_n(load_bw: f64, weight_n: f64) -> f64 {
     (load_bw * weight_n).max(CENTER_OF_PRESSURE_LOAD_N)
@@ -347,7 +353,8 @@ fn share(value: f64, limit: f64) -> f64 {
     }
 }
 
-/// Distance of a point from the sole [m]: along the ground from its edge, and in height beyond [`OFF_GROUND_M`] from its lowest point.
+/// Distance of a point from the sole [m]: along the ground from its edge, and in height beyond [`OFF_GROUND_M`] from
+/// its lowest point.
 fn distance_to_sole(limits: &FeasibilityLimits, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
     let points = sole.points.map(|p| frame.bodies[p.body.index()].pose.place(p.place));
     let [rear, ball, tip] = points;
@@ -362,7 +369,8 @@ fn height_beyond(points: [Vec3; 3], place: Vec3, up: Vec3) -> f64 {
     (lowest.abs() - OFF_GROUND_M).max(0.0)
 }
 
-/// Horizontal speed of the foot's material at a point relative to the ground [m/s]: of the toes if the tip is nearest, else of the foot.
+/// Horizontal speed of the foot's material at a point relative to the ground [m/s]: of the toes if the tip is nearest,
+/// else of the foot.
 fn slip(limits: &FeasibilityLimits, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
     let distance = |k: usize| {
         let point = &sole.points[k];

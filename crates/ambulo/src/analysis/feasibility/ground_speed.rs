@@ -17,8 +17,8 @@ pub(in crate::analysis) struct OverGround {
     pub(in crate::analysis) speed: f64,
 }
 
-/// Estimates the ground velocity from the loaded feet at their centres of pressure; on a treadmill they move back with the belt. `None` if
-/// no foot ever carries half the weight.
+/// Estimates the ground velocity from the loaded feet at their centres of pressure; on a treadmill they move back with
+/// the belt. `None` if no foot ever carries half the weight.
 pub(in crate::analysis) fn over_ground(
     model: &Model,
     trajectory: &Trajectory,

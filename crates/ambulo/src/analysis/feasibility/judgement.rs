@@ -21,9 +21,11 @@ use std::ops::Range;
 const LEAST_JUDGED_SHARE: f64 = 0.9;
 /// Filters and splines have no neighbours on one side of the first and last frames, so these are not judged [s].
 const EDGE_S: f64 = 0.1;
-/// Measured forces that carry the body in a smaller share of the frames do not belong to this motion, and are not replaced by a prediction.
+/// Measured forces that carry the body in a smaller share of the frames do not belong to this motion, and are not
+/// replaced by a prediction.
 const LEAST_MEASURED_SHARE: f64 = 0.1;
-/// Forces that carry less of the weight than this, in all frames in which none seems to be missing, were not measured: the plates were off.
+/// Forces that carry less of the weight than this, in all frames in which none seems to be missing, were not measured:
+/// the plates were off.
 const LEAST_CARRIED: f64 = 0.1;
 /// A foot leaves the edge of a force plate within this time [s].
 const STEP_OFF_S: f64 = 0.15;
@@ -104,15 +106,16 @@ fn nearest(model: &Model, grid: TimeGrid, frame: usize, m: &CheckedValue) -> Clo
     }
 }
 
-/// An excess that is shorter cannot be distinguished from noise [s]. A low-pass makes an impulse 0.603/fc wide at half of its height: that is the width
-/// of sin(x)/x with x = 2π fc t.
+/// An excess that is shorter cannot be distinguished from noise [s]. A low-pass makes an impulse 0.603/fc wide at half
+/// of its height: that is the width of sin(x)/x with x = 2π fc t.
 fn shortest_s(thresholds: &Thresholds, cutoff_hz: Option<f64>) -> f64 {
     const WIDTH: f64 = 0.603;
     cutoff_hz.map_or(0.0, |cutoff_hz| WIDTH / cutoff_hz).max(thresholds.shortest_s)
 }
 
-/// Where forces are predicted from the motion and cannot act through the feet, something else may support the person: hands, a seat, a
-/// harness. Removes the reasons that come from such forces and returns why the verdict is undecided; reasons from the motion stay.
+/// Where forces are predicted from the motion and cannot act through the feet, something else may support the person:
+/// hands, a seat, a harness. Removes the reasons that come from such forces and returns why the verdict is undecided;
+/// reasons from the motion stay.
 fn other_support(reasons: &mut Vec<Reason>, is_predicted: impl Fn(f64) -> bool) -> Option<String> {
     let lacking =
         |reason: &Reason| is_predicted(reason.at_s) && matches!(reason.check, Check::Support | Check::Balance);
@@ -121,7 +124,8 @@ fn other_support(reasons: &mut Vec<Reason>, is_predicted: impl Fn(f64) -> bool) 
     Some(undecided_by_other_support(&first))
 }
 
-/// The message of an undecided verdict if the centre of pressure is outside the sole, but no further from the heel than a foot reaches.
+/// The message of an undecided verdict if the centre of pressure is outside the sole, but no further from the heel than
+/// a foot reaches.
 fn undecided_by_direction(reason: &Reason) -> String {
     format!(
         "the coordinates may show the direction of a foot wrongly, or force plates and motion are not aligned: {}",
@@ -129,8 +133,8 @@ fn undecided_by_direction(reason: &Reason) -> String {
     )
 }
 
-// One track per check of each coordinate, then of each foot, then of the whole body; then the centre of pressure of each foot while it is
-// outside the sole, but within the reach of a foot that is turned about its heel.
+// One track per check of each coordinate, then of each foot, then of the whole body; then the centre of pressure of
+// each foot while it is outside the sole, but within the reach of a foot that is turned about its heel.
 const OF_COORDINATES: [Check; 3] = [Check::Strength, Check::Range, Check::Power];
 const OF_FEET: [Check; 3] = [Check::Friction, Check::CenterOfPressure, Check::Sliding];
 const OF_BODY: [Check; 4] = [Check::Flight, Check::Support, Check::Balance, Check::Pull];
@@ -233,7 +237,8 @@ impl Coverage {
             false => "moments, powers, flight, support and balance were not checked",
         };
         let message = format!(
-            "{judged} in {} of {} frames (the first at {:.3} s), because a foot may be on ground whose force is not known",
+            "{judged} in {} of {} frames (the first at {:.3} s), because a foot may be on ground whose force is not \
+             known",
             self.unmeasured(),
             grid.frames,
             grid.time(first)
@@ -270,14 +275,16 @@ impl Coverage {
         let FitOfForces { residual_force_bw, complete_share: measured, .. } = self.fit(limits);
         if !motion.ground.bodies.is_empty() && self.counted > 0 && measured < LEAST_MEASURED_SHARE {
             list.push(format!(
-                "the measured ground forces carry the body in {:.0} % of the frames; they may not be those of this motion",
+                "the measured ground forces carry the body in {:.0} % of the frames; they may not be those of this \
+                 motion",
                 100.0 * measured
             ));
         }
         let residual_bw = residual_force_bw.unwrap_or(0.0);
         if residual_bw > LARGE_RESIDUAL_BW {
             list.push(format!(
-                "the residual force is {:.0} % of body weight; above {:.0} %, motion, body and ground forces do not belong together",
+                "the residual force is {:.0} % of body weight; above {:.0} %, motion, body and ground forces do not \
+                 belong together",
                 100.0 * residual_bw,
                 100.0 * LARGE_RESIDUAL_BW
             ));
@@ -347,8 +354,9 @@ fn measure(
     (tracks, coverage)
 }
 
-/// Frames in which no ground force is missing. A lack of support while a plate measures only a part of a foot's load is that part. A foot that steps off a force plate leaves a part of its load there: a lack of support that
-/// begins or ends with missing forces has the same cause.
+/// Frames in which no ground force is missing. A lack of support while a plate measures only a part of a foot's load is
+/// that part. A foot that steps off a force plate leaves a part of its load there: a lack of support that begins or
+/// ends with missing forces has the same cause.
 fn covered(motion: &MotionAndForces<'_>, given: &mut FrameReader<'_>, limits: &FeasibilityLimits) -> Vec<bool> {
     let (mut covered, mut lacking): (Vec<bool>, Vec<bool>) = (Vec::new(), Vec::new());
     let mut upward_n = [0.0; 2];
@@ -483,16 +491,21 @@ fn message(m: &CheckedValue, quantity: &str, side: Option<Side>, [from, to]: [f6
             "no foot is loaded for {value:.3} s while walking; {limit:.3} s are allowed (from {from:.3} to {to:.3} s)"
         ),
         Check::Support => format!(
-            "the residual force is {value:.2} body weights, which neither ground nor muscles supply; {limit:.2} are allowed ({when})"
+            "the residual force is {value:.2} body weights, which neither ground nor muscles supply; {limit:.2} are \
+             allowed ({when})"
         ),
         Check::Pull => format!(
-            "the motion needs a ground that pulls down with {value:.2} body weights; {limit:.2} are allowed. hint: check unit and frame rate of the motion ({when})"
+            "the motion needs a ground that pulls down with {value:.2} body weights; {limit:.2} are allowed. hint: \
+             check unit and frame rate of the motion ({when})"
         ),
         Check::Acceleration => format!(
-            "the body accelerates {value:.2} times as much as the measured ground forces make it; {limit:.2} times is allowed (from {from:.3} to {to:.3} s). hint: check the frame rate of the motion, and whether motion and forces are of one recording"
+            "the body accelerates {value:.2} times as much as the measured ground forces make it; {limit:.2} times is \
+             allowed (from {from:.3} to {to:.3} s). hint: check the frame rate of the motion, and whether motion and \
+             forces are of one recording"
         ),
         Check::Balance => format!(
-            "the residual moment about the root is {value:.2} N.m/kg, which neither ground nor muscles supply; {limit:.2} are allowed ({when})"
+            "the residual moment about the root is {value:.2} N.m/kg, which neither ground nor muscles supply; \
+             {limit:.2} are allowed ({when})"
         ),
     }
 }

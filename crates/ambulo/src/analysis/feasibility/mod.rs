@@ -1,8 +1,10 @@
-//! Decides whether a person could make a motion: checks of strength, joint range, power, friction, centre of pressure, sliding, flight,
-//! residual force and moment, a ground that pulls, and accelerations that the measured forces do not cause.
+//! Decides whether a person could make a motion: checks of strength, joint range, power, friction, centre of pressure,
+//! sliding, flight, residual force and moment, a ground that pulls, and accelerations that the measured forces do not
+//! cause.
 //!
-//! [`check`] judges a whole recording or synthetic walk and returns a [`Verdict`]; [`check_frame`] checks one frame without allocating.
-//! An infeasible motion is a result, not an error. A motion is called feasible only if nearly all of it was judged. Defaults, their sources and the file format of [`Thresholds`]: docs/JUDGEMENT.md.
+//! [`check`] judges a whole recording or synthetic walk and returns a [`Verdict`]; [`check_frame`] checks one frame
+//! without allocating. An infeasible motion is a result, not an error. A motion is called feasible only if nearly all
+//! of it was judged. Defaults, their sources and the file format of [`Thresholds`]: docs/JUDGEMENT.md.
 
 mod acceleration_ratio;
 mod floor_heights;

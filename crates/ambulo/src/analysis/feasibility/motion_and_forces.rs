@@ -22,17 +22,18 @@ pub struct MotionAndForces<'a> {
     pub device: Option<&'a [Vec<f64>]>,
     /// Forces predicted from the motion, for frames in which measured ground forces are incomplete.
     pub predicted: Option<PredictedForces<'a>>,
-    /// Times in which a force plate measured only a part of a foot's load [s]. A lack of support in them is the plate's, not the motion's.
+    /// Times in which a force plate measured only a part of a foot's load [s]. A lack of support in them is the
+    /// plate's, not the motion's.
     pub partly_measured: &'a [[f64; 2]],
-    /// The stances that the motion shows: a foot may stand on unmeasured ground at the height of its stance, as on stairs, and the belt moves as
-    /// they do where no load shows it. `None` if unknown.
+    /// The stances that the motion shows: a foot may stand on unmeasured ground at the height of its stance, as on
+    /// stairs, and the belt moves as they do where no load shows it. `None` if unknown.
     pub stances: Option<&'a Footfalls>,
     /// The activity: walking and standing keep a foot on the ground, running and jumping do not.
     pub activity: ActivityKind,
     /// Cut-off of the low-pass filter of the motion [Hz]; `None` without a filter.
     pub cutoff_hz: Option<f64>,
-    /// Whether the ground forces were computed from the motion. A lack of support may then be support that no foot gives, such as hands or
-    /// a chair, so it leaves the verdict undecided.
+    /// Whether the ground forces were computed from the motion. A lack of support may then be support that no foot
+    /// gives, such as hands or a chair, so it leaves the verdict undecided.
     pub forces_are_predicted: bool,
 }
 

@@ -33,7 +33,8 @@ impl Person {
         }
     }
 
-    /// Estimates the person of any model with legs: stature from thigh and shank, soles from stature and the position of the ankle.
+    /// Estimates the person of any model with legs: stature from thigh and shank, soles from stature and the position
+    /// of the ankle.
     #[must_use]
     pub fn of_model(model: &Model) -> Person {
         let Stature { height_m, leg_length_m } = model.stature();

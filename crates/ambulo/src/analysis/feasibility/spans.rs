@@ -56,7 +56,8 @@ impl Track {
         }
     }
 
-    /// Joins spans with gaps shorter than `shortest_s` and drops spans that remain shorter. A span of one frame lasts one time step.
+    /// Joins spans with gaps shorter than `shortest_s` and drops spans that remain shorter. A span of one frame lasts
+    /// one time step.
     pub(super) fn settled(&self, step_s: f64, shortest_s: f64) -> Vec<Span> {
         let mut joined: Vec<Span> = Vec::new();
         for span in &self.spans {

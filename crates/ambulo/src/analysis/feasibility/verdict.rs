@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 
-/// Above this residual force [body weights, rms], motion, body and ground forces do not fit together: the quality is doubtful, and no motion
-/// is called feasible. Walks of seven people with every foot on a plate have 10 to 13 % (tests/quality.rs), with the plates of another
-/// person 47 to 98 %.
+/// Above this residual force [body weights, rms], motion, body and ground forces do not fit together: the quality is
+/// doubtful, and no motion is called feasible. Walks of seven people with every foot on a plate have 10 to 13 %
+/// (tests/quality.rs), with the plates of another person 47 to 98 %.
 pub const LARGE_RESIDUAL_BW: f64 = 0.2;
 
 /// The kinds of checks.
@@ -139,8 +139,8 @@ pub struct Verdict {
     pub frames: usize,
     /// Frames in which a foot may be on the ground outside the force plates.
     pub frames_unmeasured: usize,
-    /// Of those, frames that were judged on forces predicted from the motion; in the others, moments, powers, flight, support and balance
-    /// were not checked.
+    /// Of those, frames that were judged on forces predicted from the motion; in the others, moments, powers, flight,
+    /// support and balance were not checked.
     pub frames_predicted: usize,
     /// Body mass used for the strength [kg].
     pub mass_kg: f64,
@@ -151,8 +151,8 @@ pub struct Verdict {
     pub fit: FitOfForces,
 }
 
-/// How well motion and ground forces fit together, over the frames in which the given ground forces are complete. This is about the data,
-/// not about the movement: [`crate::study::Quality`] judges it.
+/// How well motion and ground forces fit together, over the frames in which the given ground forces are complete. This
+/// is about the data, not about the movement: [`crate::study::Quality`] judges it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FitOfForces {
     /// Residual force, root mean square [body weights]; `None` without such frames.
@@ -161,16 +161,16 @@ pub struct FitOfForces {
     pub residual_moment_nm_kg: Option<f64>,
     /// Share of the frames, without the first and last 0.1 s.
     pub complete_share: f64,
-    /// Speed of soles along the ground while they carry at least [`Thresholds::sliding_load_bw`] [m/s]: lower quartile, because a foot that
-    /// rolls off moves for a part of that time.
+    /// Speed of soles along the ground while they carry at least [`Thresholds::sliding_load_bw`] [m/s]: lower quartile,
+    /// because a foot that rolls off moves for a part of that time.
     ///
     /// [`Thresholds::sliding_load_bw`]: super::Thresholds::sliding_load_bw
     pub sliding_m_s: Option<f64>,
 }
 
 impl Verdict {
-    /// Adds what further checks of predicted forces found: forces that cannot act through the feet. Something else may support the
-    /// person, so the verdict is undecided, and reasons that come from these forces are dropped.
+    /// Adds what further checks of predicted forces found: forces that cannot act through the feet. Something else may
+    /// support the person, so the verdict is undecided, and reasons that come from these forces are dropped.
     pub(crate) fn add_unsupported(&mut self, found: &[Reason]) {
         let Some(first) = found.first() else { return };
         let is_explained = |check| !matches!(check, Check::Range | Check::Pull);

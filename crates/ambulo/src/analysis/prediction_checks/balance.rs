@@ -25,7 +25,8 @@ struct Balance {
     feet: f64,
     /// Mean vertical force that the motion needs [body weights].
     total: f64,
-    /// Mean force of the feet along the walking direction less m Δv / T [body weights]; `None` if the person stays in place.
+    /// Mean force of the feet along the walking direction less m Δv / T [body weights]; `None` if the person stays in
+    /// place.
     along: Option<f64>,
 }
 
@@ -45,7 +46,8 @@ pub(super) fn check(evidence: &CheckedPrediction<'_>, record: &Record, judgement
     {
         if !judgement.take(criterion, TimedValue { value, time_s }) {
             let message = format!(
-                "the mean vertical force {source} is {value:.2} body weights over whole gait cycles ({:.3} to {:.3} s); expected 1.00",
+                "the mean vertical force {source} is {value:.2} body weights over whole gait cycles ({:.3} to {:.3} \
+                 s); expected 1.00",
                 time_s[0], time_s[1]
             );
             judgement.report(Code::PredictionWeight, message);
@@ -54,7 +56,8 @@ pub(super) fn check(evidence: &CheckedPrediction<'_>, record: &Record, judgement
     let Some(value) = balance.along else { return judgement.skip(along, "the person stays in place") };
     if !judgement.take(along, TimedValue { value, time_s }) {
         let message = format!(
-            "the mean force on the feet along the walking direction differs by {value:+.3} body weights from the rate of change of momentum ({:.3} to {:.3} s)",
+            "the mean force on the feet along the walking direction differs by {value:+.3} body weights from the rate \
+             of change of momentum ({:.3} to {:.3} s)",
             time_s[0], time_s[1]
         );
         judgement.report(Code::PredictionImpulse, message);

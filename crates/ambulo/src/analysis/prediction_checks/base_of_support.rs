@@ -14,8 +14,8 @@ pub struct BaseOfSupport {
 }
 
 impl BaseOfSupport {
-    /// The base of support of points with discs of `radius` [m] around them; `axes` are two horizontal orthogonal unit vectors. `None`
-    /// without points.
+    /// The base of support of points with discs of `radius` [m] around them; `axes` are two horizontal orthogonal unit
+    /// vectors. `None` without points.
     pub fn around(points: &[Vec3], radius: f64, axes: [Vec3; 2]) -> Option<BaseOfSupport> {
         let corners = hull(points.iter().map(|p| [p.dot(&axes[0]), p.dot(&axes[1])]).collect());
         (!corners.is_empty()).then_some(BaseOfSupport { corners, radius, axes })

@@ -29,7 +29,8 @@ pub(super) fn check(evidence: &CheckedPrediction<'_>, record: &Record, judgement
     if !judgement.take(criterion, found) {
         let side = if foot == 0 { "right" } else { "left" };
         let message = format!(
-            "the predicted force on the {side} foot in stance needs a coefficient of friction of {:.2} (at {:.3} s); {:.2} is available",
+            "the predicted force on the {side} foot in stance needs a coefficient of friction of {:.2} (at {:.3} s); \
+             {:.2} is available",
             found.value, found.time_s[0], thresholds.friction
         );
         judgement.report(Code::PredictionFriction, message);

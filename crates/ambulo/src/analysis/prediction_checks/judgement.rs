@@ -65,7 +65,8 @@ impl<'a> Judgement<'a> {
         self.findings.report(code, message);
     }
 
-    /// Reports forces that do not act through the feet, also as a reason for an infeasible verdict unless the check is skipped.
+    /// Reports forces that do not act through the feet, also as a reason for an infeasible verdict unless the check is
+    /// skipped.
     pub(super) fn report_infeasible(&mut self, check: Check, criterion: Criterion, found: TimedValue, message: String) {
         if !self.thresholds.judges(check) {
             return self.findings.report(Code::PredictionNotThroughTheFeet, message);

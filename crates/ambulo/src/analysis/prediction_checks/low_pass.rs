@@ -2,7 +2,8 @@
 //!
 //!   p = (u × M₀ + h F) / (u · F)
 //!
-//! p is the centre of pressure, F and M₀ the ground's wrench averaged with a Gaussian window over time, h the mean height of the ground.
+//! p is the centre of pressure, F and M₀ the ground's wrench averaged with a Gaussian window over time, h the mean
+//! height of the ground.
 
 use super::record::Record;
 use crate::numerics::elementary::exp;

@@ -11,8 +11,8 @@ pub(super) const NAME: &str = "mass";
 const SHARE: f64 = 0.05;
 /// Shorter instrumented windows do not determine the mass [s].
 const SHORTEST_S: f64 = 0.3;
-/// Error of the velocity change over less than a cycle [m/s]; divided by the duration it is the error of the mean force per mass. Measured:
-/// 0.36 m/s for a turning child, less than 0.1 m/s for three walkers.
+/// Error of the velocity change over less than a cycle [m/s]; divided by the duration it is the error of the mean force
+/// per mass. Measured: 0.36 m/s for a turning child, less than 0.1 m/s for three walkers.
 const VELOCITY_ERROR_M_S: f64 = 0.4;
 
 /// Body mass measured by force plates.
@@ -27,7 +27,8 @@ pub struct PlateMass {
 /// How force plates measured the body mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Weighing {
-    /// During an instrumented window: the model's mass times the mean measured vertical force over the one that the motion needs.
+    /// During an instrumented window: the model's mass times the mean measured vertical force over the one that the
+    /// motion needs.
     Walking {
         /// Duration of the window [s].
         duration_s: f64,
@@ -55,7 +56,8 @@ impl PlateMass {
         (needed > 0.0).then(|| PlateMass { kg: model.mass() * plates / needed, by })
     }
 
-    /// The most accurate mass: from plates over a whole cycle, else from a standing trial, else from plates for a shorter time.
+    /// The most accurate mass: from plates over a whole cycle, else from a standing trial, else from plates for a
+    /// shorter time.
     pub(super) fn best(analysis: &PredictedAnalysis, plates: Option<Self>, standing_kg: Option<f64>) -> Option<Self> {
         let standing = standing_kg.map(|kg| PlateMass { kg, by: Weighing::Standing });
         let cycles = analysis.analysis.cycles.iter().map(|cycle| cycle.end_s - cycle.start_s);

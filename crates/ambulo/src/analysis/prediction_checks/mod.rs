@@ -1,7 +1,8 @@
 //! Checks whether predicted ground forces are plausible, as far as possible without force plates.
 //!
-//! From the motion, Newton's and Euler's laws give the total wrench of the ground; the prediction assumes that it acts through the feet.
-//! These checks test the assumption: the whole body's wrench is low-passed at 3.5 Hz and compared with the soles in stance.
+//! From the motion, Newton's and Euler's laws give the total wrench of the ground; the prediction assumes that it acts
+//! through the feet. These checks test the assumption: the whole body's wrench is low-passed at 3.5 Hz and compared
+//! with the soles in stance.
 //!
 //! | check                   | value                                                                             | allowed          |
 //! |-------------------------|-----------------------------------------------------------------------------------|------------------|
@@ -16,8 +17,8 @@
 //! | `pull`                  | smallest vertical force needed for 0.1 s [BW]                                     | above -0.15      |
 //! | `mass`                  | body mass by force plates or a standing trial over the model's                    | 1 ± 0.05, more if plates measured less than a cycle |
 //!
-//! An offset of the model's mass centre is not subtracted; the tolerances include it. From the motion alone every force scales with the
-//! mass, so only the last check detects a wrong mass.
+//! An offset of the model's mass centre is not subtracted; the tolerances include it. From the motion alone every force
+//! scales with the mass, so only the last check detects a wrong mass.
 //! [`Thresholds`] has the limits of friction and of the centre of pressure.
 //! Cost: linear in frames, about 300 bytes per frame of memory.
 //! Not handled: support that moves along with the person; equal external loads on both sides.
@@ -123,7 +124,8 @@ impl PredictionChecks {
     }
 }
 
-/// Checks a prediction. A failed check is a finding; forces that do not act through the feet are also reasons for the verdict.
+/// Checks a prediction. A failed check is a finding; forces that do not act through the feet are also reasons for the
+/// verdict.
 #[must_use]
 pub fn prediction_checks(evidence: &CheckedPrediction<'_>, findings: &mut Findings) -> PredictionChecks {
     let mut judgement = Judgement::new(evidence.thresholds, findings);

@@ -1,8 +1,8 @@
 //! Compares the centre of pressure that the whole body's motion needs with the soles in stance.
 //!
-//! Soles can only push, so the mean centre of pressure, weighted by the force, lies in the convex hull of all soles in stance during that
-//! time. A needed centre of pressure outside it cannot be explained by these soles. A planar figure is held in its plane by the root joint:
-//! only the components in the plane are compared.
+//! Soles can only push, so the mean centre of pressure, weighted by the force, lies in the convex hull of all soles in
+//! stance during that time. A needed centre of pressure outside it cannot be explained by these soles. A planar figure
+//! is held in its plane by the root joint: only the components in the plane are compared.
 
 use super::CheckedPrediction;
 use super::base_of_support::BaseOfSupport;
@@ -39,7 +39,10 @@ pub(super) fn check(
     }
     let beyond = series.iter().filter(|(_, outside)| *outside > limit).count();
     let message = format!(
-        "the whole body's motion needs a centre of pressure {:.0} mm outside the soles in stance, at least from {:.3} to {:.3} s ({:.0} mm are allowed, exceeded for {:.0} % of the time): part of the force does not act through the feet (a hand on a rail, a seat, a load), a stance was not detected, or the mass distribution of the body is wrong",
+        "the whole body's motion needs a centre of pressure {:.0} mm outside the soles in stance, at least from {:.3} \
+         to {:.3} s ({:.0} mm are allowed, exceeded for {:.0} % of the time): part of the force does not act through \
+         the feet (a hand on a rail, a seat, a load), a stance was not detected, or the mass distribution of the body \
+         is wrong",
         1e3 * found.value,
         found.time_s[0],
         found.time_s[1],

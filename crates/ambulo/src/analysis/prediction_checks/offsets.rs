@@ -1,7 +1,8 @@
 //! Mean position of the whole body's force relative to the feet in single support.
 //!
-//! A push or pull on one side shifts it to the same side of both feet; support in front shifts it forwards. These means need more time than
-//! a centre of pressure outside the soles, but are more sensitive: 15 % of body weight 0.45 m to the side of the body shift it by 67 mm.
+//! A push or pull on one side shifts it to the same side of both feet; support in front shifts it forwards. These means
+//! need more time than a centre of pressure outside the soles, but are more sensitive: 15 % of body weight 0.45 m to
+//! the side of the body shift it by 67 mm.
 
 use super::CheckedPrediction;
 use super::judgement::{Criterion, Judgement, TimedValue};
@@ -40,7 +41,8 @@ pub(super) fn check(
             return;
         }
         let message = format!(
-            "the whole body's force acts on average {:.0} mm {} in single support ({:.0} mm are allowed): something else supports or pulls the body there (a hand on a rail, a load), or its mass distribution is wrong",
+            "the whole body's force acts on average {:.0} mm {} in single support ({:.0} mm are allowed): something \
+             else supports or pulls the body there (a hand on a rail, a load), or its mass distribution is wrong",
             1e3 * value.abs(),
             directions[usize::from(value > 0.0)],
             1e3 * margin

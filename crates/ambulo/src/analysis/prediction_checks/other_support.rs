@@ -27,7 +27,8 @@ fn held(record: &Record, low_passed: &LowPassed, judgement: &mut Judgement<'_>) 
     };
     if !judgement.take(criterion, found) {
         let message = format!(
-            "no foot is in stance from {:.3} to {:.3} s, yet the motion needs an upward force of at least {:.2} body weights: something else supports the body (a harness, a seat, hands), or a stance was not detected",
+            "no foot is in stance from {:.3} to {:.3} s, yet the motion needs an upward force of at least {:.2} body \
+             weights: something else supports the body (a harness, a seat, hands), or a stance was not detected",
             found.time_s[0], found.time_s[1], found.value
         );
         judgement.report_infeasible(Check::Support, criterion, found, message);
@@ -43,7 +44,8 @@ fn pull(record: &Record, low_passed: &LowPassed, judgement: &mut Judgement<'_>) 
     found.value = -found.value;
     if !judgement.take(criterion, found) {
         let message = format!(
-            "the body falls faster than in free fall: from {1:.3} to {2:.3} s the motion needs a downward force of {0:.2} body weights, which a floor cannot supply. hint: check unit and frame rate of the motion",
+            "the body falls faster than in free fall: from {1:.3} to {2:.3} s the motion needs a downward force of \
+             {0:.2} body weights, which a floor cannot supply. hint: check unit and frame rate of the motion",
             -found.value, found.time_s[0], found.time_s[1]
         );
         judgement.report(Code::PredictionPull, message);

@@ -7,7 +7,8 @@ use crate::model::{Displacement, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
 
-/// Series with one entry per frame. Positions are relative to the moving floor, so that a sole in stance on a belt is at rest.
+/// Series with one entry per frame. Positions are relative to the moving floor, so that a sole in stance on a belt is
+/// at rest.
 #[derive(Debug, Clone)]
 pub(super) struct Record {
     pub(super) grid: TimeGrid,

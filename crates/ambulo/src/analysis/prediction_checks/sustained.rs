@@ -2,8 +2,8 @@
 
 use super::judgement::TimedValue;
 
-/// The largest value that a series reaches or exceeds without interruption for `shortest_s`, and when. Entries are times [s] and values,
-/// `step_s` apart. `None` if the series has no uninterrupted part of this length.
+/// The largest value that a series reaches or exceeds without interruption for `shortest_s`, and when. Entries are
+/// times [s] and values, `step_s` apart. `None` if the series has no uninterrupted part of this length.
 pub fn sustained_maximum(series: &[(f64, f64)], step_s: f64, shortest_s: f64) -> Option<TimedValue> {
     let count = ((shortest_s / step_s - 1e-9).ceil() as usize).max(1) + 1;
     let is_whole = |part: &&[(f64, f64)]| part[count - 1].0 - part[0].0 < step_s * (count as f64 - 0.5);

@@ -105,8 +105,8 @@ fn vertex(signal: &[f64], i: usize) -> f64 {
     if bend < 0.0 { 0.5 * (signal[i - 1] - signal[i + 1]) / bend } else { 0.0 }
 }
 
-/// Frames, with fraction, of the maxima with a prominence of at least [`PROMINENT`] of the range; never the first or last
-/// sample.
+/// Frames, with fraction, of the maxima with a prominence of at least [`PROMINENT`] of the range; never the first or
+/// last sample.
 fn peaks(signal: &[f64]) -> Vec<f64> {
     let (low, high) = bounds(signal);
     let needed = PROMINENT * (high - low);

@@ -7,16 +7,16 @@
 //! | [`EventMethod::FootSpeed`] | heel slower than 0.78 of walking speed | toe faster than 0.66 of it | Ghoussayni 2004, thresholds of Bruening, Ridge 2014 |
 //! | [`EventMethod::FootAcceleration`] | highest upward acceleration of the heel | highest forward acceleration of the toe | Hreljac, Marshall 2000 |
 //!
-//! Errors relative to force plates in five walks of four laboratories (tests/laboratory_files.rs): single methods 4 to 63 ms,
-//! each with its own bias (strikes early by Zeni, late by Hreljac); their median 1 to 30 ms. In running the offs
+//! Errors relative to force plates in five walks of four laboratories (tests/laboratory_files.rs): single methods 4 to
+//! 63 ms, each with its own bias (strikes early by Zeni, late by Hreljac); their median 1 to 30 ms. In running the offs
 //! are 70 ms late.
 //!
 //! Of Zeni 2008 the abstract and the introduction were read; the others as described in a review (table 1 of "Automatic
-//! detection of human gait events: a simple but versatile 3D algorithm", J. NeuroEng. Rehabil. 2025); O'Connor's height limit
-//! for the strike is unverified.
+//! detection of human gait events: a simple but versatile 3D algorithm", J. NeuroEng. Rehabil. 2025); O'Connor's height
+//! limit for the strike is unverified.
 //!
-//! Markers are low-pass filtered first. Speeds are relative to the floor, which moves on a treadmill: its speed is that of the
-//! foot markers while they are low. Times of extrema are those of a parabola through three samples.
+//! Markers are low-pass filtered first. Speeds are relative to the floor, which moves on a treadmill: its speed is that
+//! of the foot markers while they are low. Times of extrema are those of a parabola through three samples.
 //! Pinned by: tests/foot_motion.rs, tests/laboratory_files.rs
 
 mod agreement;

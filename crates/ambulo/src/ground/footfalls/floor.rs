@@ -1,7 +1,8 @@
 //! Height of the floor under each stance.
 //!
-//! The lowest point of a foot in stance lies on the floor, as accurately as the sole is known: its median height over the stance is
-//! used. Stances of similar height share one floor, at the mean of the medians of right and left foot; stairs have several floors.
+//! The lowest point of a foot in stance lies on the floor, as accurately as the sole is known: its median height over
+//! the stance is used. Stances of similar height share one floor, at the mean of the medians of right and left foot;
+//! stairs have several floors.
 
 use super::Footfall;
 use super::signals::{FootPath, Signals};

@@ -1,18 +1,20 @@
 //! Times of foot strike and foot off of a stance.
 //!
 //! **Strike.** Of the lowest point of the foot, two times are averaged:
-//! - its speed relative to the floor falls below half of its speed of approach: half the walking speed, or half its fastest descent if
-//!   that is more. (A speed that drops in an instant passes its half at the right time after any zero-phase low-pass filter; Ghoussayni
-//!   et al. 2004 and Bruening, Ridge 2014 use thresholds of speed, the latter 0.78 of walking speed for the heel);
+//! - its speed relative to the floor falls below half of its speed of approach: half the walking speed, or half its
+//!   fastest descent if that is more. (A speed that drops in an instant passes its half at the right time after any
+//!   zero-phase low-pass filter; Ghoussayni et al. 2004 and Bruening, Ridge 2014 use thresholds of speed, the latter
+//!   0.78 of walking speed for the heel);
 //! - its fastest descent (O'Connor et al. 2007, there of the middle of the foot).
 //!
 //! **Off.** The last point on the ground is the lowest one at the end; its speed relative to the floor rises above
 //!
 //!   v = 0.6 √(g L) (V / √(g L))^⅜,
 //!
-//! 1.3 m/s for an adult who walks at 1.2 m/s, 2 m/s in a run at 3.8 m/s: a compromise between a share of walking speed (Bruening,
-//! Ridge 2014: 0.66), which is late in running, and a constant speed for each person. Factor and power ([`OffSpeed`]) are fitted
-//! ([module docs](super)). The limit is at most half of the point's highest speed in the following swing.
+//! 1.3 m/s for an adult who walks at 1.2 m/s, 2 m/s in a run at 3.8 m/s: a compromise between a share of walking speed
+//! (Bruening, Ridge 2014: 0.66), which is late in running, and a constant speed for each person. Factor and power
+//! ([`OffSpeed`]) are fitted ([module docs](super)). The limit is at most half of the point's highest speed in the
+//! following swing.
 
 use super::belt::Belt;
 use super::signals::{FootPath, Signals};
@@ -57,8 +59,8 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Time of the strike of a foot that is stationary from `run.start` on and was last stationary until `free`. `None` if it was on
-    /// the ground from the beginning.
+    /// Time of the strike of a foot that is stationary from `run.start` on and was last stationary until `free`. `None`
+    /// if it was on the ground from the beginning.
     pub(super) fn strike(&self, run: &Range<usize>, free: Option<usize>) -> Option<f64> {
         if run.start == 0 {
             return None;
@@ -74,8 +76,8 @@ impl Search<'_> {
         Some(self.time(0.5 * (by_speed + by_descent)))
     }
 
-    /// Time of the off of a foot that is stationary until `run.end`, and again from `next` on. `None` if it is on the ground until the
-    /// end.
+    /// Time of the off of a foot that is stationary until `run.end`, and again from `next` on. `None` if it is on the
+    /// ground until the end.
     pub(super) fn off(&self, run: &Range<usize>, next: Option<usize>) -> Option<f64> {
         let frames = self.signals.grid.frames;
         if run.end >= frames {
@@ -121,8 +123,8 @@ impl Search<'_> {
         frame as f64 - 1.0 + if share.is_finite() { share.clamp(0.0, 1.0) } else { 1.0 }
     }
 
-    /// Frame, with fraction, near the start of a run at which the point becomes slower than a limit; `None` if it was slower from the
-    /// beginning of the recording.
+    /// Frame, with fraction, near the start of a run at which the point becomes slower than a limit; `None` if it was
+    /// slower from the beginning of the recording.
     fn falls_below(&self, point: usize, limit: f64, run: &Range<usize>, first: usize) -> Option<f64> {
         let mut frame = run.start;
         while frame + 1 < run.end && self.speed(point, frame) >= limit {

@@ -3,12 +3,14 @@
 //! No walking direction or floor height is assumed; only feet are considered. A foot is represented by three points
 //! of its sole ([`Sole`]); a foot without a sole is left out.
 //!
-//! 1. **Floor velocity** (`belt`): centre of the velocities of the lower foot while the body is supported; zero below 0.03 √(g L).
-//! 2. **Stationary feet** (`stationary`): the slowest point of a foot is slower than 0.4 V (at least 0.03 √(g L)) relative to the floor
-//!    for 0.05 s or more, while the vertical ground force exceeds 0.15 of body weight. A foot held still in the air next to the
-//!    stance foot is excluded: the line of action of the force passes far from it.
-//! 3. **Times** (`instants`), between frames: the strike is the mean of two times, the fastest descent of the lowest point and its speed
-//!    falling below V/2; at the off the speed of the last point rises above 0.6 √(g L) (V/√(g L))^⅜.
+//! 1. **Floor velocity** (`belt`): centre of the velocities of the lower foot while the body is supported; zero below
+//!    0.03 √(g L).
+//! 2. **Stationary feet** (`stationary`): the slowest point of a foot is slower than 0.4 V (at least 0.03 √(g L))
+//!    relative to the floor for 0.05 s or more, while the vertical ground force exceeds 0.15 of body weight. A foot
+//!    held still in the air next to the stance foot is excluded: the line of action of the force passes far from it.
+//! 3. **Times** (`instants`), between frames: the strike is the mean of two times, the fastest descent of the lowest
+//!    point and its speed falling below V/2; at the off the speed of the last point rises above 0.6 √(g L) (V/√(g
+//!    L))^⅜.
 //! 4. **Floor height** (`floor`): median height of the lowest point; stances within 4 cm share one floor.
 //!
 //! | symbol | meaning                                                                                   |
@@ -16,7 +18,8 @@
 //! | V      | horizontal speed of the mass centre relative to the floor, mean over ± √(L/g) [m/s]       |
 //! | L, g   | hip to ground [m], gravity [m/s²]: √(g L) is 3 m/s, √(L/g) 0.3 s for an adult (Hof 1996)  |
 //!
-//! **Errors** relative to force plates (20 N; tests/footfalls.rs; motion filtered at 6 Hz; detected - plates, mean and mean magnitude, ms):
+//! **Errors** relative to force plates (20 N; tests/footfalls.rs; motion filtered at 6 Hz; detected - plates, mean and
+//! mean magnitude, ms):
 //!
 //! | recording                  | strikes      | offs         |
 //! |----------------------------|--------------|--------------|
@@ -31,23 +34,24 @@
 //! | HC002D25, child turning    | -15.1, 15.1  | +16.0, 16.0  |
 //! | mean                       | 13.7         | 9.8          |
 //!
-//! Within a recording the errors scatter by 2 to 8 ms; the rest differs between laboratories, partly because of the plates: the forces
-//! of the three OpenSim recordings were low-pass filtered before publication (they rise from 20 to 140 N in 20 to 30 ms, in running 5 to
-//! 10, unfiltered plates in 3 to 5); the same filter on unfiltered forces makes strikes 20 to 28 ms early. At cut-offs of 6 to 12 Hz the
-//! means are 13.7 to 14.3 ms and 9.8 to 10.0 ms; no error exceeds 30 ms.
+//! Within a recording the errors scatter by 2 to 8 ms; the rest differs between laboratories, partly because of the
+//! plates: the forces of the three OpenSim recordings were low-pass filtered before publication (they rise from 20 to
+//! 140 N in 20 to 30 ms, in running 5 to 10, unfiltered plates in 3 to 5); the same filter on unfiltered forces makes
+//! strikes 20 to 28 ms early. At cut-offs of 6 to 12 Hz the means are 13.7 to 14.3 ms and 9.8 to 10.0 ms; no error
+//! exceeds 30 ms.
 //!
-//! V/2 and the fastest descent have no fitted parameter, but were selected from some twenty signals with these recordings. Factor and
-//! power of the off ([`OffSpeed`]) are the best of a grid over these six people (each counts once: 10.1 ms). Leave-one-out errors are 2 to
-//! 30 ms, on average 12.5 ms. An offset fitted to the others increases the error of most people, so
-//! there is none. tests/footfalls.rs repeats both.
+//! V/2 and the fastest descent have no fitted parameter, but were selected from some twenty signals with these
+//! recordings. Factor and power of the off ([`OffSpeed`]) are the best of a grid over these six people (each counts
+//! once: 10.1 ms). Leave-one-out errors are 2 to 30 ms, on average 12.5 ms. An offset fitted to the others increases
+//! the error of most people, so there is none. tests/footfalls.rs repeats both.
 //!
-//! Sources: Ghoussayni, Stevens, Durham, Ewins 2004 and Bruening, Ridge 2014 (thresholds of speed), O'Connor, Thorpe, O'Malley, Vaughan
-//! 2007 (vertical velocity), as described in a review (cited in [`super::foot_motion`]); Hof, "Scaling gait data to body size", Gait &
-//! Posture 1996 (unverified).
+//! Sources: Ghoussayni, Stevens, Durham, Ewins 2004 and Bruening, Ridge 2014 (thresholds of speed), O'Connor, Thorpe,
+//! O'Malley, Vaughan 2007 (vertical velocity), as described in a review (cited in [`super::foot_motion`]); Hof,
+//! "Scaling gait data to body size", Gait & Posture 1996 (unverified).
 //!
 //! Cost: 1.2 to 2 microseconds per frame, linear in frames; about 450 bytes per frame while it runs.
-//! Not handled: belts of different speed under the two feet. A foot that slides under load is detected only where it is slow enough.
-//! Pinned by: tests/footfalls.rs, tests/footfalls_synthetic.rs, tests/footfalls_puppet.rs
+//! Not handled: belts of different speed under the two feet. A foot that slides under load is detected only where it is
+//! slow enough. Pinned by: tests/footfalls.rs, tests/footfalls_synthetic.rs, tests/footfalls_puppet.rs
 
 mod belt;
 mod floor;
@@ -163,7 +167,8 @@ pub(super) fn detect(signals: &Signals, off_speed: OffSpeed, findings: &mut Find
     falls.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.side.cmp(&b.side)));
     if falls.is_empty() {
         let why = if signals.feet.is_empty() {
-            "the model has no foot with a known sole, so no stance phase was detected. hint: feet are found at the ends of legs with hip, \
+            "the model has no foot with a known sole, so no stance phase was detected. hint: feet are found at the \
+             ends of legs with hip, \
              knee and ankle"
         } else {
             "no stance phase was detected: no foot stays on the ground in this motion"
@@ -173,7 +178,8 @@ pub(super) fn detect(signals: &Signals, off_speed: OffSpeed, findings: &mut Find
     let speed = belt.overall.norm();
     if speed > 0.0 {
         let message = format!(
-            "the floor moves at {speed:.2} m/s under the feet, as on a treadmill: speeds of feet are relative to the belt"
+            "the floor moves at {speed:.2} m/s under the feet, as on a treadmill: speeds of feet are relative to the \
+             belt"
         );
         findings.report(Code::FootfallsBelt, message);
     }
@@ -193,8 +199,8 @@ fn footfall(search: &Search<'_>, runs: &[Range<usize>], number: usize) -> Footfa
     }
 }
 
-/// Makes strikes and offs of a foot alternate: where a foot hardly swings, an off may be detected after the next strike. Both are then
-/// moved to the middle between the two.
+/// Makes strikes and offs of a foot alternate: where a foot hardly swings, an off may be detected after the next
+/// strike. Both are then moved to the middle between the two.
 fn put_in_order(falls: &mut [Footfall]) {
     for i in 1..falls.len() {
         if let (Some(off), Some(strike)) = (falls[i - 1].off_s, falls[i].strike_s)

@@ -4,8 +4,8 @@
 //! | `carried`         | f      | -     | u · F / (m g): vertical ground force, share of body weight           |
 //! | `pressure_line`   | a, b   | m, -  | the centre of pressure at the height h is a + h b                    |
 //!
-//! F = Σ mᵢ (aᵢ - g), M = Σ rᵢ × mᵢ (aᵢ - g) + Iᵢ αᵢ + ωᵢ × Iᵢ ωᵢ about the world's origin (Newton, Euler), and from the statics of
-//! [`crate::ground`]: p = (u × M + h F) / (u · F).
+//! F = Σ mᵢ (aᵢ - g), M = Σ rᵢ × mᵢ (aᵢ - g) + Iᵢ αᵢ + ωᵢ × Iᵢ ωᵢ about the world's origin (Newton, Euler), and from
+//! the statics of [`crate::ground`]: p = (u × M + h F) / (u · F).
 
 use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;

@@ -1,7 +1,8 @@
 //! Times during which a point of a foot moves with the floor.
 //!
-//! The slowest of the three points of a foot, relative to the floor, is slow in stance (the foot rolls from point to point) and fast in
-//! swing: a foot that swings for the share s of a stride moves at V / s on average, V being the walking speed.
+//! The slowest of the three points of a foot, relative to the floor, is slow in stance (the foot rolls from point to
+//! point) and fast in swing: a foot that swings for the share s of a stride moves at V / s on average, V being the
+//! walking speed.
 
 use super::belt::Belt;
 use super::signals::{FootPath, Signals};
@@ -9,8 +10,8 @@ use crate::ground::phases::SHORTEST_CONTACT_S;
 use crate::spatial::Vec3;
 use std::ops::Range;
 
-/// A foot is stationary while a point of it is slower than this share of the walking speed. In swing, 0.4 of a walking stride, the
-/// mean is 2.5 times the walking speed.
+/// A foot is stationary while a point of it is slower than this share of the walking speed. In swing, 0.4 of a walking
+/// stride, the mean is 2.5 times the walking speed.
 const STATIONARY: f64 = 0.4;
 /// Below this share of √(g L), 0.09 m/s for an adult, a foot is stationary at any walking speed.
 const LEAST_LIMIT: f64 = 0.03;

@@ -7,7 +7,8 @@ use crate::model::Side;
 use crate::motion::PlateRecording;
 use crate::numerics::median;
 
-/// Force and motion show the same strike or off if they differ by less than this [s]: errors of events from motion reach 0.06.
+/// Force and motion show the same strike or off if they differ by less than this [s]: errors of events from motion
+/// reach 0.06.
 const SAME_EVENT_S: f64 = 0.1;
 /// A second foot on a plate for less than this is an error of its events [s].
 const SECOND_FOOT_S: f64 = 0.08;

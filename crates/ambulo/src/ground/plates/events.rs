@@ -9,8 +9,8 @@ use crate::motion::{Event, EventKind};
 const SAME_EVENT_S: f64 = 0.15;
 
 impl FeetOnPlates {
-    /// Strikes and offs that plates measured, in order of time: the ends of clean contacts, and the first and last end of
-    /// shared ones. There is no event where the recording cuts a contact.
+    /// Strikes and offs that plates measured, in order of time: the ends of clean contacts, and the first and last end
+    /// of shared ones. There is no event where the recording cuts a contact.
     #[must_use]
     pub fn force_events(&self, recorded_s: [f64; 2]) -> Vec<Event> {
         let mut out = Vec::new();

@@ -10,8 +10,8 @@ use crate::spatial::{Vec3, level_distance};
 const BEYOND_TOE: f64 = 0.2;
 /// A marker further than this beyond an edge is off the plate [m]; heel markers are behind the heel.
 pub(super) const OVER_EDGE_M: f64 = 0.02;
-/// Heights above a plate of the lower one of heel and toe marker while the foot is on the plate [m]. A foot on the next step of stairs is
-/// outside: steps are at least 0.15 m high.
+/// Heights above a plate of the lower one of heel and toe marker while the foot is on the plate [m]. A foot on the next
+/// step of stairs is outside: steps are at least 0.15 m high.
 const ON_PLATE_M: [f64; 2] = [-0.08, 0.14];
 
 /// Markers, the feet that they belong to, and the events that were detected from them.
@@ -45,7 +45,8 @@ impl FeetInMotion<'_> {
         Some([heel, toe])
     }
 
-    /// Distance of a point on a plate from the foot [m]: along the ground, and by how much the foot is too high or too low for the plate.
+    /// Distance of a point on a plate from the foot [m]: along the ground, and by how much the foot is too high or too
+    /// low for the plate.
     pub(super) fn distance(&self, side: Side, point: Vec3, plate: &PlateRecording, time_s: f64) -> Option<f64> {
         let line = self.line(side, time_s)?;
         let [heel, toe] = line;

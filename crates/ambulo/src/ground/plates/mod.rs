@@ -69,7 +69,8 @@ pub struct PlateContact {
     pub end_s: f64,
     /// Largest vertical force [N].
     pub peak_n: f64,
-    /// Mean distance of the centre of pressure from the line from heel to toe [m]; not a number without visible markers.
+    /// Mean distance of the centre of pressure from the line from heel to toe [m]; not a number without visible
+    /// markers.
     pub distance_m: f64,
     /// How much of the foot's load the plate measured.
     pub quality: ContactQuality,
@@ -135,7 +136,11 @@ pub(crate) fn feet_in_motion_on_plates(
     let windows = windows::windows(feet, &found);
     report(plates, &found, findings);
     if windows.is_empty() && !found.is_empty() {
-        findings.report(Code::PlatesNoWindow, "there is no time at which the whole load of both feet was measured: the total force and the residual force at the pelvis cannot be checked");
+        findings.report(
+            Code::PlatesNoWindow,
+            "there is no time at which the whole load of both feet was measured: the \
+            total force and the residual force at the pelvis cannot be checked",
+        );
     }
     let is_silent = |index: &usize| found.iter().all(|contact| contact.plate != *index);
     let without_load = (0..plates.len()).filter(is_silent);
@@ -185,8 +190,9 @@ fn report(plates: &[PlateRecording], found: &[PlateContact], findings: &mut Find
 }
 
 impl FeetOnPlates {
-    /// Loads on the feet, one recording per plate and foot, for [`super::measured`], which adds those on one body. `feet` are
-    /// the bodies that the ground acts on ([`Anatomy::feet`](crate::model::Anatomy::feet)). Loads of two feet and of an unknown foot are left out.
+    /// Loads on the feet, one recording per plate and foot, for [`super::measured`], which adds those on one body.
+    /// `feet` are the bodies that the ground acts on ([`Anatomy::feet`](crate::model::Anatomy::feet)). Loads of two
+    /// feet and of an unknown foot are left out.
     #[must_use]
     pub fn recordings(&self, plates: &[PlateRecording], feet: BySide<BodyId>) -> Vec<ForceRecording> {
         let mut out = Vec::new();

@@ -2,13 +2,14 @@
 //!
 //!   p = rear + (front - rear) s(θ)       s(θ) = σ((θ - θ₀) / θ₁), scaled to 0 at θ = -20° and to 1 at 22°
 //!
-//! θ is the forward lean of the shank, σ the logistic function; the front lies between ball and tip. That the centre of pressure
-//! follows the shank, in much the same way at every speed, is the roll-over shape of Hansen, Childress, Knox 2004 (unverified).
-//! Compared with force plates, leave-one-out, the shank's lean predicted the path better than time, the pitch of the foot or the mass
-//! centre (docs/GROUND_FORCES.md). Without a shank the path is linear in time.
+//! θ is the forward lean of the shank, σ the logistic function; the front lies between ball and tip. That the centre of
+//! pressure follows the shank, in much the same way at every speed, is the roll-over shape of Hansen, Childress, Knox
+//! 2004 (unverified). Compared with force plates, leave-one-out, the shank's lean predicted the path better than time,
+//! the pitch of the foot or the mass centre (docs/GROUND_FORCES.md). Without a shank the path is linear in time.
 //!
-//! A foot that comes down forefoot first (on stairs downwards, from a jump, with a stiff calf) touches the ground with what is lowest: as long as
-//! its heel has not come down, the centre of pressure is under the ball, whatever the lean of the shank:
+//! A foot that comes down forefoot first (on stairs downwards, from a jump, with a stiff calf) touches the ground with
+//! what is lowest: as long as its heel has not come down, the centre of pressure is under the ball, whatever the lean
+//! of the shank:
 //!
 //!   s ≥ (φ - φ₀) / (φ₁ - φ₀)      φ: slope of the sole from rear to ball, downwards positive
 //!
@@ -51,7 +52,8 @@ pub fn center_path(
     level(path) + up * stance.height_m
 }
 
-/// Share of the way from heel to ball at a lean of the shank [rad]; `middle` and `width` are those of the step between both.
+/// Share of the way from heel to ball at a lean of the shank [rad]; `middle` and `width` are those of the step between
+/// both.
 pub fn share(lean: f64, [middle, width]: [f64; 2]) -> f64 {
     let sigma = |lean: f64| 1.0 / (1.0 + exp((middle - lean) / width));
     let [from, to] = LEANS.map(sigma);

@@ -3,22 +3,26 @@
 //!   σ² = (k σ_estimate)² + floor² + (a m_F)² + (b F_side)²    of a force
 //!   σ² = (k σ_estimate)² + floor² + (c m_P)²                  of a centre of pressure
 //!
-//! The estimate assumes independent evidence and exact models; k and the floor correct its deviation, component by component, by the
-//! errors relative to force plates. For forces they depend on the elapsed share of the stance, because the strike is known worst: one pair for
-//! each fifth, linear between their middles. Fitted to subjects whose laboratory was left out, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
+//! The estimate assumes independent evidence and exact models; k and the floor correct its deviation, component by
+//! component, by the errors relative to force plates. For forces they depend on the elapsed share of the stance,
+//! because the strike is known worst: one pair for each fifth, linear between their middles. Fitted to subjects whose
+//! laboratory was left out, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
 //!
-//! The last terms come from the trial itself. m_F and m_P are what the estimate leaves of the force and of the moment that the motion requires
-//! ([`super::misfit`]): motion that contradicts itself, for want of markers or because it is fast, gives larger errors. F_side is the sideways force, for the
-//! force forward and sideways: in a turn both depend on the direction of the foot's path. a and b were chosen by the likelihood of the errors of all
-//! people, among 0, 0.3, 0.5, 0.8 and 0, 0.06, 0.1, 0.14. c is the least share, among 0, 0.2, 0.3, 0.4, 0.5, with which deviations calibrated on walks with all
-//! markers hold more than 85 % of the same walks without the markers above the pelvis (the last table of the page).
+//! The last terms come from the trial itself. m_F and m_P are what the estimate leaves of the force and of the moment
+//! that the motion requires ([`super::misfit`]): motion that contradicts itself, for want of markers or because it is
+//! fast, gives larger errors. F_side is the sideways force, for the force forward and sideways: in a turn both depend
+//! on the direction of the foot's path. a and b were chosen by the likelihood of the errors of all people, among 0,
+//! 0.3, 0.5, 0.8 and 0, 0.06, 0.1, 0.14. c is the least share, among 0, 0.2, 0.3, 0.4, 0.5, with which deviations
+//! calibrated on walks with all markers hold more than 85 % of the same walks without the markers above the pelvis (the
+//! last table of the page).
 
 /// Factor k and floor for the standard deviation of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeviationScaling {
     /// Factor k of the estimated deviation.
     pub factor: f64,
-    /// Floor of the deviation: body weights for a force, m for a centre of pressure, body weights × m for a free moment.
+    /// Floor of the deviation: body weights for a force, m for a centre of pressure, body weights × m for a free
+    /// moment.
     pub floor: f64,
 }
 
@@ -26,7 +30,8 @@ impl DeviationScaling {
     /// Leaves the estimated deviation unchanged.
     pub const UNSCALED: DeviationScaling = DeviationScaling { factor: 1.0, floor: 0.0 };
 
-    /// Calibrated variance of a component from the estimated one, both in its unit squared; `unit` is the size of a floor of 1.
+    /// Calibrated variance of a component from the estimated one, both in its unit squared; `unit` is the size of a
+    /// floor of 1.
     #[must_use]
     pub fn variance(&self, estimated: f64, unit: f64) -> f64 {
         self.factor.powi(2) * estimated + (self.floor * unit).powi(2)
@@ -83,7 +88,8 @@ impl DeviationCalibration {
         of_sideways: 0.0,
     };
 
-    /// Variance of the force forward (0), up (1) or sideways (2) that the trial itself shows [N²]; `sideways` is F_side [N].
+    /// Variance of the force forward (0), up (1) or sideways (2) that the trial itself shows [N²]; `sideways` is F_side
+    /// [N].
     #[doc(hidden)] // for tests
     pub fn of_trial(&self, axis: usize, misfit: &Misfit, sideways: f64) -> f64 {
         let of_sideways = if axis == UP { 0.0 } else { self.of_sideways };

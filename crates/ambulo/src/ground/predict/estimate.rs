@@ -1,24 +1,27 @@
 //! Maximum a posteriori estimate of the loads of both feet, over the whole trial at once.
 //!
-//! The unknowns are the curves of [`super::unknowns`]: three forces and three moments of every stance, with the prior of
-//! [`super::expected`]. The evidence is the total wrench that the motion of the whole body requires. Skin markers show it only up to
-//! some frequency, so both sides are compared after a Gaussian low-pass filter G; sharper features, such as the impact of a heel strike, come
-//! from the prior. In running the estimated vertical force also passes the filter H of the motion ([`super::evidence_filter`]):
+//! The unknowns are the curves of [`super::unknowns`]: three forces and three moments of every stance, with the prior
+//! of [`super::expected`]. The evidence is the total wrench that the motion of the whole body requires. Skin markers
+//! show it only up to some frequency, so both sides are compared after a Gaussian low-pass filter G; sharper features,
+//! such as the impact of a heel strike, come from the prior. In running the estimated vertical force also passes the
+//! filter H of the motion ([`super::evidence_filter`]):
 //!
 //!   G ∗ (H ∗) Σ_feet F_i               = G ∗ F_total                        + noise
 //!   G ∗ (H ∗) Σ_feet (r_i × F_i + T_i) = G ∗ M_total about the mass centre  + noise
 //!
-//! r_i leads from the mass centre to the expected centre of pressure of foot i ([`super::center_path`]). Both are linear in the
-//! unknowns; with Gaussian noise and priors the estimate solves a banded linear system ([`super::normal_equations`]), whose inverse is
-//! its covariance. In single support the force balance determines the forces; in double support the lever rule between the feet, the
-//! normative curves at this walking speed and the smoothness of the curves are weighted by their deviations.
+//! r_i leads from the mass centre to the expected centre of pressure of foot i ([`super::center_path`]). Both are
+//! linear in the unknowns; with Gaussian noise and priors the estimate solves a banded linear system
+//! ([`super::normal_equations`]), whose inverse is its covariance. In single support the force balance determines the
+//! forces; in double support the lever rule between the feet, the normative curves at this walking speed and the
+//! smoothness of the curves are weighted by their deviations.
 //!
-//! Where only some frames are wanted ([`Extent`]), the equations have the stances near them and the evidence from one √(L/g) before the stances in
-//! progress: earlier steps are other unknowns, which later evidence does not change.
+//! Where only some frames are wanted ([`Extent`]), the equations have the stances near them and the evidence from one
+//! √(L/g) before the stances in progress: earlier steps are other unknowns, which later evidence does not change.
 //!
-//! Cost: the equations are linear in frames; the stances near each frame are searched among all of them, which is noticeable from
-//! some thousand steps on. Memory: 370 bytes per frame of the result, 1.1 kB during the computation (docs/STREAMING.md).
-//! Not handled: contact of hands and objects. Negative vertical forces are corrected afterwards ([`super::unilateral`]).
+//! Cost: the equations are linear in frames; the stances near each frame are searched among all of them, which is
+//! noticeable from some thousand steps on. Memory: 370 bytes per frame of the result, 1.1 kB during the computation
+//! (docs/STREAMING.md). Not handled: contact of hands and objects. Negative vertical forces are corrected afterwards
+//! ([`super::unilateral`]).
 
 use super::PredictError;
 use super::evidence_filter::EvidenceFilters;

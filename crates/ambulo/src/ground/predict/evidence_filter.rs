@@ -1,15 +1,17 @@
 //! Low-pass filters of the evidence, symmetric in time.
 //!
-//! * Of the required force: a Gaussian G, exp(-t² / 2σ²), half the amplitude at the bandwidth f, σ = √(ln 2 / 2) / (π f).
-//! * Of the estimated vertical force in running: the same, and the filter H that the motion has passed, whose gain is 1 / (1 + (f / f_c)^(2 order))
-//!   ([`LowPass`]). The required force comes from filtered motion; what is compared with it must have lost the same, and steps of running
-//!   have their second harmonic at the cut-off frequency of 6 Hz.
+//! * Of the required force: a Gaussian G, exp(-t² / 2σ²), half the amplitude at the bandwidth f, σ = √(ln 2 / 2) / (π
+//!   f).
+//! * Of the estimated vertical force in running: the same, and the filter H that the motion has passed, whose gain is 1
+//!   / (1 + (f / f_c)^(2 order)) ([`LowPass`]). The required force comes from filtered motion; what is compared with it
+//!   must have lost the same, and steps of running have their second harmonic at the cut-off frequency of 6 Hz.
 //!
 //!   k(t) ∝ ∫ 2^(-(ν / f)²) / (1 + (ν / f_c)^(2 order)) cos(2π ν t) dν
 //!
-//! * Of all other estimated forces and moments: the Gaussian alone. They have little between 4 and 6 Hz but the strike, which markers do not show; with
-//!   H as well their noise is amplified: in walking the errors of subjects left out were 3 % larger, in running the fore-aft error rose from 4.6 to 6.1 % of
-//!   body weight (measured during development).
+//! * Of all other estimated forces and moments: the Gaussian alone. They have little between 4 and 6 Hz but the strike,
+//!   which markers do not show; with H as well their noise is amplified: in walking the errors of subjects left out
+//!   were 3 % larger, in running the fore-aft error rose from 4.6 to 6.1 % of body weight (measured during
+//!   development).
 
 use super::stances::{GaitType, Stance};
 use crate::motion::TimeGrid;

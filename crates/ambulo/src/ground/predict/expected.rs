@@ -1,13 +1,16 @@
-//! Prior of a stance: mean and standard deviation of each component of a foot's load, before the forces of the motion are used.
+//! Prior of a stance: mean and standard deviation of each component of a foot's load, before the forces of the motion
+//! are used.
 //!
 //! * Walking: vertical and fore-aft force of [`StanceCurves`].
-//! * Running: the vertical force is a half sine, F = (π/2) m g T / t_c sin(π u) with T from strike to strike of either foot and t_c the
-//!   contact time: the impulse of a step supports the body for a step (Morin, Dalleau, Kyröläinen, Jeannin, Belli 2005; unverified).
+//! * Running: the vertical force is a half sine, F = (π/2) m g T / t_c sin(π u) with T from strike to strike of either
+//!   foot and t_c the contact time: the impulse of a step supports the body for a step (Morin, Dalleau, Kyröläinen,
+//!   Jeannin, Belli 2005; unverified).
 //! * Standing: the body weight, shared equally by the feet on the ground.
 //!
-//! The force leans towards the mass centre: sideways, and forward where there is no curve, F_h = k F_v × lever / height. In walking
-//! a foot pushes outwards briefly after its strike, as in all 16 stances of six straight trials (0.008 to 0.058 body weights).
-//! Moments are the free moment and those of a centre of pressure away from its expected path; their mean is zero.
+//! The force leans towards the mass centre: sideways, and forward where there is no curve, F_h = k F_v × lever /
+//! height. In walking a foot pushes outwards briefly after its strike, as in all 16 stances of six straight trials
+//! (0.008 to 0.058 body weights). Moments are the free moment and those of a centre of pressure away from its expected
+//! path; their mean is zero.
 
 use super::fitted_parameters::FittedParameters;
 use super::stance_curves::{AtSpeed, MeanAndDeviation, StanceCurves};
@@ -44,8 +47,9 @@ const RUN_SPREAD: f64 = 0.25;
 const STAND_SPREAD: f64 = 0.3;
 /// Deviation of the fore-aft force in running and standing [body weights].
 const LEAN_SPREAD: f64 = 0.12;
-/// Deviation of the centre of pressure along the foot on stairs [m at a stature of 1.75 m]: there the shank leans for other reasons than the foot rolls
-/// over, and a review on stairs found the expected path 51 mm too far forward. With this deviation the moment of the whole body decides.
+/// Deviation of the centre of pressure along the foot on stairs [m at a stature of 1.75 m]: there the shank leans for
+/// other reasons than the foot rolls over, and a review on stairs found the expected path 51 mm too far forward. With
+/// this deviation the moment of the whole body decides.
 const STAIRS_CENTER_SPREAD: f64 = 0.05;
 /// Vertical force from which on the lateral deviation has its full size [body weights].
 const WHOLE_LOAD: f64 = 0.6;
@@ -100,8 +104,8 @@ impl<'a> Expectation<'a> {
         }
     }
 
-    /// Means and deviations of all components [N or N.m], in the order of [`Component::ALL`]. `lever` leads from the expected centre
-    /// of pressure to the mass centre [m].
+    /// Means and deviations of all components [N or N.m], in the order of [`Component::ALL`]. `lever` leads from the
+    /// expected centre of pressure to the mass centre [m].
     pub(super) fn all(&self, time: f64, lever: Vec3) -> [MeanAndDeviation; 6] {
         let BodyScale { up, weight_n, height_m, .. } = *self.body_scale;
         let (stance, parameters) = (self.stance, self.parameters);
@@ -127,7 +131,8 @@ impl<'a> Expectation<'a> {
             deviation: parameters.sideways_spread * loaded,
         };
         let about_zero = |deviation: f64| MeanAndDeviation { mean: 0.0, deviation: deviation * self.body_scale.size() };
-        // A centre of pressure displaced along the foot makes a moment about the right axis, across the foot about the forward axis.
+        // A centre of pressure displaced along the foot makes a moment about the right axis, across the foot about the
+        // forward axis.
         let [along, across] = parameters.center_spread;
         let along = if stance.on_stairs { along.max(STAIRS_CENTER_SPREAD) } else { along };
         let [along, across] = [along, across].map(|spread| spread * vertical.mean.max(0.0));

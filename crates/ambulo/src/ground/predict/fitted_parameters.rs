@@ -3,12 +3,12 @@
 use super::deviation_calibration::{DeviationCalibration, DeviationScaling};
 use super::stance_errors::{ErrorsByDescent, StanceCurve, StanceErrors};
 
-/// Fitted parameters of the estimate, from recordings with force plates by `cargo xtask fit-ground`; docs/measured/GROUND_FIT.md has
-/// their leave-one-out errors and sensitivities.
+/// Fitted parameters of the estimate, from recordings with force plates by `cargo xtask fit-ground`;
+/// docs/measured/GROUND_FIT.md has their leave-one-out errors and sensitivities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FittedParameters {
-    /// Cut-off frequency of the low-pass filter through which motion and forces are compared [Hz]: above it are skin motion and noise.
-    /// Both sides are filtered, so that the cut-off frequency of the motion has little effect.
+    /// Cut-off frequency of the low-pass filter through which motion and forces are compared [Hz]: above it are skin
+    /// motion and noise. Both sides are filtered, so that the cut-off frequency of the motion has little effect.
     pub bandwidth_hz: f64,
     /// Noise of the total force from motion: forward, up, sideways [body weights].
     pub force_noise: [f64; 3],
@@ -24,13 +24,16 @@ pub struct FittedParameters {
     pub strike_push: f64,
     /// Shortest time in which the curves deviate, in √(L/g): forward, up, sideways.
     pub detail: [f64; 3],
-    /// Standard deviation of the centre of pressure from its expected path: along and across the foot [m at a stature of 1.75 m].
+    /// Standard deviation of the centre of pressure from its expected path: along and across the foot [m at a stature
+    /// of 1.75 m].
     pub center_spread: [f64; 2],
     /// Standard deviation of the free moment of a foot [body weights × m].
     pub free_moment_spread: f64,
-    /// Lean of the shank at which the centre of pressure is half-way from heel to ball, and width of the transition [rad].
+    /// Lean of the shank at which the centre of pressure is half-way from heel to ball, and width of the transition
+    /// [rad].
     pub center_lean: [f64; 2],
-    /// Where the centre of pressure begins behind the rear of the sole, and where it ends from ball (0) to tip (1) [stature, 1].
+    /// Where the centre of pressure begins behind the rear of the sole, and where it ends from ball (0) to tip (1)
+    /// [stature, 1].
     pub center_ends: [f64; 2],
     /// Lateral distance of the centre of pressure from the middle of the foot [stature].
     pub center_outwards: f64,

@@ -16,7 +16,8 @@ use std::ops::Range;
 /// Smallest vertical force by which a moment is divided to get the centre of pressure [body weights].
 const LEAST_LOAD: f64 = 0.05;
 
-/// Deviations were calibrated on walks; errors of the one available run are larger by this factor (docs/measured/VALIDATION.md).
+/// Deviations were calibrated on walks; errors of the one available run are larger by this factor
+/// (docs/measured/VALIDATION.md).
 const RUN_DEVIATION: f64 = 3.0;
 
 /// Loads of one foot, one entry per frame.
@@ -66,7 +67,8 @@ pub(super) fn stance_estimates(
     frames_of(inputs, expectation.stance).map(of_frame).collect()
 }
 
-/// Loads of one foot in the `wanted` frames; zero in the others and in swing. Estimates and misfits have one entry per stance.
+/// Loads of one foot in the `wanted` frames; zero in the others and in swing. Estimates and misfits have one entry per
+/// stance.
 pub(super) fn loads(
     side: Side,
     inputs: &EstimateInputs<'_>,
@@ -129,7 +131,8 @@ pub(super) fn loads(
 }
 
 impl EstimateInputs<'_> {
-    /// Adds the mean errors of walking, and those of the person, to an estimate; returns that of the centre of pressure [m].
+    /// Adds the mean errors of walking, and those of the person, to an estimate; returns that of the centre of pressure
+    /// [m].
     fn take_errors_off(&self, stance: &Stance, phase: f64, estimates: &mut [Estimate; 6]) -> Vec3 {
         if !repeats(stance) {
             return Vec3::zeros();

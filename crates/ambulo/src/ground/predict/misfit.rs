@@ -1,4 +1,5 @@
-//! The difference between the estimated wrench of both feet and the wrench that the motion requires, after the low-pass filters.
+//! The difference between the estimated wrench of both feet and the wrench that the motion requires, after the low-pass
+//! filters.
 //!
 //!   w   = G ∗ (H ∗) Σ_feet (F_i, r_i × F_i + T_i) - G ∗ (F_total, M_total), moments about the mass centre
 //!   m_F = rms of the force of w along an axis over a stance
@@ -8,8 +9,8 @@
 //! | `filters` | G, H     |      | filters of the evidence ([`super::evidence_filter`])    |
 //! | `arm`     | r        | m    | from the mass centre to the expected centre of pressure |
 //!
-//! Noise that the estimate could explain is gone from it; what remains is motion that contradicts the shapes of forces of walking: for want of
-//! markers (on the trunk, say), or because the body moves fast.
+//! Noise that the estimate could explain is gone from it; what remains is motion that contradicts the shapes of forces
+//! of walking: for want of markers (on the trunk, say), or because the body moves fast.
 
 use super::deviation_calibration::Misfit;
 use super::evidence_filter::{EvidenceFilter, EvidenceFilters};

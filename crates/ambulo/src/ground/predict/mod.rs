@@ -1,10 +1,10 @@
 //! Predicts the ground reaction forces on both feet from the motion alone.
 //!
-//! Newton's and Euler's laws for the whole body give the total wrench of the ground ([`total_wrench`]); the motion of the feet gives
-//! the stances ([`super::footfalls`]); normative curves at the same walking speed give a prior for each stance. The result is the
-//! maximum a posteriori estimate with its standard deviations ([`estimate`]); docs/GROUND_FORCES.md describes the method, its accuracy
-//! and its limits. In double support twelve unknowns have six equations: every result names the rule that divides the forces.
-//! Pinned by: tests/ground_predict.rs
+//! Newton's and Euler's laws for the whole body give the total wrench of the ground ([`total_wrench`]); the motion of
+//! the feet gives the stances ([`super::footfalls`]); normative curves at the same walking speed give a prior for each
+//! stance. The result is the maximum a posteriori estimate with its standard deviations ([`estimate`]);
+//! docs/GROUND_FORCES.md describes the method, its accuracy and its limits. In double support twelve unknowns have six
+//! equations: every result names the rule that divides the forces. Pinned by: tests/ground_predict.rs
 
 pub(crate) mod center_path;
 pub(crate) mod deviation_calibration;
@@ -59,10 +59,11 @@ const LEAST_GRAVITY: f64 = 0.1;
 /// How forces are divided between the feet in double support.
 const RULE: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness)";
 /// The same with the calibration of a person.
-const RULE_OF_PERSON: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness), calibrated for the person on force plates";
+const RULE_OF_PERSON: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness), \
+    calibrated for the person on force plates";
 
-/// Ground reaction forces predicted from motion alone, with standard deviations, the stances of both feet, and the total wrench
-/// by Newton's law that they add up to.
+/// Ground reaction forces predicted from motion alone, with standard deviations, the stances of both feet, and the
+/// total wrench by Newton's law that they add up to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
     /// Ground reaction forces on the right and the left foot.
@@ -161,7 +162,8 @@ pub enum PredictError {
     },
     /// A model without mass.
     #[error(
-        "the model `{model}` has a mass of {mass} kg; expected bodies with masses. hint: from motion alone every force scales with the mass"
+        "the model `{model}` has a mass of {mass} kg; expected bodies with masses. hint: from motion alone every force \
+         scales with the mass"
     )]
     NoMass {
         /// Its name.
@@ -182,7 +184,8 @@ pub enum PredictError {
     OtherPerson(#[from] OtherPerson),
     /// A calibration that belongs to another estimate.
     #[error(
-        "the calibration of the person has the errors of another estimate ({found:016x}); expected those of this one ({expected:016x})"
+        "the calibration of the person has the errors of another estimate ({found:016x}); expected those of this one \
+         ({expected:016x})"
     )]
     OtherEstimator {
         /// Fingerprint of its parameters.
@@ -198,7 +201,8 @@ pub enum PredictError {
     },
     /// Equations that need too much memory.
     #[error(
-        "the estimate of the ground forces would need {found_mb:.0} MB; expected {most_mb:.0} MB at most. hint: use a shorter range; many foot strikes per second are a sign of noise"
+        "the estimate of the ground forces would need {found_mb:.0} MB; expected {most_mb:.0} MB at most. hint: use a \
+         shorter range; many foot strikes per second are a sign of noise"
     )]
     TooLarge {
         /// Memory that they need [MB].
@@ -208,7 +212,8 @@ pub enum PredictError {
     },
     /// Prescribed stances that overlap or end before they begin.
     #[error(
-        "a prescribed stance of the {side} foot at {time_s} s ends before it begins or overlaps the previous one; expected stances in order of time"
+        "a prescribed stance of the {side} foot at {time_s} s ends before it begins or overlaps the previous one; \
+         expected stances in order of time"
     )]
     Footfalls {
         /// Which foot.
@@ -304,8 +309,8 @@ pub(super) struct KnownMotion {
     pub(super) footfalls: Footfalls,
 }
 
-/// As [`predict`], but only in the `wanted` frames; the forces and deviations of the others are zero. Where these are not all frames, only the
-/// part of the motion that decides about them is evaluated ([`estimate`]).
+/// As [`predict`], but only in the `wanted` frames; the forces and deviations of the others are zero. Where these are
+/// not all frames, only the part of the motion that decides about them is evaluated ([`estimate`]).
 pub(super) fn predict_frames(
     model: &Model,
     soles: &BySide<Sole>,

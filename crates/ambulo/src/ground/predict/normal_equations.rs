@@ -10,7 +10,8 @@ use crate::numerics::{BandFactor, BandMatrix};
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
-/// The total wrench is compared about this often [s]: at the bandwidth of [`super::FittedParameters`] neighbouring frames are nearly equal.
+/// The total wrench is compared about this often [s]: at the bandwidth of [`super::FittedParameters`] neighbouring
+/// frames are nearly equal.
 const OBSERVED_EVERY_S: f64 = 0.04;
 /// Near the ends of the recording, within the length of the filter, noise is larger by this factor.
 const AT_THE_ENDS: f64 = 2.0;
@@ -29,7 +30,8 @@ pub(super) struct Solution {
 pub(super) enum Covariances {
     /// All inside the band, for many frames.
     InBand(BandMatrix),
-    /// Computed when they are needed, for a few frames: the inverse takes four fifths of the time of the whole estimate.
+    /// Computed when they are needed, for a few frames: the inverse takes four fifths of the time of the whole
+    /// estimate.
     OnDemand(BandFactor),
 }
 
@@ -75,8 +77,8 @@ struct Rows {
 }
 
 impl Rows {
-    /// Adds the wrench of a stance in one frame, with a weight: some rows of its mean and of the influence of its unknowns. `first` is the unknown of
-    /// the first coefficient.
+    /// Adds the wrench of a stance in one frame, with a weight: some rows of its mean and of the influence of its
+    /// unknowns. `first` is the unknown of the first coefficient.
     fn add(
         &mut self,
         chosen: &[usize],

@@ -1,15 +1,17 @@
 //! Calibration of the estimate for one person by trials on force plates, for the person's other trials.
 //!
-//! Errors of the estimate are personal and repeat: segments with other masses than in the table, an own way to strike. The mean error of a few
-//! stances on plates, weighted by what they can be trusted ([`super::stance_errors`]), is taken off the estimate of the same foot; with stances
-//! of one foot only, the other foot gets its mirror image. The standard deviations shrink to what remains.
+//! Errors of the estimate are personal and repeat: segments with other masses than in the table, an own way to strike.
+//! The mean error of a few stances on plates, weighted by what they can be trusted ([`super::stance_errors`]), is taken
+//! off the estimate of the same foot; with stances of one foot only, the other foot gets its mirror image. The standard
+//! deviations shrink to what remains.
 
 use super::stance_errors::{KNOTS, REPEATS, StanceCurve, StanceErrors, trusted};
 use crate::model::{BySide, Model, Side};
 use crate::toml_reader::{Source, Table, TomlError};
 use std::fmt::Write as _;
 
-/// Largest difference of mass, stature and leg length of the same person, as a share: clothes, and errors of a calibration.
+/// Largest difference of mass, stature and leg length of the same person, as a share: clothes, and errors of a
+/// calibration.
 const SAME_PERSON: f64 = 0.05;
 const DOCUMENT: &str = "docs/GROUND_FORCES.md";
 /// Keys of the curves of a foot, in the order of [`StanceErrors`].
@@ -35,7 +37,8 @@ pub struct PersonalErrors {
 /// A person that is not the calibrated one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
-    "the person has a {what} of {found:.3} {unit}, the calibrated person {expected:.3} {unit}; expected a difference of at most 5 %"
+    "the person has a {what} of {found:.3} {unit}, the calibrated person {expected:.3} {unit}; expected a difference \
+     of at most 5 %"
 )]
 pub struct OtherPerson {
     /// Mass, stature or leg length.
@@ -99,9 +102,11 @@ impl PersonalErrors {
     #[must_use]
     pub fn to_toml(&self) -> String {
         let mut text = format!(
-            "# What force plates have shown about the ground forces that are predicted for a person: docs/GROUND_FORCES.md.\n\
+            "# What force plates have shown about the ground forces that are predicted for a person: \
+             docs/GROUND_FORCES.md.\n\
              # Measured minus predicted over the stance: forces in body weights, centre of pressure in statures.\n\
-             mass_kg = {:.4}\nstature_m = {:.4}\nleg_length_m = {:.4}\nstances = [{}, {}] # right, left\nestimator = \"{:016x}\"\n",
+             mass_kg = {:.4}\nstature_m = {:.4}\nleg_length_m = {:.4}\nstances = [{}, {}] # right, left\nestimator = \
+             \"{:016x}\"\n",
             self.mass_kg, self.stature_m, self.leg_length_m, self.stances.right, self.stances.left, self.estimator
         );
         for (side, errors) in self.errors.iter() {

@@ -1,11 +1,13 @@
-//! Measured quantities that replace their estimates in a prediction, so that each source of error can be evaluated alone.
+//! Measured quantities that replace their estimates in a prediction, so that each source of error can be evaluated
+//! alone.
 
 use super::PredictError;
 use crate::ground::footfalls::Footfalls;
 use crate::model::{BySide, Side};
 use crate::spatial::{Vec3, Wrench};
 
-/// Quantities that are given and not estimated. Series have one entry per frame of the motion; not a number where unknown.
+/// Quantities that are given and not estimated. Series have one entry per frame of the motion; not a number where
+/// unknown.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Prescribed {
     /// Stances of the feet.

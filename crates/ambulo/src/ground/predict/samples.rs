@@ -41,7 +41,8 @@ impl EstimateInputs<'_> {
         self.prescribed.center_at(stance.side, frame).or_else(standing).unwrap_or_else(path)
     }
 
-    /// The centre of pressure of a foot that stands, from the total wrench; `None` for steps, and where the feet carry little.
+    /// The centre of pressure of a foot that stands, from the total wrench; `None` for steps, and where the feet carry
+    /// little.
     fn standing_center(&self, stance: &Stance, frame: usize) -> Option<Vec3> {
         if stance.gait != GaitType::Stand {
             return None;

@@ -1,8 +1,8 @@
 //! Normative curves of the ground force over a stance, by walking speed: the prior of a prediction.
 //!
-//! Mean and standard deviation of Schwartz, Rozumalski, Trost 2008 at five speeds, between foot strike and foot off; the header of
-//! the data file has source, licence and form (`cargo xtask fit-ground` writes it). Values are interpolated linearly between the
-//! speeds; beyond them the nearest speed is used.
+//! Mean and standard deviation of Schwartz, Rozumalski, Trost 2008 at five speeds, between foot strike and foot off;
+//! the header of the data file has source, licence and form (`cargo xtask fit-ground` writes it). Values are
+//! interpolated linearly between the speeds; beyond them the nearest speed is used.
 
 use crate::toml_reader::{Source, Table, TomlError, Value};
 use std::sync::LazyLock;

@@ -1,17 +1,18 @@
 //! Repeatable errors of the estimate over a stance, learned from force plates and taken off.
 //!
-//! The estimate of a stance differs from the force plates in part by chance, in part in the same way in every stance: the prior has the
-//! strike of other people, the body's segments are not exactly those of the person. What repeats is a curve over the stance for each
-//! component, with a cubic without slope at its ends between [`KNOTS`], so that forces have no kinks, by least squares:
+//! The estimate of a stance differs from the force plates in part by chance, in part in the same way in every stance:
+//! the prior has the strike of other people, the body's segments are not exactly those of the person. What repeats is a
+//! curve over the stance for each component, with a cubic without slope at its ends between [`KNOTS`], so that forces
+//! have no kinks, by least squares:
 //!
 //!   e(u) = Σ_k B_k(u) c_k      (Σ_s w_s Σ_i B B' + λ 1) c = Σ_s w_s Σ_i B (measured - estimated)
 //!
-//! with u the elapsed share of the stance as detected from the motion, w_s equal for stances (of a person) and the diagonal λ a share of the
-//! mean of that of the left side. [`StanceErrors::default`] has no error at all.
+//! with u the elapsed share of the stance as detected from the motion, w_s equal for stances (of a person) and the
+//! diagonal λ a share of the mean of that of the left side. [`StanceErrors::default`] has no error at all.
 //!
-//! Of an error with standard deviation σ between stances of a person, a share ρ of the variance repeats in the next trial of the person
-//! ([`REPEATS`]). Then the best linear estimate of the repeatable part after n trials is the mean curve times [`trusted`], and this share of
-//! the variance remains: 1 - ρ × trusted.
+//! Of an error with standard deviation σ between stances of a person, a share ρ of the variance repeats in the next
+//! trial of the person ([`REPEATS`]). Then the best linear estimate of the repeatable part after n trials is the mean
+//! curve times [`trusted`], and this share of the variance remains: 1 - ρ × trusted.
 
 use crate::model::Side;
 use crate::numerics::BandMatrix;
@@ -22,11 +23,13 @@ pub const KNOTS: [f64; 15] = [0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.
 const HELD: f64 = 1e9;
 /// λ as a share of the mean diagonal.
 const RIDGE: f64 = 0.1;
-/// The same for the curve of a usual strike and for its change with the descent. The curve itself hardly carries over to other laboratories and is
-/// held down; of the ridges 0.03, 0.1 and 0.3 of the change the least gave the smallest errors of subjects and laboratories left out.
+/// The same for the curve of a usual strike and for its change with the descent. The curve itself hardly carries over
+/// to other laboratories and is held down; of the ridges 0.03, 0.1 and 0.3 of the change the least gave the smallest
+/// errors of subjects and laboratories left out.
 const RIDGES_BY_DESCENT: [f64; 2] = [1.0, 0.03];
-/// ρ: share of the variance of the error of a stance that repeats in other trials of the same person and kind. Of the weights 0.5, 0.7 and 1 of one
-/// stance, 0.7 gave the smallest errors of the other stances of two people with five trials or stances of a foot.
+/// ρ: share of the variance of the error of a stance that repeats in other trials of the same person and kind. Of the
+/// weights 0.5, 0.7 and 1 of one stance, 0.7 gave the smallest errors of the other stances of two people with five
+/// trials or stances of a foot.
 pub const REPEATS: f64 = 0.67;
 
 /// Weight of the mean error of a number of trials.
@@ -80,15 +83,16 @@ impl StanceCurve {
         curve
     }
 
-    /// The mean curve of a usual strike, and its change for each unit of the descent, by least squares; zero at both ends.
+    /// The mean curve of a usual strike, and its change for each unit of the descent, by least squares; zero at both
+    /// ends.
     #[must_use]
     pub fn through_by_descent(samples: &[ErrorSample]) -> [StanceCurve; 2] {
         curves_through(samples, |sample| [1.0, sample.descent], RIDGES_BY_DESCENT, Ends::Zero)
     }
 }
 
-/// Curves whose sum, each times its factor for a sample, goes through samples by least squares; `ridges` are the λ of the curves as shares of the
-/// mean diagonal of the first one.
+/// Curves whose sum, each times its factor for a sample, goes through samples by least squares; `ridges` are the λ of
+/// the curves as shares of the mean diagonal of the first one.
 fn curves_through<const N: usize>(
     samples: &[ErrorSample],
     factors: impl Fn(&ErrorSample) -> [f64; N],
@@ -132,7 +136,8 @@ fn place(phase: f64) -> (usize, f64) {
     (next - 1, share * share * (3.0 - 2.0 * share))
 }
 
-/// Errors of all components of a foot's load: measured minus estimated. Sideways is outwards: to the right for the right foot.
+/// Errors of all components of a foot's load: measured minus estimated. Sideways is outwards: to the right for the
+/// right foot.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StanceErrors {
     /// Force forward, up, outwards [body weights].

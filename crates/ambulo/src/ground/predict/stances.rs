@@ -10,7 +10,8 @@ use crate::motion::TimeGrid;
 use crate::numerics::median;
 use crate::spatial::Vec3;
 
-/// Duration of a stance where the recording has no complete one, in √(L/g): 62 % of a cycle of 3.5, at usual walking speed.
+/// Duration of a stance where the recording has no complete one, in √(L/g): 62 % of a cycle of 3.5, at usual walking
+/// speed.
 const USUAL_STANCE: f64 = 2.1;
 /// A longer stance is standing, not a step, in √(L/g): in very slow walking (V* = 0.17) it is 68 % of a cycle of 5.9.
 const LONGEST_STEP: f64 = 6.0;
@@ -49,7 +50,8 @@ pub struct Stance {
     pub speed: f64,
     /// Of what the stance is a part.
     pub gait: GaitType,
-    /// Until when the foot stands on its forefoot alone after a strike with the forefoot; `None` after a strike with the heel [s].
+    /// Until when the foot stands on its forefoot alone after a strike with the forefoot; `None` after a strike with
+    /// the heel [s].
     pub heel_down_s: Option<f64>,
     /// Whether the stance before or after it is on another step of stairs.
     pub on_stairs: bool,
@@ -104,7 +106,8 @@ impl Stance {
         ((time - self.start_s) / self.duration_s()).clamp(0.0, 1.0)
     }
 
-    /// Phase in the curves of [`StanceCurves`]: the share of the stance, time-normalised between the events of the other foot.
+    /// Phase in the curves of [`StanceCurves`]: the share of the stance, time-normalised between the events of the
+    /// other foot.
     pub(super) fn phase(&self, time: f64) -> f64 {
         let next = self.knots.partition_point(|knot| knot[0] < time).clamp(1, self.knots.len() - 1);
         let [[t0, p0], [t1, p1]] = [self.knots[next - 1], self.knots[next]];

@@ -2,11 +2,13 @@
 //!
 //!   x = (min(v, v₁)² - v₀²) / v₁²      v = max(0, (climb - ż) / √(g L))
 //!
-//! ż is the upward velocity of the mass centre at the strike, climb the rate at which the floor rises from the previous stance to this one, L the
-//! length from hip to ground. x is about 0 in a usual strike and at most 0.85. The faster the descent, the later is the vertical force than
-//! the motion of the skin shows, and the prior of usual strikes: the errors of a stance are a mean curve and x times a second curve
-//! ([`super::stance_errors`]). Of 27 quantities of the motion of a stance (walking speed, duration of the stance, pitch of the foot and its rate, speed
-//! of the heel, lean of the shank, flexion of the knee and its rate, force of the whole body and others) it explained most of the errors of subjects and laboratories left out.
+//! ż is the upward velocity of the mass centre at the strike, climb the rate at which the floor rises from the previous
+//! stance to this one, L the length from hip to ground. x is about 0 in a usual strike and at most 0.85. The faster the
+//! descent, the later is the vertical force than the motion of the skin shows, and the prior of usual strikes: the
+//! errors of a stance are a mean curve and x times a second curve ([`super::stance_errors`]). Of 27 quantities of the
+//! motion of a stance (walking speed, duration of the stance, pitch of the foot and its rate, speed of the heel, lean
+//! of the shank, flexion of the knee and its rate, force of the whole body and others) it explained most of the errors
+//! of subjects and laboratories left out.
 
 use crate::ground::footfalls::Footfalls;
 use crate::kinematics::{Trajectory, each_body_motion};
@@ -67,8 +69,9 @@ impl CenterVelocity<'_> {
     }
 }
 
-/// How much more than usual the mass centre descends at the strike of each stance, from 0 (as usual) to 0.85, negative if it descends less; 0
-/// where the recording does not show the strike. The formula is at the top of `strike_descent.rs`.
+/// How much more than usual the mass centre descends at the strike of each stance, from 0 (as usual) to 0.85, negative
+/// if it descends less; 0 where the recording does not show the strike. The formula is at the top of
+/// `strike_descent.rs`.
 #[must_use]
 pub(crate) fn strike_descents(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls) -> Vec<f64> {
     let masses: Vec<f64> = model.bodies().iter().map(|body| body.inertia.mass()).collect();

@@ -2,7 +2,8 @@
 //!
 //!   F = Σ m (a - g)        M₀ = Σ (I α + ω × I ω + c × m (a - g))
 //!
-//! Computed as the reaction of the joints to ground in inverse dynamics without loads, expressed about the world's origin.
+//! Computed as the reaction of the joints to ground in inverse dynamics without loads, expressed about the world's
+//! origin.
 
 use crate::dynamics::{JointReaction, Workspace, each_root_reaction};
 use crate::kinematics::Trajectory;

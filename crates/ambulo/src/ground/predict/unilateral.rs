@@ -8,8 +8,8 @@ use crate::spatial::Vec3;
 /// Largest coefficient of friction: walking needs 0.2 to 0.4, rubber on a dry floor reaches about 1.
 const MOST_FRICTION: f64 = 1.0;
 
-/// Removes negative vertical forces and subtracts them from the other foot, if it is on the ground; limits tangential forces to the
-/// friction cone. A prescribed share of the feet determines the vertical forces.
+/// Removes negative vertical forces and subtracts them from the other foot, if it is on the ground; limits tangential
+/// forces to the friction cone. A prescribed share of the feet determines the vertical forces.
 pub(super) fn enforce_unilateral_contact(feet: &mut BySide<FootLoads>, up: Vec3, prescribed: &Prescribed) {
     for frame in 0..feet.right.force.len() {
         let BySide { right, left } = feet.as_ref().map(|foot| foot.force[frame].dot(&up));

@@ -2,8 +2,9 @@
 //!
 //!   f(t) = μ(t) + s(t) Σ_k z_k B((t - t_k) / h) / β       z_k independent, mean 0, standard deviation 1
 //!
-//! with μ and s of [`super::expected`], B the cubic B-spline, h the shortest time in which the curve may deviate, and β² = Σ B² on
-//! average, so that f has the standard deviation s. The z are numbered in order of time of their knots, so that the equations form a band.
+//! with μ and s of [`super::expected`], B the cubic B-spline, h the shortest time in which the curve may deviate, and
+//! β² = Σ B² on average, so that f has the standard deviation s. The z are numbered in order of time of their knots, so
+//! that the equations form a band.
 
 use super::expected::Component;
 use super::fitted_parameters::FittedParameters;

@@ -1,12 +1,15 @@
-//! The expected centre of pressure of feet that stand: from the total wrench of the ground, not from the lean of the shank.
+//! The expected centre of pressure of feet that stand: from the total wrench of the ground, not from the lean of the
+//! shank.
 //!
-//! The zero-moment point is where the total force pierces the ground so that no moment about a horizontal axis remains (Vukobratović,
-//! Borovac 2004, Int J Humanoid Robotics 1:157-173). With the total force F and moment M about a point at height h above the origin, up n:
+//! The zero-moment point is where the total force pierces the ground so that no moment about a horizontal axis remains
+//! (Vukobratović, Borovac 2004, Int J Humanoid Robotics 1:157-173). With the total force F and moment M about a point
+//! at height h above the origin, up n:
 //!
 //!   z = h n + n × M / (n · F)
 //!
-//! Under one foot it is the centre of pressure. Two feet share it: their centres of pressure lie at the same share s of the length of both
-//! soles, and the load w of the right foot divides the line between them, w R(s) + (1 - w) L(s) = z. These are two equations in s and w.
+//! Under one foot it is the centre of pressure. Two feet share it: their centres of pressure lie at the same share s of
+//! the length of both soles, and the load w of the right foot divides the line between them, w R(s) + (1 - w) L(s) = z.
+//! These are two equations in s and w.
 
 use super::geometry::FootPlace;
 use crate::model::BySide;
@@ -14,17 +17,20 @@ use crate::spatial::{Vec3, Wrench};
 
 /// Below this share of the body weight the feet carry too little for their moment to show where [body weights].
 const LEAST_LOAD: f64 = 0.2;
-/// The two equations are solved in turn; each turn at least halves the error where the feet point in similar directions.
+/// The two equations are solved in turn; each turn at least halves the error where the feet point in similar
+/// directions.
 const TURNS: usize = 20;
 
-/// The zero-moment point of a wrench about the world's origin, on the ground at a height [m]; `None` where the feet carry little.
+/// The zero-moment point of a wrench about the world's origin, on the ground at a height [m]; `None` where the feet
+/// carry little.
 pub fn zero_moment_point(total: &Wrench, height_m: f64, up: Vec3, weight_n: f64) -> Option<Vec3> {
     let vertical = total.force.dot(&up);
     let moment = total.moment - (up * height_m).cross(&total.force);
     (vertical > LEAST_LOAD * weight_n).then(|| up * height_m + up.cross(&moment) / vertical)
 }
 
-/// How far along both soles the centres of pressure lie, from rear (0) to tip (1), so that together they give the zero-moment point.
+/// How far along both soles the centres of pressure lie, from rear (0) to tip (1), so that together they give the
+/// zero-moment point.
 pub fn share_along_soles(feet: BySide<&FootPlace>, point: Vec3, up: Vec3) -> f64 {
     let level = |v: Vec3| v - up * v.dot(&up);
     let rear = feet.map(|foot| level(foot.sole[0]));

@@ -1,8 +1,8 @@
 //! Extrapolates a motion, so that smoothing does not end at the newest frame.
 //!
-//! A low-pass filter extends a series by odd reflection about its end, which makes the acceleration there zero. A better prediction
-//! is the part of the motion that resembles the newest part, m frames earlier; only the difference d(k) = x(k) - x(k - m) is
-//! reflected about the end e:
+//! A low-pass filter extends a series by odd reflection about its end, which makes the acceleration there zero. A
+//! better prediction is the part of the motion that resembles the newest part, m frames earlier; only the difference
+//! d(k) = x(k) - x(k - m) is reflected about the end e:
 //!
 //!   x(e + j) = x(e - m + j) + 2 d(e) - d(e - j)
 //!
@@ -20,7 +20,8 @@ const AHEAD_S: f64 = 0.3;
 /// Largest difference of a repetition, as a share of the variation of the newest part about its mean.
 const ALIKE: f64 = 0.5;
 
-/// The repetition is first searched at this spacing [s], then at every frame near the best place: the difference changes little in less.
+/// The repetition is first searched at this spacing [s], then at every frame near the best place: the difference
+/// changes little in less.
 const COARSE_S: f64 = 0.02;
 
 /// How a motion repeats itself at its end.
@@ -85,8 +86,8 @@ fn variation(values: &[f64]) -> f64 {
     values.iter().map(|x| (x - mean) * (x - mean)).sum()
 }
 
-/// Sum of squares of the difference between the newest part of a series and an earlier one at every `stride`th frame, after subtraction of a straight
-/// line.
+/// Sum of squares of the difference between the newest part of a series and an earlier one at every `stride`th frame,
+/// after subtraction of a straight line.
 fn line_residual(column: &[f64], back: usize, last: usize, stride: usize) -> f64 {
     let newer = column[column.len() - last..].iter().rev().step_by(stride);
     let older = column[column.len() - last - back..column.len() - back].iter().rev().step_by(stride);

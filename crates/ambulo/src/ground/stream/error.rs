@@ -20,7 +20,8 @@ pub enum StreamError {
     },
     /// A delay out of range.
     #[error(
-        "a delay of {found_s} s; expected 0 to {longest_s} s, half of the window. hint: a longer window allows a longer delay"
+        "a delay of {found_s} s; expected 0 to {longest_s} s, half of the window. hint: a longer window allows a \
+         longer delay"
     )]
     Delay {
         /// The delay [s].
@@ -30,7 +31,8 @@ pub enum StreamError {
     },
     /// A window that is shorter than a stride or needs too much memory.
     #[error(
-        "a window of {found_s} s; expected {shortest_s} to {longest_s} s: at least one stride, two or more for good results"
+        "a window of {found_s} s; expected {shortest_s} to {longest_s} s: at least one stride, two or more for good \
+         results"
     )]
     Window {
         /// The window [s].
@@ -54,7 +56,8 @@ pub enum StreamError {
     },
     /// An infinite coordinate.
     #[error(
-        "`{coordinate}` is {found} in frame {frame}; expected a finite number. hint: a missing coordinate is passed as not-a-number"
+        "`{coordinate}` is {found} in frame {frame}; expected a finite number. hint: a missing coordinate is passed as \
+         not-a-number"
     )]
     Infinite {
         /// The coordinate.

@@ -56,7 +56,8 @@ impl FootLoad {
     }
 }
 
-/// The forces in one frame of a window, in which `row` is that of the prediction; `number` and `time_s` are those of the stream.
+/// The forces in one frame of a window, in which `row` is that of the prediction; `number` and `time_s` are those of
+/// the stream.
 pub(super) fn read(
     model: &Model,
     workspace: &mut Workspace,

@@ -1,17 +1,19 @@
 //! Predicts forces while the motion is being recorded: takes one frame, returns the forces in a slightly earlier frame.
 //!
-//! The last few seconds are kept. Later frames change only the newest half second of the smoothed motion, so that the motion of feet and mass
-//! centre is kept for the frames before it. At every frame the newest part is smoothed, stances are detected in the window, and the forces
-//! are predicted in the frame at the delay by the code for whole recordings, from the steps around it. Only the frames of the delay follow it: the
-//! smoothing ends there, and the duration of a stance that has not ended is estimated from earlier stances. docs/STREAMING.md compares the errors with
-//! those of a whole recording.
+//! The last few seconds are kept. Later frames change only the newest half second of the smoothed motion, so that the
+//! motion of feet and mass centre is kept for the frames before it. At every frame the newest part is smoothed, stances
+//! are detected in the window, and the forces are predicted in the frame at the delay by the code for whole recordings,
+//! from the steps around it. Only the frames of the delay follow it: the smoothing ends there, and the duration of a
+//! stance that has not ended is estimated from earlier stances. docs/STREAMING.md compares the errors with those of a
+//! whole recording.
 //!
-//! A missing coordinate is passed as not-a-number. While the newest frame has one, no forces are returned, and those frames are
-//! never returned later. A gap of at most 0.2 s is interpolated as in a recording; after a longer one the stream starts again.
-//! The first seconds are less accurate, because earlier stances are not known; their standard deviations are larger accordingly.
+//! A missing coordinate is passed as not-a-number. While the newest frame has one, no forces are returned, and those
+//! frames are never returned later. A gap of at most 0.2 s is interpolated as in a recording; after a longer one the
+//! stream starts again. The first seconds are less accurate, because earlier stances are not known; their standard
+//! deviations are larger accordingly.
 //!
-//! Memory: the frames of the window, allocated once, and scratch memory that is freed after each push. Cost of a push: constant once the window is
-//! full, however long the stream runs.
+//! Memory: the frames of the window, allocated once, and scratch memory that is freed after each push. Cost of a push:
+//! constant once the window is full, however long the stream runs.
 //! Pinned by: tests/ground_stream.rs
 
 pub(crate) mod continuation;
@@ -47,7 +49,8 @@ const RATES_HZ: [f64; 2] = [20.0, 2000.0];
 const WINDOWS_S: [f64; 2] = [1.0, 60.0];
 /// A delay is rounded down to whole frames, unless it is this close to the next one [frames].
 const NEAR_A_FRAME: f64 = 1e-6;
-/// The prediction uses every n-th frame where that leaves at least this rate [Hz]: of a motion filtered at 6 Hz more frames say no more.
+/// The prediction uses every n-th frame where that leaves at least this rate [Hz]: of a motion filtered at 6 Hz more
+/// frames say no more.
 const WORKING_RATE_HZ: f64 = 100.0;
 /// Number of frames that a quintic spline needs.
 const FEWEST_FRAMES: usize = 6;
@@ -137,8 +140,8 @@ impl Stream {
         })
     }
 
-    /// Adds the next frame, one value per coordinate of the model [rad or m], not-a-number where it is missing. Returns the forces in
-    /// the frame at the delay; `None` at the beginning and in gaps.
+    /// Adds the next frame, one value per coordinate of the model [rad or m], not-a-number where it is missing. Returns
+    /// the forces in the frame at the delay; `None` at the beginning and in gaps.
     ///
     /// # Errors
     /// A frame of another length, an infinite value (neither counts as a frame); a model without feet.
@@ -181,7 +184,8 @@ impl Stream {
         Ok(forces)
     }
 
-    /// Returns the remaining frames, which are within the delay. They are less accurate because less motion follows them.
+    /// Returns the remaining frames, which are within the delay. They are less accurate because less motion follows
+    /// them.
     ///
     /// # Errors
     /// As [`Stream::push`].
@@ -259,7 +263,8 @@ impl Stream {
         Trajectory::complete(&self.model, self.smoother.motion(tail, frames), findings)
     }
 
-    /// Predicts the forces in a frame from the settled frames and the newest ones; also returns the row of the frame in the window.
+    /// Predicts the forces in a frame from the settled frames and the newest ones; also returns the row of the frame in
+    /// the window.
     fn predict_window(
         &mut self,
         soles: &BySide<Sole>,

@@ -62,7 +62,8 @@ impl SettledFrames {
         self.next - self.frames.len()
     }
 
-    /// Every `stride`th frame up to the one before the number `end`, a multiple of the stride before it, with the number of the first.
+    /// Every `stride`th frame up to the one before the number `end`, a multiple of the stride before it, with the
+    /// number of the first.
     pub(super) fn before(&self, end: usize, stride: usize) -> (usize, impl Iterator<Item = &BodyFrame>) {
         let count = (end - self.first()) / stride;
         let first = end - count * stride;

@@ -1,17 +1,20 @@
 //! Smooths the newest part of a stream; later frames do not change the older part.
 //!
-//! A zero-phase filter needs the frames that follow. What they change in an earlier frame decays with the slowest pole of the filter, so that after
+//! A zero-phase filter needs the frames that follow. What they change in an earlier frame decays with the slowest pole
+//! of the filter, so that after
 //!
 //!   T = ln(1 / ε) / (2π f_c sin(π / (2 n)))
 //!
-//! a frame is settled: 0.49 s at 6 Hz and order 3. Only the frames after it are filtered again, from 2 T before the newest frame on; derivatives are those of
-//! a quintic spline through the filtered frames, as in [`crate::motion::smooth`], by the weights of its neighbours, which decay by 0.43 a frame.
+//! a frame is settled: 0.49 s at 6 Hz and order 3. Only the frames after it are filtered again, from 2 T before the
+//! newest frame on; derivatives are those of a quintic spline through the filtered frames, as in
+//! [`crate::motion::smooth`], by the weights of its neighbours, which decay by 0.43 a frame.
 //!
 //! | code      | symbol | meaning                                     |
 //! | `settles` | T      | in frames                                   |
 //! | `SETTLED` | ε      | remaining share of a change in later frames |
 //!
-//! Not handled here: smoothing splines, whose smoothness depends on the whole window, and the first second of a stream. Both are smoothed as whole recordings.
+//! Not handled here: smoothing splines, whose smoothness depends on the whole window, and the first second of a stream.
+//! Both are smoothed as whole recordings.
 
 use super::StreamError;
 use super::continuation::Continuation;
@@ -27,7 +30,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Share of a change in later frames that remains in a settled frame.
 const SETTLED: f64 = 1e-4;
-/// Neighbours on each side that decide about the derivatives of a spline; the next one has 2e-8 of the weight of the first.
+/// Neighbours on each side that decide about the derivatives of a spline; the next one has 2e-8 of the weight of the
+/// first.
 pub const NEIGHBOURS: usize = 20;
 
 /// Smooths the newest part of a stream.

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 const WITH_FORCES: [&str; 6] = ["c3d", "trc", "mot", "sto", "b3d", "osim"];
 /// Endings of other recordings of motion.
 const OF_MOTION: [&str; 3] = ["bvh", "npz", "mvnx"];
-/// Folders of a BIDS data set that have no recordings of their own: originals and results of these recordings, programs and pictures.
+/// Folders of a BIDS data set that have no recordings of their own: originals and results of these recordings, programs
+/// and pictures.
 const NOT_BIDS_RECORDINGS: [&str; 4] = ["sourcedata/", "derivatives/", "code/", "stimuli/"];
 
 /// The recordings that are trials.
@@ -50,7 +51,8 @@ impl FoundFile {
         ending(&self.path)
     }
 
-    /// Whether the name is that of a file of a trial. Of a BIDS data set, folders without recordings of their own are left out.
+    /// Whether the name is that of a file of a trial. Of a BIDS data set, folders without recordings of their own are
+    /// left out.
     #[must_use]
     pub fn may_be_part(&self, wanted: Wanted, of_bids: bool) -> bool {
         let is_left_out = of_bids && NOT_BIDS_RECORDINGS.iter().any(|folder| self.name.starts_with(folder));

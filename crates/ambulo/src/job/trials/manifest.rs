@@ -1,4 +1,5 @@
-//! A list of trials, one per line: `.csv` with a head, or `.jsonl` with an object per line. Paths are relative to the folder of the list.
+//! A list of trials, one per line: `.csv` with a head, or `.jsonl` with an object per line. Paths are relative to the
+//! folder of the list.
 
 use super::TrialFiles;
 use super::plan::{Plan, PlannedTrial};
@@ -117,7 +118,8 @@ fn csv_lines(bytes: &[u8]) -> Result<Vec<Line>, JobError> {
     let head = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
     if !head.contains(&b',') && head.iter().any(|byte| [b';', b'\t'].contains(byte)) {
         let what = format!(
-            "line 1: found `{}`; expected columns separated by commas. hint: save the list as CSV with commas, and numbers with points",
+            "line 1: found `{}`; expected columns separated by commas. hint: save the list as CSV with commas, and \
+             numbers with points",
             String::from_utf8_lossy(head).trim()
         );
         return Err(JobError::new(&[], what));

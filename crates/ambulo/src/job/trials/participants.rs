@@ -1,7 +1,7 @@
 //! Masses and statures of the participants of a BIDS data set: the columns `weight` and `height` of `participants.tsv`.
 //!
-//! BIDS recommends these columns and leaves their units to `participants.json`. A column whose unit is not stated there is not read: a height of 180
-//! can only be centimetres, but a weight of 70 may be pounds.
+//! BIDS recommends these columns and leaves their units to `participants.json`. A column whose unit is not stated there
+//! is not read: a height of 180 can only be centimetres, but a weight of 70 may be pounds.
 
 use crate::job::error::{At, JobError};
 use crate::job::files::{Files, read};
@@ -35,7 +35,8 @@ pub(super) struct Participants {
 }
 
 impl Participants {
-    /// Reads the sizes of the participants of a data set. Without `participants.tsv` or without `participants.json` there are none.
+    /// Reads the sizes of the participants of a data set. Without `participants.tsv` or without `participants.json`
+    /// there are none.
     pub(super) fn of(root: &Path, files: &mut dyn Files) -> Result<Participants, JobError> {
         let [table, description] = [TABLE, DESCRIPTION].map(|name| root.join(name));
         if !files.has(&table) || !files.has(&description) {
@@ -62,7 +63,8 @@ pub fn sizes(
     let refused = |path: &Path, what: String| JobError::new(&[], what).within(path.display().to_string());
     let units: Value = serde_json::from_slice(description).map_err(|error| {
         let what = format!(
-            "{error}; expected JSON with the unit of each column. hint: {{\"weight\": {{\"Units\": \"kg\"}}}}, or remove the file, and no size is read"
+            "{error}; expected JSON with the unit of each column. hint: {{\"weight\": {{\"Units\": \"kg\"}}}}, or \
+             remove the file, and no size is read"
         );
         refused(description_path, what)
     })?;

@@ -11,8 +11,9 @@
 //! | `.b3d` | a person with trials |
 //! | the only `.osim` of a folder | the model of the `.trc`, `.mot` and `.sto` in it |
 //!
-//! A table of ground forces lies next to a recording if both have the same words in their names, apart from [`FORCES`] and [`RECORDINGS`]. A
-//! recording with the words of another one of its folder is the same trial in another form, and only the first form is judged.
+//! A table of ground forces lies next to a recording if both have the same words in their names, apart from [`FORCES`]
+//! and [`RECORDINGS`]. A recording with the words of another one of its folder is the same trial in another form, and
+//! only the first form is judged.
 
 use super::TrialFiles;
 use super::found_file::{FoundFile, Wanted};
@@ -89,8 +90,8 @@ impl Content {
     }
 }
 
-/// The files of a folder with what the laboratory states about them: the first step to a [`Plan`]. The caller reads what each recording is
-/// ([`Listing::content`]), in any order, and passes it to [`Listing::plan`].
+/// The files of a folder with what the laboratory states about them: the first step to a [`Plan`]. The caller reads
+/// what each recording is ([`Listing::content`]), in any order, and passes it to [`Listing::plan`].
 pub struct Listing<'a> {
     root: &'a Path,
     root_name: String,
@@ -218,7 +219,8 @@ impl Plan {
         let given = [(Field::Mass, size.mass_kg.is_some()), (Field::Height, size.height_m.is_some())];
         if let (2.., Some((field, _))) = (persons.len(), given.into_iter().find(|(_, given)| *given)) {
             let what = format!(
-                "the {} is that of one person, but there are trials of {} persons in {}. hint: state the size of each person in {LIST} (docs/VALIDATE.md)",
+                "the {} is that of one person, but there are trials of {} persons in {}. hint: state the size of each \
+                 person in {LIST} (docs/VALIDATE.md)",
                 field.name(),
                 persons.len(),
                 source.display()

@@ -148,14 +148,17 @@ impl Measure {
                 "speed along the ground of soles that carry at least half the body weight, lower quartile"
             }
             Measure::CenterOfPressure => {
-                "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief one"
+                "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief \
+                 one"
             }
             Measure::StanceHeight => {
-                "largest height of the sole in a stance above or below that of the other stances of the foot, in level walking"
+                "largest height of the sole in a stance above or below that of the other stances of the foot, in level \
+                 walking"
             }
             Measure::Jumps => "number of jumps of recorded coordinates",
             Measure::FrozenPoints => {
-                "share of the time in which keypoints of a moving leg keep their distances, as if it were one rigid piece"
+                "share of the time in which keypoints of a moving leg keep their distances, as if it were one rigid \
+                 piece"
             }
             Measure::AxialRotation => {
                 "standard deviation of the axial rotation of the thighs, from the errors of keypoints"

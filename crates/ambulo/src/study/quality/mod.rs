@@ -1,12 +1,12 @@
 //! Quality of the data: whether recording, body and forces fit together well enough for the results to be used.
 //!
-//! The verdict is about the movement, the quality is about the data. Each [`Measure`] has two limits: beyond the first the data are
-//! doubtful, beyond the second bad.
+//! The verdict is about the movement, the quality is about the data. Each [`Measure`] has two limits: beyond the first
+//! the data are doubtful, beyond the second bad.
 //!
-//! Sources: Hicks, Uchida, Seth, Rajagopal, Delp 2015, J Biomech Eng 137:020905 ask for marker errors below 20 mm rms, and for residual
-//! forces below 5 % of the largest ground force (unverified); the limit of the residual is wider here, because forces and motion are
-//! filtered apart. The other limits are chosen here, so that clean walks are inside and spoiled copies of them outside.
-//! [`stance_heights`] has its own source.
+//! Sources: Hicks, Uchida, Seth, Rajagopal, Delp 2015, J Biomech Eng 137:020905 ask for marker errors below 20 mm rms,
+//! and for residual forces below 5 % of the largest ground force (unverified); the limit of the residual is wider here,
+//! because forces and motion are filtered apart. The other limits are chosen here, so that clean walks are inside and
+//! spoiled copies of them outside. [`stance_heights`] has its own source.
 //! Pinned by: tests/quality.rs
 
 mod measure;
@@ -167,7 +167,8 @@ impl QualityEvidence<'_> {
         let force_bw = self.verdict.fit.residual_force_bw?;
         Measure::ResidualForce.reason(force_bw, |limit| {
             format!(
-                "the residual force is {} of body weight (at most {}): motion, body and ground forces do not fit together",
+                "the residual force is {} of body weight (at most {}): motion, body and ground forces do not fit \
+                 together",
                 percent(force_bw),
                 percent(limit)
             )
@@ -178,7 +179,8 @@ impl QualityEvidence<'_> {
         let moment_nm_kg = self.verdict.fit.residual_moment_nm_kg?;
         Measure::ResidualMoment.reason(moment_nm_kg, |limit| {
             format!(
-                "the residual moment is {moment_nm_kg:.3} N.m/kg (at most {limit}): posture and centre of pressure do not fit together"
+                "the residual moment is {moment_nm_kg:.3} N.m/kg (at most {limit}): posture and centre of pressure do \
+                 not fit together"
             )
         })
     }
@@ -188,7 +190,9 @@ impl QualityEvidence<'_> {
         Measure::GroundForces.reason(share, |limit| match self.force_origin {
             ForceOrigin::None => "there are no ground forces: moments of legs on the ground are wrong".to_owned(),
             _ if self.is_too_short => {
-                "the motion is too short to compare it with its ground forces: the first and the last 0.1 s are not measured".to_owned()
+                "the motion is too short to compare it with its ground forces: the first and the last 0.1 s are not \
+                 measured"
+                    .to_owned()
             }
             _ => {
                 format!("ground forces are known in {} of the motion (at least {})", percent(share), percent(limit))
@@ -203,7 +207,8 @@ impl QualityEvidence<'_> {
         let share = (self.force_origin == ForceOrigin::Measured).then_some(self.verdict.fit.complete_share)?;
         Measure::MeasuredForces.reason(share, |limit| {
             format!(
-                "the measured ground forces carry the body in {} of the motion (at least {}): they may not belong to it",
+                "the measured ground forces carry the body in {} of the motion (at least {}): they may not belong to \
+                 it",
                 percent(share),
                 percent(limit)
             )
@@ -214,7 +219,8 @@ impl QualityEvidence<'_> {
         let (share, [from, to]) = self.idle.unassigned()?;
         Measure::UnassignedForces.reason(share, |limit| {
             format!(
-                "{} of the measured load lies under no foot, first from {from:.3} to {to:.3} s (at most {}): forces and motion may not belong together",
+                "{} of the measured load lies under no foot, first from {from:.3} to {to:.3} s (at most {}): forces \
+                 and motion may not belong together",
                 percent(share),
                 percent(limit)
             )
@@ -242,7 +248,8 @@ impl QualityEvidence<'_> {
                 format!(", farthest `{}` with {}", error.name, millimetres(error.rms_m))
             });
             format!(
-                "the recorded points are {} from the body (rms{farthest}; at most {}): the body is not this person's, or points are misplaced",
+                "the recorded points are {} from the body (rms{farthest}; at most {}): the body is not this person's, \
+                 or points are misplaced",
                 millimetres(rms_m),
                 millimetres(limit)
             )
@@ -254,7 +261,8 @@ impl QualityEvidence<'_> {
         let rms_m = tracked.body.subject.scaling_rms_m?;
         Measure::Scaling.reason(rms_m, |limit| {
             format!(
-                "the scaled model is {} from the markers of the standing trial (rms; at most {}): the markers have other places on this model",
+                "the scaled model is {} from the markers of the standing trial (rms; at most {}): the markers have \
+                 other places on this model",
                 millimetres(rms_m),
                 millimetres(limit)
             )
@@ -270,7 +278,8 @@ impl QualityEvidence<'_> {
         let ratio = size(&most) / size(&least);
         Measure::ScaleFactors.reason(ratio, |limit| {
             format!(
-                "the scale factors of the model reach from {:.2} (`{}`) to {:.2} (`{}`), {ratio:.2} times as much (at most {limit} times): standing trial and model do not fit together",
+                "the scale factors of the model reach from {:.2} (`{}`) to {:.2} (`{}`), {ratio:.2} times as much (at \
+                 most {limit} times): standing trial and model do not fit together",
                 size(&least),
                 least.0,
                 size(&most),
@@ -283,7 +292,8 @@ impl QualityEvidence<'_> {
         let weighing = self.mass.on_plates()?;
         Measure::Mass.reason(self.mass.disagreement(&weighing), |limit| {
             format!(
-                "force plates carry {:.1} kg, the body has {:.1} kg (at most {} apart, and {:.1} kg for the error of weighing)",
+                "force plates carry {:.1} kg, the body has {:.1} kg (at most {} apart, and {:.1} kg for the error of \
+                 weighing)",
                 weighing.kg,
                 self.mass.kg,
                 percent(limit),
@@ -297,7 +307,8 @@ impl QualityEvidence<'_> {
         let RecordedFaults { unknown_share: share, first_unknown_s, .. } = *self.recorded?;
         Measure::Gaps.reason(share, |limit| {
             format!(
-                "markers are missing or were left out as outliers, so that the posture is unknown in {} of the frames, the first at {:.3} s (at most {})",
+                "markers are missing or were left out as outliers, so that the posture is unknown in {} of the frames, \
+                 the first at {:.3} s (at most {})",
                 percent(share),
                 first_unknown_s.unwrap_or(f64::NAN),
                 percent(limit)
@@ -309,7 +320,8 @@ impl QualityEvidence<'_> {
         let speed_m_s = self.verdict.fit.sliding_m_s?;
         Measure::Sliding.reason(speed_m_s, |limit| {
             format!(
-                "soles that carry the body move along the ground at {speed_m_s:.3} m/s or more for three quarters of the time (at most {limit} m/s): the motion of the legs is wrong"
+                "soles that carry the body move along the ground at {speed_m_s:.3} m/s or more for three quarters of \
+                 the time (at most {limit} m/s): the motion of the legs is wrong"
             )
         })
     }
@@ -322,7 +334,8 @@ impl QualityEvidence<'_> {
         let worst = reasons.max_by(|a, b| a.value.total_cmp(&b.value))?;
         Measure::CenterOfPressure.reason(worst.value, |limit| {
             format!(
-                "the measured centre of pressure is {:.3} m outside the sole at {:.3} s (at most {limit} m): force plates and motion are not aligned in place or time, or a force acts on the wrong foot",
+                "the measured centre of pressure is {:.3} m outside the sole at {:.3} s (at most {limit} m): force \
+                 plates and motion are not aligned in place or time, or a force acts on the wrong foot",
                 worst.value, worst.at_s
             )
         })
@@ -334,7 +347,8 @@ impl QualityEvidence<'_> {
         Measure::StanceHeight.reason(farthest.above_m.abs(), |limit| {
             let (verb, direction) = if farthest.above_m < 0.0 { ("sinks", "below") } else { ("floats", "above") };
             format!(
-                "the {} foot {verb}: in the stance at {:.3} s its sole is {} {direction} that of its other stances (at most {}), while the pelvis stays level",
+                "the {} foot {verb}: in the stance at {:.3} s its sole is {} {direction} that of its other stances (at \
+                 most {}), while the pelvis stays level",
                 farthest.side,
                 farthest.at_s,
                 millimetres(farthest.above_m.abs()),
@@ -344,12 +358,14 @@ impl QualityEvidence<'_> {
     }
 
     fn jumps(&self) -> Option<QualityReason> {
-        // Coordinates that were fitted to markers jump where few markers determine them; the distance of the markers judges these.
+        // Coordinates that were fitted to markers jump where few markers determine them; the distance of the markers
+        // judges these.
         let recorded = self.recorded.filter(|_| self.tracking.is_none())?;
         let RecordedFaults { jumps, first_jump: Some((name, frame, time_s)), .. } = recorded else { return None };
         Measure::Jumps.reason(*jumps as f64, |_| {
             format!(
-                "coordinates jump in {jumps} place{}, first `{name}` at frame {frame} ({time_s:.3} s): forces are wrong there",
+                "coordinates jump in {jumps} place{}, first `{name}` at frame {frame} ({time_s:.3} s): forces are \
+                 wrong there",
                 if *jumps == 1 { "" } else { "s" },
             )
         })
@@ -364,7 +380,9 @@ impl QualityEvidence<'_> {
         let FrozenLegs { share, thigh_from_vertical } = self.keypoints()?.frozen;
         Measure::FrozenPoints.reason(share, |limit| {
             format!(
-                "the points of the legs move as one rigid piece in {} of the time in which the hips move (at most {}), with the thighs {:.0} degrees from the vertical: a program filled them in, because the person was partly out of view",
+                "the points of the legs move as one rigid piece in {} of the time in which the hips move (at most {}), \
+                 with the thighs {:.0} degrees from the vertical: a program filled them in, because the person was \
+                 partly out of view",
                 percent(share),
                 percent(limit),
                 thigh_from_vertical.to_degrees()
@@ -378,7 +396,10 @@ impl QualityEvidence<'_> {
         let deviation_deg = deviation.to_degrees().min(180.0);
         Measure::AxialRotation.reason(deviation_deg, |limit| {
             format!(
-                "keypoints hardly show axial rotations: that of the thighs is known to {deviation_deg:.0} degrees (at most {limit}), so moments about the long axes, and how the others are divided between flexion and adduction, are uncertain; the ankle moment changes by 0.1 N.m/kg with every 10 mm by which toe or heel are misplaced"
+                "keypoints hardly show axial rotations: that of the thighs is known to {deviation_deg:.0} degrees (at \
+                 most {limit}), so moments about the long axes, and how the others are divided between flexion and \
+                 adduction, are uncertain; the ankle moment changes by 0.1 N.m/kg with every 10 mm by which toe or \
+                 heel are misplaced"
             )
         })
     }
@@ -387,7 +408,10 @@ impl QualityEvidence<'_> {
     fn derived_place(&self) -> Option<QualityReason> {
         let share = if self.place_is_derived { 1.0 } else { 0.0 };
         Measure::DerivedPlace.reason(share, |_| {
-            "where the person is was derived from the feet on the ground, not measured: the path of the mass centre, and with it forces along the floor and the vertical force in double support, are less certain than the joint angles".to_owned()
+            "where the person is was derived from the feet on the ground, not measured: the path of the mass centre, \
+             and with it forces along the floor and the vertical force in double support, are less certain than the \
+             joint angles"
+                .to_owned()
         })
     }
 
@@ -396,7 +420,8 @@ impl QualityEvidence<'_> {
         let Some(Tracking::Skeleton { flights: Some(flights), .. }) = self.tracking else { return None };
         Measure::FrameRate.reason(flights.wrong_by(), |limit| {
             format!(
-                "in flight the person falls with {:.1} m/s², so the motion has about {:.0} frames per second and not {:.0} as stated (at most {limit} times apart): every force is wrong",
+                "in flight the person falls with {:.1} m/s², so the motion has about {:.0} frames per second and not \
+                 {:.0} as stated (at most {limit} times apart): every force is wrong",
                 flights.gravity,
                 flights.rate_hz(),
                 flights.stated_hz
@@ -413,7 +438,8 @@ impl QualityEvidence<'_> {
         let high = || {
             Measure::HighCutoff.reason(cutoff_hz / rate_hz, |limit| {
                 format!(
-                    "the motion is filtered at {cutoff_hz} Hz (at most {} Hz with {:.0} frames per second): noise remains in the forces",
+                    "the motion is filtered at {cutoff_hz} Hz (at most {} Hz with {:.0} frames per second): noise \
+                     remains in the forces",
                     limit * rate_hz,
                     rate_hz
                 )

@@ -1,23 +1,25 @@
 //! Feet that sink into the floor, or float above it, in some stances of a level walk.
 //!
-//! Without force plates the floor is where the feet stand, so a floor of a wrong height cannot be found. That some stances have another
-//! height than the others can be: a level floor has one height, and a person whose foot stands lower or higher has a lower or higher pelvis.
+//! Without force plates the floor is where the feet stand, so a floor of a wrong height cannot be found. That some
+//! stances have another height than the others can be: a level floor has one height, and a person whose foot stands
+//! lower or higher has a lower or higher pelvis.
 //!
 //! | symbol | meaning                                                                                       |
 //! |--------|-----------------------------------------------------------------------------------------------|
 //! | h      | height of the lowest point of the sole, median over the middle half of a stance [m]           |
 //! | p      | height of the pelvis over the same time, median [m]                                           |
 //!
-//! Reported is h less its median over the stances of the same foot, where p differs from its median by at most [`LEVEL_M`]. Errors of the
-//! sole are the same in each stance of a foot and cancel.
+//! Reported is h less its median over the stances of the same foot, where p differs from its median by at most
+//! [`LEVEL_M`]. Errors of the sole are the same in each stance of a foot and cancel.
 //!
-//! **Not judged**: other activities than walking and turning; stances on stairs, a ramp or an uneven floor, where the pelvis rises and sinks
-//! with the feet; stances that the recording cuts; a foot with fewer than [`FEWEST`] whole stances.
+//! **Not judged**: other activities than walking and turning; stances on stairs, a ramp or an uneven floor, where the
+//! pelvis rises and sinks with the feet; stances that the recording cuts; a foot with fewer than [`FEWEST`] whole
+//! stances.
 //!
-//! Sources: PHUMA (arXiv 2510.26236, abstract read) names penetration and floating among the faults for which motions are left out.
-//! `compute_penetration` of UHC (github.com/ZhengyiLuo/UHC, uhc/smpllib/smpl_eval.py, read) measures the depth below a floor at height
-//! zero and has no limit; a recording need not have its floor there. The limit is chosen here.
-//! Pinned by: tests/stance_heights.rs
+//! Sources: PHUMA (arXiv 2510.26236, abstract read) names penetration and floating among the faults for which motions
+//! are left out. `compute_penetration` of UHC (github.com/ZhengyiLuo/UHC, uhc/smpllib/smpl_eval.py, read) measures the
+//! depth below a floor at height zero and has no limit; a recording need not have its floor there. The limit is chosen
+//! here. Pinned by: tests/stance_heights.rs
 
 use crate::analysis::activity::ActivityKind;
 use crate::ground::footfalls::{Footfall, Footfalls};
@@ -26,8 +28,8 @@ use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::numerics::median;
 
-/// Stances at which the height of the pelvis differs more from its median are not level [m]. It differs by up to a centimetre between the
-/// strides of a level walk.
+/// Stances at which the height of the pelvis differs more from its median are not level [m]. It differs by up to a
+/// centimetre between the strides of a level walk.
 const LEVEL_M: f64 = 0.015;
 /// Of two stances nothing shows which one is wrong.
 const FEWEST: usize = 3;

@@ -18,8 +18,9 @@ use std::fmt;
 const STRAIGHT_RAD: f64 = 0.349;
 /// Between a stride and a stride with a missed strike, which lasts twice as long.
 const MISSED: f64 = 1.5;
-/// A strike at the wrong time changes the duration by more than this factor and the share of stance by more than this. From very slow to very
-/// fast walking the share changes by 0.12 (Schwartz, Rozumalski, Trost 2008), and the duration by the factor 2.2.
+/// A strike at the wrong time changes the duration by more than this factor and the share of stance by more than this.
+/// From very slow to very fast walking the share changes by 0.12 (Schwartz, Rozumalski, Trost 2008), and the duration
+/// by the factor 2.2.
 const SHIFTED: (f64, f64) = (1.2, 0.1);
 
 /// Data of a trial.
@@ -107,7 +108,8 @@ impl fmt::Display for Exclusion {
                 let [found, usual] = stance.map(|share| 100.0 * share);
                 write!(
                     f,
-                    "it lasts {found_s:.2} s with {found:.0} % stance, and {usual_s:.2} s with {usual:.0} % are usual here: a foot strike is at the wrong time"
+                    "it lasts {found_s:.2} s with {found:.0} % stance, and {usual_s:.2} s with {usual:.0} % are usual \
+                     here: a foot strike is at the wrong time"
                 )
             }
         }

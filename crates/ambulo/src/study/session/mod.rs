@@ -9,8 +9,8 @@
 //! Deviation        where over the cycle a mean curve leaves the normative band
 //! ```
 //!
-//! **Forces.** A mean never mixes measured and predicted forces: where force plates measured the whole stance of at least one cycle of a
-//! side, moments, powers and ground forces of that side are pooled over these cycles alone.
+//! **Forces.** A mean never mixes measured and predicted forces: where force plates measured the whole stance of at
+//! least one cycle of a side, moments, powers and ground forces of that side are pooled over these cycles alone.
 //!
 //! Not handled: cycles whose curves are shifted in phase; they are compared per cent by per cent.
 //! Pinned by: tests/session.rs
@@ -68,7 +68,8 @@ pub struct SessionCycle {
     pub forces: CycleForces,
     /// Why it belongs to no mean.
     pub excluded: Option<String>,
-    /// Values at 0, 1, ... 100 % of the cycle by quantity (`knee_flexion_angle`, `hip_flexion_moment`), in clinical signs and units.
+    /// Values at 0, 1, ... 100 % of the cycle by quantity (`knee_flexion_angle`, `hip_flexion_moment`), in clinical
+    /// signs and units.
     pub curves: BTreeMap<String, Vec<f64>>,
 }
 

@@ -54,8 +54,8 @@ pub struct PooledCurve {
     pub forces: Option<CycleForces>,
 }
 
-/// Mean and standard deviation of a quantity over the cycles of a side that are not excluded. If it depends on forces, over those with measured
-/// forces, or, where there is none, over those with predicted ones. `None` without cycles.
+/// Mean and standard deviation of a quantity over the cycles of a side that are not excluded. If it depends on forces,
+/// over those with measured forces, or, where there is none, over those with predicted ones. `None` without cycles.
 #[must_use]
 pub fn pooled(cycles: &[SessionCycle], quantity: &str, side: Side) -> Option<PooledCurve> {
     let of_side = || {
@@ -73,8 +73,8 @@ pub fn pooled(cycles: &[SessionCycle], quantity: &str, side: Side) -> Option<Poo
     of_source(CycleForces::Measured).or_else(|| of_source(CycleForces::Predicted))
 }
 
-/// Root mean square difference of the mean curves of both sides, in the unit of the quantity; `None` unless both sides have cycles with forces
-/// from the same source.
+/// Root mean square difference of the mean curves of both sides, in the unit of the quantity; `None` unless both sides
+/// have cycles with forces from the same source.
 #[must_use]
 pub fn side_difference(right: Option<&PooledCurve>, left: Option<&PooledCurve>) -> Option<f64> {
     let (right, left) = right.zip(left).filter(|(right, left)| right.forces == left.forces)?;

@@ -11,11 +11,12 @@
 //! | GVS | deg | gait variable score; all of them together are the movement analysis profile |
 //! | GPS | deg | gait profile score |
 //!
-//! Scores are computed per cycle; a session has their mean and standard deviation over its cycles. A person drawn from the reference group has
-//! the expected score √( mean over t of σ_q(t)² ), because the expectation of (x - n)² is σ².
+//! Scores are computed per cycle; a session has their mean and standard deviation over its cycles. A person drawn from
+//! the reference group has the expected score √( mean over t of σ_q(t)² ), because the expectation of (x - n)² is σ².
 //!
-//! Source: Baker, McGinley, Schwartz, Beynon, Rozumalski, Graham, Tirosh 2009 (The gait profile score and movement analysis profile, Gait
-//! Posture 30:265), unverified; variables and the pelvis of the left side as in the implementation of pyCGM2 (`CGM1_GPS`, read in excerpts).
+//! Source: Baker, McGinley, Schwartz, Beynon, Rozumalski, Graham, Tirosh 2009 (The gait profile score and movement
+//! analysis profile, Gait Posture 30:265), unverified; variables and the pelvis of the left side as in the
+//! implementation of pyCGM2 (`CGM1_GPS`, read in excerpts).
 
 use super::SessionCycle;
 use super::pool::{CurveStatistics, rms_difference};
@@ -144,7 +145,8 @@ pub struct Deviation {
     pub rms: f64,
     /// The same to expect of a person of the group.
     pub expected_rms: f64,
-    /// The largest difference in standard deviations of the group: in the unit of the quantity, positive above the mean.
+    /// The largest difference in standard deviations of the group: in the unit of the quantity, positive above the
+    /// mean.
     pub largest: f64,
     /// The same in standard deviations.
     pub largest_sd: f64,
@@ -154,8 +156,8 @@ pub struct Deviation {
     pub outside: f64,
 }
 
-/// Deviation of a mean curve from a reference group. Where the group hardly varies, in less than 5 % of its largest standard deviation, that
-/// share is used. `None` for a group without variation.
+/// Deviation of a mean curve from a reference group. Where the group hardly varies, in less than 5 % of its largest
+/// standard deviation, that share is used. `None` for a group without variation.
 #[must_use]
 pub fn deviation(mean: &[f64], norm: &NormalCurve) -> Option<Deviation> {
     let found = norm.sampled(mean);

@@ -10,12 +10,12 @@
 //! | d_qk | distance of the cycle from the median curve [deg] |
 //! | D_k | distance over all angles, without unit: 1 is usual, so that an angle that varies much has no more weight than another |
 //!
-//! The representative cycle has the least D. A cycle with D above [`FAR`] is far from the others; it is marked and stays in the means.
-//! The representative trial has the least mean D of its best right and its best left cycle.
+//! The representative cycle has the least D. A cycle with D above [`FAR`] is far from the others; it is marked and
+//! stays in the means. The representative trial has the least mean D of its best right and its best left cycle.
 //!
-//! Source: the idea of Sangeux and Polak 2015 (A simple method to choose the most representative stride and detect outliers, Gait and
-//! Posture 41:726), of whom only the abstract was read: a curve is the deeper, the nearer it is to the median. Distance, scaling and limit are
-//! ours.
+//! Source: the idea of Sangeux and Polak 2015 (A simple method to choose the most representative stride and detect
+//! outliers, Gait and Posture 41:726), of whom only the abstract was read: a curve is the deeper, the nearer it is to
+//! the median. Distance, scaling and limit are ours.
 
 use super::pool::rms_difference;
 use super::{SessionCycle, depends_on_forces};
@@ -33,11 +33,13 @@ const LEAST_DEG: f64 = 1e-6;
 /// The most representative trial and cycles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Representative {
-    /// The trial with the most representative cycles of both sides; `None` if no trial has cycles of both that are not excluded.
+    /// The trial with the most representative cycles of both sides; `None` if no trial has cycles of both that are not
+    /// excluded.
     pub trial: Option<usize>,
     /// The most representative cycle of each side: of this trial, or, without one, of all. An index into the cycles.
     pub cycles: BySide<Option<usize>>,
-    /// Distance D of each cycle from the median of its side; `None` for excluded cycles, and where fewer than three can be compared.
+    /// Distance D of each cycle from the median of its side; `None` for excluded cycles, and where fewer than three can
+    /// be compared.
     pub distances: Vec<Option<f64>>,
 }
 

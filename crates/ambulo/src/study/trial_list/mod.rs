@@ -1,7 +1,7 @@
 //! Statements of a laboratory about the files of a folder of trials (`trials.toml`).
 //!
-//! Entries `[[trial]]` have a pattern of file names and what is true of these files. Where several entries fit a file, the last one that
-//! states something counts. Paths are relative to the folder of the list, with `/`.
+//! Entries `[[trial]]` have a pattern of file names and what is true of these files. Where several entries fit a file,
+//! the last one that states something counts. Paths are relative to the folder of the list, with `/`.
 //! Pinned by: tests/study_trial_list.rs
 
 pub(crate) mod pattern;

@@ -39,8 +39,8 @@ impl Pattern {
         Pattern { text: text.to_owned(), parts }
     }
 
-    /// Whether a whole path fits. All places of the pattern that the letters so far can have reached are followed together, so that no pattern
-    /// takes longer than its length times that of the path.
+    /// Whether a whole path fits. All places of the pattern that the letters so far can have reached are followed
+    /// together, so that no pattern takes longer than its length times that of the path.
     pub fn matches(&self, path: &str) -> bool {
         let mut reached = vec![false; self.parts.len() + 1];
         self.reach(&mut reached, 0);

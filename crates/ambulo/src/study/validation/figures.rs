@@ -99,7 +99,8 @@ impl LegJoint {
         }
     }
 
-    /// Whether a moment belongs to this joint, by the beginning of the column's name in models of OpenSim and the built-in body.
+    /// Whether a moment belongs to this joint, by the beginning of the column's name in models of OpenSim and the
+    /// built-in body.
     #[must_use]
     pub fn has(self, moment: &MomentAgreement) -> bool {
         let beginning = match self {

@@ -11,13 +11,14 @@
 //! | moments | N.m/kg | root-mean-square difference of the sagittal moment of hip, knee, ankle over the instrumented window and whole stances |
 //! | events | ms | mean absolute difference of foot strikes and foot offs |
 //!
-//! Vertical is against gravity; fore-aft and lateral are along and across the walking direction, which in turns is that of the pelvis in that
-//! stance. Agreements: [`GroundAgreement`](crate::analysis::GroundAgreement).
+//! Vertical is against gravity; fore-aft and lateral are along and across the walking direction, which in turns is that
+//! of the pelvis in that stance. Agreements: [`GroundAgreement`](crate::analysis::GroundAgreement).
 //!
-//! **Means:** feet, then trials, then persons; a person with several trials of a kind counts once. What is not a number is left out.
+//! **Means:** feet, then trials, then persons; a person with several trials of a kind counts once. What is not a number
+//! is left out.
 //!
-//! **Kinds:** the recognised activity ([`crate::analysis::activity`]); walking is fast above a dimensionless speed of [`FAST_WALKING`]; trials
-//! without markers on the trunk are a separate kind.
+//! **Kinds:** the recognised activity ([`crate::analysis::activity`]); walking is fast above a dimensionless speed of
+//! [`FAST_WALKING`]; trials without markers on the trunk are a separate kind.
 //! Pinned by: tests/validation.rs
 
 pub mod baselines;

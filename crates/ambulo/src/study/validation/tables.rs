@@ -30,11 +30,16 @@ impl Section {
 
 /// Definitions of the figures in the tables.
 pub const DEFINITIONS: &str = "\
-Per foot over its whole stances on plates of its own (plate above 20 N): RMSE in % of body weight, rRMSE over the mean of the two ranges, \
-Pearson's r, share of the samples inside the predicted 90 % band, and half-width of that band over the RMSE. Vertical is against gravity; \
-fore-aft is along the walking direction, in turns that of the pelvis in that stance; lateral is across it. Centres of pressure (CoP) where the \
-plate carries more than 5 % of body weight; in tables of means they are weighted by the vertical force. Moments of a leg over the \
-instrumented window and over its whole stances. Means: feet, then trials, then persons; a person with several trials of a kind counts once.";
+Per foot over its whole stances on plates of its own (plate above 20 N): RMSE in % of body weight, rRMSE over the mean \
+of the two ranges, \
+Pearson's r, share of the samples inside the predicted 90 % band, and half-width of that band over the RMSE. Vertical \
+is against gravity; \
+fore-aft is along the walking direction, in turns that of the pelvis in that stance; lateral is across it. Centres of \
+pressure (CoP) where the \
+plate carries more than 5 % of body weight; in tables of means they are weighted by the vertical force. Moments of a \
+leg over the \
+instrumented window and over its whole stances. Means: feet, then trials, then persons; a person with several trials \
+of a kind counts once.";
 
 /// Headings, figures and digits of the tables with one row per trial, person or method.
 pub const SUMMARY: [(&str, Figure, usize); 12] = [
@@ -125,9 +130,12 @@ pub fn method_means(trials: &[&JudgedTrial]) -> Section {
             table.row([kind.to_owned(), method.words().to_owned(), own.len().to_string()].into_iter().chain(cells));
         }
     }
-    let note = "Foot height: the weight, divided by exp(-height of the foot / 8 cm), as monomech 0.15.24 does; it has no horizontal force. Smooth \
-                transition: the total force by Newton's law; in double support the trailing foot's force fades along fixed curves (Ren, Jones, \
-                Howard 2008), between the strikes and offs that the prediction detects. Tracking: a motion near the recorded one that feet on soft \
+    let note = "Foot height: the weight, divided by exp(-height of the foot / 8 cm), as monomech 0.15.24 does; it has \
+        no horizontal force. Smooth \
+                transition: the total force by Newton's law; in double support the trailing foot's force fades along \
+                fixed curves (Ren, Jones, \
+                Howard 2008), between the strikes and offs that the prediction detects. Tracking: a motion near the \
+                recorded one that feet on soft \
                 ground make, where one was found. Prediction: this program's.";
     Section { title: "Methods side by side", table, note: note.to_owned() }
 }
@@ -156,7 +164,8 @@ pub fn each_trial(trials: &[&JudgedTrial]) -> Section {
         let head = words.into_iter().chain([trial.quality.word().to_owned(), trial.stances.len().to_string()]);
         table.row(head.chain(summary_cells(|figure| figure.of(&trial.agreement))));
     }
-    let note = "Data: whether recording, body and measured forces fit together (`quality` in docs/JUDGEMENT.md); errors of doubtful and bad data may be those of the data.";
+    let note = "Data: whether recording, body and measured forces fit together (`quality` in docs/JUDGEMENT.md); \
+        errors of doubtful and bad data may be those of the data.";
     Section { title: "Each trial", table, note: note.to_owned() }
 }
 

@@ -7,8 +7,9 @@ use crate::analysis::activity::ActivityKind;
 use crate::analysis::{ComparedAnalyses, ComparedStance, GroundAgreement, Mass, compared_stances};
 use crate::findings::{Code, Findings};
 
-/// Walking above this dimensionless speed V / √(g L), with L the leg length, is fast: the middle between the groups `free` (0.429) and `fast`
-/// (0.560) of Schwartz, Rozumalski, Trost 2008 (J Biomech 41:1639), 1.5 m/s for a leg of 0.9 m.
+/// Walking above this dimensionless speed V / √(g L), with L the leg length, is fast: the middle between the groups
+/// `free` (0.429) and `fast` (0.560) of Schwartz, Rozumalski, Trost 2008 (J Biomech 41:1639), 1.5 m/s for a leg of 0.9
+/// m.
 pub const FAST_WALKING: f64 = 0.495;
 
 /// Properties that distinguish trials.

@@ -1,7 +1,7 @@
 //! The human standing on a plane: read from an MJCF file, held upright by springs in its joints.
 //!
-//! Of MJCF only what that file uses is understood: nested bodies with a position, `inertial`, hinge `joint`s through the
-//! body's origin with `axis`, `stiffness` and `damping`, and `geom` spheres; the floor is the plane z = 0.
+//! Of MJCF only what that file uses is understood: nested bodies with a position, `inertial`, hinge `joint`s through
+//! the body's origin with `axis`, `stiffness` and `damping`, and `geom` spheres; the floor is the plane z = 0.
 //!
 //! A body with one hinge becomes a revolute joint; one with two or three becomes one joint with as many free rotations,
 //! each with a spring. For small angles that is the same device as MuJoCo's hinges in a row.

@@ -8,8 +8,8 @@
 //! | `accuracy` | energy of a chain without damping, joints of a flailing one                             |
 //! | `peers`    | what `cargo xtask simulators` runs, right after ours                                    |
 //!
-//! The output is the page docs/measured/BENCHMARKS.md; with `--write` it is written there with its pictures. A time above its limit is
-//! reported; a wrong result fails the command.
+//! The output is the page docs/measured/BENCHMARKS.md; with `--write` it is written there with its pictures. A time
+//! above its limit is reported; a wrong result fails the command.
 
 mod accuracy;
 mod figure;

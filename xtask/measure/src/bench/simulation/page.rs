@@ -80,8 +80,10 @@ fn requirement_table(requirements: &[Requirement]) -> String {
 fn human(standing: &Standing, peers: &[PeerTiming]) -> String {
     let stance = &standing.stance;
     let text = format!(
-        "{:.0} kg, 16 segments, springs and dampers in its joints, 12 spheres under its soles, 10 s. Force, penetration, slip\n\
-         and creep over the last second; a contact sticks below 0.95 of its limit of friction. Ours takes {:.2} tree solves\n\
+        "{:.0} kg, 16 segments, springs and dampers in its joints, 12 spheres under its soles, 10 s. Force, \
+         penetration, slip\n\
+         and creep over the last second; a contact sticks below 0.95 of its limit of friction. Ours takes {:.2} tree \
+         solves\n\
          and {:.2} factorisations a step; its joints come apart by {} m.\n\n",
         stance.weight_n / GRAVITY,
         stance.iterations,
@@ -145,8 +147,10 @@ fn laws(standing: &Standing) -> String {
         table.row([name.to_owned(), small(ours), small(pushed)]);
     }
     format!(
-        "\nComputed by the bench from the states before and after each step, not by the solver; g h is the speed that falling\n\
-         gains in a step. Pushed: 180 N on the pelvis for 0.2 s, then 1 s more; up to {} contacts slip at once, down to {}\n\
+        "\nComputed by the bench from the states before and after each step, not by the solver; g h is the speed that \
+         falling\n\
+         gains in a step. Pushed: 180 N on the pelvis for 0.2 s, then 1 s more; up to {} contacts slip at once, down \
+         to {}\n\
          touch.\n\n{}",
         pushed.slipping,
         pushed.touching,
@@ -178,8 +182,10 @@ fn scaling(scaling: &Scaling, peers: &[PeerTiming]) -> String {
     let ours = scaling.family("chain", true).map_or(&[][..], |f| f.sizes.as_slice());
     format!(
         "![Time per step and joint error over the number of bodies](../images/simulation_scaling.svg)\n\n\
-         Links of 0.2 m and 1 kg, hinged to each other about y and z by turns, level at the start. In a random tree each hangs\n\
-         on one of the ten before it.\n\n{}{memory}\nThe chain, all engines; worst and median (ours) or last (theirs) error:\n\n{}{}",
+         Links of 0.2 m and 1 kg, hinged to each other about y and z by turns, level at the start. In a random tree \
+         each hangs\n\
+         on one of the ten before it.\n\n{}{memory}\nThe chain, all engines; worst and median (ours) or last (theirs) \
+         error:\n\n{}{}",
         table.text(),
         engines("Ambulo", ours, peers, Scene::Chain),
         missing(peers, Scene::Chain),
@@ -189,7 +195,8 @@ fn scaling(scaling: &Scaling, peers: &[PeerTiming]) -> String {
 fn ladder(all: &[OfMethod], first: &OfMethod, peers: &[PeerTiming]) -> String {
     let mut text = format!(
         "![Time per step and loop error over the number of loops](../images/simulation_ladder.svg)\n\n\
-         Two rails of such links, 0.3 m apart, a rung hinged to each link of the one and closed by a point on the other; three\n\
+         Two rails of such links, 0.3 m apart, a rung hinged to each link of the one and closed by a point on the \
+         other; three\n\
          bodies a loop. Time grows with the power {:.2} of the number of loops.\n\n{}{}",
         first.slope(),
         engines("Ambulo", &first.whole, peers, Scene::Ladder),
@@ -310,7 +317,8 @@ fn accuracy(accuracy: &Accuracy) -> String {
         table.row([format!("joint error in 60 s by impulses, {name} projection"), format!("{} m", small(error))]);
     }
     format!(
-        "Energy: largest distance of the total energy from its start, over the energy turned over, which is the largest\n\
+        "Energy: largest distance of the total energy from its start, over the energy turned over, which is the \
+         largest\n\
          kinetic energy of the motion.\n\n{}",
         table.text()
     )

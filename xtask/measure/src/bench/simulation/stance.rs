@@ -1,8 +1,9 @@
 //! The standing human: time per step, its stance, and the violation of the contact laws.
 //!
-//! The violations are computed from the states before and after a step: v is the velocity of the contact point, g the gap before the
-//! step of length h, F the force, W the weight and G = |gravity| h the change of speed in free fall during a step. A violation is the
-//! smallest change of force (relative to W) or velocity (relative to G) that would satisfy the law:
+//! The violations are computed from the states before and after a step: v is the velocity of the contact point, g the
+//! gap before the step of length h, F the force, W the weight and G = |gravity| h the change of speed in free fall
+//! during a step. A violation is the smallest change of force (relative to W) or velocity (relative to G) that would
+//! satisfy the law:
 //!
 //! | name              | violation                                                              |
 //! |-------------------|------------------------------------------------------------------------|

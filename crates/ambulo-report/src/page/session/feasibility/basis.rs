@@ -47,7 +47,8 @@ impl Basis {
         let residual = self.residual_bw.map(|share| {
             let percent = 100.0 * share;
             format!(
-                "the residual force is {percent:.0} % of body weight: motion, forces and body are not consistent, so do not rely on the moments"
+                "the residual force is {percent:.0} % of body weight: motion, forces and body are not consistent, so \
+                 do not rely on the moments"
             )
         });
         [unmeasured, predicted, residual].into_iter().flatten().reduce(|first, second| format!("{first}; {second}"))

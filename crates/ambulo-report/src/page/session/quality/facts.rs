@@ -6,7 +6,8 @@ use ambulo::analysis::PredictionCheck;
 use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo_results::{ConsistencySummary, MarkersSummary, ResidualSummary, Summary, WalkSummary};
 
-/// Residual force, root mean square [body weights]: walking data with every foot on a plate stay below it (finding `residual.large`).
+/// Residual force, root mean square [body weights]: walking data with every foot on a plate stay below it (finding
+/// `residual.large`).
 const RESIDUAL_BW: f64 = 0.1;
 /// Root mean square of the marker distances [mm]: OpenSim recommends 20 (its guide to good practice, unverified).
 const MARKERS_MM: f64 = 20.0;

@@ -32,7 +32,8 @@ pub(super) fn friction(results: &Results, block: &mut Block) -> Option<Group> {
     let limit = results.limit(Check::Friction).unwrap_or(usual.friction);
     traces.push(trace("limit", None, Role::Limit, block.add(&vec![limit; results.grid.frames])));
     let note = format!(
-        "Horizontal / vertical force of each foot while its load exceeds {least_n:.0} N ({:.1} body weights, the default of the verdict). The limit is {limit:.2}; the verdict ignores excesses shorter than {} s.",
+        "Horizontal / vertical force of each foot while its load exceeds {least_n:.0} N ({:.1} body weights, the \
+         default of the verdict). The limit is {limit:.2}; the verdict ignores excesses shorter than {} s.",
         usual.friction_load_bw, usual.shortest_s
     );
     let panel = over_time([FRICTION, "Required friction coefficient", ""], ["", ""], traces);

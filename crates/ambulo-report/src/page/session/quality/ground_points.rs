@@ -1,5 +1,5 @@
-//! Panels of forces, centres of pressure and free moments over time: predictions with their uncertainty, on top of what plates
-//! measured, or measurements alone.
+//! Panels of forces, centres of pressure and free moments over time: predictions with their uncertainty, on top of what
+//! plates measured, or measurements alone.
 
 use super::{CENTER_FORWARD, group, over_time};
 use crate::page::block::Block;
@@ -62,7 +62,8 @@ const ROWS: [Row; 6] = [
 ];
 
 /// Explains the drawn band and the wider band of the table of agreement.
-const BAND: &str = "Band: ± 1 standard deviation of the prediction (it contains 68 % of the true values if errors are normally distributed). The 90 % band of the table of agreement is wider: ± 1.645 standard deviations.";
+const BAND: &str = "Band: ± 1 standard deviation of the prediction (it contains 68 % of the true values if errors are \
+    normally distributed). The 90 % band of the table of agreement is wider: ± 1.645 standard deviations.";
 
 /// The group of panels; `None` without ground forces.
 pub(super) fn ground_points(results: &Results, block: &mut Block) -> Option<Group> {

@@ -28,7 +28,8 @@ fn column(results: &Results, movement: Movement) -> Option<String> {
     Some(format!("{}_{suffix}", results.clinical_names().central(movement)?))
 }
 
-/// Components of force and moment, and the magnitude of the force in per cent of body weight; `None` without moments of a root.
+/// Components of force and moment, and the magnitude of the force in per cent of body weight; `None` without moments of
+/// a root.
 pub(super) fn residual(results: &Results, block: &mut Block) -> Option<Group> {
     let mut panels: Vec<Panel> =
         FORCES.iter().chain(&MOMENTS_OF_ROOT).filter_map(|component| panel(results, component, block)).collect();
@@ -69,7 +70,8 @@ fn size(results: &Results, block: &mut Block) -> Option<Panel> {
 }
 
 fn note(results: &Results) -> String {
-    let about = "Force and moment at the pelvis that the motion requires but neither joints nor ground supply: zero if motion, forces and body were consistent.";
+    let about = "Force and moment at the pelvis that the motion requires but neither joints nor ground supply: zero if \
+        motion, forces and body were consistent.";
     match results.source {
         PageSource::None => {
             format!(

@@ -99,7 +99,8 @@ const NAMED_BY_FILES: [&str; 3] = ["moments", "changes", "adjustment"];
 pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<Table> {
     let plates = "Which foot loaded which plate; a force is assigned to one foot if the contact is clean.";
     let events = "Differences between foot strikes and foot offs from different sources.";
-    let forces = "Over whole stances with the foot wholly on a plate of its own. The 90 % band is the prediction ± 1.645 standard deviations; the panels draw ± 1.";
+    let forces = "Over whole stances with the foot wholly on a plate of its own. The 90 % band is the prediction ± \
+        1.645 standard deviations; the panels draw ± 1.";
     let segments = "Lengths of the segments of the built-in body, relative to its table for this stature.";
     let Summary { subject, comparison, prediction, consistency, walk, .. } = &results.summary;
     let contacts = subject.iter().flat_map(|subject| &subject.plates);

@@ -41,7 +41,8 @@ pub(super) fn group(
         pairs.truncate(MOST_PAIRS);
     }
     let panels = pairs.iter().enumerate().flat_map(|(i, (pair, sums))| sums.panels(i + 1, pair, block)).collect();
-    let note = "Sums over all contact points of two bodies; bodies on one side of a figure are added up. Impacts between output instants are not included.";
+    let note = "Sums over all contact points of two bodies; bodies on one side of a figure are added up. Impacts \
+        between output instants are not included.";
     Ok(Some(Group {
         id: "contacts".to_owned(),
         title: "Contacts".to_owned(),

@@ -8,8 +8,8 @@
 //! | `floor`        | h₀     | m    | 5th percentile of the heights of both feet over the recording; lower feet have w 1 |
 //! | [`HEIGHT_M`]   | λ      | m    | 0.08                                                                               |
 //!
-//! There is no fore-aft and no lateral force, no flight and no acceleration. The force acts in the middle of heel, toe and ankle.
-//! Source: monomech 0.15.24 (PyPI, MIT licence), `external.py`, `estimate_grf`.
+//! There is no fore-aft and no lateral force, no flight and no acceleration. The force acts in the middle of heel, toe
+//! and ankle. Source: monomech 0.15.24 (PyPI, MIT licence), `external.py`, `estimate_grf`.
 
 use super::{AppliedForce, BaselineInput, FootPoints, at_height};
 use crate::model::{BySide, Side};

@@ -1,7 +1,7 @@
 //! The smooth transition assumption: in double support, the load of the trailing foot fades along fixed curves of time.
 //!
-//! In single support the foot on the ground carries the whole force. From the strike of the leading foot on, with F₀ the force of the trailing
-//! foot at that instant,
+//! In single support the foot on the ground carries the whole force. From the strike of the leading foot on, with F₀
+//! the force of the trailing foot at that instant,
 //!
 //!   fore-aft            F(t) = F₀ (k₁ exp(-((t - t_p) / T)²) - k₂ t / T)
 //!   vertical, lateral   F(t) = F₀ exp(-(t / T)³)
@@ -14,12 +14,13 @@
 //! |            | t_p    | s    | 2 T / 3                                                             |
 //! | `k1`, `k2` | k₁, k₂ | -    | exp(4/9), k₁ exp(-16/9) / 2: the curve begins at 1 and ends at 0    |
 //!
-//! The centre of pressure is under the heel until the other foot has left the ground, then goes to the ball while time passes from 0 to 1 of the
-//! single support: s = (-2 / 3π) (sin 2πu - sin(4πu) / 8 - 3πu / 2), and stays there. Two feet that stand from the beginning of the recording carry
-//! half of the force each.
+//! The centre of pressure is under the heel until the other foot has left the ground, then goes to the ball while time
+//! passes from 0 to 1 of the single support: s = (-2 / 3π) (sin 2πu - sin(4πu) / 8 - 3πu / 2), and stays there. Two
+//! feet that stand from the beginning of the recording carry half of the force each.
 //!
-//! Source: Ren, Jones, Howard 2008, J Biomech 41:2750 (unverified), as programmed in OpenSimRT (github.com/mitkof6/OpenSimRT,
-//! `GRFMPrediction.cpp`, opened), which multiplies the present total force by the curves instead of F₀.
+//! Source: Ren, Jones, Howard 2008, J Biomech 41:2750 (unverified), as programmed in OpenSimRT
+//! (github.com/mitkof6/OpenSimRT, `GRFMPrediction.cpp`, opened), which multiplies the present total force by the curves
+//! instead of F₀.
 
 use super::{AppliedForce, BaselineInput, FootPoints, at_height};
 use crate::ground::footfalls::Footfall;
@@ -114,8 +115,8 @@ fn trailing(input: &BaselineInput<'_>, leading: &Footfall, trailing: &Footfall, 
     along * fore_aft(time) + (before - along) * other(time)
 }
 
-/// Elapsed share of the single support of a stance: from the last off of the other foot before the middle of the stance, or its strike, to the
-/// next strike of the other foot, or its off.
+/// Elapsed share of the single support of a stance: from the last off of the other foot before the middle of the
+/// stance, or its strike, to the next strike of the other foot, or its off.
 fn single_support(input: &BaselineInput<'_>, fall: &Footfall, time: f64) -> f64 {
     let grid = input.trajectory.grid();
     let (strike, off) = (fall.strike_s.unwrap_or(grid.start_s), fall.off_s.unwrap_or(grid.end_s()));
