@@ -439,7 +439,7 @@ value: string,
  */
 allowed: string | null, 
 /**
- * Whether it is; nothing if it is unknown.
+ * Whether it is so; nothing if unknown.
  */
 good: boolean | null, };
 
@@ -767,7 +767,8 @@ time_s: number,
  */
 values: Array<number>, 
 /**
- * Position [m] and orientation of every body of the view, as there: 7 numbers each; nothing while the body is not known.
+ * Position [m] and orientation of every body of the view, as there: 7 numbers each; nothing while the body is not
+ * known.
  */
 poses: Array<number>, 
 /**
