@@ -47,7 +47,7 @@ impl PlannedStep {
 pub struct CyclePlan {
     /// All steps of the cycle.
     pub steps: Vec<PlannedStep>,
-    /// Numbers of the steps in which the right and the left foot strike: their load passes [`STRIKE`].
+    /// Numbers of the steps in which the right and the left foot strike: their load passes `STRIKE`.
     pub strikes: [usize; 2],
     /// The coordinates of the root.
     pub root: Root,
