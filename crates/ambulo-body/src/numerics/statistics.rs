@@ -12,7 +12,7 @@ pub fn mean(values: &[f64]) -> f64 {
 #[must_use]
 pub fn finite_mean(values: impl IntoIterator<Item = f64>) -> f64 {
     let finite = values.into_iter().filter(|x| x.is_finite());
-    let (sum, count) = finite.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
+    let (sum, count) = finite.fold((-0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
     sum / count
 }
 

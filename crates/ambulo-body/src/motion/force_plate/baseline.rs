@@ -112,8 +112,8 @@ fn share_below(values: &[f64], limit: f64) -> f64 {
     values.iter().filter(|x| **x < limit).count() as f64 / values.len().max(1) as f64
 }
 
-/// Mean of the finite values; 0 if there are none.
+/// Mean of the finite values; 0 if there are none, and of values that are all -0.
 fn mean_level(values: impl Iterator<Item = f64>) -> f64 {
     let mean = finite_mean(values);
-    if mean.is_nan() { 0.0 } else { mean }
+    if mean.is_nan() { 0.0 } else { mean + 0.0 }
 }
