@@ -130,7 +130,7 @@ pub(super) fn stance(run: &Run) -> Option<(Vec<f64>, [f64; 2])> {
     Some((mean_of(&curves), bounds))
 }
 
-/// Number of local maxima with at least the prominence [`PROMINENCE`].
+/// Number of local maxima with at least the prominence `PROMINENCE`.
 pub fn humps(curve: &[f64]) -> usize {
     let (mut count, mut low, mut high, mut rising) = (0, curve[0].min(0.0), f64::NEG_INFINITY, true);
     for &x in curve.iter().chain([&0.0]) {

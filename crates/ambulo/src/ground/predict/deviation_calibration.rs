@@ -51,7 +51,7 @@ pub fn scaling_at(fifths: &ByFifth, phase: f64) -> DeviationScaling {
     DeviationScaling { factor: mix(|s| s.factor), floor: mix(|s| s.floor) }
 }
 
-/// Difference of the estimate from the required wrench, root mean square over a stance ([`super::misfit`]).
+/// Difference of the estimate from the required wrench, root mean square over a stance (`misfit`).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Misfit {
     /// Forward, up and to the right [N].

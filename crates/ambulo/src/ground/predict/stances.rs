@@ -55,7 +55,7 @@ pub struct Stance {
     pub heel_down_s: Option<f64>,
     /// Whether the stance before or after it is on another step of stairs.
     pub on_stairs: bool,
-    /// How much more than usual the mass centre descends at the strike ([`super::strike_descent`]).
+    /// How much more than usual the mass centre descends at the strike (`strike_descent`).
     pub descent: f64,
     /// Time [s] and phase of strike, other foot's off, other foot's strike, and off.
     pub knots: Vec<[f64; 2]>,
