@@ -152,6 +152,7 @@ const PAGES: [Step; 4] = [
         name: "viewer",
         tool: Tool::Npm,
         arguments: &["run", "check"],
+        after: Some(TEST_PROGRAMS), // its tests start the command
         hint: "mend what the linter, the compiler or a test names; `npm run build` in viewer/ makes the bundle anew",
         ..PLAIN
     },
