@@ -6,6 +6,7 @@
 
 use super::error::ReproductionError;
 use super::mode::{Footwear, Run, TrialSettings};
+use super::paper_human::sum_of_radii;
 use ambulo_body::findings::Findings;
 use ambulo_body::model::anthropometry::{Build, Human};
 use ambulo_walk::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
@@ -55,6 +56,8 @@ impl CorrectedMode {
         Ok(Run {
             recording,
             gait: gait.name().to_owned(),
+            shoes: if trial.shoes == Footwear::Own { Footwear::Soft } else { trial.shoes },
+            leg_length: human.dimensions.leg_length,
             soles: human.soles.clone(),
             cycle_s: gait.cycle_s(),
             speed: gait.speed(),
@@ -64,7 +67,7 @@ impl CorrectedMode {
     }
 
     fn find_or_make(&mut self, trial: &TrialSettings<'_>) -> Result<usize, ReproductionError> {
-        let figure = [trial.human.model.mass(), trial.human.build.height, thickness(trial.human)].map(f64::to_bits);
+        let figure = [trial.human.model.mass(), trial.human.build.height, sum_of_radii(trial.human)].map(f64::to_bits);
         if let Some(number) = self.cache.iter().position(|k| k.gait == *trial.gait && k.figure == figure) {
             return Ok(number);
         }
@@ -79,15 +82,10 @@ impl CorrectedMode {
     }
 }
 
-/// Sum of the radii of the soles [m].
-fn thickness(human: &Human) -> f64 {
-    human.soles.iter().map(|sole| sole.radius).sum()
-}
-
 /// The same figure with a toe joint and the same radii of the soles.
 pub(super) fn with_toes(human: &Human) -> Result<Human, ReproductionError> {
     let mut figure = Build { toe_joint: true, ..human.build }.human()?;
-    let (old, new) = (thickness(human), thickness(&figure));
+    let (old, new) = (sum_of_radii(human), sum_of_radii(&figure));
     for sole in &mut figure.soles {
         sole.center.y += sole.radius * (old / new - 1.0);
         sole.radius *= old / new;

@@ -19,6 +19,9 @@ pub(super) const HUMPS: Statement = Statement {
     id: "e1",
     kind: ClaimKind::Paper,
     paper: "the vertical force during support is quite similar to measured ones: two peaks",
+    criterion: "two peaks of a prominence of 0.1 body weights, and r >= 0.7 with the mean of Schwartz, Rozumalski, Trost 2008 \
+        (children, free speed) over the stance",
+    former: None,
     headline: "correlation_with_measured",
     scope: Scope::Brief,
     measure: measure_humps,
@@ -26,9 +29,7 @@ pub(super) const HUMPS: Statement = Statement {
         let (humps, r) = (number(paper, "humps"), number(paper, "correlation_with_measured"));
         let pass = (humps - 2.0).abs() < 0.5 && r >= SIMILAR;
         let note = format!(
-            "passes with two peaks of a prominence of {PROMINENCE} body weights and r >= {SIMILAR} with the mean of \
-             Schwartz, Rozumalski, \
-             Trost 2008 (children, free speed) over the stance; found {humps:.0} peaks and r = {r:.2}; largest force \
+            "found {humps:.0} peaks and r = {r:.2}; largest force \
              {:.2} body weights \
              (measured 1.08), stance {:.0} % of the cycle (measured 59 %)",
             number(paper, "largest_bw"),
@@ -42,6 +43,8 @@ pub(super) const FLIGHT: Statement = Statement {
     id: "e2",
     kind: ClaimKind::Paper,
     paper: "an unwanted flying phase",
+    criterion: "the figure is in flight for more than 1 % of the time",
+    former: None,
     headline: "flight_percent",
     scope: Scope::Brief,
     measure: |evidence| bounce(evidence.standard()),
@@ -55,7 +58,7 @@ pub(super) const FLIGHT: Statement = Statement {
             )
         });
         let note = format!(
-            "passes if the figure is in flight for more than 1 % of the time; it is for {flight:.1} %, with \
+            "it is for {flight:.1} %, with \
              {landings:.1} landings per \
              step{better}"
         );
@@ -67,13 +70,15 @@ pub(super) const BOUNCING: Statement = Statement {
     id: "e3",
     kind: ClaimKind::Paper,
     paper: "bouncing occurs when the foot hits the ground",
+    criterion: "a foot lands more than 1.1 times per step",
+    former: None,
     headline: "landings_a_step",
     scope: Scope::Brief,
     measure: |evidence| bounce(evidence.standard()),
     judge: |paper, _| {
         let landings = number(paper, "landings_a_step");
         let note = format!(
-            "passes if a foot lands more than {BOUNCES} times per step; it lands {landings:.1} times. A point that \
+            "it lands {landings:.1} times. A point that \
              loses all of its velocity in \
              an impact cannot bounce; the foot leaves the ground because the driven legs lift it"
         );

@@ -4,7 +4,9 @@
 
 use super::figures::moving_picture;
 use super::html::{Document, escaped};
-use ambulo_paper::{Claim, Evidence, Numbers, Sensitivity, assumptions, moving_figure, number, stored_shares, tally};
+use ambulo_paper::{
+    Claim, Evidence, Numbers, Sensitivity, Setting, assumptions, moving_figure, number, stored_shares, tally,
+};
 use ambulo_results::{OutputFile, PAGE};
 use std::fmt::Write;
 
@@ -92,6 +94,7 @@ const FIGURES: [Figure; 7] = [
 pub fn reproduction_page(
     claims: &[Claim],
     modes: &[(&str, &Evidence)],
+    setting: &Setting,
     sensitivities: &[Sensitivity],
     files: &[OutputFile<'_>],
 ) -> OutputFile<'static> {
@@ -115,16 +118,13 @@ move at its speed.</p>
 {figures}
 <h2>Claims</h2>
 {claims}
-<h2>The most plausible figure of 1997</h2>
-{best}
 <h2>What the paper does not give</h2>
 {assumptions}
 </main>"#,
         moving = moving_pictures(modes),
-        best = most_plausible(files),
         version = env!("CARGO_PKG_VERSION"),
         claims = claim_table(claims),
-        assumptions = assumption_table(claims, sensitivities),
+        assumptions = assumption_table(claims, setting, sensitivities),
     );
     let page = Document {
         title: "Dynamic analysis of human walking, 1997, recomputed",
@@ -146,42 +146,6 @@ fn moving_pictures(modes: &[(&str, &Evidence)]) -> String {
             let _ = writeln!(html, "<figure>{picture}<figcaption>{}</figcaption></figure>", escaped(&label));
         }
         html += "</div>\n";
-    }
-    html
-}
-
-/// The values that meet most claims, with figures 4 to 7 as they are with them.
-fn most_plausible(files: &[OutputFile<'_>]) -> String {
-    let shares = stored_shares();
-    let [held, judged] = shares.best_held;
-    let mut html = format!(
-        "<p>Of {} settings of all values that the paper does not give and of those near the best, this one meets most \
-         claims: {held} of the \
-         {judged} claims of the paper that were judged with other settings. The figure of 1997 most likely was near \
-         it.</p>\n\
-         <div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\" \
-         class=\"number\">Value</th></tr></thead>\n<tbody>\n",
-        shares.settings
-    );
-    for (name, value) in shares.best.named() {
-        let _ = writeln!(
-            html,
-            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td></tr>",
-            escaped(name),
-            shown(value)
-        );
-    }
-    html += "</tbody>\n</table></div>\n";
-    for number in 4..=7 {
-        let svg = svg_of(files, &format!("figures/best_figure{number}.svg"));
-        let Some(svg) = svg else { continue };
-        let svg = svg.replacen("<svg ", &format!("<svg aria-label=\"Figure {number} with these values\" "), 1);
-        let _ = writeln!(
-            html,
-            "<section class=\"figure\" aria-label=\"Figure {number} with these values\">\n<h3>Figure {number} with \
-             these values</h3>\n\
-             <div class=\"picture\">{svg}</div>\n</section>"
-        );
     }
     html
 }
@@ -242,12 +206,14 @@ fn claim_table(claims: &[Claim]) -> String {
             html,
             "<tr id=\"{id}\"><th \
              scope=\"row\">{id}</th><td>{}</td><td>{}</td><td>{}</td><td>{}<details><summary>reason and all \
-             numbers</summary><p>{}</p>{}</details></td>\
+             numbers</summary><p>Holds if {}. \
+             {}</p>{}</details></td>\
              <td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
             mark(claim),
             claim.kind.words(),
             escaped(&stored_shares().words(claim)),
             escaped(claim.paper),
+            escaped(claim.criterion),
             escaped(&claim.note),
             all_numbers(&claim.paper_mode, claim.corrected.as_ref()),
             escaped(claim.headline),
@@ -278,13 +244,13 @@ fn all_numbers(paper: &Numbers, corrected: Option<&Numbers>) -> String {
 }
 
 /// The assumptions, and the claims whose verdict changes with other values.
-fn assumption_table(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
+fn assumption_table(claims: &[Claim], setting: &Setting, sensitivities: &[Sensitivity]) -> String {
     let mut html = String::from(
         "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value</th><th \
          scope=\"col\">Reason</th>\
          <th scope=\"col\">Claims that change with other values</th></tr></thead>\n<tbody>\n",
     );
-    for assumption in assumptions() {
+    for assumption in assumptions(setting) {
         let own = sensitivities.iter().filter(|sensitivity| sensitivity.what == assumption.what);
         let turned: Vec<String> = own
             .map(|sensitivity| match &sensitivity.outcome {
@@ -296,7 +262,7 @@ fn assumption_table(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
             })
             .collect();
         let turned = if turned.is_empty() { "not tested".to_owned() } else { turned.join("; ") };
-        let cells = [assumption.what, assumption.value, assumption.why, &turned].map(escaped);
+        let cells = [&assumption.what, &assumption.value, assumption.why, &turned].map(escaped);
         let _ = writeln!(
             html,
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>",
