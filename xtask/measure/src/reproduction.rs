@@ -25,7 +25,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let setting = Setting::papers_results().map_err(|e| e.to_string())?;
     let mut mode = |trial: &TrialSettings<'_>| setting.walk(trial);
     let paper = Evidence::gather(&mut mode, Scope::Full, Some(&clock)).map_err(|e| e.to_string())?;
-    let mut corrected = CorrectedMode::default();
+    let mut corrected = CorrectedMode::of(&setting);
     let mut mode = |trial: &TrialSettings<'_>| corrected.walk(trial);
     let corrected = Evidence::gather(&mut mode, Scope::Full, Some(&clock)).map_err(|e| e.to_string())?;
     let claims = claims(&paper, Some(&corrected));

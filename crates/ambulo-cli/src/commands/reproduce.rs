@@ -36,7 +36,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     let clock = move || start.elapsed().as_secs_f64();
     let mut mode = |trial: &TrialSettings<'_>| setting.walk(trial);
     let paper = gather("the paper's mode", &mut mode, &clock, args)?;
-    let mut mode = CorrectedMode::default();
+    let mut mode = CorrectedMode::of(&setting);
     let corrected = gather("the corrected mode", &mut |trial: &TrialSettings<'_>| mode.walk(trial), &clock, args)?;
     printer::progress("loops, obstacles, grasping, hand in hand, and a walk by own torques", args.print);
     let claims: Vec<Claim> = claims(&paper, Some(&corrected));
