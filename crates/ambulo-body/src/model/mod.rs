@@ -30,7 +30,7 @@ pub use bushing::{BushingEnd, Resistance};
 pub use by_side::BySide;
 pub use export::{ExportError, to_osim};
 pub use function::Function;
-pub use import::{ImportError, OsimError, from_osim};
+pub use import::{ImportError, from_osim};
 pub use joint::{Displacement, Joint, JointAxis, JointSpeeds};
 pub use knots::Knots;
 pub(crate) use posture::ModelPosture;

@@ -235,7 +235,7 @@ impl Subject {
         let (recording, trial) = standing.map_or((moving, Trial::Moving), |standing| (standing, Trial::Standing));
         let names = recording.markers.iter().map(|marker| marker.name.as_str());
         let recognised = match set {
-            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
+            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names)?,
             None => MarkerSet::recognise(names)?,
         };
         let calibrated = calibrate(recording, trial, &recognised, person, findings)?;
