@@ -233,7 +233,10 @@ fn measured_distances_give_the_factors_of_a_known_person() {
     let (before, after) = (sized.rms_before_m.unwrap(), sized.rms_m.unwrap());
     assert!(after < 1e-8 && before > 0.003, "{after} from {before}");
     assert!((sized.model.mass() - 60.0).abs() < 1e-9);
-    assert!(sized.moved.iter().all(|m| m.distance_m < 1e-7));
+    let scaled = model.scaled(&sized.factors, None).unwrap();
+    for (placed, scaled) in sized.model.markers().iter().zip(scaled.markers()) {
+        assert!(placed.name == scaled.name && (placed.location - scaled.location).norm() < 1e-7, "{placed:?}");
+    }
 
     let missing = scale_by_protocol(model, &protocol, ProtocolTrials::default(), &mut findings).unwrap_err();
     assert!(matches!(missing, ScalingError::NoTrial { .. }), "{missing}");

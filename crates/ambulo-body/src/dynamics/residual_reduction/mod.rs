@@ -40,7 +40,7 @@ mod problem;
 mod result;
 mod splines;
 
-pub use result::{BodyChange, CoordinateChange, FootChange, ReducedMotion, RootResidual};
+pub use result::{CoordinateChange, FootChange, ReducedMotion, RootResidual};
 pub use settings::{
     CENTER_TOLERANCE_M, MASS_TOLERANCE, MOST_CENTER_M, MOST_MASS_SHARE, ResidualReductionError,
     ResidualReductionSettings,
@@ -184,12 +184,15 @@ impl ReductionProblem<'_> {
             CoordinateChange::of(model, c, before, after, window.clone())
         });
         let grid = self.trajectory.grid();
+        let (mass_share, trunk_center_m) = self.body.change(&unknowns.numbers);
         Ok(ReducedMotion {
             residual_before: RootResidual::of(&self.root_residuals(&untouched)?, weight),
             residual_after: RootResidual::of(&self.root_residuals(unknowns)?, weight),
             changes: changes.collect(),
             feet: self.feet(model, &trajectory),
-            body: self.body.change(&unknowns.numbers),
+            mass_share,
+            trunk: self.body.trunk().to_owned(),
+            trunk_center_m,
             window_s: [grid.time(window.start), grid.time(window.end - 1)],
             iterations: termination.iterations,
             converged: termination.converged,

@@ -27,7 +27,7 @@
 //! Pinned by: tests/scaling.rs
 
 use super::ScalingError;
-use super::standing::{MovedMarker, at_rest, complete, with_markers_placed};
+use super::standing::{at_rest, complete, with_markers_placed};
 use crate::findings::Findings;
 use crate::kinematics::marker_fit::rows::{MarkerRow, MarkerRows};
 use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
@@ -75,8 +75,6 @@ pub struct SizedModel {
     pub rms_before_m: Option<f64>,
     /// The same for the scaled model, before its markers were moved [m].
     pub rms_m: Option<f64>,
-    /// Distances by which markers were moved on their bodies.
-    pub moved: Vec<MovedMarker>,
 }
 
 /// Scales all bodies to a standing trial in world axes, then moves the markers to their positions on the person.
@@ -112,9 +110,9 @@ pub fn fit_size(
     let square: f64 = rows.residuals().iter().map(|r| r.norm_squared()).sum();
     let rms_m = (square / rows.residuals().len() as f64).sqrt();
     let posture = complete(&scaled, |i| rows.unknown_of(i).map(|u| z[u]));
-    let (model, moved) = with_markers_placed(&scaled, &standing, &posture, |_| true)?;
+    let model = with_markers_placed(&scaled, &standing, &posture, |_| true)?;
     let rms_before_m = start.rms_m.first().copied();
-    Ok(SizedModel { model, factors, posture, rms_before_m, rms_m: Some(rms_m), moved })
+    Ok(SizedModel { model, factors, posture, rms_before_m, rms_m: Some(rms_m) })
 }
 
 struct Problem<'a> {
