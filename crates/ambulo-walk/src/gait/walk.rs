@@ -11,7 +11,7 @@
 //! with the share of walking w and the relative step length l of the [`Clock`]. Pinned by: tests/gait_walk.rs,
 //! tests/gait_speed.rs.
 
-use super::arms::ArmCurves;
+use super::arms;
 use super::curve_check::check;
 use super::cyclic_curve::{CyclicCurve, Knot};
 use super::error::GaitError;
@@ -38,7 +38,7 @@ const SHORTEST_CHANGE_S: f64 = 0.1;
 pub struct Walk {
     plan: PacePlan,
     laws: Laws,
-    arms: ArmCurves,
+    elbow: CyclicCurve,
     /// The settings that the walk is made of.
     gait: Gait,
     /// Time at which the machines of the gait begin [s].
@@ -110,7 +110,7 @@ impl Walk {
         report_range(law.speed(first.law_speed), leg_length, findings);
         let initial = SteadyPace { walks: !stands, ..first.relative_to(&law) };
         let plan = PacePlan::constant(law, initial, 0.0);
-        let mut walk = Walk { plan, laws, arms: ArmCurves::new(), gait: gait.clone(), machines_begin_s: 0.0 };
+        let mut walk = Walk { plan, laws, elbow: arms::elbow(), gait: gait.clone(), machines_begin_s: 0.0 };
         if stands {
             // The right leg swings first.
             let off = walk.foot_off(&walk.clock(0.0));
@@ -193,6 +193,7 @@ impl Walk {
 
     /// The constant paces before, between and after the changes as gaits without changes, and for each change its start
     /// and duration [s]. While the figure stands, the gait of the change from or to standing.
+    #[doc(hidden)]
     #[must_use]
     pub fn pace_ramps(&self) -> Vec<PaceRamp> {
         let ramps = self.plan.ramps();
@@ -254,10 +255,10 @@ impl Walk {
         &self.laws.legs
     }
 
-    /// The curves of an arm.
+    /// The curve of an elbow.
     #[must_use]
-    pub fn arms(&self) -> &ArmCurves {
-        &self.arms
+    pub fn elbow(&self) -> &CyclicCurve {
+        &self.elbow
     }
 
     /// Walking speed at the start [m/s].
@@ -391,8 +392,8 @@ impl Walk {
             WalkPart::Leg(side, joint) => self.leg_angle(side, joint, self.laws.legs.of(joint).at(phase, speed), clock),
             WalkPart::Pelvis => self.pelvis_tilt(clock),
             WalkPart::Trunk => self.trunk_lean(clock),
-            WalkPart::Shoulder(_) => self.arm_angle(part, ArmCurves::shoulder(phase, speed), clock),
-            WalkPart::Elbow(_) => self.arm_angle(part, self.arms.elbow().at(phase, speed), clock),
+            WalkPart::Shoulder(_) => self.arm_angle(part, arms::shoulder(phase, speed), clock),
+            WalkPart::Elbow(_) => self.arm_angle(part, self.elbow.at(phase, speed), clock),
         }
     }
 

@@ -15,8 +15,7 @@ mod state_trace;
 mod walking;
 
 #[doc(hidden)]
-pub use condition::Condition;
-pub use condition::{Comparison, ConditionError, FootEvent};
+pub use condition::{Comparison, Condition, ConditionError, FootEvent};
 pub use definition::Span;
 #[doc(hidden)]
 pub use definition::{ChildOutputs, Machine, MachineInputs, Sensed, State, Transition};
