@@ -9,7 +9,7 @@
 
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{BuildError, Dimensions, Human};
-use crate::model::full_body::{SegmentShape, SolePlacement, SubjectShape, reshaped};
+use crate::model::subject_shape::{SegmentShape, SolePlacement, SubjectShape, reshaped};
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::skeleton::POINT_DISTANCE_M;
 use crate::motion::{MarkerPath, MarkerRecording};

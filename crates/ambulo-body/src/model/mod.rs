@@ -22,6 +22,7 @@ mod scaled;
 mod scapulothoracic;
 mod side;
 mod simm_spline;
+pub(crate) mod subject_shape;
 
 pub use anatomy::{Anatomy, Movement};
 pub use bushing::Bushing;

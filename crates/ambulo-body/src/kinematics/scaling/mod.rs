@@ -17,7 +17,6 @@ pub use joint_fit::{SizeSettings, SizedModel, fit_size};
 pub use measurement::{DistanceMeasurement, MeasuredBody, measured_factors};
 pub use protocol::{MarkerPlacement, ProtocolTrials, ScalingProtocol, ScalingStep, fit_weights, scale_by_protocol};
 
-
 use super::marker_fit::FitError;
 use crate::model::{ModelError, ScaleError};
 

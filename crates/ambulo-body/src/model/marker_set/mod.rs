@@ -62,7 +62,9 @@ pub enum MarkerSetError {
         source: TomlError,
     },
     /// A name that no built-in set has.
-    #[error("no marker set is named `{found}`; expected one of {known}, or a TOML file as described in docs/MARKERS.md")]
+    #[error(
+        "no marker set is named `{found}`; expected one of {known}, or a TOML file as described in docs/MARKERS.md"
+    )]
     Unknown {
         /// The requested name.
         found: String,
