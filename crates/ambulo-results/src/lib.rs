@@ -34,7 +34,7 @@ pub use file_names::{
     GROUND_SD, JOINTS, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL, PAGE, POSES, POWERS, REACTIONS, SCENE_REACTIONS,
     SHAPES, STATES, SUBJECT, SUMMARY, TIMES_AND_DISTANCES, TIMINGS, VALIDATION_PAGE, WALKS,
 };
-pub use files::{BodyFileError, OutputFile, WriteError, output_files};
+pub use files::{OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use keep::Keep;
 pub use outcome::outcome_tables;
