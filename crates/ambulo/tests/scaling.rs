@@ -6,7 +6,7 @@ use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::kinematics::scaling::{
     DistanceMeasurement, MarkerPlacement, MeasuredBody, ProtocolTrials, ScalingError, ScalingProtocol, ScalingStep,
-    SizeSettings, SizedModel, fit_size, measured_factors, scale_by_protocol,
+    SizedModel, fit_size, measured_factors, scale_by_protocol,
 };
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{Drive, MassDistribution, Model, ScaleError};
@@ -113,8 +113,8 @@ fn worst_length(a: &Model, b: &Model) -> (f64, String) {
 /// by other distances.
 fn assert_comes_back(name: &str, subject: &Subject, from_stored_mm: f64) {
     let mut findings = Findings::default();
-    let settings = SizeSettings { mass: Some(subject.model.mass()) };
-    let plain = fit_size(&subject.model, &subject.standing, settings, &mut findings).unwrap();
+    let mass = Some(subject.model.mass());
+    let plain = fit_size(&subject.model, &subject.standing, mass, &mut findings).unwrap();
     let (stored, place) = worst_length(&subject.model, &plain.model);
     println!(
         "{name} as stored: marker RMS {:.1} mm before, {:.1} mm after; {place}",

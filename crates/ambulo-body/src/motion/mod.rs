@@ -50,7 +50,7 @@ pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_fro
 pub use marker_table::{is_marker_table, markers_from_table};
 #[doc(hidden)]
 pub use real_points::are_markers;
-pub use recorded_motion::{RecordedMotion, RecordedMotionError, motion_from_c3d};
+pub use recorded_motion::{RecordedMotion, motion_from_c3d};
 pub use recording::{Motion, MotionError};
 #[doc(hidden)]
 pub use segment_poses::PosedSegment;

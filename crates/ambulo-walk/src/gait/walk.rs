@@ -96,8 +96,7 @@ impl Walk {
     /// overlap.
     pub fn new(gait: &Gait, leg_length: f64, findings: &mut Findings) -> Result<Walk, GaitError> {
         let stands = gait.pace.speed == Some(Speed::MetersPerSecond(0.0));
-        let first = PaceOf { gait, leg_length }.walking(&gait.pace_at_start()?)?;
-        let law = first.law;
+        let (law, law_speed) = at_pace(gait, &gait.pace_at_start()?, leg_length)?;
         let mut laws = Laws::built_in(gait.style)?;
         for (joint, own) in LegJoint::ALL.into_iter().zip(&gait.curves) {
             if let Some(curve) = own {
@@ -107,8 +106,8 @@ impl Walk {
             *laws.legs.of_mut(joint) = scaled(&curve, joint, law.length_scale, gait.step_height);
             refuse_faults(laws.legs.of(joint), joint, &laws)?;
         }
-        report_range(law.speed(first.law_speed), leg_length, findings);
-        let initial = SteadyPace { walks: !stands, ..first.relative_to(&law) };
+        report_range(law.speed(law_speed), leg_length, findings);
+        let initial = SteadyPace { walks: !stands, ..relative_pace((law, law_speed), &law) };
         let plan = PacePlan::constant(law, initial, 0.0);
         let mut walk = Walk { plan, laws, elbow: arms::elbow(), gait: gait.clone(), machines_begin_s: 0.0 };
         if stands {
@@ -137,14 +136,14 @@ impl Walk {
             SteadyPace { walks: false, ..before }
         } else {
             let pace = self.gait.pace.with(change.speed, change.step_length, change.step_frequency);
-            let resolved = PaceOf { gait: &self.gait, leg_length: self.leg_length() }.walking(&pace)?;
-            let to = resolved.relative_to(self.plan.law());
+            let (law, law_speed) = at_pace(&self.gait, &pace, self.leg_length())?;
+            let to = relative_pace((law, law_speed), self.plan.law());
             for joint in LegJoint::ALL {
                 let curve = self.laws.legs.of(joint);
                 let longer = curve.mapped(|knot| knot.scaled_about(joint.neutral(), to.length));
                 refuse_faults(&longer, joint, &self.laws)?;
             }
-            report_range(resolved.law.speed(resolved.law_speed), self.leg_length(), findings);
+            report_range(law.speed(law_speed), self.leg_length(), findings);
             to
         };
         let paced = if before.walks { before } else { to };
@@ -527,34 +526,18 @@ fn between(standing: f64, walking: Jet, share: Jet) -> Jet {
     if share == Jet::constant(1.0) { walking } else { (walking - standing) * share + standing }
 }
 
-/// The paces of a gait on a leg.
-struct PaceOf<'a> {
-    gait: &'a Gait,
-    leg_length: f64,
+/// A pace of a gait in walking: the law of steps on this leg [m], and the speed at which it is evaluated.
+fn at_pace(gait: &Gait, pace: &Pace, leg_length: f64) -> Result<(StrideLaw, f64), GaitError> {
+    resolve(&Gait { pace: *pace, ..gait.clone() }, leg_length)
 }
 
-/// A pace in walking: a law of steps, and the speed at which it is evaluated.
-struct Resolved {
-    law: StrideLaw,
-    law_speed: f64,
-}
-
-impl PaceOf<'_> {
-    fn walking(&self, pace: &Pace) -> Result<Resolved, GaitError> {
-        let gait = Gait { pace: *pace, ..self.gait.clone() };
-        let (law, law_speed) = resolve(&gait, self.leg_length)?;
-        Ok(Resolved { law, law_speed })
-    }
-}
-
-impl Resolved {
-    fn relative_to(&self, law: &StrideLaw) -> SteadyPace {
-        SteadyPace {
-            law_speed: self.law_speed,
-            length: self.law.length_scale / law.length_scale,
-            cadence: self.law.cadence_scale / law.cadence_scale,
-            walks: true,
-        }
+/// The pace of a law at a speed, relative to the first law of a walk.
+fn relative_pace((law, law_speed): (StrideLaw, f64), first: &StrideLaw) -> SteadyPace {
+    SteadyPace {
+        law_speed,
+        length: law.length_scale / first.length_scale,
+        cadence: law.cadence_scale / first.cadence_scale,
+        walks: true,
     }
 }
 

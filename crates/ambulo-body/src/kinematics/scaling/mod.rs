@@ -13,7 +13,7 @@ mod measurement;
 mod protocol;
 mod standing;
 
-pub use joint_fit::{SizeSettings, SizedModel, fit_size};
+pub use joint_fit::{SizedModel, fit_size};
 pub use measurement::{DistanceMeasurement, MeasuredBody, measured_factors};
 pub use protocol::{MarkerPlacement, ProtocolTrials, ScalingProtocol, ScalingStep, fit_weights, scale_by_protocol};
 
