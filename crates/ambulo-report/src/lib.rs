@@ -46,8 +46,8 @@ pub use reproduction_page::reproduction_page;
 pub use scene_shapes::scene_shapes;
 pub use session::{
     ComparedSession, ComputedTrial, ExcludedSummary, ProfileSummary, ReferenceGroup, ReferenceGroupError,
-    RepresentativeSummary, SESSION_FORMAT, SESSION_PAGE, Session, SessionFacts, SessionSummary, SessionTrial, Spread,
-    TrialSummary, session_from_files,
+    RepresentativeSummary, SESSION_FORMAT, Session, SessionFacts, SessionSummary, SessionTrial, Spread, TrialSummary,
+    session_from_files,
 };
 pub use stage::quaternion;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
