@@ -114,11 +114,11 @@ fn angles_of_one_joint_are_the_coordinates_beside_the_constant_tilt() {
             assert_near(found.pelvic_tilt[0], STANDING_TILT + of(Movement::PelvicTilt, None), 1e-9, "tilt");
             assert_near(found.pelvic_obliquity[0], 0.0, 1e-9, "obliquity");
             for hip_side in Side::BOTH {
-                let [flexion, adduction, _] = found.hips[hip_side].as_ref().unwrap();
+                let [flexion, adduction, rotation] = found.hips[hip_side].as_ref().unwrap();
                 let expected = STANDING_TILT + of(Movement::HipFlexion, Some(hip_side));
                 assert_near(flexion[0], expected, 1e-9, "flexion relative to the tilted pelvis");
                 assert_near(adduction[0], 0.0, 1e-9, "adduction");
-                assert_near(hip.rotation[0], 0.0, 1e-9, "rotation");
+                assert_near(rotation[0], 0.0, 1e-9, "rotation");
             }
         }
         // Signs of the other planes: in a pelvis without offset they are the coordinates' own.

@@ -125,7 +125,7 @@ fn assert_comes_back(name: &str, subject: &Subject, from_stored_mm: f64) {
     for seed in 0..6 {
         let mut r = Random::new(seed);
         let (other, _) = disturbed(&subject.model, &mut r);
-        let sized = fit_size(&other, &subject.standing, settings, &mut Findings::default()).unwrap();
+        let sized = fit_size(&other, &subject.standing, mass, &mut Findings::default()).unwrap();
         let [before, after] = [sized.rms_before_m, sized.rms_m].map(|m| 1000.0 * m.unwrap());
         let (worst, place) = worst_length(&plain.model, &sized.model);
         println!(

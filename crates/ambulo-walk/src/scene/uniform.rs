@@ -24,8 +24,8 @@ struct Part {
     about_center: Mat3,
 }
 
-/// Mass centre [m] and inertia about it for a mass of 1 kg [m²], in the axes of the body. `None` if one of the shapes is
-/// convex, or there is none.
+/// Mass centre [m] and inertia about it for a mass of 1 kg [m²], in the axes of the body. `None` if one of the shapes
+/// is convex, or there is none.
 pub(super) fn uniform(shapes: &[ShapeEntry]) -> Option<(Vec3, Mat3)> {
     let parts: Option<Vec<Part>> = shapes.iter().map(part).collect();
     let parts = parts.filter(|parts| !parts.is_empty())?;

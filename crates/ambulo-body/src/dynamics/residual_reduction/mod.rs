@@ -146,7 +146,7 @@ fn problem<'a>(
     let mut recorded_feet: Vec<Vec<FootPose>> = Vec::with_capacity(region.frames.len());
     for frame in region.frames.clone() {
         instant.take(trajectory, frame);
-        recorded_feet.push(evaluator.evaluate(&mut workspace, &instant, &[]).feet);
+        recorded_feet.push(evaluator.evaluate(&mut workspace, &instant, &[]).1);
     }
     let weight = model.mass() * model.gravity().norm();
     let [force, moment] = [settings.residual_force_bw, settings.residual_moment_bw_m].map(|share| share * weight);
@@ -208,7 +208,7 @@ impl ReductionProblem<'_> {
         let mut away: Vec<Vec<[f64; 2]>> = vec![Vec::new(); self.evaluator.feet.len()];
         for (recorded_feet, frame) in self.recorded_feet.iter().zip(self.region.frames.clone()) {
             instant.take(changed, frame);
-            let places = self.evaluator.evaluate(&mut workspace, &instant, &[]).feet;
+            let (_, places) = self.evaluator.evaluate(&mut workspace, &instant, &[]);
             for (away, (place, before)) in away.iter_mut().zip(places.iter().zip(recorded_feet)) {
                 let [x, y, z, a, b, c] = place.displacement_from(before);
                 away.push([hypot(hypot(x, y), z), hypot(hypot(a, b), c)]);

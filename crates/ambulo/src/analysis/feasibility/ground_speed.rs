@@ -8,9 +8,9 @@ use crate::spatial::Vec3;
 /// A foot that carries more than this share of body weight moves with the ground.
 const STANDING_SHARE: f64 = 0.5;
 
-/// Estimates the ground velocity [m/s] from the loaded feet at their centres of pressure, as their median; on a treadmill
-/// they move back with the belt. With it comes the mean horizontal speed of the body's mass centre over the ground
-/// [m/s]. `None` if no foot ever carries half the weight.
+/// Estimates the ground velocity [m/s] from the loaded feet at their centres of pressure, as their median; on a
+/// treadmill they move back with the belt. With it comes the mean horizontal speed of the body's mass centre over the
+/// ground [m/s]. `None` if no foot ever carries half the weight.
 pub(in crate::analysis) fn over_ground(
     model: &Model,
     trajectory: &Trajectory,

@@ -47,8 +47,8 @@ pub(super) fn check(
     }
 }
 
-/// Mean offsets in single support [m], and its first and last time [s]: to the right of the middle of the feet; ahead of
-/// the balls or (negative) behind the heels, zero between them. `None` unless there is single support of each foot.
+/// Mean offsets in single support [m], and its first and last time [s]: to the right of the middle of the feet; ahead
+/// of the balls or (negative) behind the heels, zero between them. `None` unless there is single support of each foot.
 fn offsets(record: &Record, low_passed: &LowPassed) -> Option<([f64; 2], [f64; 2])> {
     let mut feet: [Vec<[f64; 3]>; 2] = [Vec::new(), Vec::new()];
     for instant in &low_passed.instants {
