@@ -281,6 +281,11 @@ impl Tool {
         }
     }
 
+    /// Whether its programs use a processor all the time.
+    pub(super) fn waits_little(self) -> bool {
+        !matches!(self, Tool::Npm | Tool::Python)
+    }
+
     fn command(self) -> Command {
         match self {
             Tool::Cargo | Tool::CargoForWasm | Tool::TestPrograms => workspace::cargo(),
