@@ -511,6 +511,7 @@ pub(crate) struct ViewBody {
 }
 
 /// A shape, lengths in metres.
+#[doc(hidden)] // for tests
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 #[cfg_attr(feature = "contract", derive(ts_rs::TS), ts(tag = "kind", rename_all = "lowercase"))]

@@ -13,7 +13,7 @@ mod ground_plane;
 mod joint_places;
 mod limb;
 mod part;
-mod path;
+pub(crate) mod path;
 mod person;
 mod scene;
 mod sound;
@@ -21,8 +21,8 @@ mod torque;
 mod trunk;
 
 pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
-pub(crate) use path::upward_to;
-pub use path::{BodyPath, quaternion};
+pub use path::quaternion;
+pub(crate) use path::{BodyPath, upward_to};
 
 use super::page::ViewShape;
 use ambulo::model::Side;
