@@ -1,10 +1,5 @@
 //! Presents results: clinical curves with normative data, figures, the report page, and exchange formats.
 
-#![cfg_attr(
-    test,
-    allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")
-)]
-
 mod batch;
 mod clinical;
 mod clinical_file;
@@ -22,13 +17,6 @@ mod stage;
 pub mod style;
 mod sweep;
 mod validation;
-
-/// For the tests of results and pages.
-#[doc(hidden)]
-pub mod internals {
-    pub use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
-    pub use crate::normative::{BAND_SAMPLES, NormalRange, band, dimensionless_speed, time_distance};
-}
 
 pub use batch::{BATCH_QUANTITIES, BatchQuantity, BatchTrial, batch_page};
 pub use clinical_file::clinical_file;
@@ -52,3 +40,35 @@ pub use session::{
 pub use stage::quaternion;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
 pub use validation::{ListedTrial, listed_section, validation_files};
+
+/// For the tests of this crate.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
+    pub use crate::exchange::glb::mesh::Triangles;
+    pub use crate::exchange::glb::{METRES_PER_NEWTON, glb};
+    pub use crate::figures::axes::{
+        Labels, Ticks, number_text as axis_number, range as axis_range, round_labels, ticks as axis_ticks, with_power,
+    };
+    pub use crate::figures::moving_picture::moving_picture;
+    pub use crate::figures::session_panels::{
+        LineLook, PanelArea, PanelLine, SessionFigure, SessionPanel, SessionSample,
+    };
+    pub use crate::figures::sheet::wrapped;
+    pub use crate::figures::svg::{
+        Drawing, Stroke, escaped as escaped_xml, short as two_decimals, text_width, without_zeros,
+    };
+    pub use crate::html::escaped as escaped_html;
+    pub use crate::normative::{BAND_SAMPLES, Bands, NormalRange, band, dimensionless_speed, time_distance};
+    pub use crate::page::session::cells::number;
+    pub use crate::page::session::extracted::{Part, Read};
+    pub use crate::page::session::feasibility::basis::percent;
+    pub use crate::page::session::glance::Deviation;
+    pub use crate::page::session::pace::{asked, mean_speed};
+    pub use crate::page::session::words::in_words;
+    #[cfg(feature = "contract")]
+    pub use crate::page::typescript::contract;
+    pub use crate::session::quantities::{ANGLES as SESSION_ANGLES, SessionQuantity, all as session_quantities};
+    pub use crate::stage::path::BodyPath;
+    pub use crate::stage::{ForceRole, Stage, StageBody, StageContact, StageForce, StagePlate, StageTorque};
+}

@@ -3,7 +3,7 @@
 //! results as one long table.
 
 mod folder;
-mod glb;
+pub(crate) mod glb;
 mod laboratory;
 mod long_table;
 mod markers;

@@ -107,30 +107,3 @@ fn panels(columns: &[(String, &'static str)]) -> Vec<LivePanel> {
     let moments = MOMENTS.iter().filter_map(|(title, start)| panel(title, &|side| format!("{start}{side}_moment")));
     ground.chain(moments).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ambulo::model::anthropometry::{Build, SegmentTable};
-    use ambulo_results::stream_columns;
-
-    #[test]
-    fn the_page_names_the_columns_of_arrows_and_curves() {
-        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-        let model = build.human().unwrap().model;
-        let columns = stream_columns(&model);
-        let html = live_page(&model, &columns, 200.0, 70.0).unwrap();
-        assert!(html.contains("id=\"ambulo-live\"") && html.contains("connect-src 'self'"));
-        let panels = panels(&columns);
-        let titles: Vec<&str> = panels.iter().map(|panel| panel.title.as_str()).collect();
-        assert_eq!(titles.len(), FORCES.len() + MOMENTS.len(), "{titles:?}");
-        for curve in panels.iter().flat_map(|panel| &panel.curves) {
-            let name = &columns[curve.column].0;
-            assert_eq!(name.contains("_r_"), curve.side == PageSide::R, "{name}");
-            assert_eq!(curve.sd.is_some(), name.starts_with("ground_force"), "{name}");
-        }
-        let [right, left] = forces(&columns).try_into().unwrap();
-        assert_eq!(columns[right.force[1]].0, "ground_force_r_vy");
-        assert_eq!(columns[left.point[2]].0, "ground_force_l_pz");
-    }
-}

@@ -7,8 +7,10 @@
 mod block;
 mod contract;
 mod live;
-mod session;
+pub(crate) mod session;
 mod shell;
+#[cfg(feature = "contract")]
+pub(crate) mod typescript;
 mod view;
 
 use ambulo_results::{Folder, ResultsError};

@@ -15,7 +15,7 @@
 mod differences;
 mod norms;
 mod page;
-mod quantities;
+pub(crate) mod quantities;
 mod reference_group;
 mod summary;
 mod tables;
