@@ -20,6 +20,7 @@ mod optimal_passage;
 mod optimal_predict;
 mod optimal_problem;
 mod optimal_refine;
+mod scene_instants;
 mod tuning;
 mod tuning_gain;
 mod tuning_outcome;

@@ -16,10 +16,9 @@
 //! closures are then of second order in h. A midpoint step has velocities at t, and springs and motors have their
 //! laws at t; forces of contact, limits and dry friction are means of the step. A Runge-Kutta step has all of them at t.
 //!
-//! Where a drive gives way, follows targets that a machine computes from step to step, or turns a ball joint, where a
-//! loop is being closed, and where the step was not solved, forces are the plain multipliers of the step.
+//! Where a drive gives way, follows targets that a machine computes from step to step, or turns a ball joint, where a loop is being closed, and where the solver did not converge, forces are the plain multipliers of the step.
 //!
-//! Pinned by: crates/ambulo/tests/simulation_instants.rs
+//! Pinned by: tests/scene_instants.rs
 
 use super::forces::StepForces;
 use super::joint::JointKind;
@@ -29,12 +28,15 @@ use super::signal::Signal;
 use super::smooth::{Known, KnownEffort, balance, mean_rates, rates_at};
 use super::state::{RowKey, WorldState};
 use super::workspace::{Integrator, StepKind, StepSettings, StepWorkspace};
-use super::world::{Owner, TreeJoint, World};
+use super::world::{JointDrive, Owner, TreeJoint, World};
 use crate::dynamics::LinkError;
 use crate::spatial::{Twist, Vec3};
 
 /// Surfaces that approach faster than gravity makes them in this many steps collide.
 const COLLISION_STEPS: f64 = 10.0;
+
+/// A coordinate that is farther from its drive is not where the drive prescribes [rad, m].
+const ON_DRIVE: f64 = 1e-6;
 
 /// A step that was taken, and the states around it.
 pub(crate) struct StepTaken<'a> {
@@ -75,6 +77,9 @@ impl StepTaken<'_> {
         let mut here = self.before.clone();
         let StepWorkspace { equations, solver, .. } = probe;
         balance(self.world, &mut here, rates, &known, &self.settings.solver, solver, equations)?;
+        if !equations.solution.convergence.converged {
+            return Ok(Row { state, forces });
+        }
         // Positions are those of the step to the last bit.
         state.twists = here.twists;
         (probe.step_s, probe.halfway) = (1.0, false);
@@ -98,7 +103,17 @@ impl StepTaken<'_> {
         let w = self.workspace;
         let plain = w.kind == StepKind::Smooth || w.yielded || !forces.convergence.converged;
         let closes = || has_new_loop(self.world, self.before) || still_closing(self.world, self.before);
-        !plain && !self.world.joints.iter().any(has_rough_drive) && !closes()
+        !plain && !self.world.joints.iter().any(has_rough_drive) && self.keeps_drives() && !closes()
+    }
+
+    /// Whether driven coordinates have the values of their drives: one that gave way may still have to catch up.
+    fn keeps_drives(&self) -> bool {
+        self.world.joints.iter().zip(&self.before.coordinates).all(|(joint, values)| {
+            joint.coordinates.iter().zip(values).all(|(acting, value)| {
+                let off = |drive: &JointDrive| (drive.signal.at(self.before.time_s)[0] - value).abs();
+                acting.drive.as_ref().is_none_or(|drive| off(drive) < ON_DRIVE)
+            })
+        })
     }
 
     /// Efforts along undriven coordinates that replace the laws of springs and motors, if the step has its own.

@@ -13,6 +13,7 @@ use super::names::{Attachment, ContactPartner};
 use super::output::Outputs;
 use super::placement::{order, place};
 use super::recorder::Recorder;
+use super::solver::IntegratorReason;
 use super::sources::{InputFiles, ReadFile};
 use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
@@ -37,6 +38,7 @@ pub struct Scene {
     pub(super) world: World,
     pub(super) state: WorldState,
     pub(super) settings: StepSettings,
+    pub(super) integrator_reason: IntegratorReason,
     pub(super) duration_s: f64,
     pub(super) output_rate_hz: f64,
     pub(super) outputs: Outputs,
@@ -135,6 +137,7 @@ impl Scene {
         let watch = EnergyWatch::new(&world, &state).filter(|_| file.events.is_empty());
         Ok(Scene {
             settings,
+            integrator_reason: file.integrator_reason,
             watch,
             duration_s,
             output_rate_hz: file.output_rate_hz.min(1.0 / changes.step_s.unwrap_or(file.step_s)),

@@ -6,6 +6,7 @@ use super::file::MOST_STEPS;
 use super::model_figure::PlacedFigure;
 use super::output::Outputs;
 use super::recorder::{FigureRecord, Recorder};
+use super::solver::IntegratorReason;
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::engine::energy::{Energy, energy};
 use crate::engine::figure_tree::{FigurePlace, FigureTree};
@@ -126,6 +127,12 @@ impl Scene {
     #[must_use]
     pub fn settings(&self) -> &StepSettings {
         &self.settings
+    }
+
+    /// Why the steps have their integrator.
+    #[must_use]
+    pub fn integrator_reason(&self) -> IntegratorReason {
+        self.integrator_reason
     }
 
     /// Time at which the scene ends [s].
