@@ -71,7 +71,8 @@ impl Linkage {
         let free: Nine = std::array::from_fn(|k| if k % 3 == 1 { -STANDARD_GRAVITY } else { 0.0 });
         // Step 2: their accelerations along each constraint are its errors.
         let errors: Nine = std::array::from_fn(|k| dot(&rows[k].0, &free) + rows[k].1);
-        // Step 3: forces that cancel the errors, J M⁻¹ Jᵀ λ = -errors, by the conjugate gradient of Fletcher and Reeves.
+        // Step 3: forces that cancel the errors, J M⁻¹ Jᵀ λ = -errors, by the conjugate gradient of Fletcher and
+        // Reeves.
         let mut left = errors.map(|error| -error);
         let (mut lambda, mut along, least) = ([0.0; 9], left, 1e-32 * dot(&errors, &errors));
         for _ in 0..100 {

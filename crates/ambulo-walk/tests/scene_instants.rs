@@ -1,7 +1,8 @@
 //! Rows of a scene belong to their instant: efforts, energies, and which integrator a scene has.
 //!
-//! The arm has two uniform links and hangs at angles of zero. Lagrange's equations of its angles q and r, with the masses m,
-//! half lengths c, moments of inertia I, and a = I₁ + I₂ + m₁ c₁² + m₂ (l₁² + c₂²), b = m₂ l₁ c₂, d = I₂ + m₂ c₂²:
+//! The arm has two uniform links and hangs at angles of zero. Lagrange's equations of its angles q and r, with the
+//! masses m, half lengths c, moments of inertia I, and a = I₁ + I₂ + m₁ c₁² + m₂ (l₁² + c₂²), b = m₂ l₁ c₂ and
+//! d = I₂ + m₂ c₂²:
 //!
 //!   τ₁ = (a + 2 b cos r) q̈ + (d + b cos r) r̈ - b sin r (2 q̇ ṙ + ṙ²) + (m₁ c₁ + m₂ l₁) g sin q + m₂ c₂ g sin(q + r)
 //!   τ₂ = (d + b cos r) q̈ + d r̈ + b sin r q̇² + m₂ c₂ g sin(q + r)
@@ -34,8 +35,8 @@ fn arm(integrator: Integrator, step_s: f64, duration_s: f64, acting: [&str; 2]) 
     };
     let joint = |name: &str, parent: &str, k: usize, y: f64| {
         format!(
-            "[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\nparent = \"{parent}\"\nchild = \"{k}\"\nat = [0, {y}, 0]\n\
-             axis = [0, 0, 1]\ncoordinate = {{ {} }}\n",
+            "[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\nparent = \"{parent}\"\nchild = \"{k}\"\nat = \
+             [0, {y}, 0]\naxis = [0, 0, 1]\ncoordinate = {{ {} }}\n",
             acting[k]
         )
     };
@@ -134,8 +135,8 @@ fn the_efforts_of_a_row_are_those_of_inverse_dynamics_at_its_time_in_all_integra
             .map(|h| worst(&multipliers(&mut driven(integrator, h, 1.2), (1.2 / h).round() as usize), 0.0));
         let order = |coarse: f64, fine: f64| (coarse / fine).log2();
         println!(
-            "{}: rows off by {:.1e}, {:.1e}, {:.1e} of the largest moment at 4, 2, 1 ms (half a step earlier: {:.1e} at \
-             1 ms); multipliers of the steps by {:.1e}, {:.1e}, {:.1e}, order {:.2}, {:.2}",
+            "{}: rows off by {:.1e}, {:.1e}, {:.1e} of the largest moment at 4, 2, 1 ms (half a step earlier: {:.1e} \
+             at 1 ms); multipliers of the steps by {:.1e}, {:.1e}, {:.1e}, order {:.2}, {:.2}",
             integrator.word(),
             errors[0][0],
             errors[1][0],

@@ -514,7 +514,8 @@ fn a_driven_figure_needs_the_efforts_of_inverse_dynamics() {
         println!("{method}, {late} frames late, {figure:?}: differs by {worst:.2e} of a coordinate's largest force");
         worst
     };
-    // The same equations at the time of the row: rounding of sums of some hundred terms. Impulses place the bodies by steps.
+    // The same equations at the time of the row: rounding of sums of some hundred terms. Impulses place the bodies by
+    // steps.
     assert!(worst("runge-kutta", 0, "") < 1e-12 && worst("runge-kutta", 0, moved) < 1e-12);
     assert!(worst("impulse", 0, "") < 1e-9);
     // A time that is off by half a step of this unfiltered recording shows.

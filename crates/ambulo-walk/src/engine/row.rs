@@ -5,18 +5,20 @@
 //!
 //!   M (v(t + h/2) - v(t - h/2))/h = f + Jᵀ λ/h          M, J, f at x(t)
 //!
-//! so that forces of contact, springs, motors, limits and friction belong to t. The turning of the joints' axes does not:
-//! v(t - h/2) has the axes of a step before, which moves the centripetal and Coriolis parts of the forces back by half a
-//! step. A row therefore has
+//! so that forces of contact, springs, motors, limits and friction belong to t. The turning of the joints' axes does
+//! not: v(t - h/2) has the axes of a step before, which moves the centripetal and Coriolis parts of the forces back by
+//! half a step. A row therefore has
 //!
 //!   q̇(t) = (q̇(t - h/2) + q̇(t + h/2))/2                     of a drive: the rate of its signal
 //!   M (S q̈ + w) = f + (known forces) + Jᵀ λ                   w: velocity products at q̇(t), of a drive also q̈(t)
 //!
-//! with the forces of the step on contact points and along undriven coordinates as known ones. Forces of joints, drives and
-//! closures are then of second order in h. A midpoint step has velocities at t, and springs and motors have their
-//! laws at t; forces of contact, limits and dry friction are means of the step. A Runge-Kutta step has all of them at t.
+//! with the forces of the step on contact points and along undriven coordinates as known ones. Forces of joints, drives
+//! and closures are then of second order in h. A midpoint step has velocities at t, and springs and motors have their
+//! laws at t; forces of contact, limits and dry friction are means of the step. A Runge-Kutta step has all of them at
+//! t.
 //!
-//! Where a drive gives way, follows targets that a machine computes from step to step, or turns a ball joint, where a loop is being closed, and where the solver did not converge, forces are the plain multipliers of the step.
+//! Where a drive gives way, follows targets that a machine computes from step to step, or turns a ball joint, where a
+//! loop is being closed, and where the solver did not converge, forces are the plain multipliers of the step.
 //!
 //! Pinned by: tests/scene_instants.rs
 

@@ -147,9 +147,9 @@ pub struct StepWorkspace {
 }
 
 impl StepWorkspace {
-    /// The forces of the last step. Those of [`Integrator::Impulse`] and [`Integrator::RungeKutta`] belong to its start,
-    /// those of [`Integrator::Midpoint`] to its middle. The centripetal and Coriolis parts of joint forces in a step of
-    /// impulses belong to half a step earlier; frames of a scene have all at one instant.
+    /// The forces of the last step. Those of [`Integrator::Impulse`] and [`Integrator::RungeKutta`] belong to its
+    /// start, those of [`Integrator::Midpoint`] to its middle. The centripetal and Coriolis parts of joint forces in a
+    /// step of impulses belong to half a step earlier; frames of a scene have all at one instant.
     #[must_use]
     pub fn forces(&self, world: &World) -> StepForces {
         let (graph, h) = (&self.equations.assembly.graph, self.step_s);

@@ -390,7 +390,8 @@ impl Scene {
     }
 
     /// Value, rate and generalised force [N.m or N] of every coordinate of each figure's model, from the forces of a
-    /// frame. The force is zero for joints without constraint or drive; values of figures from a model file are those of the recording.
+    /// frame. The force is zero for joints without constraint or drive; values of figures from a model file are those
+    /// of the recording.
     #[must_use]
     pub fn generalized_forces(&self, forces: &StepForces) -> Vec<Vec<[f64; 3]>> {
         self.walkers.iter().map(|walker| self.of_walker(walker, forces)).collect()
