@@ -72,7 +72,7 @@ pub(super) fn needs_impulses(world: &World) -> bool {
 }
 
 /// Whether anything prescribes the motion of a body: its velocities at the end of a step are then no result of forces.
-fn is_driven(world: &World) -> bool {
+pub(super) fn is_driven(world: &World) -> bool {
     world.joints.iter().any(|joint| joint.follows.is_some() || joint.coordinates.iter().any(|c| c.drive.is_some()))
 }
 

@@ -24,7 +24,7 @@
 
 use super::forces::StepForces;
 use super::joint::JointKind;
-use super::midpoint::{has_new_loop, needs_impulses};
+use super::midpoint::{has_new_loop, is_driven, needs_impulses};
 use super::projection::still_closing;
 use super::signal::Signal;
 use super::smooth::{Known, KnownEffort, balance, mean_rates, rates_at};
@@ -68,8 +68,9 @@ impl StepTaken<'_> {
             true => mean_rates(self.world, self.before, &self.after.twists),
             false => rates_at(self.world, self.before),
         };
+        let keeps = self.keeps_velocities();
         if !self.is_balanced(&forces) {
-            if self.lags() {
+            if self.lags() && !keeps {
                 let pairs = state.twists.iter_mut().zip(&self.after.twists);
                 pairs.for_each(|(now, later)| *now = mean(now, later));
             }
@@ -83,7 +84,9 @@ impl StepTaken<'_> {
             return Ok(Row { state, forces });
         }
         // Positions are those of the step to the last bit.
-        state.twists = here.twists;
+        if !keeps {
+            state.twists = here.twists;
+        }
         (probe.step_s, probe.halfway) = (1.0, false);
         probe.contact.touch.clear();
         let StepForces { joints, efforts, closures, closing, .. } = probe.forces(self.world);
@@ -98,6 +101,14 @@ impl StepTaken<'_> {
             Integrator::RungeKutta => false,
         };
         impulses && !self.begins && !self.collides()
+    }
+
+    /// Whether the row has the velocities of the step before: passive bodies that may touch. With these their energy
+    /// never rises; the mean over a collision would be that of no instant.
+    fn keeps_velocities(&self) -> bool {
+        let mut owners = self.world.surfaces.iter().map(|surface| surface.owner);
+        let first = owners.next();
+        !is_driven(self.world) && owners.any(|owner| Some(owner) != first)
     }
 
     /// Whether forces at the instant follow from the forces of the step on contact points and along coordinates.

@@ -10,7 +10,7 @@ use super::material::{self, MaterialEntry};
 use super::names::{ContactPartner, Item, Names};
 use super::obstacle::ObstacleEntry;
 use super::output::{self, AllNames, Outputs};
-use super::solver::{IntegratorReason, read_impact, read_integrator, read_solver};
+use super::solver::{IntegratorReason, STICKING, read_impact, read_integrator, read_solver};
 use super::tree;
 use crate::dynamics::SolverSettings;
 use crate::engine::{ImpactLaw, Integrator};
@@ -124,7 +124,12 @@ impl SceneFile {
         let of_scene = || {
             let carriers = bodies.iter().filter(|body| !body.shapes.is_empty()).count();
             let is_driven = |joint: &JointEntry| joint.coordinates.iter().any(|c| c.drive.is_some());
-            match (figures.is_empty() && !joints.iter().any(is_driven), carriers > 0, carriers + obstacles.len() > 1) {
+            let sticks = root.get("impact").is_some_and(|value| value.text().is_ok_and(|word| word == STICKING));
+            match (
+                figures.is_empty() && !joints.iter().any(is_driven),
+                sticks || carriers > 0,
+                sticks || carriers + obstacles.len() > 1,
+            ) {
                 (false, ..) => IntegratorReason::Driven,
                 (true, true, true) => IntegratorReason::MayTouch,
                 _ => IntegratorReason::FreeMotion,

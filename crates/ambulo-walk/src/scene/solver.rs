@@ -33,6 +33,9 @@ impl IntegratorReason {
     }
 }
 
+/// The impact law that only steps of impulses have.
+pub(super) const STICKING: &str = "sticking";
+
 /// The integrator of the file, or the one that fits the scene.
 pub(super) fn read_integrator(
     root: &Table<'_>,
@@ -50,7 +53,7 @@ pub(super) fn read_integrator(
 
 /// Reads the impact law; `sticking` requires the integrator `impulse`.
 pub(super) fn read_impact(root: &Table<'_>, integrator: Integrator) -> Result<ImpactLaw, SceneError> {
-    let words = [("coulomb", ImpactLaw::Coulomb), ("sticking", ImpactLaw::Sticking)];
+    let words = [("coulomb", ImpactLaw::Coulomb), (STICKING, ImpactLaw::Sticking)];
     let Some(value) = root.get("impact") else { return Ok(ImpactLaw::Coulomb) };
     let impact = value.choice(&words)?;
     if impact == ImpactLaw::Sticking && integrator != Integrator::Impulse {
