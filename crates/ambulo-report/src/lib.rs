@@ -6,13 +6,13 @@
 )]
 
 mod batch;
-pub mod clinical;
+mod clinical;
 mod clinical_file;
 mod exchange;
 mod figure_files;
 pub mod figures;
 mod html;
-pub mod normative;
+mod normative;
 pub mod page;
 mod reproduction;
 mod reproduction_page;
@@ -23,12 +23,19 @@ pub mod style;
 mod sweep;
 mod validation;
 
+/// For the tests of results and pages.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
+    pub use crate::normative::{BAND_SAMPLES, NormalRange, band, dimensionless_speed, time_distance};
+}
+
 pub use batch::{BATCH_QUANTITIES, BatchQuantity, BatchTrial, batch_page};
 pub use clinical_file::clinical_file;
 pub use exchange::{
-    ExchangeError, Glb, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,
-    glb_of_motion, ground_reactions, laboratory_recording, marker_paths, rig_of_folder, skeleton_of,
-    standing_recording, table_of_markers, trc_of_markers,
+    ExchangeError, GroundReactions, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder, glb_of_motion,
+    ground_reactions, laboratory_recording, marker_paths, rig_of_folder, skeleton_of, standing_recording,
+    table_of_markers, trc_of_markers,
 };
 pub use figure_files::{figure_files, outcome_figures};
 #[doc(hidden)]
@@ -39,8 +46,8 @@ pub use reproduction_page::reproduction_page;
 pub use scene_shapes::scene_shapes;
 pub use session::{
     ComparedSession, ComputedTrial, ExcludedSummary, ProfileSummary, ReferenceGroup, ReferenceGroupError,
-    RepresentativeSummary, SESSION_FORMAT, SESSION_PAGE, Session, SessionFacts, SessionSummary, SessionTrial, Spread,
-    TrialSummary, session_from_files,
+    RepresentativeSummary, SESSION_FORMAT, Session, SessionFacts, SessionSummary, SessionTrial, Spread, TrialSummary,
+    session_from_files,
 };
 pub use stage::quaternion;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};

@@ -234,10 +234,9 @@ impl Bands {
         let mut read: Vec<(&'static str, Curves)> =
             MEASURED.iter().map(|name| (*name, Curves { mean: unknown, sd: unknown })).collect();
         for line in curves.lines().skip(1) {
-            let (place, numbers) = curve(line, &speeds).ok_or_else(|| {
+            let ((quantity, is_sd, speed), numbers) = curve(line, &speeds).ok_or_else(|| {
                 format!("found the line `{line}`; expected quantity, mean or sd, speed, {BAND_SAMPLES} numbers")
             })?;
-            let CurvePlace { quantity, is_sd, speed } = place;
             let Curves { mean, sd } = &mut read[quantity].1;
             *(if is_sd { &mut sd[speed] } else { &mut mean[speed] }) = numbers;
         }
@@ -256,16 +255,9 @@ struct TimesFile {
     time: Times,
 }
 
-/// Which curve a line of `schwartz2008_curves.csv` has.
-struct CurvePlace {
-    /// Place in [`MEASURED`].
-    quantity: usize,
-    is_sd: bool,
-    /// Place among the speeds.
-    speed: usize,
-}
-
-fn curve(line: &str, speeds: &[f64; SPEEDS]) -> Option<(CurvePlace, [f64; BAND_SAMPLES])> {
+/// The numbers of a line of `schwartz2008_curves.csv`, and which curve they are: place in [`MEASURED`], whether it is
+/// the standard deviation, and place among the speeds.
+fn curve(line: &str, speeds: &[f64; SPEEDS]) -> Option<((usize, bool, usize), [f64; BAND_SAMPLES])> {
     let mut cells = line.split(',');
     let name = cells.next()?;
     let quantity = MEASURED.iter().position(|known| *known == name)?;
@@ -277,7 +269,7 @@ fn curve(line: &str, speeds: &[f64; SPEEDS]) -> Option<(CurvePlace, [f64; BAND_S
     let speed = cells.next()?.parse::<f64>().ok()?;
     let speed = speeds.iter().position(|known| known.to_bits() == speed.to_bits())?;
     let numbers: Vec<f64> = cells.map(str::parse).collect::<Result<_, _>>().ok()?;
-    Some((CurvePlace { quantity, is_sd, speed }, numbers.try_into().ok()?))
+    Some(((quantity, is_sd, speed), numbers.try_into().ok()?))
 }
 
 #[cfg(test)]

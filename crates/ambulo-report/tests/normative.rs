@@ -1,7 +1,8 @@
 //! Normative bands: values of the source, interpolated between its speeds, with the signs of the panels.
 
-use ambulo_report::clinical::{ClinicalNames, clinical_quantities};
-use ambulo_report::normative::{BAND_SAMPLES, NormalRange, band, dimensionless_speed, time_distance};
+use ambulo_report::internals::{
+    BAND_SAMPLES, ClinicalNames, NormalRange, band, clinical_quantities, dimensionless_speed, time_distance,
+};
 use ambulo_results::Convention;
 
 /// Dimensionless speeds that were measured.

@@ -9,31 +9,19 @@ use super::contract::{
 };
 use super::shell::{self, Kind};
 use super::view::drawn;
+use crate::exchange::ExchangeError;
 use crate::stage::{ForceRole, Stage, StageForce};
 use ambulo::findings::Findings;
-use ambulo::kinematics::{Trajectory, TrajectoryError};
+use ambulo::kinematics::Trajectory;
 use ambulo::model::{Model, Side};
 use ambulo::motion::{SmoothMotion, TimeGrid};
 use ambulo::spatial::Vec3;
-use ambulo_results::ResultsError;
 
 /// Joint moments with a panel: title and beginning of the coordinate's name.
 const MOMENTS: [(&str, &str); 3] =
     [("Hip flexion moment", "hip_flexion_"), ("Knee moment", "knee_angle_"), ("Ankle moment", "ankle_angle_")];
 /// Ground forces with a panel: title and end of the column's name.
 const FORCES: [(&str, &str); 2] = [("Ground force, up", "vy"), ("Ground force, forward", "vx")];
-
-/// Why there is no page of a motion that is arriving.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum LivePageError {
-    /// The default posture of the model is not possible.
-    #[error(transparent)]
-    Trajectory(#[from] TrajectoryError),
-    /// The data of the page cannot be written.
-    #[error(transparent)]
-    Results(#[from] ResultsError),
-}
 
 /// The page of a model whose results have these columns, at a frame rate [Hz] and with a delay [ms].
 ///
@@ -44,7 +32,7 @@ pub fn live_page(
     columns: &[(String, &'static str)],
     rate_hz: f64,
     delay_ms: f64,
-) -> Result<String, LivePageError> {
+) -> Result<String, ExchangeError> {
     let motion = SmoothMotion {
         grid: TimeGrid { start_s: 0.0, step_s: 0.0, frames: 1 },
         columns: vec![None; model.coordinates().len()],

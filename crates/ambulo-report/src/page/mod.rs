@@ -16,7 +16,7 @@ use contract::FORMAT;
 
 pub use block::Block;
 pub use contract::*;
-pub use live::{LivePageError, live_page};
+pub use live::live_page;
 
 /// Writes `report.html` for a folder, compared with up to two other folders.
 ///
