@@ -66,6 +66,7 @@ pub(crate) mod forces;
 mod impact;
 mod impulse;
 pub(crate) mod projection;
+pub(crate) mod row;
 mod smooth;
 pub(crate) mod soles;
 pub(crate) mod start;

@@ -83,5 +83,6 @@ pub use run::{RunError, RunStatistics, SceneFrame};
 pub use saved::SavedState;
 #[doc(hidden)]
 pub use shape::{ShapeEntry, Solid};
+pub use solver::IntegratorReason;
 #[doc(hidden)]
 pub use sources::ReadFile;

@@ -85,6 +85,7 @@ impl Scene {
         let counts = |list: &[Vec<f64>]| format!("{:?}", list.iter().map(Vec::len).collect::<Vec<_>>());
         agree("the joints' numbers of coordinates are", &counts(&saved.coordinates), &counts(&self.state.coordinates))?;
         (self.steps, self.fired) = (saved.steps, saved.events);
+        self.resumed = saved.steps;
         for (closure, (active, first, second)) in self.world.closures.iter_mut().zip(&saved.closures) {
             closure.active = *active;
             (closure.first_from_joint, closure.second_from_joint) = (pose(first), pose(second));
