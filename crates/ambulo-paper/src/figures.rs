@@ -275,7 +275,7 @@ fn vertical(set: FigureSet, evidence: &Evidence) -> PaperFigure {
             (mean + sign * deviation).max(0.0)
         }),
     };
-    let measured = line("Schwartz 2008, mean; thin lines: ± SD", stances(weight, &|at| measured_vertical(at)[0]));
+    let measured = line("Schwartz 2008, children, scaled to 80 kg: mean; thin lines: ± SD", stances(weight, &|at| measured_vertical(at)[0]));
     let panel = |title: &str, series| PaperPanel {
         title: title.to_owned(),
         x_label: "stance (%)",
@@ -291,7 +291,7 @@ fn vertical(set: FigureSet, evidence: &Evidence) -> PaperFigure {
         name: set.named("figure5", "corrected_figure5"),
         title: "Action on the ground during stance: measured (a) and computed (b), 80 kg".into(),
         panels: vec![
-            panel("(a) measured, children, scaled to 80 kg", vec![measured, band(1.0), band(-1.0)]),
+            panel("(a) measured", vec![measured, band(1.0), band(-1.0)]),
             panel("(b) computed", computed.into_iter().chain([faint]).collect()),
         ],
     }

@@ -208,28 +208,27 @@ impl Figure {
             format!("<p><b>\u{201c}{}\u{201d}</b></p>", escaped(self.caption)),
             paragraph("", &quoted(self.sentence)),
             paragraph("soft", self.here),
-            list,
         ];
-        boxed(&format!("Figure {number}"), &format!("figure{number}"), &words.concat(), files)
+        boxed(&format!("Figure {number}"), &format!("figure{number}"), &words.concat(), &list, files)
     }
 
     /// The same figure of the corrected mode.
     fn corrected_section(&self, files: &[OutputFile<'_>]) -> String {
         let number = self.number;
         let title = format!("Figure {number}, corrected walk");
-        boxed(&title, &format!("corrected_figure{number}"), &paragraph("", self.corrected), files)
+        boxed(&title, &format!("corrected_figure{number}"), &paragraph("", self.corrected), "", files)
     }
 }
 
-/// A figure with words beside it.
-fn boxed(title: &str, name: &str, words: &str, files: &[OutputFile<'_>]) -> String {
+/// A figure with words beside it and a list below.
+fn boxed(title: &str, name: &str, words: &str, list: &str, files: &[OutputFile<'_>]) -> String {
     let picture = match svg_of(files, &format!("figures/{name}.svg")) {
         Some(svg) => svg.replacen("<svg ", &format!("<svg aria-label=\"{title} as computed here\" "), 1),
         None => format!("{title} could not be drawn."),
     };
     format!(
         "<section class=\"figure\" aria-label=\"{title}\">\n<div>\n<h3>{title}</h3>\n{words}\n<p \
-         class=\"soft\">Numbers: figures/{name}.csv</p>\n</div>\n<div class=\"picture\">{picture}</div>\n</section>\n"
+         class=\"soft\">Numbers: figures/{name}.csv</p>\n</div>\n<div class=\"picture\">{picture}</div>\n{list}</section>\n"
     )
 }
 

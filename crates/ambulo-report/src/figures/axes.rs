@@ -57,6 +57,8 @@ pub(super) const ABOVE: f64 = 14.0;
 pub(super) const BELOW: f64 = 22.0;
 pub(super) const BELOW_NAMELESS: f64 = 12.0;
 const TICK: f64 = 2.5;
+/// Letters of the font that a browser has may be wider than those of the style's first font by this factor.
+const WIDER: f64 = 1.15;
 /// Bold text is wider by this factor.
 const BOLD: f64 = 1.07;
 /// Numbers up to this size are written in full; larger and much smaller ones share a power of ten.
@@ -156,8 +158,9 @@ impl<'a> Axes<'a> {
         let quiet = |size, anchor| Letters::plain(size, &style.quiet.color, anchor);
         let upwards = |anchor| Letters { upwards: true, ..quiet(font.note_pt, anchor) };
         let (start, line) = (left - LEFT + 2.0, top - 4.5 - words.legend_height);
-        let size_in = |room: f64| font.panel_pt.min(room / (BOLD * text_width(words.title, 1.0)).max(f64::MIN_POSITIVE));
-        let beside = size_in(right - start - text_width(&unit_text, font.label_pt) - 4.0);
+        let width = WIDER * BOLD * text_width(words.title, 1.0);
+        let size_in = |room: f64| font.panel_pt.min(room / width.max(f64::MIN_POSITIVE));
+        let beside = size_in(right - start - WIDER * text_width(&unit_text, font.label_pt) - 4.0);
         // A unit that has no place beside a long title stands along the axis.
         let is_beside = beside >= font.note_pt || words.directions != [""; 2];
         let size = if is_beside { beside } else { size_in(right - start) }.max(font.note_pt);
