@@ -74,6 +74,8 @@ pub struct Claim {
     pub note: String,
     /// The criterion before it was changed, and its judgement of the same walks.
     pub former: Option<FormerJudgement>,
+    /// Why the claim fails, with an experiment that shows it ([`add_experiments`](super::add_experiments)).
+    pub experiment: Option<String>,
 }
 
 /// The judgement by a criterion that was changed.
@@ -156,7 +158,7 @@ impl Statement {
             reason: former.reason,
         });
         let Statement { id, kind, paper, criterion, headline, .. } = *self;
-        Claim { id, kind, paper, criterion, headline, paper_mode, corrected, pass, note, former }
+        Claim { id, kind, paper, criterion, headline, paper_mode, corrected, pass, note, former, experiment: None }
     }
 
     /// The judgement in the paper's mode alone.

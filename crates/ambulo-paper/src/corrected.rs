@@ -6,7 +6,9 @@
 
 use super::error::ReproductionError;
 use super::mode::{Footwear, Run, TrialSettings};
-use super::paper_human::sum_of_radii;
+use super::paper_human::{rebuilt, sum_of_radii};
+use super::paper_settings::PaperSettings;
+use super::setting::Setting;
 use ambulo_body::findings::Findings;
 use ambulo_body::model::anthropometry::{Build, Human};
 use ambulo_walk::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
@@ -17,6 +19,8 @@ use ambulo_walk::walking::{GroundContact, Shoes};
 /// The corrected mode. A walk is made consistent once and kept for the requests that differ in shoes, rate or friction.
 #[derive(Debug, Default)]
 pub struct CorrectedMode {
+    /// Step lengths and heights of the gaits; `None` for those of the built-in gaits.
+    steps: Option<PaperSettings>,
     settings: ConsistentWalkSettings,
     cache: Vec<CachedWalk>,
 }
@@ -31,6 +35,12 @@ struct CachedWalk {
 }
 
 impl CorrectedMode {
+    /// The mode with the step lengths and heights of a setting, and its stature.
+    #[must_use]
+    pub fn of(setting: &Setting) -> CorrectedMode {
+        CorrectedMode { steps: Some(setting.applied()), ..CorrectedMode::default() }
+    }
+
     /// Simulates a walk.
     ///
     /// # Errors
@@ -71,9 +81,13 @@ impl CorrectedMode {
         if let Some(number) = self.cache.iter().position(|k| k.gait == *trial.gait && k.figure == figure) {
             return Ok(number);
         }
-        let human = with_toes(trial.human)?;
+        let human = match self.steps.and_then(|steps| steps.height) {
+            Some(height) => with_toes(&rebuilt(trial.human, height)?)?,
+            None => with_toes(trial.human)?,
+        };
         // The same speed, steps and changes, with curves whose knots have velocity and acceleration.
-        let gait = trial.gait.clone().in_style(Style::Knots);
+        let gait = self.steps.map_or_else(|| trial.gait.clone(), |steps| steps.with_steps(trial.gait));
+        let gait = gait.in_style(Style::Knots);
         let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default())?;
         let walk = make_consistent_walk(&human, &walk, &self.settings)
             .map_err(|e| ReproductionError::Mode { gait: gait.name.clone(), reason: e.to_string() })?;

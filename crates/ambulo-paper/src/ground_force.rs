@@ -7,6 +7,7 @@ use super::mode::Run;
 use super::steady::{POINTS, STEADY_CYCLES, Steady, mean_of};
 use ambulo_body::model::Side;
 use ambulo_body::numerics::correlation;
+use std::ops::Range;
 
 /// A peak is higher than the minima next to it by at least this [body weights].
 const PROMINENCE: f64 = 0.1;
@@ -112,6 +113,30 @@ pub(super) fn bounce(run: &Run) -> Numbers {
 /// The mean vertical force of the right foot over its stance, from the first landing to the last lift in a cycle, in
 /// body weights; and the phases at which the stance starts and ends.
 pub(super) fn stance(run: &Run) -> Option<(Vec<f64>, [f64; 2])> {
+    stance_from(run, |rows, loaded| rows.clone().find(|row| loaded(*row)))
+}
+
+/// Peaks, and correlation with the measured force, of the mean force from the last landing in a stance on. Landings in
+/// the second half of the stance are no bounce of the strike.
+pub(super) fn after_the_bounce(run: &Run) -> Option<(usize, f64)> {
+    let (curve, _) = stance_from(run, |rows, loaded| {
+        let first = rows.clone().find(|row| loaded(*row))?;
+        let last = rows.clone().rev().find(|row| loaded(*row))?;
+        (first..first + (last - first) / 2).rev().find(|row| loaded(*row) && !loaded(row.saturating_sub(1)))
+    })?;
+    Some((humps(&curve), correlation(&curve, &measured_curve())))
+}
+
+/// The mean measured force at the points of a stance.
+fn measured_curve() -> Vec<f64> {
+    (0..POINTS).map(|p| measured_vertical(p as f64 / (POINTS - 1) as f64)[0]).collect()
+}
+
+/// Finds the first row of a stance among the rows of a cycle, with the rows at which the foot is loaded.
+type Begin = fn(&Range<usize>, &dyn Fn(usize) -> bool) -> Option<usize>;
+
+/// The mean force from the row at which a stance begins to the last lift in a cycle.
+fn stance_from(run: &Run, begin: Begin) -> Option<(Vec<f64>, [f64; 2])> {
     let steady = Steady::of(run).ok()?;
     let foot = run.recording.foot(Side::Right);
     let step = run.recording.grid().step_s;
@@ -123,7 +148,7 @@ pub(super) fn stance(run: &Run) -> Option<(Vec<f64>, [f64; 2])> {
     for cycle in 0..STEADY_CYCLES - 1 {
         let at = |phase: f64| ((steady.start_s() + (cycle as f64 + phase) * run.cycle_s) / step).round() as usize;
         let rows = at(swing)..at(swing + 1.0).min(foot.force.len());
-        let first = rows.clone().find(|row| foot.loaded(*row))?;
+        let first = begin(&rows, &|row| foot.loaded(row))?;
         let last = rows.clone().rev().find(|row| foot.loaded(*row))?;
         let rows_of_stance = (last - first).max(1) as f64;
         let place = |point: usize| first as f64 + rows_of_stance * point as f64 / (POINTS - 1) as f64;
@@ -157,10 +182,9 @@ pub fn humps(curve: &[f64]) -> usize {
 
 fn measure_humps(evidence: &Evidence) -> Numbers {
     let Some((curve, [from, to])) = stance(evidence.standard()) else { return Numbers::new() };
-    let measured: Vec<f64> = (0..POINTS).map(|p| measured_vertical(p as f64 / (POINTS - 1) as f64)[0]).collect();
     numbers([
         ("humps", humps(&curve) as f64),
-        ("correlation_with_measured", correlation(&curve, &measured)),
+        ("correlation_with_measured", correlation(&curve, &measured_curve())),
         ("largest_bw", curve.iter().copied().fold(0.0, f64::max)),
         ("stance_begins_percent", 100.0 * from),
         ("stance_percent", 100.0 * (to - from)),

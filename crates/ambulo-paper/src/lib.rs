@@ -19,6 +19,7 @@ mod assumptions;
 mod bounce;
 mod claim;
 mod convergence;
+mod experiments;
 mod forward;
 mod gaits;
 mod ground_force;
@@ -45,6 +46,7 @@ pub use error::ReproductionError;
 pub use evidence::{
     BRIEF_CYCLES, CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope,
 };
+pub use experiments::add_experiments;
 pub use figures::{FigureSet, PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws, paper_figures, quintics};
 pub use ground_force::{MEASURED_FOOT_OFF, VERTICAL_EVERY_4_PERCENT, measured_vertical};
 pub use harmonics::torque_series;

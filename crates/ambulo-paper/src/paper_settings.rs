@@ -72,21 +72,30 @@ impl PaperSettings {
     /// The gait with these settings; the trunk is always held at a constant angle. Another gait than [`GAITS`] keeps
     /// its steps.
     pub(super) fn gait(&self, gait: &Gait) -> Gait {
-        let mut gait = Gait { pelvis: Pelvis::Vertical, ..gait.clone() };
-        let straight = self.straight_goose && gait.name == "goose";
-        if let Some(number) = GAITS.iter().position(|name| *name == gait.name) {
-            gait.pace.length_scale = self.lengths[number];
-            gait.step_height = if straight { 1.0 } else { self.heights[number] };
-            self.set_standard_step(&mut gait);
-        }
-        gait.step_height *= self.step_height;
-        if straight {
+        let mut gait = Gait { pelvis: Pelvis::Vertical, ..self.with_steps(gait) };
+        if self.is_straight(&gait) {
             gait.changes = Gait::named("parade").map(|parade| parade.changes).unwrap_or_default();
         } else if gait.changes.is_empty() {
             gait.style = self.style;
             gait.changes = self.changes();
         }
         gait
+    }
+
+    /// The gait with the step length and the step height of these settings, and its own curves.
+    pub(super) fn with_steps(&self, gait: &Gait) -> Gait {
+        let mut gait = gait.clone();
+        if let Some(number) = GAITS.iter().position(|name| *name == gait.name) {
+            gait.pace.length_scale = self.lengths[number];
+            gait.step_height = if self.is_straight(&gait) { 1.0 } else { self.heights[number] };
+            self.set_standard_step(&mut gait);
+        }
+        gait.step_height *= self.step_height;
+        gait
+    }
+
+    fn is_straight(&self, gait: &Gait) -> bool {
+        self.straight_goose && gait.name == "goose"
     }
 
     fn set_standard_step(&self, gait: &mut Gait) {

@@ -132,6 +132,7 @@ fn a_claim_that_no_longer_holds_is_reported() {
             pass,
             note,
             former: None,
+            experiment: None,
         }
     };
     let mut setting = Setting::drawn(1, 1);

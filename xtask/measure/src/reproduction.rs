@@ -6,7 +6,7 @@
 use crate::workspace;
 use ambulo_paper::{
     Claim, CorrectedMode, Evidence, GAITS, NAMED, Scope, Sensitivity, Setting, StoredShares, TrialSettings,
-    assumptions, claims, former_tally, number, read_shares, sensitivities, tally,
+    add_experiments, assumptions, claims, former_tally, number, read_shares, sensitivities, tally,
 };
 use std::fmt::Write;
 use std::fs;
@@ -25,10 +25,11 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let setting = Setting::papers_results().map_err(|e| e.to_string())?;
     let mut mode = |trial: &TrialSettings<'_>| setting.walk(trial);
     let paper = Evidence::gather(&mut mode, Scope::Full, Some(&clock)).map_err(|e| e.to_string())?;
-    let mut corrected = CorrectedMode::default();
+    let mut corrected = CorrectedMode::of(&setting);
     let mut mode = |trial: &TrialSettings<'_>| corrected.walk(trial);
     let corrected = Evidence::gather(&mut mode, Scope::Full, Some(&clock)).map_err(|e| e.to_string())?;
-    let claims = claims(&paper, Some(&corrected));
+    let mut claims = claims(&paper, Some(&corrected));
+    add_experiments(&mut claims, &paper, &setting).map_err(|e| e.to_string())?;
     let mut named = Vec::new();
     for (name, _) in NAMED {
         let Some(other) = Setting::named(name) else { continue };
@@ -80,6 +81,9 @@ fn text(results: &Results) -> String {
     for claim in claims {
         let note = claim.note.replace('\n', " ");
         let _ = writeln!(page, "- **{}**: holds if {}. {note}.", claim.id, claim.criterion);
+        if let Some(experiment) = &claim.experiment {
+            let _ = writeln!(page, "  It fails because {experiment}.");
+        }
     }
     page += &counts(results);
     page += &changes(claims);

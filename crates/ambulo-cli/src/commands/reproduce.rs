@@ -6,7 +6,8 @@ use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo_paper::{
-    Claim, CorrectedMode, Evidence, Mode, NAMED, Scope, Sensitivity, Setting, TrialSettings, claims, sensitivities,
+    Claim, CorrectedMode, Evidence, Mode, NAMED, Scope, Sensitivity, Setting, TrialSettings, add_experiments, claims,
+    sensitivities,
 };
 use ambulo_report::{reproduction_files, reproduction_page};
 use ambulo_results::{CLAIMS, Keep, OutputFile, summary_json};
@@ -36,10 +37,11 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     let clock = move || start.elapsed().as_secs_f64();
     let mut mode = |trial: &TrialSettings<'_>| setting.walk(trial);
     let paper = gather("the paper's mode", &mut mode, &clock, args)?;
-    let mut mode = CorrectedMode::default();
+    let mut mode = CorrectedMode::of(&setting);
     let corrected = gather("the corrected mode", &mut |trial: &TrialSettings<'_>| mode.walk(trial), &clock, args)?;
     printer::progress("loops, obstacles, grasping, hand in hand, and a walk by own torques", args.print);
-    let claims: Vec<Claim> = claims(&paper, Some(&corrected));
+    let mut claims: Vec<Claim> = claims(&paper, Some(&corrected));
+    add_experiments(&mut claims, &paper, &setting)?;
     let others = if args.brief { Vec::new() } else { other_values(&setting, args) };
     let modes = [("The paper's mode", &paper), ("The corrected mode", &corrected)];
     let mut written = reproduction_files(&claims, &paper, Some(&corrected), &setting, &others)?;

@@ -18,6 +18,9 @@ pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path,
         let holds = if claim.pass { "holds" } else { "fails" };
         print_line(&format!("{:3} {holds}  {} ({})", claim.id, claim.paper, claim.kind.words()))?;
         print_line(&format!("           {} = {:.4}", claim.headline, claim.value()))?;
+        if let Some(experiment) = &claim.experiment {
+            print_line(&format!("           because {experiment}"))?;
+        }
         if shares.of(claim.id).is_some() {
             print_line(&format!("           in {} settings: {}", shares.settings, shares.words(claim)))?;
         }
