@@ -275,7 +275,10 @@ fn vertical(set: FigureSet, evidence: &Evidence) -> PaperFigure {
             (mean + sign * deviation).max(0.0)
         }),
     };
-    let measured = line("Schwartz 2008, children, scaled to 80 kg: mean; thin lines: ± SD", stances(weight, &|at| measured_vertical(at)[0]));
+    let measured = line(
+        "Schwartz 2008, children, scaled to 80 kg: mean; thin lines: ± SD",
+        stances(weight, &|at| measured_vertical(at)[0]),
+    );
     let panel = |title: &str, series| PaperPanel {
         title: title.to_owned(),
         x_label: "stance (%)",
@@ -285,8 +288,8 @@ fn vertical(set: FigureSet, evidence: &Evidence) -> PaperFigure {
     };
     let faint = PaperSeries { name: "measured".into(), kind: SeriesKind::Faint, points: measured.points.clone() };
     let at_percent = |curve: &[f64], at: f64| curve[(at * (POINTS - 1) as f64).round() as usize];
-    let computed = stance(evidence.standard())
-        .map(|(curve, _)| line(set.words(), stances(weight, &|at| at_percent(&curve, at))));
+    let computed =
+        stance(evidence.standard()).map(|(curve, _)| line(set.words(), stances(weight, &|at| at_percent(&curve, at))));
     PaperFigure {
         name: set.named("figure5", "corrected_figure5"),
         title: "Action on the ground during stance: measured (a) and computed (b), 80 kg".into(),

@@ -5,8 +5,8 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::simulation::walking::TorqueSeries;
 use ambulo_paper::{
-    Claim, Evidence, FigureSet, GAITS, PaperFigure, Sensitivity, Setting, angular_laws, assumptions, muscle_table, paper_figures,
-    paper_human, quintics, torque_series,
+    Claim, Evidence, FigureSet, GAITS, PaperFigure, Sensitivity, Setting, angular_laws, assumptions, muscle_table,
+    paper_figures, paper_human, quintics, torque_series,
 };
 use ambulo_results::OutputFile;
 use std::fmt::Write;

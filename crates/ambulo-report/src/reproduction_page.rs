@@ -5,7 +5,8 @@
 use super::figures::{moving_picture, moving_speed};
 use super::html::{Document, escaped};
 use ambulo_paper::{
-    Claim, Evidence, MovingFigure, Numbers, Sensitivity, Setting, assumptions, moving_figure, number, stored_shares, tally,
+    Claim, Evidence, MovingFigure, Numbers, Sensitivity, Setting, assumptions, moving_figure, number, stored_shares,
+    tally,
 };
 use ambulo_results::{OutputFile, PAGE};
 use std::fmt::Write;

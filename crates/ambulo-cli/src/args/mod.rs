@@ -94,7 +94,7 @@ pub(crate) struct ReplaceArgs {
 
 /// How to treat an existing file that no earlier run wrote.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Existing {
+pub enum Existing {
     /// It stays, and nothing is written.
     Kept,
     /// It is replaced (`--force`).
