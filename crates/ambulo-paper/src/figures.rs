@@ -275,10 +275,8 @@ fn vertical(set: FigureSet, evidence: &Evidence) -> PaperFigure {
             (mean + sign * deviation).max(0.0)
         }),
     };
-    let measured = line(
-        "Schwartz 2008, children, scaled to 80 kg: mean; thin lines: ± SD",
-        stances(weight, &|at| measured_vertical(at)[0]),
-    );
+    let measured =
+        line("children (Schwartz 2008), scaled; thin: ± SD", stances(weight, &|at| measured_vertical(at)[0]));
     let panel = |title: &str, series| PaperPanel {
         title: title.to_owned(),
         x_label: "stance (%)",
