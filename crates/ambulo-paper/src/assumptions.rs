@@ -3,7 +3,7 @@
 
 use super::claim::{Claim, Judgement};
 use super::error::ReproductionError;
-use super::evidence::{Evidence, Scope};
+use super::evidence::{Evidence, GAITS, Scope};
 use super::mode::TrialSettings;
 use super::open_values::{OpenKind, OpenValue, open_values};
 use super::setting::Setting;
@@ -69,24 +69,42 @@ pub fn assumptions(setting: &Setting) -> Vec<Assumption> {
     open_values().iter().enumerate().map(of).collect()
 }
 
-/// Simulates the walks and judges the claims again with each of the other values, one after the other; `progress` gets
-/// the number of values done and of all. If a walk cannot be simulated with a value, [`Sensitivity::outcome`] has the
-/// reason.
-pub fn sensitivities(setting: &Setting, progress: &mut dyn FnMut(usize, usize)) -> Vec<Sensitivity> {
-    let others: Vec<(String, String, Setting)> = assumptions(setting)
-        .into_iter()
-        .flat_map(|assumption| {
-            let what = assumption.what;
-            assumption.others.into_iter().map(move |(other, setting)| (what.clone(), other, setting))
-        })
-        .collect();
+/// Claims about all four gaits.
+const OF_FOUR_GAITS: [&str; 7] = ["c4", "g1", "g2", "g3", "j", "m1", "m2"];
+/// The claim about soft shoes.
+const OF_SOFT_SHOES: &str = "i";
+
+/// Walks again with each of the other values, one after the other, and judges the claims about what it changes: the
+/// four gaits for a value of one gait, soft shoes for theirs, and the standard gait for all others. `progress` gets the
+/// number of values done and of all. If a walk cannot be simulated, [`Sensitivity::outcome`] has the reason.
+pub fn sensitivities(setting: &Setting, paper: &Evidence, progress: &mut dyn FnMut(usize, usize)) -> Vec<Sensitivity> {
+    let mut others = Vec::new();
+    for (open, assumption) in open_values().iter().zip(assumptions(setting)) {
+        for (other, setting) in assumption.others {
+            others.push((open, assumption.what.clone(), other, setting));
+        }
+    }
     let all = others.len();
-    let judged = |(done, (what, other, setting)): (usize, (String, String, Setting))| {
+    let judged = |(done, (open, what, other, setting)): (usize, (&OpenValue, String, String, Setting))| {
         progress(done, all);
-        let outcome = judged_with(&setting, Scope::Brief).map_err(|error| error.to_string());
+        let outcome = judged_near(paper, &setting, open.key).map_err(|error| error.to_string());
         Sensitivity { what, other, outcome }
     };
     others.into_iter().enumerate().map(judged).collect()
+}
+
+/// The judgements that the change of a value can reverse; walks that it does not change are those of `paper`.
+fn judged_near(paper: &Evidence, setting: &Setting, key: &str) -> Result<Vec<Judgement>, ReproductionError> {
+    let mut mode = |trial: &TrialSettings<'_>| setting.walk(trial);
+    let changed = GAITS.iter().skip(1).position(|gait| key.starts_with(gait)).map_or(0, |place| place + 1);
+    let of_soft_shoes = key.starts_with("soft_shoe");
+    let is_judged = |id: &str| match id {
+        OF_SOFT_SHOES => of_soft_shoes,
+        _ if of_soft_shoes => false,
+        _ => OF_FOUR_GAITS.contains(&id) == (changed > 0),
+    };
+    let near = if of_soft_shoes { paper.with_soft_shoes(&mut mode)? } else { paper.with_gait(changed, &mut mode)? };
+    Ok(judgements(&near, Scope::Brief).into_iter().filter(|judgement| is_judged(judgement.id)).collect())
 }
 
 /// The judgements of the claims for which the walks of a scope are sufficient.

@@ -10,7 +10,7 @@ use ambulo_body::numerics::elementary::ln;
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, RATES_HZ, Scope};
 use super::mode::Run;
-use super::steady::{POINTS, Steady};
+use super::steady::{POINTS, Steady, near_impact};
 use ambulo_body::numerics::{mean, range, rms};
 
 pub(super) const JOINTS: [(&str, &str); 3] =
@@ -92,10 +92,10 @@ fn judge(paper: &Numbers, what: &str) -> (bool, String) {
 }
 
 fn distance(run: &Run, reference: &Run, coordinate: &str) -> Distance {
-    let (Ok(coarse), Ok(fine)) = (Steady::of(run), Steady::of(reference)) else {
+    let effort = |run: &Run| run.recording.effort(coordinate).map(<[f64]>::to_vec);
+    let (Ok(coarse), Some(torque), Some(truth)) = (Steady::of(run), effort(run), effort(reference)) else {
         return Distance { torque: f64::NAN, impulse: f64::NAN };
     };
-    let (torque, truth) = (coarse.effort(coordinate), fine.effort(coordinate));
     let (step, fine_step) = (run.recording.grid().step_s, reference.recording.grid().step_s);
     let first = coarse.rows().start;
     let rows = first..first + (run.cycle_s / step).floor() as usize;
@@ -108,7 +108,7 @@ fn distance(run: &Run, reference: &Run, coordinate: &str) -> Distance {
         let impulses = |run: &Run| impacts_until(run, coordinate, start_s, t);
         off_sum.push(sum + impulses(run) - true_sum - impulses(reference));
         true_sums.push(true_sum + impulses(reference));
-        if !coarse.near_impact(t) && !fine.near_impact(t) {
+        if !near_impact(run, t) && !near_impact(reference, t) {
             off.push(torque[row] - truth[at(t)]);
         }
         sum += torque[row] * step;
@@ -117,7 +117,8 @@ fn distance(run: &Run, reference: &Run, coordinate: &str) -> Distance {
         next = end;
     }
     let share = |off: &[f64], range: f64| rms(off) / range;
-    Distance { torque: share(&off, range(&fine.mean_cycle(&truth))), impulse: share(&off_sum, range(&true_sums)) }
+    let cycle = &truth[at(start_s)..at(start_s + run.cycle_s)];
+    Distance { torque: share(&off, range(cycle)), impulse: share(&off_sum, range(&true_sums)) }
 }
 
 /// Sum of the impulses of impacts on a coordinate between two instants [N.m.s].

@@ -15,17 +15,19 @@ pub const RATES_HZ: [f64; 4] = [30.0, 60.0, 120.0, 1000.0];
 /// Rate of the reference for the convergence [Hz].
 pub const REFERENCE_HZ: f64 = 8000.0;
 /// Cycles of each walk; the last six are evaluated.
-pub const CYCLES: usize = 14;
-/// Cycles of each walk of smaller scopes, whose walk is as steady after three cycles as after eight (claim b).
+pub const CYCLES: usize = 10;
+/// Cycles of each walk of smaller scopes, whose walk is as steady after three cycles as after four (claim b).
 pub const BRIEF_CYCLES: usize = 9;
-/// Cycles of the walks whose convergence is measured.
-const RATE_CYCLES: usize = 10;
+/// Cycles of the walks whose convergence is measured, and of their reference, in whose last cycle they are compared.
+const RATE_CYCLES: [usize; 2] = [8, 3];
 /// The paper's gaits.
 pub const GAITS: [&str; 4] = ["standard", "long", "short", "goose"];
 /// The paper's masses [kg].
 pub const MASSES: [f64; 3] = [60.0, 80.0, 100.0];
 /// Coefficients of friction at which sliding is measured.
-pub const FRICTIONS: [f64; 10] = [0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 1000.0];
+pub const FRICTIONS: [f64; 6] = [0.4, 0.8, 1.0, 2.0, 5.0, 1000.0];
+/// Those at which the corrected mode, for comparison, is simulated.
+const COMPARED_FRICTIONS: [f64; 2] = [1.0, 1000.0];
 
 /// Which walks are simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -119,9 +121,12 @@ impl Evidence {
     }
 
     fn gather_rest(&mut self, mode: &mut Mode<'_>, trial: &TrialSettings<'_>) -> Result<(), ReproductionError> {
-        for rate_hz in RATES_HZ.into_iter().chain([REFERENCE_HZ]) {
-            self.rates.push(mode(&TrialSettings { rate_hz, cycles: RATE_CYCLES, ..*trial })?);
+        let [cycles, of_reference] = RATE_CYCLES;
+        for rate_hz in RATES_HZ {
+            self.rates.push(mode(&TrialSettings { rate_hz, cycles, ..*trial })?);
         }
+        self.rates.push(mode(&TrialSettings { rate_hz: REFERENCE_HZ, cycles: of_reference, ..*trial })?);
+        let is_soft = self.standard().shoes == Footwear::Soft;
         for mass in MASSES {
             if (mass - MASS).abs() < f64::EPSILON {
                 self.masses.push(self.standard().clone());
@@ -130,9 +135,14 @@ impl Evidence {
             }
             let figure = of_mass(mass)?;
             self.masses.push(mode(&TrialSettings { human: &figure, ..*trial })?);
-            self.soft_masses.push(mode(&TrialSettings { human: &figure, shoes: Footwear::Soft, ..*trial })?);
+            let soft = match self.masses.last() {
+                Some(own) if is_soft => own.clone(),
+                _ => mode(&TrialSettings { human: &figure, shoes: Footwear::Soft, ..*trial })?,
+            };
+            self.soft_masses.push(soft);
         }
-        for friction in FRICTIONS {
+        let frictions = if is_soft { &COMPARED_FRICTIONS[..] } else { &FRICTIONS[..] };
+        for &friction in frictions {
             let run = if (friction - FRICTION).abs() < f64::EPSILON {
                 self.shoes[0].clone()
             } else {
@@ -141,6 +151,37 @@ impl Evidence {
             self.frictions.push((friction, run));
         }
         Ok(())
+    }
+
+    /// The walks of [`Scope::Brief`], without walking again, with one of [`GAITS`] walked by a mode.
+    pub(super) fn with_gait(&self, gait: usize, mode: &mut Mode<'_>) -> Result<Evidence, ReproductionError> {
+        let (human, named) = (paper_human()?, Gait::named(GAITS[gait])?);
+        let run = mode(&trial_of(&named, &human, Scope::Brief))?;
+        let mut near = self.brief();
+        near.gaits[gait] = run;
+        Ok(near)
+    }
+
+    /// The same with the walk in soft shoes.
+    pub(super) fn with_soft_shoes(&self, mode: &mut Mode<'_>) -> Result<Evidence, ReproductionError> {
+        let (human, named) = (paper_human()?, Gait::named(GAITS[0])?);
+        let run = mode(&TrialSettings { shoes: Footwear::Soft, ..trial_of(&named, &human, Scope::Brief) })?;
+        let mut near = self.brief();
+        near.shoes[1] = run;
+        Ok(near)
+    }
+
+    fn brief(&self) -> Evidence {
+        Evidence {
+            rates: Vec::new(),
+            gaits: self.gaits.clone(),
+            masses: Vec::new(),
+            soft_masses: Vec::new(),
+            dense_masses: Vec::new(),
+            shoes: self.shoes.clone(),
+            frictions: Vec::new(),
+            steps_per_s: self.steps_per_s,
+        }
     }
 
     /// The standard gait at [`RATE_HZ`].

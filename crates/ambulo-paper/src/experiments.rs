@@ -6,7 +6,7 @@ use super::assumptions::judged_with;
 use super::claim::{Claim, ClaimKind, Judgement};
 use super::error::ReproductionError;
 use super::evidence::{Evidence, Scope};
-use super::ground_force::after_the_bounce;
+use super::ground_force::longest_contact;
 use super::open_values::open_values;
 use super::setting::Setting;
 
@@ -35,7 +35,9 @@ fn reason(claim: &str) -> &'static str {
         "c2" => "the torque holds the trunk against forces at the friction limit, and not only changes the speed",
         "c3" => "the period is one second, so the speed is that of the step length",
         "c4" | "g1" | "g3" | "j" => "a foot that touches in mid-swing sticks, stops the leg and throws the figure back",
-        "e1" => "each landing of a foot has a peak of its own, so a foot that bounces has one peak more",
+        "e1" => {
+            "each contact of a foot has a peak of its own, so a foot that lifts and touches again has one peak more"
+        }
         "e2" | "e3" | "i" => {
             "an impact cancels the whole velocity of the point, so nothing rebounds; a foot leaves the ground only where \
              the driven leg lifts it"
@@ -96,11 +98,11 @@ fn outcome(trial: &Trial, claim: &Claim, judged: &Result<Vec<Judgement>, Reprodu
     }
 }
 
-/// The force of the same walk from the last landing of the foot on.
+/// The force of the same walk over the longest contact of the foot.
 fn bounce(paper: &Evidence) -> Option<String> {
-    let (peaks, r) = after_the_bounce(paper.standard())?;
+    let (peaks, r) = longest_contact(paper.standard())?;
     Some(format!(
-        "from its last landing on, without the bounce that the paper calls an artifact, the force of the same walk has \
-         {peaks} peaks and r = {r:.2} with the measured one"
+        "over the longest contact of the foot alone, without the bounce that the paper calls an artifact, the force of \
+         the same walk has {peaks} peaks and r = {r:.2} with the measured one"
     ))
 }

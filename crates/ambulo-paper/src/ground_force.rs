@@ -113,16 +113,19 @@ pub(super) fn bounce(run: &Run) -> Numbers {
 /// The mean vertical force of the right foot over its stance, from the first landing to the last lift in a cycle, in
 /// body weights; and the phases at which the stance starts and ends.
 pub(super) fn stance(run: &Run) -> Option<(Vec<f64>, [f64; 2])> {
-    stance_from(run, |rows, loaded| rows.clone().find(|row| loaded(*row)))
+    stance_of(run, |rows, loaded| {
+        let first = rows.clone().find(|row| loaded(*row))?;
+        Some((first, rows.clone().rev().find(|row| loaded(*row))?))
+    })
 }
 
-/// Peaks, and correlation with the measured force, of the mean force from the last landing in a stance on. Landings in
-/// the second half of the stance are no bounce of the strike.
-pub(super) fn after_the_bounce(run: &Run) -> Option<(usize, f64)> {
-    let (curve, _) = stance_from(run, |rows, loaded| {
-        let first = rows.clone().find(|row| loaded(*row))?;
-        let last = rows.clone().rev().find(|row| loaded(*row))?;
-        (first..first + (last - first) / 2).rev().find(|row| loaded(*row) && !loaded(row.saturating_sub(1)))
+/// Peaks, and correlation with the measured force, of the mean force over the longest contact in each cycle, from a
+/// landing to the next lift.
+pub(super) fn longest_contact(run: &Run) -> Option<(usize, f64)> {
+    let (curve, _) = stance_of(run, |rows, loaded| {
+        let landings = rows.clone().filter(|row| loaded(*row) && (*row == rows.start || !loaded(row - 1)));
+        let contact = |first: usize| (first, (first..rows.end).take_while(|row| loaded(*row)).last().unwrap_or(first));
+        landings.map(contact).max_by_key(|(first, last)| last - first)
     })?;
     Some((humps(&curve), correlation(&curve, &measured_curve())))
 }
@@ -132,11 +135,11 @@ fn measured_curve() -> Vec<f64> {
     (0..POINTS).map(|p| measured_vertical(p as f64 / (POINTS - 1) as f64)[0]).collect()
 }
 
-/// Finds the first row of a stance among the rows of a cycle, with the rows at which the foot is loaded.
-type Begin = fn(&Range<usize>, &dyn Fn(usize) -> bool) -> Option<usize>;
+/// Finds the first and the last row of a stance among the rows of a cycle, with the rows at which the foot is loaded.
+type Bounds = fn(&Range<usize>, &dyn Fn(usize) -> bool) -> Option<(usize, usize)>;
 
-/// The mean force from the row at which a stance begins to the last lift in a cycle.
-fn stance_from(run: &Run, begin: Begin) -> Option<(Vec<f64>, [f64; 2])> {
+/// The mean force between two rows of each cycle.
+fn stance_of(run: &Run, bounds_of: Bounds) -> Option<(Vec<f64>, [f64; 2])> {
     let steady = Steady::of(run).ok()?;
     let foot = run.recording.foot(Side::Right);
     let step = run.recording.grid().step_s;
@@ -148,8 +151,7 @@ fn stance_from(run: &Run, begin: Begin) -> Option<(Vec<f64>, [f64; 2])> {
     for cycle in 0..STEADY_CYCLES - 1 {
         let at = |phase: f64| ((steady.start_s() + (cycle as f64 + phase) * run.cycle_s) / step).round() as usize;
         let rows = at(swing)..at(swing + 1.0).min(foot.force.len());
-        let first = begin(&rows, &|row| foot.loaded(row))?;
-        let last = rows.clone().rev().find(|row| foot.loaded(*row))?;
+        let (first, last) = bounds_of(&rows, &|row| foot.loaded(row))?;
         let rows_of_stance = (last - first).max(1) as f64;
         let place = |point: usize| first as f64 + rows_of_stance * point as f64 / (POINTS - 1) as f64;
         curves.push((0..POINTS).map(|point| foot.force[place(point).round() as usize].y / weight).collect());

@@ -135,7 +135,7 @@ fn figure() -> Vec<OpenValue> {
             kind: OpenKind::Number([1.65, 1.95]),
             source: "two standard deviations of the stature of European men (unverified)",
             why: "section 4.1 has a male adult of 80 kg; its centre of mass at 1.2 m would require 2.1 m",
-            tried: &[1.70, 1.85],
+            tried: &[1.85],
         },
         Row {
             key: "cross_section_factor",
@@ -144,7 +144,7 @@ fn figure() -> Vec<OpenValue> {
             kind: OpenKind::Number([0.65, 1.5]),
             source: "1600 to 700 kg/m³; 1050 kg/m³ is the approximate density of the human body",
             why: "section 4.1 has uniform cylinders and no radii",
-            tried: &[0.65, 1.5],
+            tried: &[1.5],
         },
         Row {
             key: "sole_radius_factor",

@@ -42,7 +42,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     printer::progress("loops, obstacles, grasping, hand in hand, and a walk by own torques", args.print);
     let mut claims: Vec<Claim> = claims(&paper, Some(&corrected));
     add_experiments(&mut claims, &paper, &setting)?;
-    let others = if args.brief { Vec::new() } else { other_values(&setting, args) };
+    let others = if args.brief { Vec::new() } else { other_values(&setting, &paper, args) };
     let modes = [("The paper's mode", &paper), ("The corrected mode", &corrected)];
     let mut written = reproduction_files(&claims, &paper, Some(&corrected), &setting, &others)?;
     written.push(reproduction_page(&claims, &modes, &setting, &others, &written));
@@ -74,8 +74,8 @@ fn read_setting(path: &Path) -> Result<Setting> {
     Setting::from_toml(&text).with_context(|| path.display().to_string())
 }
 
-fn other_values(setting: &Setting, args: &ReproduceArgs) -> Vec<Sensitivity> {
-    sensitivities(setting, &mut |done, all| {
+fn other_values(setting: &Setting, paper: &Evidence, args: &ReproduceArgs) -> Vec<Sensitivity> {
+    sensitivities(setting, paper, &mut |done, all| {
         if done % 10 == 0 {
             printer::progress(&format!("other values that the paper does not give, {done} of {all}"), args.print);
         }
