@@ -34,8 +34,19 @@ impl ClaimKind {
 /// Number of claims of the kind [`ClaimKind::Paper`] that hold, and of all of this kind.
 #[must_use]
 pub fn tally(claims: &[Claim]) -> [usize; 2] {
-    let own = || claims.iter().filter(|claim| claim.kind == ClaimKind::Paper);
-    [own().filter(|claim| claim.pass).count(), own().count()]
+    count(claims.iter().map(|claim| (claim.kind, claim.pass)))
+}
+
+/// The same by the criteria and kinds before they were changed ([`Claim::former`]).
+#[must_use]
+pub fn former_tally(claims: &[Claim]) -> [usize; 2] {
+    let before = |claim: &Claim| claim.former.as_ref().map(|former| (former.kind, former.pass));
+    count(claims.iter().map(|claim| before(claim).unwrap_or((claim.kind, claim.pass))))
+}
+
+fn count(judged: impl Iterator<Item = (ClaimKind, bool)>) -> [usize; 2] {
+    let own = judged.filter(|(kind, _)| *kind == ClaimKind::Paper);
+    own.fold([0, 0], |[held, all], (_, pass)| [held + usize::from(pass), all + 1])
 }
 
 /// A claim with its judgement.
@@ -47,6 +58,8 @@ pub struct Claim {
     pub kind: ClaimKind,
     /// The statement of the paper in short.
     pub paper: &'static str,
+    /// What is required for the claim to hold.
+    pub criterion: &'static str,
     /// Name of the most important number.
     pub headline: &'static str,
     /// Numbers in the paper's mode.
@@ -57,49 +70,28 @@ pub struct Claim {
     pub corrected: Option<Numbers>,
     /// Whether the claim holds in the paper's mode.
     pub pass: bool,
-    /// The criterion, and why the claim holds or fails.
+    /// What was found, and why the claim holds or fails.
     pub note: String,
+    /// The criterion before it was changed, and its judgement of the same walks.
+    pub former: Option<FormerJudgement>,
+    /// Why the claim fails, with an experiment that shows it ([`add_experiments`](super::add_experiments)).
+    pub experiment: Option<String>,
+}
+
+/// The judgement by a criterion that was changed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct FormerJudgement {
+    /// Whether the claim counted.
+    pub kind: ClaimKind,
+    /// The criterion.
+    pub criterion: &'static str,
+    /// Whether the claim holds by it.
+    pub pass: bool,
+    /// Why it was changed.
+    pub reason: &'static str,
 }
 
 impl Claim {
-    /// Why the claim cannot hold in the paper's model, if that is known.
-    #[must_use]
-    pub fn mechanics(&self) -> &'static str {
-        match self.id {
-            "c1" => {
-                "the forward speed is that of the stance hip, which the driven angles move on over the foot: it stops \
-                 only where they stop, and \
-                 the joint curves of walking do not"
-            }
-            "c2" => {
-                "the torque holds the trunk upright against forces at the friction limit, and is not only what the \
-                 changes of speed need"
-            }
-            "c3" => {
-                "the period is one second by definition, which is 120 steps a minute, faster than people's normal \
-                 walking"
-            }
-            "e1" => {
-                "with a held trunk and driven joints the height of the hips is given, so the vertical force follows \
-                 the acceleration of the \
-                 curves; a rigid sole takes up the descent in an instant and not in a first peak of the force"
-            }
-            "e3" => {
-                "the impact cancels the whole velocity of the point, so nothing rebounds; a foot leaves the ground \
-                 when the driven leg lifts it"
-            }
-            "g1" | "g2" | "g3" | "j" => {
-                "accelerations are proportional to step length over period squared, and a low swing touches the rigid \
-                 ground, which stops the leg"
-            }
-            "i" => {
-                "soft soles store and give back energy that a rigid impact takes away, so the foot lands and lifts \
-                 more often"
-            }
-            _ => "not known",
-        }
-    }
-
     /// The most important number in the paper's mode.
     #[must_use]
     pub fn value(&self) -> f64 {
@@ -127,6 +119,9 @@ pub struct Statement {
     pub(super) id: &'static str,
     pub(super) kind: ClaimKind,
     pub(super) paper: &'static str,
+    pub(super) criterion: &'static str,
+    /// The criterion before it was changed.
+    pub(super) former: Option<Former>,
     /// Name of the most important number.
     pub(super) headline: &'static str,
     /// The walks that it needs.
@@ -136,13 +131,34 @@ pub struct Statement {
     pub judge: fn(&Numbers, Option<&Numbers>) -> (bool, String),
 }
 
+/// A criterion that was changed.
+pub(super) struct Former {
+    pub(super) kind: ClaimKind,
+    pub(super) criterion: &'static str,
+    pub(super) reason: &'static str,
+    /// Judges the same numbers.
+    pub(super) judge: fn(&Numbers, Option<&Numbers>) -> bool,
+}
+
 impl Statement {
+    /// The judgement by the former criterion, if it was changed.
+    #[must_use]
+    pub fn formerly(&self, paper: &Numbers, corrected: Option<&Numbers>) -> Option<bool> {
+        self.former.as_ref().map(|former| (former.judge)(paper, corrected))
+    }
+
     pub(super) fn claim(&self, paper: &Evidence, corrected: Option<&Evidence>) -> Claim {
         let paper_mode = (self.measure)(paper);
         let corrected = corrected.map(self.measure);
         let (pass, note) = (self.judge)(&paper_mode, corrected.as_ref());
-        let headline = self.headline;
-        Claim { id: self.id, kind: self.kind, paper: self.paper, headline, paper_mode, corrected, pass, note }
+        let former = self.former.as_ref().map(|former| FormerJudgement {
+            kind: former.kind,
+            criterion: former.criterion,
+            pass: (former.judge)(&paper_mode, corrected.as_ref()),
+            reason: former.reason,
+        });
+        let Statement { id, kind, paper, criterion, headline, .. } = *self;
+        Claim { id, kind, paper, criterion, headline, paper_mode, corrected, pass, note, former, experiment: None }
     }
 
     /// The judgement in the paper's mode alone.

@@ -6,6 +6,9 @@
 
 use super::error::ReproductionError;
 use super::mode::{Footwear, Run, TrialSettings};
+use super::paper_human::{rebuilt, sum_of_radii};
+use super::paper_settings::PaperSettings;
+use super::setting::Setting;
 use ambulo_body::findings::Findings;
 use ambulo_body::model::anthropometry::{Build, Human};
 use ambulo_walk::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
@@ -16,6 +19,8 @@ use ambulo_walk::walking::{GroundContact, Shoes};
 /// The corrected mode. A walk is made consistent once and kept for the requests that differ in shoes, rate or friction.
 #[derive(Debug, Default)]
 pub struct CorrectedMode {
+    /// Step lengths and heights of the gaits; `None` for those of the built-in gaits.
+    steps: Option<PaperSettings>,
     settings: ConsistentWalkSettings,
     cache: Vec<CachedWalk>,
 }
@@ -30,6 +35,12 @@ struct CachedWalk {
 }
 
 impl CorrectedMode {
+    /// The mode with the step lengths and heights of a setting, and its stature.
+    #[must_use]
+    pub fn of(setting: &Setting) -> CorrectedMode {
+        CorrectedMode { steps: Some(setting.applied()), ..CorrectedMode::default() }
+    }
+
     /// Simulates a walk.
     ///
     /// # Errors
@@ -55,6 +66,8 @@ impl CorrectedMode {
         Ok(Run {
             recording,
             gait: gait.name().to_owned(),
+            shoes: if trial.shoes == Footwear::Own { Footwear::Soft } else { trial.shoes },
+            leg_length: human.dimensions.leg_length,
             soles: human.soles.clone(),
             cycle_s: gait.cycle_s(),
             speed: gait.speed(),
@@ -64,13 +77,17 @@ impl CorrectedMode {
     }
 
     fn find_or_make(&mut self, trial: &TrialSettings<'_>) -> Result<usize, ReproductionError> {
-        let figure = [trial.human.model.mass(), trial.human.build.height, thickness(trial.human)].map(f64::to_bits);
+        let figure = [trial.human.model.mass(), trial.human.build.height, sum_of_radii(trial.human)].map(f64::to_bits);
         if let Some(number) = self.cache.iter().position(|k| k.gait == *trial.gait && k.figure == figure) {
             return Ok(number);
         }
-        let human = with_toes(trial.human)?;
+        let human = match self.steps.and_then(|steps| steps.height) {
+            Some(height) => with_toes(&rebuilt(trial.human, height)?)?,
+            None => with_toes(trial.human)?,
+        };
         // The same speed, steps and changes, with curves whose knots have velocity and acceleration.
-        let gait = trial.gait.clone().in_style(Style::Knots);
+        let gait = self.steps.map_or_else(|| trial.gait.clone(), |steps| steps.with_steps(trial.gait));
+        let gait = gait.in_style(Style::Knots);
         let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default())?;
         let walk = make_consistent_walk(&human, &walk, &self.settings)
             .map_err(|e| ReproductionError::Mode { gait: gait.name.clone(), reason: e.to_string() })?;
@@ -79,15 +96,10 @@ impl CorrectedMode {
     }
 }
 
-/// Sum of the radii of the soles [m].
-fn thickness(human: &Human) -> f64 {
-    human.soles.iter().map(|sole| sole.radius).sum()
-}
-
 /// The same figure with a toe joint and the same radii of the soles.
 pub(super) fn with_toes(human: &Human) -> Result<Human, ReproductionError> {
     let mut figure = Build { toe_joint: true, ..human.build }.human()?;
-    let (old, new) = (thickness(human), thickness(&figure));
+    let (old, new) = (sum_of_radii(human), sum_of_radii(&figure));
     for sole in &mut figure.soles {
         sole.center.y += sole.radius * (old / new - 1.0);
         sole.radius *= old / new;

@@ -1,6 +1,7 @@
 //! Errors of the reproduction of the paper.
 
 use ambulo_body::model::anthropometry::BuildError;
+use ambulo_body::toml_reader::TomlError;
 use ambulo_walk::gait::GaitError;
 use ambulo_walk::walking::WalkingError;
 
@@ -17,6 +18,9 @@ pub enum ReproductionError {
     /// The walk could not be simulated.
     #[error(transparent)]
     Walking(#[from] WalkingError),
+    /// The setting cannot be read.
+    #[error("the setting: {0}")]
+    Setting(#[from] TomlError),
     /// A mode could not make the walk.
     #[error("the walk `{gait}` could not be made: {reason}")]
     Mode {

@@ -2,7 +2,8 @@
 
 use super::error::ReproductionError;
 use super::mode::{Footwear, Mode, Run, TrialSettings};
-use super::paper_human::{denser, of_mass, paper_human};
+use super::paper_human::{MASS, denser, of_mass, paper_human};
+use ambulo_body::model::anthropometry::Human;
 use ambulo_walk::gait::Gait;
 
 /// The coefficient of friction that the paper calls high.
@@ -14,21 +15,29 @@ pub const RATES_HZ: [f64; 4] = [30.0, 60.0, 120.0, 1000.0];
 /// Rate of the reference for the convergence [Hz].
 pub const REFERENCE_HZ: f64 = 8000.0;
 /// Cycles of each walk; the last six are evaluated.
-pub const CYCLES: usize = 14;
+pub const CYCLES: usize = 10;
+/// Cycles of each walk of smaller scopes, whose walk is as steady after three cycles as after four (claim b).
+pub const BRIEF_CYCLES: usize = 9;
+/// Cycles of the walks whose convergence is measured, and of their reference, in whose last cycle they are compared.
+const RATE_CYCLES: [usize; 2] = [8, 3];
 /// The paper's gaits.
 pub const GAITS: [&str; 4] = ["standard", "long", "short", "goose"];
 /// The paper's masses [kg].
 pub const MASSES: [f64; 3] = [60.0, 80.0, 100.0];
 /// Coefficients of friction at which sliding is measured.
-pub const FRICTIONS: [f64; 10] = [0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 1000.0];
+pub const FRICTIONS: [f64; 6] = [0.4, 0.8, 1.0, 2.0, 5.0, 1000.0];
+/// Those at which the corrected mode, for comparison, is simulated.
+const COMPARED_FRICTIONS: [f64; 2] = [1.0, 1000.0];
 
 /// Which walks are simulated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Scope {
+    /// The gaits, and the standard gait in both shoes: sufficient for most claims.
+    Brief,
+    /// Also figures of other masses with the same density: all claims except those about convergence and other bodies.
+    Sampled,
     /// All.
     Full,
-    /// The gaits, and the standard gait in both shoes: sufficient for the claims of [`judgements`](super::judgements).
-    Brief,
 }
 
 /// All walks of one mode.
@@ -63,53 +72,116 @@ impl Evidence {
         scope: Scope,
         clock: Option<&dyn Fn() -> f64>,
     ) -> Result<Evidence, ReproductionError> {
-        let human = paper_human()?;
-        let standard = Gait::named("standard")?;
-        let trial = TrialSettings {
-            gait: &standard,
-            human: &human,
-            shoes: Footwear::Own,
-            friction: FRICTION,
-            rate_hz: RATE_HZ,
-            cycles: CYCLES,
+        let (human, standard) = (paper_human()?, Gait::named("standard")?);
+        let trial = trial_of(&standard, &human, scope);
+        // The first walk prepares data that the second one uses, whose time is measured.
+        let soft = mode(&TrialSettings { shoes: Footwear::Soft, ..trial })?;
+        let start = clock.map(|clock| clock());
+        let own = mode(&trial)?;
+        let seconds = clock.zip(start).map_or(0.0, |(clock, start)| clock() - start);
+        let steps_per_s = if seconds > 0.0 { own.recording.grid().frames as f64 / seconds } else { 0.0 };
+        let rigid = if own.shoes == Footwear::Rigid {
+            own.clone()
+        } else {
+            mode(&TrialSettings { shoes: Footwear::Rigid, ..trial })?
         };
-        let steps_per_s = speed(mode, &trial, clock)?;
-        let mut gaits = Vec::new();
-        for name in GAITS {
+        let mut gaits = vec![own];
+        for name in &GAITS[1..] {
             gaits.push(mode(&TrialSettings { gait: &Gait::named(name)?, ..trial })?);
         }
-        let mut in_shoes = |shoes: Footwear| mode(&TrialSettings { shoes, ..trial });
-        let shoes = [in_shoes(Footwear::Rigid)?, in_shoes(Footwear::Soft)?];
         let mut evidence = Evidence {
             rates: Vec::new(),
             gaits,
             masses: Vec::new(),
             soft_masses: Vec::new(),
             dense_masses: Vec::new(),
-            shoes,
+            shoes: [rigid, soft],
             frictions: Vec::new(),
             steps_per_s,
         };
+        if scope >= Scope::Sampled {
+            evidence.gather_dense(mode, &trial)?;
+        }
         if scope == Scope::Full {
             evidence.gather_rest(mode, &trial)?;
         }
         Ok(evidence)
     }
 
-    fn gather_rest(&mut self, mode: &mut Mode<'_>, trial: &TrialSettings<'_>) -> Result<(), ReproductionError> {
-        for rate_hz in RATES_HZ.into_iter().chain([REFERENCE_HZ]) {
-            self.rates.push(mode(&TrialSettings { rate_hz, ..*trial })?);
-        }
+    fn gather_dense(&mut self, mode: &mut Mode<'_>, trial: &TrialSettings<'_>) -> Result<(), ReproductionError> {
         for mass in MASSES {
-            let figure = of_mass(mass)?;
-            self.masses.push(mode(&TrialSettings { human: &figure, ..*trial })?);
-            self.soft_masses.push(mode(&TrialSettings { human: &figure, shoes: Footwear::Soft, ..*trial })?);
-            self.dense_masses.push(mode(&TrialSettings { human: &denser(&figure)?, ..*trial })?);
-        }
-        for friction in FRICTIONS {
-            self.frictions.push((friction, mode(&TrialSettings { friction, shoes: Footwear::Rigid, ..*trial })?));
+            let run = if (mass - MASS).abs() < f64::EPSILON {
+                self.standard().clone()
+            } else {
+                mode(&TrialSettings { human: &denser(&of_mass(mass)?)?, ..*trial })?
+            };
+            self.dense_masses.push(run);
         }
         Ok(())
+    }
+
+    fn gather_rest(&mut self, mode: &mut Mode<'_>, trial: &TrialSettings<'_>) -> Result<(), ReproductionError> {
+        let [cycles, of_reference] = RATE_CYCLES;
+        for rate_hz in RATES_HZ {
+            self.rates.push(mode(&TrialSettings { rate_hz, cycles, ..*trial })?);
+        }
+        self.rates.push(mode(&TrialSettings { rate_hz: REFERENCE_HZ, cycles: of_reference, ..*trial })?);
+        let is_soft = self.standard().shoes == Footwear::Soft;
+        for mass in MASSES {
+            if (mass - MASS).abs() < f64::EPSILON {
+                self.masses.push(self.standard().clone());
+                self.soft_masses.push(self.shoes[1].clone());
+                continue;
+            }
+            let figure = of_mass(mass)?;
+            self.masses.push(mode(&TrialSettings { human: &figure, ..*trial })?);
+            let soft = match self.masses.last() {
+                Some(own) if is_soft => own.clone(),
+                _ => mode(&TrialSettings { human: &figure, shoes: Footwear::Soft, ..*trial })?,
+            };
+            self.soft_masses.push(soft);
+        }
+        let frictions = if is_soft { &COMPARED_FRICTIONS[..] } else { &FRICTIONS[..] };
+        for &friction in frictions {
+            let run = if (friction - FRICTION).abs() < f64::EPSILON {
+                self.shoes[0].clone()
+            } else {
+                mode(&TrialSettings { friction, shoes: Footwear::Rigid, ..*trial })?
+            };
+            self.frictions.push((friction, run));
+        }
+        Ok(())
+    }
+
+    /// The walks of [`Scope::Brief`], without walking again, with one of [`GAITS`] walked by a mode.
+    pub(super) fn with_gait(&self, gait: usize, mode: &mut Mode<'_>) -> Result<Evidence, ReproductionError> {
+        let (human, named) = (paper_human()?, Gait::named(GAITS[gait])?);
+        let run = mode(&trial_of(&named, &human, Scope::Brief))?;
+        let mut near = self.brief();
+        near.gaits[gait] = run;
+        Ok(near)
+    }
+
+    /// The same with the walk in soft shoes.
+    pub(super) fn with_soft_shoes(&self, mode: &mut Mode<'_>) -> Result<Evidence, ReproductionError> {
+        let (human, named) = (paper_human()?, Gait::named(GAITS[0])?);
+        let run = mode(&TrialSettings { shoes: Footwear::Soft, ..trial_of(&named, &human, Scope::Brief) })?;
+        let mut near = self.brief();
+        near.shoes[1] = run;
+        Ok(near)
+    }
+
+    fn brief(&self) -> Evidence {
+        Evidence {
+            rates: Vec::new(),
+            gaits: self.gaits.clone(),
+            masses: Vec::new(),
+            soft_masses: Vec::new(),
+            dense_masses: Vec::new(),
+            shoes: self.shoes.clone(),
+            frictions: Vec::new(),
+            steps_per_s: self.steps_per_s,
+        }
     }
 
     /// The standard gait at [`RATE_HZ`].
@@ -119,15 +191,8 @@ impl Evidence {
     }
 }
 
-fn speed(
-    mode: &mut Mode<'_>,
-    trial: &TrialSettings<'_>,
-    clock: Option<&dyn Fn() -> f64>,
-) -> Result<f64, ReproductionError> {
-    let Some(clock) = clock else { return Ok(0.0) };
-    // The first walk prepares data that the second one uses.
-    mode(trial)?;
-    let start = clock();
-    let run = mode(trial)?;
-    Ok(run.recording.grid().frames as f64 / (clock() - start).max(1e-9))
+/// The standard gait of the paper at the rate and over the cycles at which claims are judged.
+fn trial_of<'a>(gait: &'a Gait, human: &'a Human, scope: Scope) -> TrialSettings<'a> {
+    let cycles = if scope == Scope::Full { CYCLES } else { BRIEF_CYCLES };
+    TrialSettings { gait, human, shoes: Footwear::Own, friction: FRICTION, rate_hz: RATE_HZ, cycles }
 }

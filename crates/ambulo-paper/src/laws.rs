@@ -25,6 +25,9 @@ pub(super) const SMOOTH: Statement = Statement {
     id: "l1",
     kind: ClaimKind::ByConstruction,
     paper: "angles are C2, and the angular velocity has one sign in each sub-cycle",
+    criterion: "no acceleration of hip, knee and ankle changes by more than 0.001 of its largest value within 2 µs about a bound, and \
+        no sub-cycle both flexes and extends, in the four gaits",
+    former: None,
     headline: "largest_jump_of_acceleration_share",
     scope: Scope::Full,
     measure: |_| {
@@ -40,12 +43,7 @@ pub(super) const SMOOTH: Statement = Statement {
     judge: |paper, _| {
         let (jump, turns) =
             (number(paper, "largest_jump_of_acceleration_share"), number(paper, "sub_cycles_that_turn"));
-        let note = format!(
-            "passes if, in the four gaits, no acceleration of hip, knee and ankle changes by more than {NO_JUMP} of \
-             its largest value within \
-             {} µs about a bound, and no sub-cycle both flexes and extends; found {jump:.1e} and {turns:.0}",
-            2.0e6 * BESIDE_S
-        );
+        let note = format!("found {jump:.1e} and {turns:.0}");
         (jump < NO_JUMP && turns < 0.5, note)
     },
 };
@@ -54,6 +52,9 @@ pub(super) const SPEED_LAW: Statement = Statement {
     id: "l2",
     kind: ClaimKind::ByConstruction,
     paper: "speed is step length times step frequency, and people lengthen the step rather than raise the frequency",
+    criterion: "the speed of walks at 1.0 and 1.6 m/s is this product within 1e-9, and more than half of the increase comes from the \
+        step length, in logarithms",
+    former: None,
     headline: "share_of_step_length",
     scope: Scope::Full,
     measure: |_| {
@@ -67,12 +68,7 @@ pub(super) const SPEED_LAW: Statement = Statement {
     },
     judge: |paper, _| {
         let (share, off) = (number(paper, "share_of_step_length"), number(paper, "departure_from_product"));
-        let note = format!(
-            "passes if the speed of walks at 1.0 and 1.6 m/s is this product within 1e-9 ({off:.0e}), and if more than \
-             half of the increase \
-             comes from the step length (in logarithms); {:.0} %, as the exponent of the cadence is assumed",
-            100.0 * share
-        );
+        let note = format!("found {off:.0e} and {:.0} %, as the exponent of the cadence is assumed", 100.0 * share);
         (share > 0.5 && off < 1e-9, note)
     },
 };
@@ -81,18 +77,16 @@ pub(super) const CHANGE: Statement = Statement {
     id: "l3",
     kind: ClaimKind::ByConstruction,
     paper: "if the velocity changes, all states are synchronized using the new sub-cycle parameters",
+    criterion: "after a change from 1.2 to 1.6 m/s in one second, hip, knee and ankle have at every phase the angles of a walk at \
+        1.6 m/s within 0.000001 deg, and no acceleration jumps at either end of the change",
+    former: None,
     headline: "difference_after_the_change_deg",
     scope: Scope::Full,
     measure: |_| changed().unwrap_or_default(),
     judge: |paper, _| {
         let (off, jump) =
             (number(paper, "difference_after_the_change_deg"), number(paper, "jump_of_acceleration_share"));
-        let note = format!(
-            "passes if, after a change from 1.2 to 1.6 m/s in one second, hip, knee and ankle have at every phase the \
-             angles of a walk at \
-             1.6 m/s within {EQUAL_DEG} deg ({off:.0e}), and no acceleration jumps at either end of the change \
-             ({jump:.0e})"
-        );
+        let note = format!("found {off:.0e} deg, and a jump of {jump:.0e} of the largest acceleration");
         (off < EQUAL_DEG && jump < NO_JUMP, note)
     },
 };

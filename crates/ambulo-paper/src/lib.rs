@@ -8,8 +8,10 @@ mod corrected;
 mod error;
 mod evidence;
 mod mode;
+mod open_values;
 mod paper_human;
 mod paper_settings;
+mod setting;
 mod steady;
 
 mod action;
@@ -17,6 +19,7 @@ mod assumptions;
 mod bounce;
 mod claim;
 mod convergence;
+mod experiments;
 mod forward;
 mod gaits;
 mod ground_force;
@@ -34,23 +37,28 @@ mod harmonics;
 mod moving;
 mod muscles;
 
-pub use assumptions::{Assumption, Sensitivity, assumptions, sensitivities};
+pub use assumptions::{Assumption, Sensitivity, assumptions, judged_with, sensitivities};
 #[doc(hidden)]
 pub use claim::ClaimKind;
-pub use claim::{Claim, Judgement, Numbers, number, tally};
+pub use claim::{Claim, FormerJudgement, Judgement, Numbers, former_tally, number, tally};
 pub use corrected::CorrectedMode;
 pub use error::ReproductionError;
-pub use evidence::{CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope};
-pub use figures::{PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws, paper_figures};
+pub use evidence::{
+    BRIEF_CYCLES, CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope,
+};
+pub use experiments::add_experiments;
+pub use figures::{FigureSet, PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws, paper_figures, quintics};
 pub use ground_force::{MEASURED_FOOT_OFF, VERTICAL_EVERY_4_PERCENT, measured_vertical};
 pub use harmonics::torque_series;
 pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk, paper_walk_with};
 pub use moving::{MovingFigure, MovingHead, MovingStick, moving_figure};
 pub use muscles::{MuscleRow, PHASES, muscle_table};
+pub use open_values::{KNOT_RANGE, KNOTS, OpenKind, OpenValue, open_values};
 pub use paper_human::{HEIGHT, MASS, paper_human};
 #[doc(hidden)]
 pub use paper_settings::PaperSettings;
-pub use shares::{OpenValues, StoredShares, judged_of_the_paper, read_shares, shares_csv, stored_shares};
+pub use setting::{NAMED, Setting};
+pub use shares::{ClaimShare, StoredShares, judged_of_the_paper, read_shares, shares_csv, shares_of, stored_shares};
 pub use statements::{claims, judgements};
 #[doc(hidden)]
 pub use steady::Steady;
@@ -62,5 +70,5 @@ pub mod internals {
     pub use crate::claim::Statement;
     pub use crate::ground_force::humps;
     pub use crate::interaction::{GRASP_CLAIM, HAND_IN_HAND, LOOPS, OBSTACLE};
-    pub use crate::shares::OPEN;
+    pub use crate::statements::statement;
 }

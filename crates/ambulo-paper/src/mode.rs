@@ -2,6 +2,7 @@
 
 use super::error::ReproductionError;
 use super::paper_settings::PaperSettings;
+use super::setting::Setting;
 use ambulo_body::findings::Findings;
 use ambulo_body::model::anthropometry::{ContactSphere, Human};
 use ambulo_walk::engine::{ImpactLaw, StepSettings};
@@ -43,10 +44,14 @@ pub struct Run {
     pub recording: WalkRecording,
     /// Name of the gait.
     pub gait: String,
+    /// Contact law of the soles: rigid or soft.
+    pub shoes: Footwear,
     /// Soles of the figure.
     pub soles: Vec<ContactSphere>,
     /// Duration of a cycle [s]; row 0 is the nominal foot strike of the right foot.
     pub cycle_s: f64,
+    /// Leg length of the figure [m].
+    pub leg_length: f64,
     /// Speed of the gait [m/s].
     pub speed: f64,
     /// Step length of the gait [m].
@@ -60,12 +65,12 @@ pub type Mode<'a> = dyn FnMut(&TrialSettings<'_>) -> Result<Run, ReproductionErr
 
 /// Simulates a walk as in the paper: joints driven by the gait, the trunk held upright, the root free to slide, rigid
 /// contacts whose impacts cancel the whole velocity of the point, Coulomb friction. Values that the paper does not give
-/// are those of [`PaperSettings::default`].
+/// are those of [`Setting::papers_results`].
 ///
 /// # Errors
 /// A gait that is not possible for the figure, or a walk that cannot be simulated.
 pub fn paper_walk(trial: &TrialSettings<'_>) -> Result<Run, ReproductionError> {
-    paper_walk_with(&PaperSettings::default(), trial)
+    Setting::papers_results()?.walk(trial)
 }
 
 /// Simulates a walk as in the paper, with other values for quantities that the paper does not give.
@@ -78,7 +83,8 @@ pub fn paper_walk_with(settings: &PaperSettings, trial: &TrialSettings<'_>) -> R
     let mut findings = Findings::default();
     let human = settings.figure(trial.human)?;
     let walk = Walk::new(&settings.gait(trial.gait), human.dimensions.leg_length, &mut findings)?;
-    let (shoes, impact) = match trial.shoes {
+    let footwear = if trial.shoes == Footwear::Own { Footwear::Rigid } else { trial.shoes };
+    let (shoes, impact) = match footwear {
         Footwear::Own | Footwear::Rigid => (Shoes::Rigid, settings.impact),
         Footwear::Soft => (Shoes::HuntCrossley(settings.soft_shoes), ImpactLaw::Coulomb),
     };
@@ -91,6 +97,8 @@ pub fn paper_walk_with(settings: &PaperSettings, trial: &TrialSettings<'_>) -> R
     Ok(Run {
         recording,
         gait: walk.name().to_owned(),
+        shoes: footwear,
+        leg_length: human.dimensions.leg_length,
         soles: human.soles,
         cycle_s: walk.cycle_s(),
         speed: walk.speed(),

@@ -33,6 +33,9 @@ pub(super) const OWN_TORQUES: Statement = Statement {
     kind: ClaimKind::Ours,
     paper: "(proposed at the end of the paper) parameterised torque curves drive a physically simulated walk that \
         adapts to its surroundings",
+    criterion: "the paper's figure, without anything that holds its trunk and with 5 harmonics for each torque curve, walks 30 steps \
+        on level ground, 10 after a push of 100 N for 0.2 s and 10 on ground that rises by 3 %, with feedback of its state",
+    former: None,
     headline: "steps_on_level_ground",
     scope: Scope::Full,
     measure: |_| {
@@ -41,21 +44,7 @@ pub(super) const OWN_TORQUES: Statement = Statement {
     },
     judge: |paper, _| {
         let steps = ["steps_on_level_ground", "steps_after_a_push", "steps_uphill"].map(|name| number(paper, name));
-        let note = format!(
-            "passes if the paper's figure, without anything that holds its trunk and with {HARMONICS} harmonics for \
-             each torque curve, walks {} steps on level ground, {} \
-             steps after a push of {PUSH_N} N for {} s and {} steps on ground that rises by {} %, with feedback of its \
-             state; found {}, {} and {} \
-             (docs/PHYSICAL_WALK.md)",
-            STEPS[0],
-            STEPS[1],
-            PUSH_S[1],
-            STEPS[1],
-            100.0 * SLOPE,
-            steps[0],
-            steps[1],
-            steps[2]
-        );
+        let note = format!("found {}, {} and {} steps (docs/PHYSICAL_WALK.md)", steps[0], steps[1], steps[2]);
         (steps[0] >= STEPS[0] as f64 && steps[1].min(steps[2]) >= STEPS[1] as f64, note)
     },
 };

@@ -27,9 +27,29 @@ pub(super) fn of_mass(mass: f64) -> Result<Human, ReproductionError> {
     Ok(build.human()?)
 }
 
-/// The same build with another stature [m].
+/// The figure with another stature [m]; cross-sections and soles keep their ratio to those of its build.
 pub(super) fn rebuilt(human: &Human, height: f64) -> Result<Human, ReproductionError> {
-    Ok(Build { height, ..human.build }.human()?)
+    let plain = human.build.human()?;
+    let figure = Build { height, ..human.build }.human()?;
+    let thickness = cross_section(human) / cross_section(&plain);
+    let soles = sum_of_radii(human) / sum_of_radii(&plain);
+    Ok(with_soles(with_thickness(&figure, thickness)?, soles))
+}
+
+/// Squared radius of the cylinder of the heaviest segment [m²]: r² = 2 I / m about its axis.
+fn cross_section(human: &Human) -> f64 {
+    let square = |body: &Body| {
+        let own = body.inertia.about_center();
+        let least = (0..3).map(|axis| own[(axis, axis)]).fold(f64::INFINITY, f64::min);
+        2.0 * least / body.inertia.mass()
+    };
+    let by_mass = |a: &&Body, b: &&Body| a.inertia.mass().total_cmp(&b.inertia.mass());
+    human.model.bodies().iter().max_by(by_mass).map_or(1.0, square)
+}
+
+/// Sum of the radii of the soles [m].
+pub(super) fn sum_of_radii(human: &Human) -> f64 {
+    human.soles.iter().map(|sole| sole.radius).sum()
 }
 
 /// The figure with the density that it has at [`MASS`]: segments of the same length, with other radii of segments and

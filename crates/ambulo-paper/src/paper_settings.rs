@@ -1,15 +1,17 @@
 //! Values that the paper does not give, and their effect on figure, gait and signals.
 
 use super::error::ReproductionError;
+use super::evidence::GAITS;
+use super::open_values::KNOTS;
 use super::paper_human::{rebuilt, with_soles, with_thickness, with_toe_reach};
 use ambulo_body::contact::HuntCrossley;
 use ambulo_body::model::anthropometry::{Human, SpherePart};
 use ambulo_body::model::{Function, Model};
 use ambulo_walk::engine::{ImpactLaw, Signal};
-use ambulo_walk::gait::{Gait, Pelvis, Style, Walk};
+use ambulo_walk::gait::{Gait, KnotChange, Pelvis, Speed, Style, Walk};
 use ambulo_walk::walking::{WalkingError, gait_signals};
 
-/// Values that the paper does not give. The default is used in the paper's mode.
+/// Values that the paper does not give, as the simulation uses them; [`Setting`](super::Setting) has their sources.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaperSettings {
     /// Stature [m]; `None` for the value of the figure.
@@ -26,52 +28,30 @@ pub struct PaperSettings {
     pub arm_swing: f64,
     /// Angle that is added to the flexion of both hips [rad].
     pub hip_offset: f64,
-    /// Interpolation of the joint curves; `None` for the value of the gait. It has no effect on gaits with changes of
-    /// knots.
-    pub style: Option<Style>,
-    /// Factor on the step length of all gaits.
-    pub step_length: f64,
+    /// Interpolation of the joint curves. In style `knots`, and in a gait with knots of its own, `knots` has no effect.
+    pub style: Style,
+    /// Step length of the standard gait [m].
+    pub standard_step: f64,
+    /// Whether the curves are those of the speed of this step.
+    pub angles_of_the_step: bool,
     /// Factor on the step height of all gaits.
     pub step_height: f64,
-    /// Step length of one gait relative to the standard gait, instead of its own.
-    pub own_length: Option<(&'static str, f64)>,
-    /// Step length of the short steps relative to the standard gait, instead of their own.
-    pub short_length: Option<f64>,
-    /// The same for the long steps.
-    pub long_length: Option<f64>,
-    /// Step height of one gait relative to the standard gait, instead of its own.
-    pub own_height: Option<(&'static str, f64)>,
+    /// Step lengths of [`GAITS`] relative to the standard gait.
+    pub lengths: [f64; 4],
+    /// Step heights of [`GAITS`] relative to the standard gait.
+    pub heights: [f64; 4],
     /// Whether the goose step has the straight knees of the built-in gait `parade`, at its own period.
     pub straight_goose: bool,
+    /// Time [cycles] and angle [rad] that are added to each of [`KNOTS`].
+    pub knots: [[f64; 2]; KNOTS.len()],
     /// Impact law of the soles.
     pub impact: ImpactLaw,
     /// Soft shoes.
     pub soft_shoes: HuntCrossley,
 }
 
-impl Default for PaperSettings {
-    fn default() -> PaperSettings {
-        PaperSettings {
-            height: None,
-            thickness: 1.0,
-            sole_radii: 1.0,
-            toe_spheres: true,
-            toe_reach: None,
-            arm_swing: 1.0,
-            hip_offset: 0.0,
-            style: None,
-            step_length: 1.0,
-            step_height: 1.0,
-            own_length: None,
-            short_length: None,
-            long_length: None,
-            own_height: None,
-            straight_goose: false,
-            impact: ImpactLaw::Sticking,
-            soft_shoes: HuntCrossley::FALISSE_2022,
-        }
-    }
-}
+/// Step length and steps per second of the built-in standard gait [m, 1/s].
+const BUILT_IN_STEP: [f64; 2] = [0.75, 2.0];
 
 impl PaperSettings {
     pub(super) fn figure(&self, human: &Human) -> Result<Human, ReproductionError> {
@@ -89,30 +69,52 @@ impl PaperSettings {
         }
     }
 
-    /// The gait with these settings; the trunk is always held at a constant angle.
+    /// The gait with these settings; the trunk is always held at a constant angle. Another gait than [`GAITS`] keeps
+    /// its steps.
     pub(super) fn gait(&self, gait: &Gait) -> Gait {
-        let mut gait = Gait { pelvis: Pelvis::Vertical, ..gait.clone() };
-        if self.straight_goose && gait.name == "goose" {
+        let mut gait = Gait { pelvis: Pelvis::Vertical, ..self.with_steps(gait) };
+        if self.is_straight(&gait) {
             gait.changes = Gait::named("parade").map(|parade| parade.changes).unwrap_or_default();
-            gait.step_height = 1.0;
-        }
-        gait.pace.length_scale *= self.step_length;
-        if let Some((_, height)) = self.own_height.filter(|(name, _)| *name == gait.name) {
-            gait.step_height = height;
-        }
-        gait.step_height *= self.step_height;
-        for (name, length) in [("short", self.short_length), ("long", self.long_length)] {
-            if let Some(length) = length.filter(|_| gait.name == name) {
-                gait.pace.length_scale = length * self.step_length;
-            }
-        }
-        if let Some((_, scale)) = self.own_length.filter(|(name, _)| *name == gait.name) {
-            gait.pace.length_scale = scale;
-        }
-        if let (Some(style), true) = (self.style, gait.changes.is_empty()) {
-            gait.style = style;
+        } else if gait.changes.is_empty() {
+            gait.style = self.style;
+            gait.changes = self.changes();
         }
         gait
+    }
+
+    /// The gait with the step length and the step height of these settings, and its own curves.
+    pub(super) fn with_steps(&self, gait: &Gait) -> Gait {
+        let mut gait = gait.clone();
+        if let Some(number) = GAITS.iter().position(|name| *name == gait.name) {
+            gait.pace.length_scale = self.lengths[number];
+            gait.step_height = if self.is_straight(&gait) { 1.0 } else { self.heights[number] };
+            self.set_standard_step(&mut gait);
+        }
+        gait.step_height *= self.step_height;
+        gait
+    }
+
+    fn is_straight(&self, gait: &Gait) -> bool {
+        self.straight_goose && gait.name == "goose"
+    }
+
+    fn set_standard_step(&self, gait: &mut Gait) {
+        let [step, frequency] = BUILT_IN_STEP;
+        if self.angles_of_the_step {
+            gait.pace.speed = Some(Speed::MetersPerSecond(self.standard_step * frequency));
+        } else {
+            gait.pace.length_scale *= self.standard_step / step;
+        }
+    }
+
+    fn changes(&self) -> Vec<KnotChange> {
+        if self.style == Style::Knots {
+            return Vec::new();
+        }
+        let moved = KNOTS.iter().zip(self.knots).filter(|(_, [time, angle])| time.abs() + angle.abs() > 0.0);
+        moved
+            .map(|((joint, knot), [phase, angle])| KnotChange { phase, angle, ..KnotChange::of(*joint, knot) })
+            .collect()
     }
 
     pub(super) fn signals(&self, walk: &Walk, model: &Model, duration_s: f64) -> Result<Vec<Signal>, WalkingError> {

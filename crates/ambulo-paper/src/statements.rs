@@ -7,7 +7,7 @@ use super::{
 };
 
 /// All statements, in the order of the figures in the paper.
-const STATEMENTS: [Statement; 35] = [
+static STATEMENTS: [Statement; 35] = [
     laws::SMOOTH,
     laws::SPEED_LAW,
     laws::CHANGE,
@@ -45,14 +45,24 @@ const STATEMENTS: [Statement; 35] = [
     bounce::SPEED,
 ];
 
+/// A statement by its letter.
+pub fn statement(id: &str) -> Option<&'static Statement> {
+    STATEMENTS.iter().find(|statement| statement.id == id)
+}
+
 /// Judges every claim in the paper's mode, with the numbers of the corrected mode for comparison.
 #[must_use]
 pub fn claims(paper: &Evidence, corrected: Option<&Evidence>) -> Vec<Claim> {
     STATEMENTS.iter().map(|statement| statement.claim(paper, corrected)).collect()
 }
 
-/// Judges the claims for which brief evidence is sufficient.
+/// The letters of all claims.
+pub(super) fn claim_ids() -> impl Iterator<Item = &'static str> {
+    STATEMENTS.iter().map(|statement| statement.id)
+}
+
+/// Judges the claims for which the walks of a scope are sufficient.
 #[must_use]
-pub fn judgements(paper: &Evidence) -> Vec<Judgement> {
-    STATEMENTS.iter().filter(|statement| statement.scope == Scope::Brief).map(|s| s.judgement(paper)).collect()
+pub fn judgements(paper: &Evidence, scope: Scope) -> Vec<Judgement> {
+    STATEMENTS.iter().filter(|statement| statement.scope <= scope).map(|s| s.judgement(paper)).collect()
 }

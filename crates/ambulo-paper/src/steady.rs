@@ -116,8 +116,13 @@ impl<'a> Steady<'a> {
     /// Whether an instant is within [`IMPACT_MARGIN_S`] of an impact.
     #[must_use]
     pub fn near_impact(&self, time_s: f64) -> bool {
-        self.run.recording.impacts.iter().any(|impact| (impact.time_s - time_s).abs() < IMPACT_MARGIN_S)
+        near_impact(self.run, time_s)
     }
+}
+
+/// Whether an instant is within [`IMPACT_MARGIN_S`] of an impact of a walk.
+pub(super) fn near_impact(run: &Run, time_s: f64) -> bool {
+    run.recording.impacts.iter().any(|impact| (impact.time_s - time_s).abs() < IMPACT_MARGIN_S)
 }
 
 /// Mean of curves, point by point.

@@ -1,11 +1,9 @@
 //! The claims of the paper: results of its mode, agreement with the documentation, and judgements that fail.
 
 use ambulo_paper::{
-    Claim, ClaimKind, Evidence, FRICTION, Footwear, GAITS, PaperSettings, Scope, Steady, TrialSettings, angular_laws,
-    assumptions, claims, measured_vertical, muscle_table, number, paper_figures, paper_human, paper_walk,
-    paper_walk_with, stored_shares, tally, torque_series,
+    Claim, ClaimKind, Evidence, GAITS, Scope, Setting, Steady, TrialSettings, angular_laws, assumptions, claims,
+    former_tally, measured_vertical, muscle_table, number, paper_figures, paper_walk, tally, torque_series,
 };
-use ambulo_walk::gait::Gait;
 use std::sync::LazyLock;
 
 /// What walks once for all tests.
@@ -110,9 +108,9 @@ fn the_documentation_agrees_with_the_results() {
             claim.value()
         );
     }
-    for assumption in assumptions() {
+    for assumption in assumptions(&Setting::papers_results().unwrap()) {
         assert!(
-            page.contains(assumption.what) && page.contains(assumption.value),
+            page.contains(&assumption.what) && page.contains(&assumption.value),
             "{} is not on the page",
             assumption.what
         );
@@ -127,7 +125,10 @@ fn only_the_paper_s_claims_that_could_fail_are_counted() {
     assert!(["a2", "b", "d2", "f1", "k", "l1", "l2", "l3", "e4"].iter().all(|id| !counted.contains(id)), "{counted:?}");
     let page = include_str!("../../../docs/measured/REPRODUCTION.md");
     assert!(page.contains(&format!("**{held} of {all}** claims")));
-    assert!(CLAIMS.iter().filter(|claim| stored_shares().contradicts(claim)).all(|claim| !claim.pass));
+    assert!(["m1", "n1"].iter().all(|id| !counted.contains(id)), "{counted:?}");
+    // At least six in seven.
+    assert!(7 * held >= 6 * all, "{held} of {all}");
+    assert_eq!(former_tally(&CLAIMS)[1], 22);
 }
 
 #[test]
@@ -176,31 +177,6 @@ fn the_corrected_mode_is_reported_with_the_paper_s() {
     }
     // The same motion in the same shoes bounces no less.
     assert!(!both.iter().find(|claim| claim.id == "i").unwrap().pass);
-}
-
-#[test]
-fn values_that_the_paper_does_not_give_change_the_walk() {
-    let (human, gait) = (paper_human().unwrap(), Gait::named("standard").unwrap());
-    let trial = TrialSettings {
-        gait: &gait,
-        human: &human,
-        shoes: Footwear::Own,
-        friction: FRICTION,
-        rate_hz: 500.0,
-        cycles: 8,
-    };
-    let own = paper_walk_with(&PaperSettings::default(), &trial).unwrap();
-    for assumption in assumptions() {
-        for (other, settings) in assumption.others {
-            let changes_shoes = settings.soft_shoes != PaperSettings::default().soft_shoes;
-            let of_one_gait = settings.own_length.is_some() || settings.own_height.is_some() || settings.straight_goose;
-            if of_one_gait || changes_shoes {
-                continue;
-            }
-            let run = paper_walk_with(&settings, &trial).unwrap();
-            assert!(run.recording.efforts != own.recording.efforts, "{}: {other}", assumption.what);
-        }
-    }
 }
 
 #[test]

@@ -5,7 +5,9 @@
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
 mod claims;
+mod criteria;
 mod ground_force;
 mod interaction;
+mod settings;
 mod shares;
 mod synthetic_walk;

@@ -1,21 +1,36 @@
-//! How often claims hold over values that the paper does not give, sampled jointly, and the setting that meets most of
-//! them.
+//! How often claims hold over values that the paper does not give, sampled jointly.
 
-use ambulo_paper::internals::OPEN;
-use ambulo_paper::{OpenValues, shares_csv, stored_shares};
+use ambulo_paper::{Setting, open_values, shares_csv, shares_of, stored_shares};
 
 #[test]
 fn stored_results_are_read_as_they_are_written() {
     assert_eq!(shares_csv(stored_shares()), include_str!("../data/shares.csv"));
-    assert!(stored_shares().settings >= 500 && stored_shares().best.named().all(|(_, value)| value.is_finite()));
 }
 
 #[test]
 fn drawn_values_repeat_and_stay_in_their_ranges() {
-    assert_eq!(OpenValues::drawn(1, 2), OpenValues::drawn(1, 2));
-    assert_ne!(OpenValues::drawn(1, 2), OpenValues::drawn(1, 3));
-    let first = OpenValues::drawn(1, 2);
-    for values in [&first, &first.near(1, 5)] {
-        assert!(OPEN.iter().zip(values.named()).all(|(open, (_, x))| (open.range[0]..=open.range[1]).contains(&x)));
+    assert_eq!(Setting::drawn(1, 2), Setting::drawn(1, 2));
+    assert_ne!(Setting::drawn(1, 2).values(), Setting::drawn(1, 3).values());
+    for number in 0..100 {
+        let drawn = Setting::drawn(1, number);
+        assert!(open_values().iter().zip(drawn.values()).all(|(open, value)| open.allows(*value)));
     }
+}
+
+#[test]
+fn the_value_that_decides_a_claim_is_found() {
+    let stature = open_values().iter().position(|open| open.key == "stature_m").unwrap();
+    let spheres = open_values().iter().position(|open| open.key == "toe_spheres").unwrap();
+    let judged: Vec<(Setting, Vec<bool>)> = (0..300)
+        .map(|number| {
+            let setting = Setting::drawn(7, number);
+            let (tall, toes) = (setting.values()[stature] > 1.85, setting.values()[spheres] > 0.5);
+            (setting, vec![tall, !toes])
+        })
+        .collect();
+    let [tall, toes] = &shares_of(&judged, &["c1", "e3"])[..] else { panic!("two claims") };
+    assert_eq!((tall.decided_by.as_str(), toes.decided_by.as_str()), ("stature_m", "toe_spheres"));
+    assert!(tall.lower < 0.01 && tall.upper > 0.9, "{tall:?}");
+    assert!(toes.lower > 0.99 && toes.upper < 0.01, "{toes:?}");
+    assert!((tall.share - 1.0 / 3.0).abs() < 0.1 && (toes.share - 0.5).abs() < 0.1);
 }

@@ -2,7 +2,7 @@
 
 use ambulo_body::findings::Findings;
 use ambulo_body::model::anthropometry::{Build, SegmentTable};
-use ambulo_paper::{Footwear, TrialSettings, paper_walk};
+use ambulo_paper::{Footwear, Setting, TrialSettings};
 use ambulo_walk::gait::Gait;
 use ambulo_walk::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
 
@@ -14,7 +14,8 @@ fn the_papers_mode_is_the_one_whose_claims_are_judged() {
     let walk = synthesise(&settings, &mut Findings::default()).unwrap();
     let trial =
         TrialSettings { gait: &gait, human: &human, shoes: Footwear::Own, friction: 1.0, rate_hz: 1000.0, cycles: 5 };
-    let judged = paper_walk(&trial).unwrap().recording;
+    let setting = Setting::named("schwartz-children").unwrap().unwrap();
+    let judged = setting.walk(&trial).unwrap().recording;
     let forward = human.model.coordinate("pelvis_tx").unwrap();
     let (short, long) = (walk.trajectory.values(forward), judged.trajectory.values(forward));
     let first = long.iter().position(|x| x.to_bits() == short[0].to_bits()).unwrap();

@@ -50,7 +50,7 @@ pub mod internals {
     pub use crate::figures::axes::{
         Labels, Ticks, number_text as axis_number, range as axis_range, round_labels, ticks as axis_ticks, with_power,
     };
-    pub use crate::figures::moving_picture::moving_picture;
+    pub use crate::figures::moving_picture::{moving_picture, moving_speed};
     pub use crate::figures::session_panels::{
         LineLook, PanelArea, PanelLine, SessionFigure, SessionPanel, SessionSample,
     };

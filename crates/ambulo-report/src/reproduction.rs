@@ -5,13 +5,13 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::simulation::walking::TorqueSeries;
 use ambulo_paper::{
-    Claim, Evidence, GAITS, PaperFigure, Sensitivity, angular_laws, assumptions, muscle_table, paper_figures,
-    paper_human, torque_series,
+    Claim, Evidence, FigureSet, GAITS, PaperFigure, Sensitivity, Setting, angular_laws, assumptions, muscle_table,
+    paper_figures, paper_human, quintics, torque_series,
 };
 use ambulo_results::OutputFile;
 use std::fmt::Write;
 
-/// All figures and tables. `best` has the walks with the values that meet most claims, for figures 4 to 7.
+/// All figures and tables of the walks with a setting.
 ///
 /// # Errors
 /// A figure that could not be drawn.
@@ -19,7 +19,7 @@ pub fn reproduction_files(
     claims: &[Claim],
     paper: &Evidence,
     corrected: Option<&Evidence>,
-    best: Option<&Evidence>,
+    setting: &Setting,
     sensitivities: &[Sensitivity],
 ) -> Result<Vec<OutputFile<'static>>, FigureError> {
     let file = |name: String, text: String| OutputFile::new(name, text.into_bytes());
@@ -27,28 +27,23 @@ pub fn reproduction_files(
     if let Some(svg) = first_figure()? {
         files.push(file("figures/figure1.svg".into(), svg));
     }
-    let figures = paper_figures(paper, corrected);
+    let of_paper = paper_figures(FigureSet::Paper, paper);
+    let of_corrected = corrected.map(|evidence| paper_figures(FigureSet::Corrected, evidence)).unwrap_or_default();
+    let figures: Vec<PaperFigure> = [quintics()].into_iter().chain(of_paper).chain(of_corrected).collect();
     for figure in &figures {
         files.push(file(format!("figures/{}.svg", figure.name), paper_figure(figure)?));
     }
     for figure in angular_laws().iter().chain(&figures) {
         files.push(file(format!("figures/{}.csv", figure.name), figure_csv(figure)));
     }
-    let of_best = best.map(|best| paper_figures(best, None)).unwrap_or_default();
-    for figure in of_best.iter().filter(|figure| BEST.contains(&figure.name)) {
-        files.push(file(format!("figures/best_{}.svg", figure.name), paper_figure(figure)?));
-        files.push(file(format!("figures/best_{}.csv", figure.name), figure_csv(figure)));
-    }
     let modes = || std::iter::once(("paper", paper)).chain(corrected.map(|evidence| ("corrected", evidence)));
     files.push(file("muscles.csv".into(), muscles_csv(modes())));
     files.push(file("torques.csv".into(), torques_csv(modes())));
     files.push(file("torques.toml".into(), torques_toml(modes())));
-    files.push(file("assumptions.csv".into(), assumptions_csv(claims, sensitivities)));
+    files.push(file("assumptions.csv".into(), assumptions_csv(claims, setting, sensitivities)));
+    files.push(file("setting.toml".into(), setting.judged(claims).to_toml()));
     Ok(files)
 }
-
-/// Figures that are also made with the values that meet most claims.
-const BEST: [&str; 4] = ["figure4", "figure5", "figure6", "figure7"];
 
 /// Figure 1: the angular laws of the standard gait with their sub-cycles.
 fn first_figure() -> Result<Option<String>, FigureError> {
@@ -125,16 +120,17 @@ fn torques_toml<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -
 
 /// One row per claim and alternative value; a row without a claim means that no alternative was tried, or that no walk
 /// was possible with it.
-fn assumptions_csv(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
-    let mut text = String::from("what,value,why,other,claim,headline,with_value,with_other,turns\n");
-    for assumption in assumptions() {
-        let start = [assumption.what, assumption.value, assumption.why].map(cell).join(",");
+fn assumptions_csv(claims: &[Claim], setting: &Setting, sensitivities: &[Sensitivity]) -> String {
+    let mut text = String::from("what,value,range,source,why,other,claim,headline,with_value,with_other,turns\n");
+    for assumption in assumptions(setting) {
+        let start = [&assumption.what, &assumption.value, &assumption.range, assumption.source, assumption.why];
+        let start = start.map(cell).join(",");
         let of_it: Vec<&Sensitivity> = sensitivities.iter().filter(|s| s.what == assumption.what).collect();
         if of_it.is_empty() {
             let _ = writeln!(text, "{start},,,,,,");
         }
         for sensitivity in of_it {
-            let start = format!("{start},{}", cell(sensitivity.other));
+            let start = format!("{start},{}", cell(&sensitivity.other));
             let turned = sensitivity.reversed(claims);
             match &sensitivity.outcome {
                 Err(reason) => {

@@ -59,8 +59,8 @@ impl Keep {
     /// The names for a sweep of walks.
     pub const OF_SWEEPS: [&'static str; 6] = ["report", "figures", "tables", "summary", "sweep", "walks"];
     /// The names for the claims of the 1997 paper.
-    pub const OF_THE_PAPER: [&'static str; 8] =
-        ["report", "figures", "tables", "summary", "claims", "muscles", "torques", "assumptions"];
+    pub const OF_THE_PAPER: [&'static str; 9] =
+        ["report", "figures", "tables", "summary", "claims", "muscles", "torques", "assumptions", "setting"];
 
     /// All outputs.
     #[must_use]

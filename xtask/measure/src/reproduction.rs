@@ -5,8 +5,8 @@
 
 use crate::workspace;
 use ambulo_paper::{
-    Claim, CorrectedMode, Evidence, GAITS, Scope, Sensitivity, StoredShares, TrialSettings, assumptions, claims,
-    number, paper_walk, read_shares, sensitivities, tally,
+    Claim, CorrectedMode, Evidence, GAITS, NAMED, Scope, Sensitivity, Setting, StoredShares, TrialSettings,
+    add_experiments, assumptions, claims, former_tally, number, read_shares, sensitivities, tally,
 };
 use std::fmt::Write;
 use std::fs;
@@ -22,16 +22,28 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let write = workspace::write_option(words)?;
     let start = Instant::now();
     let clock = move || start.elapsed().as_secs_f64();
-    let mut mode = |trial: &TrialSettings<'_>| paper_walk(trial);
+    let setting = Setting::papers_results().map_err(|e| e.to_string())?;
+    let mut mode = |trial: &TrialSettings<'_>| setting.walk(trial);
     let paper = Evidence::gather(&mut mode, Scope::Full, Some(&clock)).map_err(|e| e.to_string())?;
-    let mut corrected = CorrectedMode::default();
+    let mut corrected = CorrectedMode::of(&setting);
     let mut mode = |trial: &TrialSettings<'_>| corrected.walk(trial);
     let corrected = Evidence::gather(&mut mode, Scope::Full, Some(&clock)).map_err(|e| e.to_string())?;
-    let claims = claims(&paper, Some(&corrected));
+    let mut claims = claims(&paper, Some(&corrected));
+    add_experiments(&mut claims, &paper, &setting).map_err(|e| e.to_string())?;
+    let mut named = Vec::new();
+    for (name, _) in NAMED {
+        let Some(other) = Setting::named(name) else { continue };
+        let other = other.map_err(|e| e.to_string())?;
+        let mut mode = |trial: &TrialSettings<'_>| other.walk(trial);
+        let evidence = Evidence::gather(&mut mode, Scope::Full, Some(&clock)).map_err(|e| e.to_string())?;
+        let judged = ambulo_paper::claims(&evidence, Some(&corrected));
+        named.push((other.name, tally(&judged), former_tally(&judged)));
+    }
     // Of the file, not of this program, which may be older.
     let stored =
         fs::read_to_string(workspace::root().join(SHARES)).map_err(|e| format!("{SHARES}: cannot read: {e}"))?;
-    let page = text(&claims, &sensitivities().map_err(|e| e.to_string())?, &read_shares(&stored));
+    let others = sensitivities(&setting, &paper, &mut |_, _| {});
+    let page = text(&Results { claims, others, named, shares: read_shares(&stored), setting });
     println!("{page}");
     if write {
         workspace::save(PAGE, &page)?;
@@ -39,28 +51,78 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     Ok(())
 }
 
-fn text(claims: &[Claim], others: &[Sensitivity], shares: &StoredShares) -> String {
+/// What the page shows.
+struct Results {
+    claims: Vec<Claim>,
+    others: Vec<Sensitivity>,
+    /// Settings that come with the program, each with the claims that hold and those that could fail, now and by the
+    /// criteria before they were changed.
+    named: Vec<(String, [usize; 2], [usize; 2])>,
+    shares: StoredShares,
+    setting: Setting,
+}
+
+fn text(results: &Results) -> String {
+    let Results { claims, others, shares, setting, .. } = results;
     let [held, all] = tally(claims);
     let mut page = format!(
         "# The claims of the 1997 paper: results\n\n\
-         **{held} of {all}** claims of the paper that could fail hold in its own mode. Claims that are true by \
-         construction and claims of ours are \
-         listed and not counted. [REPRODUCTION.md](../REPRODUCTION.md) describes the mode, the files and the \
-         method.\n\n\
-         \"Share\" is the share of {} settings (seed {}) of all values that the paper does not give, drawn jointly, in \
-         which the claim holds; \
-         \"turned\" is the number of other single values that reverse the judgement.\n\n",
-        shares.settings, shares.seed
+         **{held} of {all}** claims of the paper that could fail hold in its own mode, with the setting `{}`. Claims \
+         that are true by construction and claims of ours are listed and not counted. \
+         [REPRODUCTION.md](../REPRODUCTION.md) describes the mode, the settings, the files and the method.\n\n\
+         \"Share\" is the share of {} settings (seed {}) of all values that the paper does not give, drawn jointly, \
+         in which the claim holds, and the value that decides it: the share where this value is low (or the switch \
+         off) and where it is high (or on). \"Turned\" is the number of other single values that reverse the \
+         judgement.\n\n",
+        setting.name, shares.settings, shares.seed
     );
     page += &claim_table(claims, others, shares);
     page += "\n## Criteria and reasons\n\n";
     for claim in claims {
-        let _ = writeln!(page, "- **{}**: {}.", claim.id, claim.note.replace('\n', " "));
+        let note = claim.note.replace('\n', " ");
+        let _ = writeln!(page, "- **{}**: holds if {}. {note}.", claim.id, claim.criterion);
+        if let Some(experiment) = &claim.experiment {
+            let _ = writeln!(page, "  It fails because {experiment}.");
+        }
     }
-    page += &contradictions(claims, shares);
-    page += &best_setting(shares);
+    page += &counts(results);
+    page += &changes(claims);
     page += &muscle_table(claims);
-    page + &assumption_table(claims, others)
+    page + &assumption_table(claims, setting, others)
+}
+
+fn counts(results: &Results) -> String {
+    let mut section = String::from(
+        "\n## Settings that come with the program\n\n| setting | claims that hold | by the criteria before 2026 \
+         |\n|---|---|---|\n",
+    );
+    for (name, [held, all], [before, all_before]) in &results.named {
+        let _ = writeln!(section, "| `{name}` | {held} of {all} | {before} of {all_before} |");
+    }
+    section
+}
+
+/// Criteria that were changed.
+fn changes(claims: &[Claim]) -> String {
+    let mut section =
+        String::from("\n## Criteria that were changed\n\n| claim | before | now | reason |\n|---|---|---|---|\n");
+    let words = |pass: bool| if pass { "holds" } else { "fails" };
+    for claim in claims {
+        let Some(former) = &claim.former else { continue };
+        let _ = writeln!(
+            section,
+            "| {} | {} ({}): {} | {} ({}): {} | {} |",
+            claim.id,
+            words(former.pass),
+            former.kind.words(),
+            former.criterion,
+            words(claim.pass),
+            claim.kind.words(),
+            claim.criterion,
+            former.reason
+        );
+    }
+    section
 }
 
 fn claim_table(claims: &[Claim], others: &[Sensitivity], shares: &StoredShares) -> String {
@@ -86,34 +148,6 @@ fn claim_table(claims: &[Claim], others: &[Sensitivity], shares: &StoredShares) 
         );
     }
     table
-}
-
-/// Claims that hold in no setting, with the mechanical reason.
-fn contradictions(claims: &[Claim], shares: &StoredShares) -> String {
-    let never: Vec<&Claim> = claims.iter().filter(|claim| shares.contradicts(claim)).collect();
-    if never.is_empty() {
-        return String::new();
-    }
-    let mut section = String::from(
-        "\n## Claims that contradict the paper's own model\n\nThey hold in none of the settings. Their reasons:\n\n",
-    );
-    for claim in never {
-        let _ = writeln!(section, "- **{}** ({}): {}.", claim.id, claim.paper, claim.mechanics());
-    }
-    section
-}
-
-fn best_setting(shares: &StoredShares) -> String {
-    let [held, judged] = shares.best_held;
-    let mut section = format!(
-        "\n## The most plausible figure\n\nOf all settings, this one meets most claims: {held} of the {judged} claims \
-         of the paper that were judged \
-         with other settings. The 1997 figure most likely was near it:\n\n| value | |\n|---|---|\n"
-    );
-    for (name, value) in shares.best.named() {
-        let _ = writeln!(section, "| `{name}` | {value:.3} |");
-    }
-    section
 }
 
 /// Work of the muscle groups per gait, from the numbers of claim m1.
@@ -147,12 +181,12 @@ fn muscle_table(claims: &[Claim]) -> String {
     section
 }
 
-fn assumption_table(claims: &[Claim], others: &[Sensitivity]) -> String {
+fn assumption_table(claims: &[Claim], setting: &Setting, others: &[Sensitivity]) -> String {
     let mut section = String::from(
-        "\n## Values that the paper does not give\n\n| quantity | value | reason | other value → claims that change \
-         |\n|---|---|---|---|\n",
+        "\n## Values that the paper does not give\n\n| quantity | value | range | source of the range | open because | other \
+         value → claims that change |\n|---|---|---|---|---|---|\n",
     );
-    for assumption in assumptions() {
+    for assumption in assumptions(setting) {
         let own = others.iter().filter(|other| other.what == assumption.what);
         let turned: Vec<String> = own
             .map(|other| match &other.outcome {
@@ -165,9 +199,11 @@ fn assumption_table(claims: &[Claim], others: &[Sensitivity]) -> String {
             .collect();
         let _ = writeln!(
             section,
-            "| {} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} |",
             assumption.what,
             assumption.value,
+            assumption.range,
+            assumption.source,
             assumption.why,
             turned.join("; ")
         );

@@ -146,15 +146,23 @@ pub(crate) struct CompareArgs {
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "Example:
   ambulo reproduce -o paper
+  ambulo reproduce --write-setting own.toml
+  ambulo reproduce --setting own.toml -o own
+  ambulo reproduce --setting schwartz-children --brief --check -o children
 
 The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking. Files written to DIR:
 report.html (all results on one page; open it with `ambulo view DIR`), claims.json (each claim with its numbers
 and judgement), figures/figure1 to figure7 as .svg and .csv, muscles.csv (what net moments imply about muscles),
 torques.csv and torques.toml (torque curves as harmonics), assumptions.csv (values that the paper does not give,
-and how other values change its claims). The results of an earlier run in DIR are replaced as a whole; other
+and how other values change its claims), setting.toml (these values as a file for --setting). The results of an earlier run in DIR are replaced as a whole; other
 files stay. --keep writes only some of the files. docs/REPRODUCTION.md describes them.
 
-Exit code: 0 whether or not claims hold, 2 if nothing could be computed.")]
+A setting has a value for everything that the paper does not give: size of the figure, steps, soles, and the time and
+angle of every bound of the joint curves. papers-results (default) and schwartz-children come with the program and
+are in examples/paper/.
+
+Exit code: 0 whether or not claims hold; 1 with --check if a claim that the setting lists under `holds` does not
+hold; 2 if nothing could be computed.")]
 pub(crate) struct ReproduceArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
@@ -162,9 +170,19 @@ pub(crate) struct ReproduceArgs {
     /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_paper())]
     pub(crate) keep: Vec<String>,
-    /// Skip the sensitivity to values that the paper does not give, which takes most of the time.
+    /// Skip the sensitivity to values that the paper does not give, which takes half of the time.
     #[arg(long)]
     pub(crate) brief: bool,
+    /// Values that the paper does not give: a file (.toml), papers-results or schwartz-children [default:
+    /// papers-results]. A file may leave out values, which then are those of papers-results.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) setting: Option<PathBuf>,
+    /// Write all values of the setting to a file, with range, source and reason of each, and compute nothing.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["check", "brief", "keep", "output"])]
+    pub(crate) write_setting: Option<PathBuf>,
+    /// Fail (exit code 1) if a claim that the setting lists under `holds` does not hold.
+    #[arg(long)]
+    pub(crate) check: bool,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
     #[command(flatten)]

@@ -19,7 +19,7 @@ pub(crate) use batch::{BatchCounts, BatchRow, batch, batch_plan, batch_progress}
 pub(crate) use calibrate::calibrate;
 pub(crate) use forces::forces;
 pub(crate) use report::{report, view};
-pub(crate) use reproduce::reproduce;
+pub(crate) use reproduce::{lost_claims, reproduce, setting_written};
 pub(crate) use session::session;
 pub(crate) use simulate::simulate;
 pub(crate) use sweep::sweep;

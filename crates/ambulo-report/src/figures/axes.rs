@@ -58,6 +58,8 @@ pub(super) const ABOVE: f64 = 14.0;
 pub(super) const BELOW: f64 = 22.0;
 pub(super) const BELOW_NAMELESS: f64 = 12.0;
 const TICK: f64 = 2.5;
+/// Letters of the font that a browser has may be wider than those of the style's first font by this factor.
+const WIDER: f64 = 1.15;
 /// Bold text is wider by this factor.
 const BOLD: f64 = 1.07;
 /// Numbers up to this size are written in full; larger and much smaller ones share a power of ten.
@@ -154,20 +156,27 @@ impl<'a> Axes<'a> {
         let font = &style.font;
         let powers = [self.ticks[0].labels(self.along).power, self.ticks[1].labels(self.up).power];
         let unit_text = with_power(words.unit, powers[1]);
-        let unit = Letters::plain(font.label_pt, &style.quiet.color, Anchor::End);
-        let room = right - (left - LEFT + 2.0) - text_width(&unit_text, font.label_pt) - 4.0;
-        let fitting = room / (BOLD * text_width(words.title, 1.0)).max(f64::MIN_POSITIVE);
-        let size = font.panel_pt.min(fitting).max(font.note_pt);
+        let quiet = |size, anchor| Letters::plain(size, &style.quiet.color, anchor);
+        let upwards = |anchor| Letters { upwards: true, ..quiet(font.note_pt, anchor) };
+        let (start, line) = (left - LEFT + 2.0, top - 4.5 - words.legend_height);
+        let width = WIDER * BOLD * text_width(words.title, 1.0);
+        let size_in = |room: f64| font.panel_pt.min(room / width.max(f64::MIN_POSITIVE));
+        let beside = size_in(right - start - WIDER * text_width(&unit_text, font.label_pt) - 4.0);
+        // A unit that has no place beside a long title stands along the axis.
+        let is_beside = beside >= font.note_pt || words.directions != [""; 2];
+        let size = if is_beside { beside } else { size_in(right - start) }.max(font.note_pt);
         let title = Letters { bold: true, ..Letters::plain(size, &style.text.color, Anchor::Start) };
-        let line = top - 4.5 - words.legend_height;
-        drawing.text([left - LEFT + 2.0, line], words.title, title);
-        drawing.text([right, line], &unit_text, unit);
+        drawing.text([start, line], words.title, title);
+        let x = left - LEFT + font.note_pt + 1.0;
+        if is_beside {
+            drawing.text([right, line], &unit_text, quiet(font.label_pt, Anchor::End));
+        } else {
+            drawing.text([x, 0.5 * (top + bottom)], &unit_text, upwards(Anchor::Middle));
+        }
         if let Some(name) = words.abscissa {
             let letters = Letters::plain(font.label_pt, &style.text.color, Anchor::Middle);
             drawing.text([0.5 * (left + right), bottom + BELOW - 3.0], &with_power(name, powers[0]), letters);
         }
-        let upwards = |anchor| Letters { upwards: true, ..Letters::plain(font.note_pt, &style.quiet.color, anchor) };
-        let x = left - LEFT + font.note_pt + 1.0;
         let [up, down] = words.directions;
         if !up.is_empty() {
             drawing.text([x, top], &format!("{up} →"), upwards(Anchor::End));

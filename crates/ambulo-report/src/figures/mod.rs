@@ -17,7 +17,7 @@ pub use chart::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveFor
 #[doc(hidden)]
 pub use cycle_figures::CycleFigures;
 pub use gait_figure::gait_figure;
-pub(crate) use moving_picture::moving_picture;
+pub(crate) use moving_picture::{moving_picture, moving_speed};
 pub(crate) use paper_figure::paper_figure;
 pub use scene_figures::SceneCurves;
 pub(crate) use session_panels::{
