@@ -32,6 +32,7 @@ mod plates;
 mod predict;
 mod program;
 mod reproduce;
+mod request;
 mod results;
 mod segment_poses;
 mod sensors;

@@ -75,7 +75,6 @@ impl<T: FromStr<Err: Display>> Visitor<'_> for TextVisitor<T> {
 #[cfg(feature = "schema")]
 #[derive(schemars::JsonSchema)]
 #[schemars(untagged, inline)]
-#[expect(dead_code, reason = "only described")]
 pub enum TextOrNumber {
     /// A number.
     Number(f64),
