@@ -25,7 +25,7 @@ pub struct Request(pub(crate) Verb);
 /// The verbs that a request may have, each with its fields.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) enum Verb {
     /// `ambulo forces`.
     Forces(Box<ForcesRequest>),
@@ -52,7 +52,7 @@ pub(crate) enum Verb {
 /// The forces of a recording.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ForcesRequest {
     /// Recording, person and settings.
     pub job: Job,
@@ -68,7 +68,7 @@ pub struct ForcesRequest {
 /// The calibration of a person, whose ground forces are predicted.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CalibrateRequest {
     /// Trials of one person walking over force plates.
     #[serde(deserialize_with = "json::sources")]
@@ -84,7 +84,7 @@ pub struct CalibrateRequest {
 /// The trials of a folder or a list as tables.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct BatchRequest {
     /// Source, folder and tables.
     own: BatchArgs,
@@ -99,7 +99,7 @@ pub(crate) struct BatchRequest {
 /// The trials of a visit.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct SessionRequest {
     /// Recordings, folder and comparison.
     own: SessionArgs,

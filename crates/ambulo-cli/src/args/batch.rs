@@ -14,7 +14,7 @@ use std::str::FromStr;
 
 #[derive(Debug, Clone, ClapArgs, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Example (after `ambulo demo -o demo`, which writes these files):
   ambulo batch demo/input -o batch
   ambulo batch demo/input -o batch --dry-run -- --predict
@@ -46,7 +46,7 @@ pub(crate) struct BatchArgs {
     /// Compute only every n-th trial, beginning with number I, counted from 0: N machines share a batch.
     #[arg(long, value_name = "I/N", default_value_t = Shard::default(), allow_hyphen_values = true)]
     #[serde(default, deserialize_with = "text::text")]
-    #[cfg_attr(test, schemars(with = "String"))]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub(crate) shard: Shard,
     /// Continue an interrupted batch in its folder.
     #[arg(long)]

@@ -63,7 +63,7 @@ pub(crate) enum C3dPart {
 
 #[derive(Debug, Clone, ClapArgs, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo events demo/input/walk.c3d
 

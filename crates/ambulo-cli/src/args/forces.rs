@@ -268,7 +268,7 @@ impl CalibrateArgs {
 /// How angles of pelvis and hips are measured.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) enum AngleConvention {
     #[default]
     Clinical,

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Clone, ClapArgs, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
   ambulo session demo/input -o session -- --mass 75 --height 1.75
   ambulo session demo/input --dry-run

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Clone, ClapArgs, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Example (in the source folder, which contains examples/):
   ambulo simulate examples/pendulum.toml -o out
   ambulo simulate examples/pile.toml --keep report,energy -o out

@@ -93,37 +93,3 @@ impl TrialWords {
         line.iter().map(|word| quoted(&word.to_string_lossy())).collect::<Vec<_>>().join(" ")
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ambulo::study::StatedSize;
-
-    #[test]
-    fn the_command_has_the_files_and_sizes_of_the_trial_once() {
-        let trial = TrialFiles {
-            recording: "set/walk 1.c3d".into(),
-            standing: Some("set/it's.c3d".into()),
-            size: StatedSize { mass_kg: Some(70.5), height_m: None },
-            ..TrialFiles::default()
-        };
-        let words = |words: &[&str]| {
-            TrialWords::parse("ambulo batch", &words.iter().map(OsString::from).collect::<Vec<_>>()).unwrap()
-        };
-        if cfg!(unix) {
-            let command = words(&["--predict", "--mass", "80", "--from=0.5"]).command(&trial, "page");
-            let expected = r"ambulo forces 'set/walk 1.c3d' --predict --from=0.5 --static 'set/it'\''s.c3d' --mass 70.5 --output page";
-            assert_eq!(command, expected);
-            let command = words(&["--static=other.c3d", "--mass=80"]).command(&trial, "page");
-            assert_eq!(command, "ambulo forces 'set/walk 1.c3d' --static=other.c3d --mass 70.5 --output page");
-        }
-    }
-
-    #[test]
-    fn the_folder_of_a_trial_is_not_chosen_after_the_dashes() {
-        for words in [["-o", "there"], ["--keep", "grf"]] {
-            let refused = TrialWords::parse("ambulo batch", &words.map(OsString::from)).unwrap_err();
-            assert!(refused.to_string().contains("ambulo batch [OPTIONS] -- OPTIONS"), "{refused}");
-        }
-    }
-}

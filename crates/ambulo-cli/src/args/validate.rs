@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Clone, ClapArgs, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Example (after `ambulo demo -o demo`, which writes these files):
   ambulo validate demo/input --mass 75 --height 1.75 -o validation
   ambulo validate demo/input --dry-run
@@ -44,7 +44,7 @@ pub(crate) struct ValidateArgs {
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name(), value_parser = segments().map(Figure))]
     #[serde(default, deserialize_with = "text::text")]
-    #[cfg_attr(test, schemars(with = "String"))]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub(crate) figure: Figure,
     /// The marker set: a name from docs/MARKERS.md or a .toml [default: recognised from the marker names].
     #[arg(long, value_name = "NAME|FILE")]

@@ -199,7 +199,7 @@ pub(super) fn load(text: &str) -> Result<Load, String> {
 /// Values of a sweep in JSON.
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "expected a number, a list of numbers or text, such as \"0.6:2.0:0.2\"")]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(super) enum Written {
     Number(f64),
     Numbers(Vec<f64>),
@@ -332,19 +332,4 @@ pub(super) fn local_address(text: &str) -> Result<SocketAddr, String> {
 /// A time in milliseconds; the library checks its range.
 pub(super) fn milliseconds(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "expected a number of milliseconds, such as 70".into())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn without_an_address_only_this_computer_can_connect() {
-        assert_eq!(endpoint("tcp:5005"), Ok(Endpoint::Tcp(SocketAddr::from(([127, 0, 0, 1], 5005)))));
-        assert_eq!(endpoint("udp:0.0.0.0:7"), Ok(Endpoint::Udp(SocketAddr::from(([0, 0, 0, 0], 7)))));
-        assert_eq!(endpoint("stdin"), Ok(Endpoint::Stdin));
-        for wrong in ["tcp", "tcp:", "tcp:70000", "serial:5", "udp:host:5", ""] {
-            assert!(endpoint(wrong).unwrap_err().contains("udp:PORT"), "{wrong}");
-        }
-    }
 }

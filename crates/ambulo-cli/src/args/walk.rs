@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Clone, ClapArgs, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Example:
   ambulo demo -o demo
 
@@ -42,7 +42,7 @@ pub(crate) struct DemoArgs {
 
 #[derive(Debug, Clone, ClapArgs, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Examples:
   ambulo walk -o out
   ambulo walk --speed 1.0 --figure de-leva-female --mass 60 --height 1.65 -o out
@@ -130,7 +130,7 @@ pub(crate) struct WalkArgs {
 
 #[derive(Debug, Clone, ClapArgs, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Examples:
   ambulo sweep --speed 0.8:1.6:0.2 --mass 60,80,100 -o sweep
   ambulo sweep --speed 1.2 --slope=-8,0,8 --load 0,15 -o hills
@@ -149,28 +149,28 @@ Exit code: 0 if a walk was found, 2 if none was; with --check, 1 if a walk was n
 pub(crate) struct SweepArgs {
     /// Walking speeds [m/s] [default: free speed].
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
-    #[cfg_attr(test, schemars(with = "Option<super::values::Written>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) speed: Option<Values>,
     /// Body masses [kg] [default: 75, de-leva-female 60, faure-1997 80].
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
-    #[cfg_attr(test, schemars(with = "Option<super::values::Written>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) mass: Option<Values>,
     /// Statures [m] [default: 1.75, de-leva-female 1.65, faure-1997 1.80].
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
-    #[cfg_attr(test, schemars(with = "Option<super::values::Written>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) height: Option<Values>,
     /// Slopes of the ground [%], uphill is positive; implies predicted walks.
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
-    #[cfg_attr(test, schemars(with = "Option<super::values::Written>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) slope: Option<Values>,
     /// Carried loads [kg]: on the back, half in each hand, or at the pelvis [default: back]; implies predicted walks.
     #[arg(long, value_name = "LIST[:back|hands|pelvis]", allow_hyphen_values = true)]
-    #[cfg_attr(test, schemars(with = "Option<super::values::Written>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) load: Option<Loads>,
     /// Remaining share of a joint's strength in all walks, such as ankle=0.6; repeatable; implies predicted walks.
     #[arg(long, value_name = "JOINT=SHARE", value_parser = weakness)]
     #[serde(deserialize_with = "json::weaknesses")]
-    #[cfg_attr(test, schemars(with = "Vec<String>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) weak: Vec<(String, f64)>,
     /// Devices at joints in all walks, springs or given moments: .toml (docs/OPTIMAL.md); implies predicted walks.
     #[arg(long, value_name = "FILE")]
@@ -202,7 +202,7 @@ pub(crate) struct SweepArgs {
 // The gait to synthesise.
 #[derive(Debug, Clone, Default, ClapArgs, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct GaitArgs {
     /// Name of a gait (standard, long, short, goose, parade, slow, free, fast) or a gait file (docs/GAITS.md) [default:
     /// free].
@@ -221,17 +221,17 @@ pub(crate) struct GaitArgs {
     /// [default: two steps].
     #[arg(long, value_name = "TIME:SPEED[:DURATION]", allow_negative_numbers = true)]
     #[serde(deserialize_with = "text::each")]
-    #[cfg_attr(test, schemars(with = "Vec<String>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) speed_change: Vec<TimedValue>,
     /// Change the step length on the way, as with --speed-change [m].
     #[arg(long, value_name = "TIME:LENGTH[:DURATION]", allow_negative_numbers = true)]
     #[serde(deserialize_with = "text::each")]
-    #[cfg_attr(test, schemars(with = "Vec<String>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) step_length_change: Vec<TimedValue>,
     /// Change the cadence on the way, as with --speed-change [steps/min].
     #[arg(long, value_name = "TIME:CADENCE[:DURATION]", allow_negative_numbers = true)]
     #[serde(deserialize_with = "text::each")]
-    #[cfg_attr(test, schemars(with = "Vec<String>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) cadence_change: Vec<TimedValue>,
     /// Foot clearance as a multiple of the natural one, 0.1 to 10 [default: the gait's].
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = number)]
@@ -244,7 +244,7 @@ pub(crate) struct GaitArgs {
 // Conditions of a predicted walk.
 #[derive(Debug, Clone, Default, PartialEq, ClapArgs, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct ConditionArgs {
     /// Slope of the ground, -40 to 40 percent; uphill is positive. This and the following options imply
     /// `--mode predict`.
@@ -253,12 +253,12 @@ pub(crate) struct ConditionArgs {
     /// Carried load: on the back, half in each hand, or at the pelvis [default: back].
     #[arg(long, value_name = "KG[:back|hands|pelvis]", allow_negative_numbers = true, value_parser = load)]
     #[serde(deserialize_with = "json::load")]
-    #[cfg_attr(test, schemars(with = "Option<text::TextOrNumber>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<text::TextOrNumber>"))]
     pub(crate) load: Option<Load>,
     /// Remaining share of a joint's strength, such as ankle=0.6 (both sides) or knee_r=0.5; repeatable.
     #[arg(long, value_name = "JOINT=SHARE", value_parser = weakness)]
     #[serde(deserialize_with = "json::weaknesses")]
-    #[cfg_attr(test, schemars(with = "Vec<String>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) weak: Vec<(String, f64)>,
     /// Devices at joints, springs or given moments: .toml (docs/OPTIMAL.md).
     #[arg(long, value_name = "FILE")]
@@ -274,7 +274,7 @@ pub(crate) struct ConditionArgs {
 // The body that walks.
 #[derive(Debug, Clone, ClapArgs, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct FigureArgs {
     /// Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name())]
@@ -360,7 +360,7 @@ impl Default for FigureArgs {
 /// How a walk is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) enum WalkMode {
     /// 3-D walk on soft shoes, near normative curves.
     Optimal,

@@ -55,22 +55,3 @@ pub(super) fn quoted(word: &str) -> String {
         false => format!("{mark}{}{mark}", word.replace('\'', if cfg!(windows) { "'" } else { "'\\''" })),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_are_split_as_in_a_shell() {
-        assert_eq!(split(r#"--add-mass 'torso:2' --x="a b" c"#), ["--add-mass", "torso:2", "--x=a b", "c"]);
-        assert_eq!(split(" ''  "), [""]);
-        assert!(split("  ").is_empty());
-    }
-
-    #[test]
-    fn a_file_is_never_taken_for_an_option() {
-        let mut words = Words(Vec::new());
-        words.input(Path::new("--force.c3d"));
-        assert_eq!(words.0, [OsString::from(Path::new(".").join("--force.c3d"))]);
-    }
-}

@@ -20,7 +20,7 @@ pub(super) struct Axes<'a> {
 
 /// Which numbers of an axis have a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Ticks<'a> {
+pub enum Ticks<'a> {
     /// Three to six round numbers.
     Round,
     /// Given numbers with their labels, for example powers of ten on a logarithmic axis.
@@ -29,10 +29,11 @@ pub(super) enum Ticks<'a> {
 
 /// Ticks with their labels.
 #[derive(Debug, Clone, PartialEq)]
-struct Labels {
-    ticks: Vec<(f64, String)>,
+pub struct Labels {
+    /// Their numbers, with what is written there.
+    pub ticks: Vec<(f64, String)>,
     /// Labels are to be multiplied by this power of ten.
-    power: i32,
+    pub power: i32,
 }
 
 /// The text at the axes.
@@ -178,7 +179,7 @@ impl<'a> Axes<'a> {
 }
 
 /// Range of numbers with a margin above and below; around 0 if there are none; never empty.
-pub(super) fn range(numbers: impl IntoIterator<Item = f64>, least: f64) -> [f64; 2] {
+pub fn range(numbers: impl IntoIterator<Item = f64>, least: f64) -> [f64; 2] {
     let start = (f64::INFINITY, f64::NEG_INFINITY);
     let finite = numbers.into_iter().filter(|x| x.is_finite());
     let (low, high) = finite.fold(start, |(low, high), x| (low.min(x), high.max(x)));
@@ -191,7 +192,8 @@ pub(super) fn range(numbers: impl IntoIterator<Item = f64>, least: f64) -> [f64;
 }
 
 /// Round numbers inside a range, three to six, and the decimals that they need.
-fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
+#[must_use]
+pub fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
     let rough = (high - low) / 5.0;
     if !(rough > 0.0 && rough.is_finite()) {
         return (Vec::new(), 0);
@@ -211,7 +213,9 @@ fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
 }
 
 impl Ticks<'_> {
-    fn labels(self, range: [f64; 2]) -> Labels {
+    /// The ticks inside a range.
+    #[must_use]
+    pub fn labels(self, range: [f64; 2]) -> Labels {
         match self {
             Ticks::Round => round_labels(range),
             Ticks::Given(ticks) => {
@@ -222,7 +226,9 @@ impl Ticks<'_> {
     }
 }
 
-fn round_labels([low, high]: [f64; 2]) -> Labels {
+/// Round numbers inside a range with their labels.
+#[must_use]
+pub fn round_labels([low, high]: [f64; 2]) -> Labels {
     let size = low.abs().max(high.abs());
     let written_in_full = !size.is_normal() || (SMALLEST..LARGEST).contains(&size);
     // Multiples of three, as for prefixes of units.
@@ -234,7 +240,8 @@ fn round_labels([low, high]: [f64; 2]) -> Labels {
 }
 
 /// A unit, or a quantity with its unit in parentheses, whose numbers are to be multiplied by a power of ten.
-fn with_power(unit: &str, power: i32) -> String {
+#[must_use]
+pub fn with_power(unit: &str, power: i32) -> String {
     if power == 0 {
         return unit.to_owned();
     }
@@ -251,53 +258,11 @@ fn with_power(unit: &str, power: i32) -> String {
     }
 }
 
-fn number_text(number: f64, digits: usize) -> String {
+/// A number with this many digits, as it stands at an axis.
+#[must_use]
+pub fn number_text(number: f64, digits: usize) -> String {
     let text = format!("{number:.digits$}");
     let zero = text.trim_start_matches('-').chars().all(|letter| matches!(letter, '0' | '.'));
     // A minus sign instead of a hyphen.
     if zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_are_round_and_inside() {
-        assert_eq!(ticks([0.0, 100.0]), (vec![0.0, 20.0, 40.0, 60.0, 80.0, 100.0], 0));
-        let (rows, digits) = ticks([-0.83, 1.41]);
-        assert_eq!((rows.len(), digits), (4, 1), "{rows:?}");
-        assert!(rows.iter().all(|x| (-0.83..1.41).contains(x)));
-        assert_eq!(ticks([1.0, 1.0]).0.len(), 0);
-        assert_eq!(number_text(-0.0, 1), "0.0");
-        assert_eq!(number_text(-2.5, 1), "−2.5");
-    }
-
-    #[test]
-    fn small_and_large_numbers_share_a_power_of_ten_that_the_unit_shows() {
-        let labels = |low, high| {
-            let Labels { ticks, power } = round_labels([low, high]);
-            (ticks.into_iter().map(|(_, label)| label).collect::<Vec<_>>(), power)
-        };
-        let (tiny, power) = labels(-2e-12, 2e-12);
-        assert_eq!((tiny.join(" ").as_str(), power), ("−2 −1 0 1 2", -12));
-        assert_eq!(labels(0.0, 2e6).1, 6);
-        assert_eq!(labels(-90.0, 30.0).1, 0);
-        assert_eq!(with_power("change (J)", -12), "change (10⁻¹² J)");
-        assert_eq!(with_power("N", 3), "10³ N");
-    }
-
-    #[test]
-    fn given_ticks_are_drawn_where_they_lie_inside() {
-        let given = [(0.0, "1".to_owned()), (1.0, "10".to_owned()), (2.0, "100".to_owned())];
-        assert_eq!(Ticks::Given(&given).labels([0.5, 2.0]).ticks, &given[1..]);
-    }
-
-    #[test]
-    fn a_range_is_never_empty() {
-        let [low, high] = range([], 0.2);
-        assert!(low < 0.0 && high > 0.0);
-        let [low, high] = range([5.0, 5.0, f64::NAN], 1.0);
-        assert!(low < 5.0 && high > 5.0 && high - low >= 1.0);
-    }
 }

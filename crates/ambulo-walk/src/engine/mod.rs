@@ -75,7 +75,6 @@ pub(crate) mod workspace;
 
 pub use check::WorldError;
 pub use energy::{Energy, energy};
-pub use figure_tree::FigureJointError;
 pub use forces::{ContactForce, Impact, StepForces};
 pub use joint::JointKind;
 pub use projection::largest_joint_error;

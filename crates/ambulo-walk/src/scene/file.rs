@@ -9,7 +9,7 @@ use super::joint::JointEntry;
 use super::material::{self, MaterialEntry};
 use super::names::{ContactPartner, Item, Names};
 use super::obstacle::ObstacleEntry;
-use super::output::{self, AllNames, Outputs};
+use super::output::{self, Outputs};
 use super::solver::{read_impact, read_integrator, read_solver};
 use super::tree;
 use crate::dynamics::SolverSettings;
@@ -132,7 +132,7 @@ impl SceneFile {
             solver: read_solver(&root)?,
             events: event::read_all(&root, &links, (&joints, &closures), duration_s)?,
             ignored: ignored(&root, &things)?,
-            outputs: output::read(&root, &AllNames { things: &things, links: &links })?,
+            outputs: output::read(&root, &things, &links)?,
             materials,
             bodies,
             obstacles,

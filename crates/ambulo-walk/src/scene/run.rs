@@ -27,7 +27,7 @@ const AFTER_FALL_S: f64 = 2.0;
 /// Largest number of rows of output, counted for each body, joint and closure: they take about 200 bytes each.
 const MOST_ROWS: f64 = 1e7;
 
-/// Why a scene could not be simulated to its end.
+/// Why a scene could not be resumed, or simulated to its end.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
@@ -65,6 +65,22 @@ pub enum RunError {
         /// Time [s].
         time_s: f64,
     },
+    /// The saved state of another scene.
+    #[error("the saved state belongs to another scene: {what} {found}; expected {expected}")]
+    OtherScene {
+        /// Difference.
+        what: &'static str,
+        /// Saved value.
+        found: String,
+        /// Value of the scene.
+        expected: String,
+    },
+    /// Machines or controllers, whose states are not saved.
+    #[error(
+        "a figure of the scene has a controller, or machines that read loads, angles or joints, and their states are \
+         not saved; expected figures that follow the clock alone. hint: simulate the scene from its start"
+    )]
+    Machines,
 }
 
 /// A scene at one output time.

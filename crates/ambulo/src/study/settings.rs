@@ -30,7 +30,7 @@ pub struct Settings {
     pub prediction: PredictSettings,
     /// How markers are fitted.
     pub marker_fit: FitSettings,
-    /// Whether a recorded motion is changed so that loaded feet do not slide ([`crate::ground::refit`]).
+    /// Whether a recorded motion is changed so that loaded feet do not slide.
     pub refit: bool,
     /// Residual reduction: what may change so that the motion agrees with the ground forces; `None` changes nothing.
     pub residual_reduction: Option<Adjustable>,

@@ -16,7 +16,7 @@ use ambulo::job::{Job, ModelChoice, Reader, Shared, ending};
 use ambulo::model::Model;
 use ambulo::motion::SubjectParameters;
 use ambulo::study::{ForceOrigin, Outcome, Recording, Stage};
-use ambulo_results::{GroundSource, Input, Keep, OutputFile};
+use ambulo_results::{GroundSource, Input, Keep, OutputFile, SUBJECT};
 use anyhow::{Result, bail};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -98,10 +98,10 @@ fn check_recording(recording: &Path) -> Result<()> {
 
 /// The body that was used as an OpenSim model; a note if it cannot be written.
 fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile<'static>> {
-    match OutputFile::body("subject.osim", model) {
+    match OutputFile::body(SUBJECT, model) {
         Ok(file) => Some(file),
         Err(reason) => {
-            findings.report(Code::SubjectNotWritten, format!("subject.osim was not written: {reason}"));
+            findings.report(Code::SubjectNotWritten, format!("{SUBJECT} was not written: {reason}"));
             None
         }
     }
