@@ -1,4 +1,4 @@
-// Made from the types of requests by the tests of crates/ambulo-cli/tests/request_contract.rs; do not edit.
+// Made from the types of requests by crates/ambulo-cli/tests/request_contract.rs; do not edit.
 
 /** The verbs that a request may have, each with its fields. */
 export type Request = {

@@ -1,7 +1,7 @@
 //! The `ambulo` command: reads files, calls the library, writes files and messages.
 //!
-//! [`command`] is the whole command. [`Request::compute`] computes the same as a verb and returns the results instead of
-//! writing them, for bindings to other languages; [`open`] reads a folder again.
+//! [`command`] is the whole command. [`Request::compute`] computes the same as a verb and returns the results instead
+//! of writing them, for bindings to other languages; [`open`] reads a folder again.
 
 mod args;
 mod bug_report;

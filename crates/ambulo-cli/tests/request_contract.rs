@@ -27,7 +27,7 @@ fn the_schema_of_requests_is_current() {
 fn the_page_knows_the_requests() {
     let schema = schema();
     let mut text = String::from(
-        "// Made from the types of requests by the tests of crates/ambulo-cli/tests/request_contract.rs; do not edit.\n",
+        "// Made from the types of requests by crates/ambulo-cli/tests/request_contract.rs; do not edit.\n",
     );
     text += &format!("\n{}export type Request = {};\n", comment(&schema, ""), of(&schema));
     for (name, definition) in schema["$defs"].as_object().unwrap() {

@@ -57,8 +57,8 @@ pub(crate) fn calibrate<'py>(
     answered(py, CalibrateRequest::of(trials, job), Existing::Kept, &files)
 }
 
-/// A request: a dictionary with the verb as its only key (docs/REQUESTS.md), where None leaves a field out. `of_all` has
-/// the options of every trial of a batch or session by their names; `force` also replaces files that no run wrote.
+/// A request: a dictionary with the verb as its only key (docs/REQUESTS.md), where None leaves a field out. `of_all`
+/// has the options of every trial of a batch or session by their names; `force` also replaces files that no run wrote.
 #[pyfunction]
 #[pyo3(signature = (request, files=Vec::new(), of_all=None, force=false))]
 pub(crate) fn run<'py>(

@@ -98,10 +98,12 @@ pub(crate) struct WalkArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) torques: Option<PathBuf>,
     /// Whole gait cycles per foot, 1 to 1000.
-    #[arg(long, value_name = "N", default_value_t = WalkArgs::CYCLES, allow_negative_numbers = true, value_parser = whole_number)]
+    #[arg(long, value_name = "N", default_value_t = WalkArgs::CYCLES, allow_negative_numbers = true,
+        value_parser = whole_number)]
     pub(crate) cycles: usize,
     /// Frame rate of the results, 20 to 5000 Hz.
-    #[arg(long, value_name = "HZ", default_value_t = WalkArgs::RATE_HZ, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "HZ", default_value_t = WalkArgs::RATE_HZ, allow_negative_numbers = true,
+        value_parser = number)]
     pub(crate) rate: f64,
     /// Only print the state machines of the gait and each change of their states: time, machine, old and new state, and
     /// the condition that was true.

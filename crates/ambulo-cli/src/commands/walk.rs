@@ -341,8 +341,8 @@ fn gait(name: &str, args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, V
     if let (Some(machine), false) = (gait.machine_of_the_pace(), changes.is_empty()) {
         let name = &machine.name;
         bail!(
-            "found changes of pace besides those of the gait; expected none, because the machine `{name}` of the gait drives \
-             the pace"
+            "found changes of pace besides those of the gait; expected none, because the machine `{name}` of the gait \
+             drives the pace"
         );
     }
     gait.pace_changes.extend(changes);
