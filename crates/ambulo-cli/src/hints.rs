@@ -2,6 +2,7 @@
 //!
 //! The library knows no options. Its errors and findings carry data; this table adds the hint.
 
+use crate::request::WrongFields;
 use ambulo::analysis::{AnalysisError, ComparisonError};
 use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
@@ -55,7 +56,9 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
 pub(crate) fn of_error(error: &anyhow::Error) -> Option<String> {
     let of_cause = causes(error).find_map(of_cause).map(str::to_owned);
     let fields = error.chain().filter_map(|cause| cause.downcast_ref::<JobError>()).flat_map(JobError::fields);
-    let options: Vec<&str> = fields.map(|field| option(*field)).collect();
+    let mut options: Vec<String> = fields.map(|field| option(*field).to_owned()).collect();
+    let wrong = error.chain().filter_map(|cause| cause.downcast_ref::<WrongFields>());
+    options.extend(wrong.flat_map(|wrong| wrong.fields).map(|field| format!("`--{}`", field.replace('_', "-"))));
     let options = (!options.is_empty()).then(|| options.join(", "));
     let hints: Vec<String> = of_cause.into_iter().chain(options).collect();
     (!hints.is_empty()).then(|| hints.join("; "))

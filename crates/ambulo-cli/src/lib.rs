@@ -1,8 +1,7 @@
 //! The `ambulo` command: reads files, calls the library, writes files and messages.
 //!
-//! [`command`] is the whole command. [`forces`], [`walk`], [`simulate`], [`sweep`], [`validate`] and [`calibrate`]
-//! compute the same as the verbs of these names and return the results instead of writing them, for bindings to other
-//! languages; [`open`] reads a folder again.
+//! [`command`] is the whole command. [`Request::compute`] computes the same as a verb and returns the results instead
+//! of writing them, for bindings to other languages; [`open`] reads a folder again.
 
 mod args;
 mod bug_report;
@@ -16,14 +15,16 @@ mod hints;
 mod printer;
 mod record;
 mod replacement;
+mod request;
+#[cfg(feature = "schema")]
+mod request_contract;
 
-pub use args::{Options, Outputs};
+pub use args::{Existing, Outputs};
 pub use caller::Caller;
-pub use calls::{
-    batch, calibrate, forces, laboratory, model, open, read, session, simulate, sweep, table, validate, walk,
-};
+pub use calls::{laboratory, model, open, read, table};
 pub use commands::Results;
 pub use failure::Failure;
+pub use request::{Answer, CalibrateRequest, ForcesRequest, Request};
 
 use args::{Args, Command};
 use clap::Parser;
@@ -36,28 +37,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(args) => args,
         Err(refused) => return refuse(&refused),
     };
-    let done = match args.command {
-        None => printer::guide().map(|()| Completion::Passed),
-        Some(Command::Forces(args)) => commands::forces::run(&args),
-        Some(Command::Calibrate(args)) => commands::calibrate::run(&args),
-        Some(Command::Validate(args)) => commands::validate::run(&args),
-        Some(Command::Batch(args)) => commands::batch::run(&args),
-        Some(Command::Session(args)) => commands::session::run(&args),
-        Some(Command::Stream(args)) => commands::stream::run(&args),
-        Some(Command::Walk(args)) => commands::walk::run(&args),
-        Some(Command::Sweep(args)) => commands::sweep::run(&args),
-        Some(Command::Demo(args)) => commands::demo::run(&args),
-        Some(Command::Simulate(args)) => commands::simulate::run(&args),
-        Some(Command::Tune(args)) => commands::tune::run(&args),
-        Some(Command::Reproduce(args)) => commands::reproduce::run(&args),
-        Some(Command::Report(args)) => commands::report::run(&args),
-        Some(Command::View(args)) => commands::view::run(&args),
-        Some(Command::Info(args)) => commands::info::run(&args),
-        Some(Command::Convert(args)) => commands::convert::run(&args),
-        Some(Command::Events(args)) => commands::events::run(&args),
-        Some(Command::Compare(args)) => commands::compare::run(&args),
-    };
-    match done {
+    match execute(args.command) {
         Ok(Completion::Passed) => 0,
         Ok(Completion::Failed) => 1,
         Err(error) => match error.downcast_ref::<clap::Error>() {
@@ -67,6 +47,32 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
                 2
             }
         },
+    }
+}
+
+/// Runs a command; without one, prints where to begin.
+fn execute(command: Option<Command>) -> anyhow::Result<Completion> {
+    match command {
+        None => printer::guide().map(|()| Completion::Passed),
+        Some(Command::Forces(args)) => Request::from(args.request()).run(args.handling()),
+        Some(Command::Calibrate(args)) => Request::from(args.request()).run(args.handling()),
+        Some(Command::Validate(args)) => commands::validate::run(&args),
+        Some(Command::Batch(args)) => commands::batch::run(&args),
+        Some(Command::Session(args)) => commands::session::run(&args),
+        Some(Command::Stream(args)) => commands::stream::run(&args),
+        Some(Command::Walk(args)) => commands::walk::run(&args),
+        Some(Command::Sweep(args)) => commands::sweep::run(&args),
+        Some(Command::Demo(args)) => commands::demo::run(&args),
+        Some(Command::Run(args)) => commands::run::run(&args),
+        Some(Command::Simulate(args)) => commands::simulate::run(&args),
+        Some(Command::Tune(args)) => commands::tune::run(&args),
+        Some(Command::Reproduce(args)) => commands::reproduce::run(&args),
+        Some(Command::Report(args)) => commands::report::run(&args),
+        Some(Command::View(args)) => commands::view::run(&args),
+        Some(Command::Info(args)) => commands::info::run(&args),
+        Some(Command::Convert(args)) => commands::convert::run(&args),
+        Some(Command::Events(args)) => commands::events::run(&args),
+        Some(Command::Compare(args)) => commands::compare::run(&args),
     }
 }
 
@@ -97,6 +103,8 @@ pub mod internals {
     pub use crate::replacement::{
         Changes, Disk, MANIFEST, MakeSummary, NEW, ResultTarget, WriteContent, recover, replace, settle,
     };
+    #[cfg(feature = "schema")]
+    pub use crate::request_contract::request_schema;
 
     /// The command line with the options of all verbs as they are described, which is late.
     #[must_use]

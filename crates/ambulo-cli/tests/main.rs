@@ -36,6 +36,8 @@ mod predict;
 mod program;
 mod replacement;
 mod reproduce;
+mod request;
+mod request_contract;
 mod results;
 mod run_record;
 mod segment_poses;
