@@ -57,7 +57,8 @@ usage: cargo xtask <command>
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
   claim-shares      sample the values that the 1997 paper does not give, and count how often its claims hold
-                    [--settings N] [--seed S] [--write: crates/ambulo-paper/data/shares.csv]
+                    [--settings N] [--seed S] [--threads T] [--log FILE: resumed]
+                    [--write: crates/ambulo-paper/data/shares.csv]
   reproduction      recompute the 1997 paper and print its claims  [--write: docs/measured/REPRODUCTION.md]
   figures           draw docs/images/ again with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors

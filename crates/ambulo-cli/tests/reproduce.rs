@@ -20,7 +20,20 @@ fn the_paper_is_recomputed_into_the_documented_files() {
     crate::measured_pages::claims_are_those_of_the_page(rows);
     for row in rows {
         let keys: Vec<&String> = row.as_object().unwrap().keys().collect();
-        for key in ["id", "paper", "paper_mode", "corrected", "pass", "note", "headline", "kind"] {
+        let all = [
+            "id",
+            "paper",
+            "criterion",
+            "paper_mode",
+            "corrected",
+            "pass",
+            "note",
+            "headline",
+            "kind",
+            "former",
+            "experiment",
+        ];
+        for key in all {
             assert!(row.get(key).is_some(), "{key} is missing in {keys:?}");
             assert!(page().contains(&format!("`{key}`")), "{key} is not documented");
         }
@@ -53,11 +66,56 @@ fn the_paper_is_recomputed_into_the_documented_files() {
     assert!(
         bench
             .text("paper/assumptions.csv")
-            .starts_with("what,value,why,other,claim,headline,with_value,with_other,turns\n")
+            .starts_with("what,value,range,source,why,other,claim,headline,with_value,with_other,turns\n")
     );
-    assert_eq!(bench.text("paper/assumptions.csv").lines().count(), 1 + 16);
+    assert_eq!(bench.text("paper/assumptions.csv").lines().count(), 1 + 45);
+    the_setting_is_written(&bench, &run.stdout, rows);
     the_torques_are_replayed(&bench);
     the_page_says_what_the_files_say(&bench.text("paper/report.html"), rows);
+}
+
+/// The setting that was used, with the claims that hold, and the counts by both kinds of criteria.
+fn the_setting_is_written(bench: &Workbench, stdout: &str, rows: &[serde_json::Value]) {
+    let held: Vec<String> = rows
+        .iter()
+        .filter(|row| row["kind"] == "paper" && row["pass"] == true)
+        .map(|row| row["id"].to_string())
+        .collect();
+    let setting = bench.text("paper/setting.toml");
+    assert!(setting.contains(&format!("holds = [{}]", held.join(", "))), "{setting}");
+    bench.run(&["reproduce", "--write-setting", "default.toml"]).done();
+    assert_eq!(bench.text("default.toml"), setting);
+    assert!(stdout.contains("by the criteria before 2026: "), "{stdout}");
+    for row in rows.iter().filter(|row| row["kind"] == "paper" && row["pass"] == false) {
+        let reason = row["experiment"].as_str().unwrap();
+        assert!(reason.contains("Experiment: ") && stdout.contains(reason), "{reason}");
+    }
+}
+
+#[test]
+fn a_claim_that_held_and_no_longer_does_gives_exit_code_1() {
+    let bench = Workbench::empty("reproduce-check");
+    // A long step is no slow walk.
+    bench.write("own.toml", "name = \"long\"\nholds = [\"c3\", \"e4\"]\n[gait]\nstandard_step_m = 0.75\n".to_owned());
+    let check = ["reproduce", "--setting", "own.toml", "--brief", "--check", "--keep", "claims,setting", "-o", "own"];
+    let run = bench.run(&check).infeasible();
+    assert!(run.stdout.contains("no longer hold with the setting `long`: c3"), "{}", run.stdout);
+    assert!(!bench.text("own/setting.toml").contains("\"c3\""));
+}
+
+#[test]
+fn settings_that_cannot_be_used_are_refused() {
+    let bench = Workbench::empty("reproduce-settings");
+    bench.write("own.toml", "[figure]\nstatur_m = 1.7\n".to_owned());
+    let refused = |words: &[&str], expected: &[&str]| bench.run(&[&["reproduce"], words].concat()).refused(expected);
+    refused(&["--setting", "own.toml"], &["own.toml", "line 2", "unknown key", "did you mean `stature_m`?"]);
+    refused(&["--setting", "nothing.toml"], &["nothing.toml", "papers-results, schwartz-children"]);
+    bench.write("own.toml", "[figure]\nstature_m = 1.7\n".to_owned());
+    refused(&["--setting", "own.toml", "--check"], &["has no list `holds`", "setting.toml"]);
+    bench.run(&["reproduce", "--setting", "own.toml", "--write-setting", "whole.toml"]).done();
+    assert!(bench.text("whole.toml").contains("\nstature_m = 1.7\n"));
+    refused(&["--setting", "own.toml", "--write-setting", "own.toml"], &["this input file would be overwritten"]);
+    refused(&["--setting", "own.toml", "--write-setting", "whole.toml"], &["already exists"]);
 }
 
 /// The torques act on the figure that they were computed for, which falls without feedback.

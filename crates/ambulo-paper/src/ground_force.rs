@@ -119,15 +119,16 @@ pub(super) fn stance(run: &Run) -> Option<(Vec<f64>, [f64; 2])> {
     })
 }
 
-/// Peaks, and correlation with the measured force, of the mean force over the longest contact in each cycle, from a
-/// landing to the next lift.
-pub(super) fn longest_contact(run: &Run) -> Option<(usize, f64)> {
+/// Peaks of the mean force over the longest contact in each cycle, from a landing to the next lift; and its correlation
+/// with the measured force, over all of it and from a point of it on.
+pub(super) fn longest_contact(run: &Run, from: usize) -> Option<(usize, [f64; 2])> {
     let (curve, _) = stance_of(run, |rows, loaded| {
         let landings = rows.clone().filter(|row| loaded(*row) && (*row == rows.start || !loaded(row - 1)));
         let contact = |first: usize| (first, (first..rows.end).take_while(|row| loaded(*row)).last().unwrap_or(first));
         landings.map(contact).max_by_key(|(first, last)| last - first)
     })?;
-    Some((humps(&curve), correlation(&curve, &measured_curve())))
+    let measured = measured_curve();
+    Some((humps(&curve), [0, from].map(|from| correlation(&curve[from..], &measured[from..]))))
 }
 
 /// The mean measured force at the points of a stance.
